@@ -42,9 +42,11 @@ def data(found: Report, each: bool = False) -> dict[str, Any]:
 
 
 def _poles(found: Report) -> dict[str, Any]:
-    """The instant centres, if any are asked for: each where it is, or which way it lies at infinity."""
-    poles = _merged(found, found.scene.find.poles, at=kinds.POLE, direction=kinds.POLE_HEADING)
-    return {"poles": poles} if poles else {}
+    """The instant centres, if any are asked for: each where it is, or which way it lies at infinity; none of links that
+    do not move relative to each other."""
+    asked = found.scene.find.poles
+    poles = _merged(found, asked, at=kinds.POLE, direction=kinds.POLE_HEADING)
+    return {"poles": {name: poles.get(name, {"at": None}) for name in asked}} if asked else {}
 
 
 def _pose(found: Report) -> dict[str, Any]:

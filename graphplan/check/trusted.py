@@ -194,8 +194,9 @@ def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = 
               checked: bool = True) -> Construction:
     """The construction of what the scene asks for, compared with the analytic solver unless `checked` is False.
 
-    `method` names the form of loci and rings (auxiliary, trial or poles); without it the pose chooses, and the
-    construction says why. `plan` is orthogonal or polar, and for forces lever, polygons or both, such as "polar,lever".
+    `method` names the form of loci and rings (auxiliary, trial or poles; that draws by the links' poles where nothing
+    runs in rings); without it the pose chooses, and the construction says why.
+    `plan` is orthogonal or polar, and for forces lever, polygons or both, such as "polar,lever".
     `inertia` is the form of inertia forces: couple, shifted or points; `strict` draws with compasses and straightedge
     alone. A construction that has no numbers in this pose shows that when they are read, and may have some in others.
     Fails with `Disagreement` where every way to draw it differs from the solver, with `SingularPose` where there are

@@ -22,8 +22,9 @@ def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = 
               inertia: str = "couple") -> Construction:
     """The construction of what the scene asks for.
 
-    `method` names the form of loci and rings (auxiliary, trial or poles); without it the pose chooses, and the
-    construction says why. `plan` is orthogonal or polar, and for forces lever, polygons or both, such as "polar,lever";
+    `method` names the form of loci and rings (auxiliary, trial or poles; that draws by the links' poles where nothing
+    runs in rings); without it the pose chooses, and the construction says why.
+    `plan` is orthogonal or polar, and for forces lever, polygons or both, such as "polar,lever";
     without a word for the motion velocities are orthogonal, unless some links are too short for that beside others.
     `inertia` is the form of inertia forces: with a couple, shifted so that they need none, or at two points that
     replace the link; `strict` draws with compasses and straightedge alone. Fails with `Refused` where no move of the

@@ -87,8 +87,8 @@ class Construction(Recorded, Given):
     """Ordered drawing steps for a scene, and what they give.
 
     `drawn` is the program in single movements, in the form chosen for this pose. Velocities and accelerations are
-    complex numbers in scene units, true and not turned. `rounds` are those of friction that are drawn,
-    `poles_by` says how instant centres are found.
+    complex numbers in scene units, true and not turned. `rounds` are those of friction that are drawn.
+    `by_poles` says by which poles velocities are drawn, `poles_by` how poles are found that are asked for.
     """
 
     ways: tuple[Said, ...] = ()
@@ -97,6 +97,7 @@ class Construction(Recorded, Given):
     notes: list[str] = field(default_factory=list)
     shown: tuple[ForceArrow, ...] = ()
     rounds: int = 0
+    by_poles: tuple[Said, ...] = ()
     poles_by: tuple[Said, ...] = ()
 
     def __repr__(self) -> str:
@@ -198,11 +199,15 @@ class Construction(Recorded, Given):
         found: dict[str, list[str]] = {}
         for kind in (kinds.VELOCITY, kinds.ACCELERATION):
             if any(reading.marks and reading.kind.group == kind for reading in self.readings):
-                ways: list[str] = list(dict.fromkeys([*self._loci(kind), *self.ways]))
+                ways: list[str] = list(dict.fromkeys([*self._loci(kind), *self._ways(kind)]))
                 found[kind] = ways or [PLAIN[self.turned, kind]]
         if self.poles_by:
             found[kinds.POLES] = [*self.poles_by]
         return found | (self._force_method() if self.scene.loads else {})
+
+    def _ways(self, kind: str) -> tuple[Said, ...]:
+        """How rings of links are broken; of velocities by poles, by which."""
+        return self.by_poles if self.by_poles and kind == kinds.VELOCITY else self.ways
 
     def _loci(self, kind: str) -> Iterator[Said]:
         """The forms in which the loci of a kind's plans are drawn, auxiliary points with their letters."""

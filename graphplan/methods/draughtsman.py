@@ -21,13 +21,13 @@ from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.motion.acceleration import Normal, PolarAcceleration
-from graphplan.methods.motion.moves import FalsePosition, Move, Pole
+from graphplan.methods.motion.moves import Auxiliary, Centre, FalsePosition, Move, Pole
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.planner import Planner
-from graphplan.methods.motion.poles import Poles
+from graphplan.methods.motion.poles import Poles, Unseen
 from graphplan.methods.motion.time_scale import apart, tempo
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
-from graphplan.methods.panels import link_named, redundancies, replacements
+from graphplan.methods.panels import link_named, listed, redundancies, replacements
 from graphplan.methods.poses import Pose
 from graphplan.methods.recorded import Reading
 from graphplan.methods.styles import Style
@@ -59,35 +59,62 @@ class Draughtsman:
         self.marks: list[Mark] = []
         self.readings: list[Reading] = []
         self.poles_by: tuple[Said, ...] = ()
+        self.at_rest: list[Said] = []
 
     def draw(self) -> Construction:
         velocity = (Polar if self.polar else Orthogonal)(self.board, self.net, self.pose, self.tempo)
-        velocity.draw(self._common or self.moves)
+        poles = None
+        if self.scene.find.poles or self.velocity_moves is not self.moves:
+            poles = Poles(self.board, self.scene, self.pose, velocity)
+            velocity.pole_of = poles.mark
+        velocity.draw(self.velocity_moves)
         self._points(velocity, kinds.VELOCITY, self.scene.find.velocity)
         self._links(velocity, kinds.OMEGA, self.scene.find.velocity)
         self._slides(velocity, kinds.SLIDE_VELOCITY, self.scene.find.velocity)
         plan = self.accelerations(velocity) if self._accelerated else None
-        if self.scene.find.poles:
-            self._poles(Poles(self.board, self.scene, self.pose, velocity))
+        if poles:
+            self._poles(poles)
         return self.finished(velocity, plan)
 
     def _poles(self, poles: Poles) -> None:
-        """The instant centres that are asked for."""
+        """The instant centres that are asked for, but for links that do not move relative to each other."""
         for name in self.scene.find.poles:
             one, two = self.scene.link_pair(name)
-            found = poles.find(one, two)
-            kind = kinds.POLE_HEADING if poles.at_infinity(one, two) else kinds.POLE
-            self.read(kind, name, *found.marks)
-        self.poles_by = tuple(poles.ways)
+            try:
+                if poles.at_rest(one, two):
+                    self.at_rest.append(said("{0}: they do not move relative to each other here, so any point is a "
+                                             "pole of theirs", listed((one, two))))
+                    continue
+                marks = poles.find(one, two).marks
+            except Unseen as unseen:
+                marks = (unseen.mark,)  # whoever reads the numbers is told
+            self.read(kinds.POLE_HEADING if poles.at_infinity(one, two) else kinds.POLE, name, *marks)
+        self.poles_by = tuple(poles.ways) if self.scene.find.poles else ()
 
     @cached_property
-    def _common(self) -> list[Move]:
-        """Moves of velocities alone: links that roll on each other share the end of their pitch point. Nothing where no
-        links roll, or where not all is found without trials."""
-        if any(isinstance(slide, RollingGuide) for slide in self.net.slides):
+    def velocity_moves(self) -> list[Move]:
+        """The moves of the velocities: by poles where that is asked for, and so that links which roll on each other
+        share the end of their pitch point; each as far as that leaves nothing to trials.
+        """
+        centres, common = self._centres(), any(isinstance(slide, RollingGuide) for slide in self.net.slides)
+        for some in (centres, {}) if centres else ({},):
             with suppress(Refused):
-                return Planner(self.net, common=True).plan()
-        return []
+                found = Planner(self.net, common=common, centres=some).plan() if some or common else self.moves
+                if not some or not any(isinstance(move, FalsePosition) for move in found):
+                    return found
+        return self.moves
+
+    def _centres(self) -> dict[str, Pair]:
+        """Where links have their poles, if velocities are to be drawn by them.
+
+        Where rings of links are broken by relative poles or auxiliary points, the accelerations need these anyway.
+        """
+        if self.method != "poles" or not self.net.ground or any(isinstance(move, Pole | Auxiliary)
+                                                                for move in _flat(self.moves)):
+            return {}
+        board = Board()
+        near = Poles(board, self.scene, Pose(board, self.net.scene, self.net.shared)).near()
+        return {link: spot for link, spot in near if self.net.members.get(link) == [link]}
 
     def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
         """What is drawn so far, as a construction; the rates that are still asked for come last, as by now it is known
@@ -99,7 +126,8 @@ class Draughtsman:
         program = freeze(self.board, self.marks)
         return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar,
                             relied=tuple(self.net.relied), ways=tuple(_ways(self.moves)),
-                            notes=[*replacements(self.net.bars), *redundancies(self.scene)], poles_by=self.poles_by)
+                            by_poles=_by_poles(self.velocity_moves), poles_by=self.poles_by,
+                            notes=[*replacements(self.net.bars), *redundancies(self.scene), *self.at_rest])
 
     @property
     def _accelerated(self) -> bool:
@@ -215,6 +243,19 @@ class Draughtsman:
                 given = None if drive is None else drive.rate if kind == kinds.SLIDE_VELOCITY else drive.change
                 guide = [self.pose.guide(slide, run=True)] if given else []
                 self.read(kind, slide.name, *guide, *vector, given=given)
+
+
+def _flat(moves: Iterable[Move]) -> Iterator[Move]:
+    """The moves, and those of trials."""
+    for move in moves:
+        yield move
+        yield from _flat(move.moves) if isinstance(move, FalsePosition) else ()
+
+
+def _by_poles(moves: Iterable[Move]) -> tuple[Said, ...]:
+    """By which poles velocities are drawn, if by any."""
+    links = sorted((move.body for move in moves if isinstance(move, Centre)), key=by_name)
+    return (said("poles of {0}", listed(links)),) if links else ()
 
 
 def _ways(moves: Iterable[Move]) -> Iterator[Said]:

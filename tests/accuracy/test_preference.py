@@ -101,10 +101,10 @@ def test_the_protocol_tells_the_preference(capsys: pytest.CaptureFixture[str], t
     assert re.search(r"step \d+: trial figure", told)
 
 
-@pytest.mark.parametrize(("name", "times"), [("four-bar", 1), ("triad", 3)])
+@pytest.mark.parametrize(("name", "times"), [("five-bar", 1), ("four-bar", 2), ("triad", 4)])
 def test_methods_that_lead_to_one_program_are_judged_once(name: str, times: int) -> None:
-    """Nothing of a four-bar is drawn otherwise by another method; a triad's own form, auxiliary points, trial figures
-    are three drawings, of which the poles' is one."""
+    """Of a five-bar, whose poles hang on its drives, there is one drawing, of a four-bar one more by poles; a triad's
+    own form, auxiliary points, trial figures and poles are four drawings."""
     judged: list[str] = []
 
     def construct(scene: Scene, method: str, **how: Any) -> Construction:

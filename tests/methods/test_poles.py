@@ -57,3 +57,13 @@ def test_all_poles_are_those_of_the_solver(name: str) -> None:
     chance.shuffle(links)
     chance.shuffle(pairs)
     assert poles(report(replace(scene, links=dict(links), written=tuple(pairs)), exact=True)) == poles(found)
+
+
+@pytest.mark.parametrize("name", ["four-bar", "slider-crank", "stephenson", "triad"])
+def test_velocities_are_drawn_by_poles(name: str) -> None:
+    """Asked for poles, ends of velocities lie on the lines to the poles of their links; accelerations do not."""
+    scene = gp.load(name)
+    found = report(scene, exact=True, method="poles")
+    assert found.drawing.method["velocity"][-1].startswith("poles of link")
+    assert not any(way.startswith("poles") for way in found.drawing.method["acceleration"])
+    assert found.results == report(scene, exact=True).results

@@ -125,6 +125,13 @@ class Pole(NamedTuple):
     place: BodyPoint
 
 
+class Centre(NamedTuple):
+    """The pole of a body relative to the frame, by the circle diagram: as a point of the body it is at rest."""
+
+    body: str
+    place: BodyPoint
+
+
 class FalsePosition(NamedTuple):
     """False position: the end of a place is assumed on its locus, twice, and the moves are drawn for both; in the end
     `end` should lie on `locus` and does not; the third time it does."""
@@ -135,5 +142,5 @@ class FalsePosition(NamedTuple):
     locus: Locus
 
 
-Move = (Rest | Seed | Swing | Slip | Carry | Settle | SimilarFigure | Guide | Common | Meet | Auxiliary | Pole
+Move = (Rest | Seed | Swing | Slip | Carry | Settle | SimilarFigure | Guide | Common | Meet | Auxiliary | Pole | Centre
         | FalsePosition)

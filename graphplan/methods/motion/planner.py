@@ -7,12 +7,13 @@ condition.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from itertools import chain, combinations, islice, pairwise, zip_longest
 from typing import NamedTuple
 
 from graphplan.errors import Refused
+from graphplan.mechanism.model import FRAME, Pair
 from graphplan.methods.motion import moves
 from graphplan.methods.motion.facts import ANYWHERE, Facts
 from graphplan.methods.motion.moves import Locus, Move
@@ -39,13 +40,14 @@ class Planner(Facts):
 
     Where facts run in rings there are several ways on, and rare ones elsewhere: to close a trial, to begin a figure.
     `choice` says, place by place, which is taken (the first where it says nothing), and `options` then tells how many
-    there were. `method` leaves out
-    ways: "trial" all but trials.
+    there were. `method` leaves out ways: "trial" all but trials. `centres` are where bodies have their poles relative
+    to the frame, as far as they are to be used.
     """
 
     def __init__(self, network: Network, method: str = "", choice: tuple[int, ...] = (), general: bool = False,
-                 common: bool = False):
+                 common: bool = False, centres: Mapping[str, Pair] | None = None):
         super().__init__(network, general, common)
+        self.centres = centres or {}
         self.method, self.choice = method, choice
         self.options: list[Choices] = []
         self.spent: dict[str, int] = {}
@@ -55,6 +57,8 @@ class Planner(Facts):
     def plan(self) -> list[Move]:
         """The moves, in order, that give the end of every place; refuses by name what no move reaches."""
         self._seed()
+        for body, spot in self.centres.items():
+            self._centre(body, spot)
         while True:
             self._travel()
             if self._begin():
@@ -66,6 +70,15 @@ class Planner(Facts):
                 stuck = loose or [body for (place, _), _ in self.open for body in self._at(place)]
                 raise Refused(f"links {', '.join(stuck)}", "no construction known here reaches them",
                               "check the drives, or ask for points of other links")
+
+    def _centre(self, body: str, spot: Pair) -> None:
+        """Take the pole of a body for a point of it that is at rest, as a pin on the frame is."""
+        place = (f"pole of {body}", FRAME)
+        self.spots[place[0]] = self._posed(spot)
+        self._add_place(body, place)
+        self.bodies[place] = [body]
+        self.moves.append(moves.Centre(body, place))
+        self._file(place, self.net.ground, None)
 
     # ---- rings ----------------------------------------------------------------------------------------------
 

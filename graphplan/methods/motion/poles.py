@@ -11,7 +11,7 @@ velocities cross in its pole, and the diagram goes on from there.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from fractions import Fraction
+from contextlib import AbstractContextManager
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -19,20 +19,35 @@ from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.numbers import Domain, Fractions
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import needed_steps
-from graphplan.kernel.program import Board, Mark, Program, error_at
+from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Stage
-from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.model import FRAME, Pair, Scene
 from graphplan.mechanism.numerals import is_exact
-from graphplan.mechanism.order import ordered_links, ordered_slides
+from graphplan.mechanism.order import by_name, ordered_links, ordered_slides
+from graphplan.mechanism.pairs.contact import Contact
+from graphplan.mechanism.pairs.gear import Gear
+from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.motion.circle_diagram import ONE, PENCIL, CircleDiagram, FoundPole, PoleLine, Sides, cross
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import MECHANISM, listed
+from graphplan.methods.panels import MECHANISM, link_named, listed
 from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, joined, said
 
+MOST = 6  # points of a link whose velocities are looked at
+SAME = 1e-12  # of their coordinates: points no further apart are one, as far as floats tell
 NEAR = 1.5  # sizes of the mechanism: a pole no further from its middle is marked
 KENNEDY = said("the poles of three links relative to each other lie on one line (Aronhold-Kennedy)")
+PITCH_POINT = said("the links roll on each other in the pitch point: there they have one velocity")
+ACROSS = said("the links slide on each other: their pole is at infinity, square to the guide")
+NORMAL = said("profiles that touch slide along their tangent: the pole lies on the common normal")
 BY_VELOCITIES = said("the lines from points of a link to the ends of their orthogonal velocities meet in its pole")
+
+
+class Unseen(Exception):
+    """Raised where a mark cannot be drawn in this pose, so that nobody sees where it is."""
+
+    def __init__(self, mark: Mark):
+        self.mark = mark
 
 
 class DrawnPole(NamedTuple):
@@ -50,34 +65,82 @@ class DrawnPole(NamedTuple):
 class Poles:
     """The poles of one scene on one board, each drawn as it is asked for."""
 
-    def __init__(self, board: Board, scene: Scene, pose: Pose, velocity: Velocity):
-        self.board, self.scene, self.pose, self.velocity = board, scene, pose, velocity
+    def __init__(self, board: Board, scene: Scene, pose: Pose, velocity: Velocity | None = None):
+        self.board, self.scene, self.pose, self._velocity = board, scene, pose, velocity
         links = tuple(link for link in ordered_links(scene) if link != FRAME)
         self.diagram = CircleDiagram(scene, (*links, FRAME))
         self.seen = _Seen(board, scene)
         self.drawn: dict[Sides, DrawnPole] = {}
         self.lines: dict[tuple[Sides, PoleLine], Mark | None] = {}
         self.seeds: list[Sides] = []
-        self._given()
+        self._pins()
+        self._lines()
+        self.outset = frozenset(self.diagram.found)
         self.diagram.close()
 
-    def _given(self) -> None:
-        """The sides that are there at the outset: pins, and what guides have at infinity."""
-        for joint in self.scene.revolutes:
-            mark, at = self.pose.points[joint.at], self.scene.points[joint.at]
-            for sides in combinations(joint.links, 2):
-                self._enter(sides, (*at, 1), DrawnPole(mark))
-        for slide in ordered_slides(self.scene):
-            dx, dy = slide.direction
-            if slide.turns_alike:
-                self._enter(slide.links, (-dy, dx, 0), None)
+    # ---- what is there at the outset --------------------------------------------------------------------------
 
-    def _enter(self, links: Sequence[str], at: Any, drawn: DrawnPole | None) -> None:
+    def _pins(self) -> None:
+        """Joints, and where profiles or wheels roll on each other."""
+        for joint in self.scene.revolutes:
+            for links in combinations(joint.links, 2):
+                self._enter(links, DrawnPole(self.pose.points[joint.at]))
+        for gear in sorted(self.scene.gears, key=_by_links):
+            with self._on(gear.links, PITCH_POINT):
+                self._enter(gear.links, self._pitch_point(gear))
+        for contact in sorted(self.scene.contacts, key=_by_links):
+            if contact.rolling:
+                self._enter(contact.links, DrawnPole(self.pose.points[contact.at]))
+
+    def _lines(self) -> None:
+        """What guides have at infinity, and the common normals of profiles that slide on each other."""
+        for slide in ordered_slides(self.scene):
+            with self._on(slide.links, ACROSS):
+                across = self.board.perpendicular(self.pose.guide(slide), self.pose.points[slide.at])
+            self._enter(slide.links, DrawnPole(None, (across,)))
+        for contact in sorted(self.scene.contacts, key=_by_links):
+            if not contact.rolling:
+                with self._on(contact.links, NORMAL):
+                    normal = self._normal(contact)
+                line = PoleLine(contact.at, normal), self.seen[normal]
+                self.diagram.lines.setdefault(self.diagram.sides(*contact.links), []).append(line)
+
+    def _pitch_point(self, gear: Gear) -> DrawnPole:
+        """The pitch point; of equal pulleys of an open belt, which turn alike, the line of centres heads to it."""
+        for slide in self.pose.scene.slides:
+            if isinstance(slide, RollingGuide) and slide.given == gear:
+                return DrawnPole(self.pose.points[slide.at])
+        one, *other = (self.pose.points[centre] for centre in gear.centres)
+        letter = self.letter(self.diagram.sides(*gear.links))
+        if not other:
+            across = self.board.perpendicular(self._along(gear, one), one)
+            return DrawnPole(self.board.lay_along(across, one, length=-gear.radius, name=letter))
+        whole = gear.factors[0] + gear.factors[1]
+        if not whole:
+            return DrawnPole(None, (self.board.side(one, *other),))
+        return DrawnPole(self.board.step_off(one, *other, one, ratio=gear.factors[0] / whole, name=letter))
+
+    def _normal(self, contact: Contact) -> Mark:
+        """The common normal of two profiles."""
+        one, *other = (self.pose.points[centre] for centre in contact.centres if centre)
+        if other:
+            return self.board.side(one, *other)
+        return self.board.perpendicular(self._along(contact, self.pose.points[contact.at]), one)
+
+    def _along(self, pair: Gear | Contact, through: Mark) -> Mark:
+        """A line along the pitch line of a rack, or a straight profile."""
+        if pair.through:
+            return self.board.line(*(self.pose.points[end] for end in pair.through))
+        dx, dy = pair.direction or (0, 0)
+        return self.board.guide(through, dx=dx, dy=dy)
+
+    def _enter(self, links: Sequence[str], drawn: DrawnPole) -> None:
+        """Take in a pole that is drawn, if none is known of its links."""
         sides = self.diagram.sides(*links)
         if sides not in self.diagram.found:
-            self.diagram.found[sides] = FoundPole(tuple(_plain(number) for number in at))
-            if drawn:
-                self.drawn[sides] = drawn
+            x, y, w = self.seen[drawn.marks[0]]
+            self.diagram.found[sides] = FoundPole((x, y, w) if drawn.mark is not None else (y, -x, 0))
+            self.drawn[sides] = drawn
 
     # ---- what others ask ----------------------------------------------------------------------------------------
 
@@ -91,6 +154,13 @@ class Poles:
                           "ask for other poles")
         return self._draw(sides)
 
+    def near(self) -> Iterator[tuple[str, Pair]]:
+        """The links whose poles relative to the frame the circle diagram gives, no pins, each with where it is."""
+        for sides, found in self.diagram.found.items():
+            if sides[1] == FRAME and sides not in self.outset and self.diagram.distance(sides) <= NEAR:
+                x, y, w = found.at
+                yield sides[0], (x / w, y / w)
+
     def mark(self, one: str, two: str) -> Mark:
         """The pole as a marked point, wherever it is; fails with `Refused` where it is at infinity."""
         found = self.find(one, two)
@@ -99,14 +169,15 @@ class Poles:
         sides = self.diagram.sides(one, two)
         if len(found.lines) < 2:
             raise Refused(said("the pole of {0}", listed(sides)), said("it is at infinity"), "ask for other poles")
-        with self.board.on(MECHANISM, self._moving(sides), self._stage(sides)):
+        with self._on(sides, self._law(sides)):
             mark = self.board.meet(*found.lines, name=self.letter(sides))
         self.drawn[sides] = DrawnPole(mark)
         return mark
 
     def at_infinity(self, one: str, two: str) -> bool:
-        """Whether the links turn alike in this pose."""
-        return len(self.find(one, two).marks) == 1 and self.drawn[self.diagram.sides(one, two)].mark is None
+        """Whether the pole of two links was found to be at infinity: they turn alike in this pose."""
+        drawn = self.drawn.get(self.diagram.sides(one, two))
+        return drawn is not None and drawn.mark is None and len(drawn.lines) == 1
 
     @property
     def ways(self) -> Iterator[Said]:
@@ -127,10 +198,8 @@ class Poles:
         if sides in self.drawn:
             return self.drawn[sides]
         found = self.diagram.found[sides]
-        if not found.lines:
-            return self.drawn.setdefault(sides, DrawnPole(None, (self._across(sides),)))
         lines = [line for line in (self._line(sides, line) for line in found.lines) if line is not None]
-        with self.board.on(MECHANISM, self._moving(sides), self._stage(sides)):
+        with self._on(sides, self._law(sides)):
             if len(lines) < 2 or self.diagram.at_infinity(sides):
                 self.drawn[sides] = DrawnPole(None, (lines[0],))
             elif self.diagram.distance(sides) <= NEAR:
@@ -138,12 +207,6 @@ class Poles:
             else:
                 self.drawn[sides] = DrawnPole(None, tuple(lines))
         return self.drawn[sides]
-
-    def _across(self, sides: Sides) -> Mark:
-        """The line that heads to the pole of two links that slide on each other, at infinity."""
-        slide = next(s for s in ordered_slides(self.scene) if {*s.links} == {*sides})
-        with self.board.on(MECHANISM, self._moving(sides), self._stage(sides)):
-            return self.board.perpendicular(self.pose.guide(slide), self.pose.points[slide.at])
 
     def _line(self, sides: Sides, line: PoleLine) -> Mark | None:
         """A line on which a pole lies; none of that at infinity."""
@@ -159,29 +222,38 @@ class Poles:
             P = DrawnPole(self.mark(*next(pair for pair, pole in self.drawn.items() if pole is P)))
         if P.mark is None:
             return None
-        with self.board.on(MECHANISM, self._moving(sides), self._stage(sides)):
+        with self._on(sides, self._law(sides)):
             if Q.mark is not None:
                 return self.board.side(P.mark, Q.mark)
             return (self.board.towards if len(Q.lines) == 2 else self.board.parallel)(*Q.lines, P.mark)
 
-    def _moving(self, sides: Sides) -> tuple[str, ...]:
-        """The links that a fault should name."""
-        return tuple(link for link in sides if link != FRAME)
+    def _on(self, links: Sequence[str], law: Said) -> AbstractContextManager[None]:
+        """Draw the steps inside in the stage of a pole, which has this law."""
+        sides = self.diagram.sides(*links)
+        one, two = map(link_named, sides)
+        stage = Stage(said("Pole {0} of {1} relative to {2}", self.letter(sides), one, two), law)
+        return self.board.on(MECHANISM, tuple(link for link in sides if link != FRAME), stage)
 
-    def _title(self, sides: Sides) -> Said:
-        return said("Pole {0} of {1}", self.letter(sides), listed(sides))
-
-    def _stage(self, sides: Sides) -> Stage:
-        found = self.diagram.found[sides]
-        title = self._title(sides)
+    def _law(self, sides: Sides) -> Said:
+        """Why a pole lies on the two lines that it is found by."""
         if sides in self.seeds:
-            return Stage(title, BY_VELOCITIES)
-        if not found.lines:
-            return Stage(title, said("the links slide on each other: their pole is at infinity, square to the guide"))
-        thirds = [line.by for line in found.lines]
-        told = [said("{0} and {1}", *(self.letter(self.diagram.sides(link, third)) for link in sides))
-                for third in thirds]
-        return Stage(title, joined((KENNEDY, said("here with {0}", joined(told, "; "))), ": "))
+            return BY_VELOCITIES
+        told = [said("of {0} and {1}", *(self._lettered(self.diagram.sides(link, line.by)) for link in sides))
+                if line.drawn is None else said("the common normal in {0}", line.by)
+                for line in self.diagram.found[sides].lines]
+        return said("{0}; here on the lines {1}", KENNEDY, joined(told, "; "))
+
+    def _lettered(self, sides: Sides) -> str:
+        """A pole by its letter, and that of the joint that it is."""
+        drawn = self.drawn.get(sides)
+        name = drawn.mark.step.name if drawn and drawn.mark is not None else ""
+        return f"{self.letter(sides)} = {name}" if name in self.scene.points else self.letter(sides)
+
+    @property
+    def velocity(self) -> Velocity:
+        """The velocities by which poles are found that the diagram does not reach."""
+        assert self._velocity is not None
+        return self._velocity
 
     # ---- by velocities ------------------------------------------------------------------------------------------
 
@@ -195,13 +267,12 @@ class Poles:
 
     def _by_velocities(self, sides: Sides) -> bool:
         """Whether the velocities of two points tell the pole of two links, one relative to the other."""
-        link, other = sides
-        with self.board.on(MECHANISM, self._moving(sides), Stage(self._title(sides), BY_VELOCITIES)):
-            ends = [(self.pose.points[X], self._end(link, other, X)) for X in self.velocity.net.links[link]]
+        with self._on(sides, BY_VELOCITIES):
+            ends = [(self.pose.points[X], self._end(*sides, X)) for X in self._points(sides)]
             still = next((X for X, x in ends if x is X or self.seen.one(X, x)), None)
             moving = [(X, x) for X, x in ends if not (x is X or self.seen.one(X, x))]
             if still is not None and moving:
-                self._enter(sides, self.seen[still], DrawnPole(still))
+                self._enter(sides, DrawnPole(still))
             best = min((found for pair in combinations(moving, 2) for found in self._crossing(*pair)),
                        key=lambda found: found.error, default=None)
         if best and sides not in self.diagram.found:
@@ -209,6 +280,15 @@ class Poles:
         if sides in self.diagram.found:
             self.seeds.append(sides)
         return sides in self.diagram.found
+
+    def _points(self, sides: Sides) -> list[str]:
+        """Points that lie apart, to take velocities of: a link's own, and where it has fewer than two others, too."""
+        net = self.velocity.net
+        own = [X for link in sides if link != FRAME for X in net.links[link]]
+        first = {net.spot(X): X for X in reversed(own)}
+        if len(first) < 2:
+            first |= {net.spot(X): X for X in self.scene.points if net.spot(X) not in first}
+        return list(first.values())[:MOST]
 
     def _end(self, link: str, other: str, X: str) -> Mark:
         """The end of the orthogonal velocity of a point of a link relative to another link, laid off at the point."""
@@ -229,14 +309,21 @@ class Poles:
                 yield FoundPole(cross(self.seen[k], self.seen[l]), PENCIL / sine, (PoleLine("1", k), PoleLine("2", l)),
                                 round=self.diagram.rounds + 1)
 
+    def at_rest(self, one: str, two: str) -> bool:
+        """Whether two links do not move relative to each other, though no pair says so: any point is a pole then."""
+        sides = self.diagram.sides(one, two)
+        if sides in self.outset:
+            return False
+        ends = [(self.pose.points[X], self._end(*sides, X)) for X in self._points(sides)[:2]]
+        return len(ends) == 2 and all(X is x or self.seen.one(X, x) for X, x in ends)
+
     def _sine(self, k: Mark, l: Mark) -> float:
         """How well two lines cross."""
         return self.diagram.sine(self.seen[k], self.seen[l], dual=True)
 
 
-def _plain(number: Any) -> Any:
-    """A number of the scene as it is, one between bounds as a float."""
-    return number if isinstance(number, Fraction | int) else float(number)
+def _by_links(pair: Gear | Contact) -> tuple[Any, ...]:
+    return *map(by_name, pair.links), by_name(" ".join(filter(None, pair.centres)))
 
 
 class _Seen:
@@ -261,7 +348,7 @@ class _Seen:
         p, q = self[P], self[Q]
         size = max(1e-300, *(abs(float(part)) for part in (*p[:2], *q[:2])))
         gap = abs(p[0] - q[0]) + abs(p[1] - q[1])
-        return bool(gap == 0 if isinstance(self.domain, Fractions) else gap <= ONE * size)
+        return bool(gap == 0 if isinstance(self.domain, Fractions) else gap <= SAME * size)
 
     def _value(self, mark: Mark) -> Any:
         """The value of a mark, and of all that it is made from."""
@@ -272,7 +359,7 @@ class _Seen:
                 self._values[index] = step.op.rule(self.domain, *read, **step.params)
         except Undrawable as fault:
             if fault.code != "not-rational" or isinstance(self.domain, Floats):
-                raise error_at(Program(tuple(self.board.steps), ()), step, fault) from None
+                raise Unseen(self.board.marks[step.index]) from None
             self.domain, self._values = Floats(), {}
             return self._value(mark)
         return self._values[mark.step.index]

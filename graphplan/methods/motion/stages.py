@@ -19,6 +19,7 @@ from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.motion.moves import (
     Auxiliary,
     Carry,
+    Centre,
     Common,
     FalsePosition,
     Guide,
@@ -43,6 +44,7 @@ LAWS: dict[type, Said] = {  # of the moves whose steps say nothing themselves
     Auxiliary: said("the end of the auxiliary point lies on the loci of both points that it was found from"),
     Common: ROLLING,
     Pole: said("links joined by two bars turn relative to each other about the point where the bars meet"),
+    Centre: said("as a point of the link its pole is at rest"),
     FalsePosition: said("the error of a trial is proportional to what is assumed, so two trials show where it is "
                         "zero"),
 }
@@ -128,7 +130,7 @@ class MotionStages:
                 return X
             case Guide(point=point, new=new) | Common(point=point, new=new):
                 return self.net.place(point, new)
-            case Meet(place=X) | Rest(place=X) | Seed(place=X) | Auxiliary(place=X) | Pole(place=X):
+            case Meet(place=X) | Rest(place=X) | Seed(place=X) | Auxiliary(place=X) | Pole(place=X) | Centre(place=X):
                 return X
 
     # ---- what is called how -------------------------------------------------------------------------------------
@@ -225,6 +227,8 @@ class MotionStages:
                 return said("Auxiliary point {0} of {1}", self.name(*place), self._links(body))
             case Pole(bodies=bodies, place=place):
                 return said("Relative pole {0} of {1}", self.name(*place), listed(bodies))
+            case Centre(body=body, place=place):
+                return said("Pole {0} of {1}", self.name(*place), self._links(body))
             case FalsePosition():
                 return arranged("{0:capital}", said("false position of {0}", end))
             case Common(point=place) | Settle(X=(place, _)) | Rest(place=place) | Seed(place=place) | Meet(place=place):

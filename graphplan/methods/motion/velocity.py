@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import Number, Slide
-from graphplan.methods.motion.moves import Carry, Guide, Meet, Roll, Settle, SimilarFigure, Slip, Swing
+from graphplan.mechanism.model import FRAME, Number, Slide
+from graphplan.methods.motion.moves import Carry, Centre, Guide, Meet, Move, Roll, Settle, SimilarFigure, Slip, Swing
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.motion.plan import MotionPlan, Vector
 from graphplan.methods.motion.stages import VELOCITIES, begun
@@ -36,6 +38,20 @@ class Velocity(MotionPlan):
     """What both velocity plans share: drives, guides, and the relative velocities that accelerations need."""
 
     words = VELOCITIES
+    pole_of: Callable[[str, str], Mark]  # of two links, where velocities are drawn by poles
+
+    def _draw(self, move: Move) -> None:
+        if isinstance(move, Centre):
+            self._at_pole(*move)
+        else:
+            super()._draw(move)
+
+    def _at_pole(self, body: str, place: BodyPoint) -> None:
+        """The pole of a body, whose vector is nothing: its end is where it begins."""
+        self.pose.points[place[0]] = self.pole_of(self.net.members[body][0], FRAME)
+        self.stages.letters[place[0]] = self.pose.spoken(place[0])
+        self.ends[place] = self.home(place)
+        self.known[body] += (place,)
 
     def origin(self, point: str) -> Mark:
         """Where the velocity of a point begins."""

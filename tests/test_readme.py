@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from graphplan.cams.task import TASK
 from graphplan.commands import SUBCOMMANDS
 from graphplan.mechanism.schema import reference
 
@@ -37,6 +38,7 @@ def test_every_folder_is_told() -> None:
 def test_every_key_is_told() -> None:
     """The reference of scene keys is what the records say: `graphplan schema keys` prints it anew."""
     assert reference() in section("Keys of a scene")
+    assert reference(TASK) in section("Cams")
 
 
 def test_what_is_to_be_copied_is_there() -> None:

@@ -26,7 +26,7 @@ from graphplan.kernel.stages import Stage
 from graphplan.phrases import digits, said
 
 CAM_PLAN = Panel("cam", said("cam"), said("The cam by inversion"))
-LEVEL, UP = 0.0, 90.0  # degrees
+FACE = 1.1  # of the farthest contact from the pivot: where a face is marked that turns
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ class _Inversion:
     def _ray(self, k: int) -> Mark:
         """The line through O that was level at first, where it has gone."""
         told = said("division {0}: {1}°, against the turning of the cam", k, digits(self._angle(k)))
-        return self._guide(self.O, LEVEL - self.pair.sense * self._angle(k), why=told)
+        return self._guide(self.O, -self.pair.sense * self._angle(k), why=told)
 
     def _first(self) -> None:
         """The base circle and the follower where it is lowest."""
@@ -144,8 +144,7 @@ class _Inversion:
     @property
     def _reach(self) -> float:
         """The radius at which the turning of an arm is drawn."""
-        pair: Any = self.pair
-        return float(pair.arm if isinstance(pair, Oscillating) else pair.distance)
+        return self.pair.arm if isinstance(self.pair, Oscillating) else FACE * self.cam.reach[1]
 
     def _placed(self, k: int) -> None:
         """The path or the pivot where it has gone."""
@@ -215,7 +214,7 @@ class _Inversion:
         far = pole(self.pair, self._law(k, 1))
         if abs(far) <= 1e-12 * self.pair.base:
             return self.O
-        told = "a·psi'/(1 ± psi')" if self.oscillates else "ds/dphi"
+        told = "a·ψ′/(1 ± ψ′)" if self.oscillates else "ds/dφ"
         return self.board.lay_along(self.rays[k], self.O, length=far, name=f"P_{k}", quantity=_length(told),
                                     why=said("the pole of cam and follower: there the cam moves as the follower"))
 

@@ -213,6 +213,7 @@ def made(task: Task) -> Cam:
         _undercut(cam, faults)
     if not len(faults):
         _crossing(cam, faults)
+        _pivot(cam, faults)
     if len(faults):
         raise SceneError(task.name, tuple(faults))
     return cam
@@ -276,6 +277,20 @@ def _undercut(cam: Cam, faults: Faults) -> None:
     elif size - cam.roller < least - JUST * cam.pair.base:
         faults.add("cam.least_radius", f"at {shown(angle)} degrees the profile's radius of curvature is "
                    f"{shown(size - cam.roller)}, below {shown(least)}", "a smaller roller, or a larger base circle")
+
+
+def _pivot(cam: Cam, faults: Faults) -> None:
+    """Note where the pivot of a follower is in the way of the cam, or the contact beyond it."""
+    follower = cam.task.follower
+    if not follower.oscillates:
+        return
+    far, distance = float(abs(cam.outline).max()), float(follower.distance)
+    if far >= distance:
+        faults.add("follower.centre_distance", f"the profile reaches out to {shown(far)}, over the pivot at "
+                   f"{shown(distance)}", "a longer centre distance, or a smaller base circle")
+    elif follower.flat and cam.reach[0] <= 0:
+        faults.add("follower.centre_distance", f"the contact runs to {shown(cam.reach[0])} along the face, past the "
+                   "pivot", "a longer centre distance, or a smaller stroke")
 
 
 def _crossing(cam: Cam, faults: Faults) -> None:

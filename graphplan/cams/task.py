@@ -225,14 +225,21 @@ CAM = Table("the cam", (
           Kind("whole number", _divisions, {"type": "integer", "minimum": LEAST, "maximum": MOST}), default=24),
 ), _wheel, either=("omega", "rpm"), remedy="one of them, such as rpm = 300")
 
+
+def _only(table: Table, *names: str) -> Table:
+    """A table of a scene, of which a task has these keys alone."""
+    return table._replace(fields=tuple(field for field in table.fields if field.name in names))
+
+
 TASK = Table("a cam: the law of its follower, the follower, and what is given of the cam", (
     Field("title", "what it is", TEXT),
     Field("source", "where it comes from: author, title, year, figure", TEXT),
-    Field("units", "the units of the task and of its results", sections.UNITS),
+    Field("units", "the unit of the task and of its results", _only(sections.UNITS, "length")),
     Field("law", "the stages of one turn, in order", LAW, '[[law]] with angle = 120, motion = "sine", stroke = 25'),
     Field("follower", "the follower", FOLLOWER, '[follower] with moves = "translating" and contact = "roller"'),
     Field("cam", "the cam", CAM, "[cam] with rpm = 300 and base = 30"),
-    Field("sheet", "how the sheet should look; the command line has the last word", SHEET),
+    Field("sheet", "how the sheet should look; the command line has the last word", _only(
+        SHEET, "paper", "frame", "language", "convention", "owner", "number", "date", "drawn_by", "approved_by")),
 ))
 
 

@@ -22,20 +22,21 @@ RESULTS = ("solve", "steps", "verify")
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("of", metavar="OF", nargs="?", default="scene", choices=("scene", "cam", *RESULTS, "keys"),
-                         help="scene (default), cam, solve, steps, or verify; keys for the table")
+    command.add_argument("of", metavar="OF", nargs="?", default="scene",
+                         choices=("scene", "cam", *RESULTS, "keys", "cam-keys"),
+                         help="scene (default), cam, solve, steps, or verify; keys or cam-keys for the table")
 
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.commands.result_schemas import printed
     from graphplan.mechanism import schema
 
-    if options.of == "keys":
-        write(schema.reference())
-    elif options.of == "cam":
+    if options.of in ("cam", "cam-keys"):
         from graphplan.cams.task import TASK
 
-        write(as_json(schema.titled("graphplan cam task", TASK), 2))
+        write(as_json(schema.titled("graphplan cam task", TASK), 2) if options.of == "cam" else schema.reference(TASK))
+    elif options.of == "keys":
+        write(schema.reference())
     else:
         write(as_json(printed(options.of) if options.of in RESULTS else schema.scene(), 2))
     return 0

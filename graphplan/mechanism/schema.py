@@ -72,16 +72,16 @@ class KeyRow(NamedTuple):
 HEAD, FORM, KEY = "head", "form", "key"
 
 
-def reference() -> str:
-    """All keys of a scene as a table in Markdown: each with what it takes and what it says, table after table."""
+def reference(whole: Table = SCENE) -> str:
+    """All keys of a scene, or of another file, as a table in Markdown: each with what it takes and what it says."""
     written = {HEAD: "| **`{}`** | {} | {} |", FORM: "| | *{}* | |", KEY: "| `{}` | {} | {} |"}
-    rows = (written[row.level].format(row.key, row.takes, row.words) for row in keys())
+    rows = (written[row.level].format(row.key, row.takes, row.words) for row in keys(whole))
     return "\n".join(["| key | takes | what it says |", "|---|---|---|", *rows, ""])
 
 
-def keys() -> Iterator[KeyRow]:
-    """All keys of a scene, table after table."""
-    for field in SCENE.fields:
+def keys(whole: Table = SCENE) -> Iterator[KeyRow]:
+    """All keys of a scene, or of another file, table after table."""
+    for field in whole.fields:
         match field.kind:
             case Kind():
                 yield from _rows((field,))

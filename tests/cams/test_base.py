@@ -103,3 +103,9 @@ def test_what_no_base_circle_can_do_is_refused() -> None:
     """An arm that is lifted too fast has no base circle within the angles, and says so."""
     with pytest.raises(Refused, match="no base circle keeps the pressure angle at a centre distance of 100"):
         based(task(ARM, 'base = "pressure angle"\npressure_angle = { rise = 5, return = 5 }\n', "sine", 60))
+
+
+def test_sheets_of_tasks_have_no_keys_of_scenes() -> None:
+    """What only the sheet of a scene has is no key of a task."""
+    with pytest.raises(SceneError, match=r"sheet\.curves: unknown key"):
+        parse(text() + '[sheet]\npaper = "A2"\ncurves = "all"\n', "cam.toml")

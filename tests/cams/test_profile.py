@@ -26,7 +26,7 @@ CONVEX = 'base = "convex"\nleast_radius = 5\n'
 CAMS = {
     "roller": (ROLLER, "base = 40\n", "sine", 25), "offset": (f"{ROLLER}offset = 6\n", BOTH, "harmonic", 25),
     "other side": (f"{ROLLER}offset = -6\n", "base = 40\n", "trapezoid", 25), "flat": (FLAT, CONVEX, "3-4-5", 25),
-    "arm": (ARM, "base = 45\n", "sine", 20), "face": (FACE, CONVEX, "parabolic", 20),
+    "arm": (ARM, "base = 45\n", "sine", 20), "face": (FACE, CONVEX, "parabolic", 12),
     "point": (POINT, "base = 30\n", "uniform", 25),
 }  # fmt: skip
 SENSES = "clockwise", "counter-clockwise"
@@ -125,6 +125,16 @@ def test_a_path_that_crosses_itself_is_refused() -> None:
     follower = 'moves = "oscillating"\ncontact = "point"\narm = 60\ncentre_distance = 100\n'
     with pytest.raises(SceneError, match=r"crosses itself at \(-?\d+.*\); a larger base circle"):
         made(parse(f"{law}[follower]\n{follower}[cam]\nrpm = 60\nbase = 60\n", "cam.toml"))
+
+
+def test_pivots_in_the_way_are_refused() -> None:
+    """A cam that would turn into the follower's pivot, or touch the face beyond it, is refused."""
+    arm = 'moves = "oscillating"\ncontact = "point"\narm = 60\ncentre_distance = 62\n'
+    for (follower, base, motion, stroke), line in (
+            ((arm, "base = 40\n", "sine", 40), r"the profile reaches out to 76\.\d+, over the pivot at 62"),
+            ((FACE, CONVEX, "parabolic", 20), r"the contact runs to -9\.\d+ along the face, past the pivot")):
+        with pytest.raises(SceneError, match=rf"follower\.centre_distance: {line}"):
+            made(parse(text(follower, base, motion, stroke, "counter-clockwise"), "cam.toml"))
 
 
 def test_notes_tell_shocks_and_steep_angles() -> None:

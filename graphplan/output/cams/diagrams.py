@@ -13,11 +13,12 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.cams.follower import Rolled
-from graphplan.cams.law import HARD, Stretch
+from graphplan.cams.base import region
+from graphplan.cams.follower import Rolled, Translating
+from graphplan.cams.law import HARD, SOFT, Stretch
 from graphplan.cams.profile import Cam
 from graphplan.kernel.program import Panel
-from graphplan.phrases import Phrase, arranged, digits, phrase, said, unit
+from graphplan.phrases import Said, arranged, digits, phrase, said, unit
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import CAPS, LetterSizes, Run, Runs, sentence_runs
 from graphplan.sheet.plates import pens
@@ -32,6 +33,7 @@ LAW_PLAN = Panel("law", said("law"), said("Law of the follower over the turn of 
 CENTRE_PLAN = Panel("centre", said("cam centre"), said("Curve x(s): where the cam's centre lies"))
 CURVATURE_PLAN = Panel("centre", said("cam centre"), said("Curve z(s): the smallest base circle of a flat face"))
 
+RISING, RETURNING = phrase("{0}° of the rise"), phrase("{0}° of the return")
 AXIS, DIVISION, JUMP = Pen(0.18), Pen(0.13, "#c4c4c4"), Pen(0.18, pens.GREY, (1.2, 0.8))
 CURVES = Pen(0.35), Pen(0.35, pens.BLUE), Pen(0.35, pens.RED), Pen(0.35, pens.VIOLET), Pen(0.35, pens.GREEN)
 RISE, BACK, TANGENT = Pen(0.35), Pen(0.35, pens.INK, (2.0, 1.0)), Pen(0.25, pens.GREEN, (5.0, 1.0))
@@ -109,17 +111,18 @@ class Paper:
             x = room.left + float(bound) / 360 * room.width
             yield Polyline(DIVISION, "ruling", None, ((x, room.bottom + 1.0), (x, room.top - BETWEEN)))
             yield self.text((x, room.bottom - 3.0), digits(float(bound)), "middle")
-        yield self.text((room.right + 4.0, room.bottom - 3.0), "phi, °")
+        yield self.text((room.right + 4.0, room.bottom - 3.0), "φ, °")
 
     def _diagram(self, one: Diagram, rect: Rect, number: int) -> Iterator[Item]:
         """One quantity: axes, its curve piece by piece, its extremes beside it."""
         law = self.cam.law
         parts = [(angles, np.asarray(one.values(angles, piece), float)) for piece in law.stretches
                  for angles in [np.linspace(float(piece.start), float(piece.end), SAMPLES + 1)]]
-        values = np.concatenate([part for _, part in parts])
-        low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
-        if high - low < 1e-9:
-            high = 1.0
+        (top, most), (foot, depth) = law.extremum(one.values), law.extremum(lambda a, piece: -one.values(a, piece))
+        low, high = min(0.0, -depth), max(0.0, most)
+        still, hard = high - low < 1e-9, one.order == SOFT and any(jump.order == HARD for jump in law.jumps)
+        if still or hard:
+            low, high = -max(high, -low, float(still)), max(high, -low, float(still))
         mu = float(round_up((high - low) / rect.height))
         x0, y0 = rect.left, rect.bottom - low / mu
 
@@ -134,29 +137,27 @@ class Paper:
             if abs(after[0] - before[-1]) > 1e-9 * (high - low):
                 x = float(angles[-1])
                 yield Polyline(JUMP, "ruling", None, (at(x, float(before[-1])), at(x, float(after[0]))))
-        if one.order == 2:
-            yield from self._infinite(at, low, high)
+        if hard:
+            yield from self._infinite(at, high)
         letter, scale = one.letter, digits(mu)
-        head = arranged("{0}, {1}   (k_{2} = {3} {1}/mm)", letter, unit(one.measure), letter, scale)
+        told = "{0} = 0" if still else "{0}, {1}   (k_{2} = {3} {1}/mm)"
+        head = arranged(told, letter, unit(one.measure), letter, scale)
         names = (letter, f"k_{letter}")
         yield Text(pens.LETTERS, "letters", None, (x0, rect.top + 1.6), sentence_runs(self.tongue(head), names),
                    self.letters.text)
-        for value in dict.fromkeys((float(values.max()), float(values.min()))):
+        for angle, value in ((top, most), (foot, -depth)):
             if abs(value) > 1e-9 * (high - low):
-                angle = float(np.concatenate([a for a, _ in parts])[int(np.argmax(values == value))])
                 x, y = at(angle, value)
                 yield Polyline(DIVISION, "ruling", None, ((x, y), (rect.right + 0.8, y)))
                 yield self.text((rect.right + 1.2, y - CAPS * self.letters.text / 2), digits(value))
 
-    def _infinite(self, at: Callable[[float, float], Spot], low: float, high: float) -> Iterator[Item]:
+    def _infinite(self, at: Callable[[float, float], Spot], high: float) -> Iterator[Item]:
         """Hard shocks: the acceleration is infinite there."""
         for jump in self.cam.law.jumps:
             if jump.order == HARD:
-                end = high if jump.after > jump.before else low
-                reach = (high - low) / 3 if abs(end) < 1e-9 else 0.0
-                end += math.copysign(reach, jump.after - jump.before)
-                start, tip = at(float(jump.angle), 0.0), at(float(jump.angle), end)
-                yield Arrow(pens.VECTORS["acceleration"], "ruling", None, start, tip, 2.4)
+                angle = float(jump.angle)
+                tip = at(angle, math.copysign(high, jump.after - jump.before))
+                yield Arrow(pens.VECTORS["acceleration"], "ruling", None, at(angle, 0.0), tip, 2.4)
                 yield self.text((tip[0] + 0.8, tip[1] - 1.0), (Run("∞"),))
 
     # ---- where the centre lies -------------------------------------------------------------------------------------
@@ -201,27 +202,60 @@ class Paper:
             for k in range(0, SAMPLES + 1, 10):
                 yield Polyline(pens.THIN, "plates", None, (at(complex(A[k])), at(complex(E[k]))))
             yield Polyline(pen, "links", None, tuple(at(complex(z)) for z in E))
-        for way, words in ((1, phrase("{0}° of the rise")), (-1, phrase("{0}° of the return"))):
-            yield from self._tangent(way, words, at, rect)
         A0 = at(complex(pieces[0][1][0]))
         yield Polyline(pens.THIN, "plates", None, (at(0j), A0))
+        yield from self._limits(at, rect) if self._limited else self._touching(at, rect)
         yield from self.marked(A0, "A_0", (1.4, -3.0))
         yield from self.marked(at(0j), "O", (-1.4, -3.0))
 
-    def _tangent(self, way: int, words: Phrase, at: Callable[[complex], Spot], rect: Rect) -> Iterator[Item]:
-        """The line from the centre that touches the curve where the pressure angle is largest."""
-        angle, size = self.cam.steepest[way]
-        if not math.isfinite(size) or size <= 0:
-            return
-        pair: Any = self.cam.pair
-        A, A1, *_ = pair.path(lambda order: self.cam.law.at([angle], order))
-        start, tip = at(0j), at(complex((A + 1j * pair.sense * A1)[0]))
-        long = math.dist(start, tip) or 1.0
-        far = tip[0] + OVER * (tip[0] - start[0]) / long, tip[1] + OVER * (tip[1] - start[1]) / long
-        yield from clipped(Polyline(TANGENT, "plates", None, (start, far)), rect)
+    @property
+    def _limited(self) -> bool:
+        """Whether there are tangents at angles that are given."""
+        return isinstance(self.cam.pair, Translating) and self.cam.task.cam.limits is not None
+
+    def _limits(self, at: Callable[[complex], Spot], rect: Rect) -> Iterator[Item]:
+        """The tangents at the largest pressure angles, behind which the centre lies, and where both meet."""
+        pair, limits = self.cam.pair, self.cam.task.cam.limits
+        assert isinstance(pair, Translating)
+        assert limits is not None
+        where = region(self.cam.law, limits)
+
+        def spot(x: float, s: float) -> Spot:
+            """A place by x, laid off from the path, and by its height over A0."""
+            return at(complex(pair.sense * (pair.offset - x), pair.depth + s))
+
+        for one, way, words in ((where.rise, 1, RISING), (where.back, -1, RETURNING)):
+            if one is not None:
+                top, foot = (spot(way * (one.intercept + one.slope * s), s) for s in (
+                    float(max(self.cam.law.lifts)), -1.3 * pair.depth))
+                yield from clipped(Polyline(TANGENT, "plates", None, (top, foot)), rect)
+                high = float(self.cam.law.at([one.angle])[0])
+                tip = spot(way * (one.intercept + one.slope * high), high)
+                yield from self._touched(tip, words(digits(math.degrees(math.atan(one.slope)))), spot(0.0, high)[0])
+        if where.back is not None and abs(where.corner[0] - pair.offset) > 1e-6 * pair.base:
+            yield from self.marked(spot(where.corner[0], -where.corner[1]), "O_m", (1.6, 0.6))
+
+    def _touched(self, tip: Spot, words: Said, axis: float) -> Iterator[Item]:
+        """Where a tangent touches the curve, with its angle, away from the path."""
+        side = 1 if tip[0] >= axis else -1
         yield Circle(pens.ORIGIN, "plates", None, tip, 0.5)
-        side = 1 if tip[0] >= start[0] else -1
-        yield self.text((tip[0] + 1.5 * side, tip[1] - 3.2), words(digits(size)), "start" if side > 0 else "end")
+        yield self.text((tip[0] + 1.8 * side, tip[1] - 3.2), words, "start" if side > 0 else "end")
+
+    def _touching(self, at: Callable[[complex], Spot], rect: Rect) -> Iterator[Item]:
+        """The lines from the centre that touch the curve, where the pressure angle is largest."""
+        pair: Any = self.cam.pair
+        for way, words in ((1, RISING), (-1, RETURNING)):
+            angle, size = self.cam.steepest[way]
+            piece = next((one for one in self.cam.law.stretches if way * one.at(angle, 1) > 0
+                          and one.start <= angle <= one.end), None)
+            if piece is None or size <= 0:
+                continue
+            A, A1, *_ = pair.path(lambda order, piece=piece, angle=angle: self.cam.law.times * piece.at(angle, order))
+            start, tip = at(0j), at(complex(A + 1j * pair.sense * A1))
+            long = math.dist(start, tip) or 1.0
+            far = tip[0] + OVER * (tip[0] - start[0]) / long, tip[1] + OVER * (tip[1] - start[1]) / long
+            yield from clipped(Polyline(TANGENT, "plates", None, (start, far)), rect)
+            yield from self._touched(tip, words(digits(size)), at(complex(A))[0])
 
     def _curve_z(self, rect: Rect) -> Iterator[Item]:
         """The curve of s over z = s'', and its tangent of 45 degrees, which cuts the path in the least centre."""

@@ -13,7 +13,7 @@ from graphplan.cams.construction import CamDrawing
 from graphplan.kernel.incidence import incident
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.program import Step
-from graphplan.sheet.lettering.lettering import CAPS, LetterSizes, name_runs, sentence_runs, width
+from graphplan.sheet.lettering.lettering import CAPS, DEPTH, LetterSizes, name_runs, sentence_runs, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import Pen
@@ -22,10 +22,12 @@ from graphplan.sheet.plates.view import View
 
 DOT, PIN = 0.35, 1.3  # mm: radii of marks, and of fixed pins
 BEYOND, STUB, STRIKE = 1.5, 3.0, 3.0  # mm: of lines beyond their marks, of a line with one mark, of an arc to each side
+NEAR = 12.0  # mm from the cam's centre: a letter there would be on others
 FACE = 7.0  # mm of a flat face beyond its marks
 NUMBERED = 4.0  # mm from the follower to the number of its division
 STEM, HALF, TEETH = 14.0, 2.2, 6  # mm: of the follower beyond what touches, of its guide; strokes of hatching
 PROFILE, PITCH, ROLLER = Pen(0.7), pens.PATH, Pen(0.13, pens.GREY)
+CLEAR = Pen(0.0, pens.PAPER, fill=pens.PAPER)
 FIRST, BASE = Pen(0.5), Pen(0.25, pens.INK, (5.0, 1.0))
 
 
@@ -185,15 +187,16 @@ class CamPlan:
                 continue  # there the follower stands
             long = math.dist((x, y), O) or 1.0
             part = 1 + (far + NUMBERED) / long
-            yield self._text((O[0] + part * (x - O[0]), O[1] + part * (y - O[1])), str(k), size, middle=True)
-        yield self._text((O[0] - 2.2, O[1] - 4.2), "O", self.letters.mark, "end")
+            yield from self._text((O[0] + part * (x - O[0]), O[1] + part * (y - O[1])), str(k), size, middle=True)
+        yield from self._text((O[0] - 5.5, O[1] + 1.4), "O", self.letters.mark)
         shown = self._shown
         for name, (dx, dy) in {"A": (1.2, 1.0), "K": (1.0, -3.4), "P": (0.8, 1.0), "T": (0.8, 1.0),
                                "B": (2.0, 1.4), "S": (2.0, 0.0)}.items():
             step = next((step for step in drawing.program.steps if step.name == f"{name}_{shown}"), None)
             if step is not None:
                 x, y = self.spots[step.index]
-                yield self._text((x + dx, y + dy), step.name, self.letters.mark)
+                if math.dist((x, y), O) > NEAR:
+                    yield from self._text((x + dx, y + dy), step.name, self.letters.mark)
 
     @property
     def _shown(self) -> int:
@@ -202,17 +205,22 @@ class CamPlan:
         rates = cam.law.at([one.angle for one in divisions], 1)
         return max(range(len(divisions)), key=lambda k: float(rates[k]))
 
-    def _text(self, at: Spot, name: str, size: float, anchor: str = "start", middle: bool = False) -> Text:
+    def _text(self, at: Spot, name: str, size: float, middle: bool = False) -> Iterator[Item]:
+        """A name that breaks the lines under it."""
         runs = name_runs(name) if "_" in name else sentence_runs(name)
+        wide, high = width(runs, size), CAPS * size
         if middle:
-            at = at[0] - width(runs, size) / 2, at[1] - CAPS * size / 2
-        return Text(pens.LETTERS, "letters", None, at, runs, size, anchor)
+            at = at[0] - wide / 2, at[1] - high / 2
+        low = DEPTH * size if "_" in name else 0.0
+        yield Polygon(CLEAR, "letters", None, Rect(at[0], at[1] - low, at[0] + wide, at[1] + high).corners)
+        yield Text(pens.LETTERS, "letters", None, at, runs, size)
 
 
 def extent(drawing: CamDrawing) -> Rect:
     """What the plan takes up, in lengths, from its marks, circles and curves."""
     cam = drawing.cam
     spots = [(z.real, z.imag) for curve in (cam.outline, cam.pitch_curve) for z in curve]
+    spots += [drawing.values[step.index] for step in drawing.program.steps if step.op.gives == POINT]
     for name in ("base", "offsets", "pivots"):
         if name in drawing.common:
             x, y, square = drawing.values[drawing.common[name]]

@@ -102,7 +102,8 @@ def keys(whole: Table = SCENE) -> Iterator[KeyRow]:
 def _rows(fields: Iterable[Field], path: str = "") -> Iterator[KeyRow]:
     """The rows of keys, each before those below it."""
     for name, words, kind, wanted, default in fields:
-        more = ["required"] if wanted else [] if default in (None, []) else [f"default {default}"]
+        said = f"default {str(default).lower() if isinstance(default, bool) else default}"
+        more = ["required"] if wanted else [] if default in (None, []) else [said]
         yield KeyRow(KEY, f"{path}{name}", ", ".join([kind.says, *more]), words)
         if isinstance(kind, Table):
             yield from _rows(kind.fields, f"{path}{name}.")

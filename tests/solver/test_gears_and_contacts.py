@@ -88,6 +88,47 @@ def test_points_of_wheels_run_on_cycloids(name: str) -> None:
     assert at(found.acceleration["M"]) == pytest.approx(acceleration, rel=1e-7)
 
 
+@pytest.mark.parametrize("name", ["planet", "sun that stands still", "ring", "belt", "crossed belt"])
+def test_points_of_planets_run_on_their_paths(name: str) -> None:
+    """The arm carries the planet's centre, the train turns the planet about it."""
+    scene, found = SCENES[name], analytic.solve(SCENES[name])
+    O, B, M = (at(scene.points[point]) for point in "OBM")
+
+    def path(t: float) -> complex:
+        arm, planet = (float(found.omega[link]) * t + float(found.alpha[link]) * t * t / 2 for link in "32")
+        return O + turned(arm) * (B - O) + turned(planet) * (M - B)
+
+    velocity, acceleration = derived(path)
+    assert at(found.velocity["M"]) == pytest.approx(velocity, rel=1e-8)
+    assert at(found.acceleration["M"]) == pytest.approx(acceleration, rel=1e-6)
+
+
+# --- contacts: circles and straight lines that go on touching, by finite motions --------------------------------------
+
+
+@pytest.mark.parametrize("name", ["cam", "turning flat follower"])
+def test_profiles_go_on_touching(name: str) -> None:
+    """The follower turns as far as its profile, itself drawn in each pose, stays at the distance of the cam's radius.
+    """
+    scene, found = SCENES[name], analytic.solve(SCENES[name])
+    A, B, K, M = (at(scene.points[point]) for point in "ABKM")
+    C = at(scene.points["C"]) if name == "cam" else None
+
+    def distance(cam: float, follower: float) -> float:  # of the cam's centre from the follower's profile
+        seen = M + (A + turned(cam) * (B - A) - M) / turned(follower)  # from the follower
+        return abs(abs(seen - C) - abs(K - C)) if C else ((seen - K) * (B - K).conjugate()).real / abs(B - K)
+
+    def path(t: float) -> complex:
+        cam, follower = 2 * t + 1.5 * t * t, 0.0
+        for _ in range(30):
+            slope = (distance(cam, follower + 1e-5) - distance(cam, follower - 1e-5)) / 2e-5
+            follower -= (distance(cam, follower) - abs(B - K)) / slope
+        return complex(follower)
+
+    velocity, acceleration = derived(path)
+    assert (found.omega["2"], found.alpha["2"]) == pytest.approx((velocity.real, acceleration.real), rel=1e-6)
+
+
 # --- contacts: profiles that are no circles --------------------------------------------------------------------------
 
 LONG, SHORT = 50.0, 30.0

@@ -12,6 +12,7 @@ from graphplan.sheet.plates.display import Arc, Polyline, Rect
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.higher_pairs import belt, reach, wheels
 from graphplan.sheet.plates.view import View
+from graphplan.sheet.words.tables import settled
 from graphplan.sheet.words.task import data
 
 EVERYWHERE = Rect(-math.inf, -math.inf, math.inf, math.inf)
@@ -48,3 +49,9 @@ def test_a_belt_touches_both_pulleys() -> None:
         for (x, y), (u, v) in (part.spots for part in parts):
             assert (math.hypot(x, y), math.dist((u, v), (30, 10))) == pytest.approx((5.0, 12.0))
             assert (u - x) * x + (v - y) * y == pytest.approx(0, abs=1e-9)
+
+
+def test_a_turning_that_is_but_rounding_is_nothing() -> None:
+    """An angular acceleration far below what the accelerations make of it is told as 0."""
+    values = {"acceleration": {"A": (3.0, 4.0)}, "alpha": {"2": 3e-15, "3": 0.2}, "omega": {"2": 1e-15}}
+    assert settled(values, 10.0) == values | {"alpha": {"2": 0.0, "3": 0.2}}

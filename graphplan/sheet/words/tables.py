@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import reduce
 from typing import Any
 
-from graphplan.phrases import Said, arranged, digits, figures, in_any_case, unit
+from graphplan.phrases import Said, Unknown, arranged, digits, figures, in_any_case, unit
 from graphplan.sheet.lettering.lettering import SIZE, Runs, name_runs, sentence_runs, width
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.words.lengths import size
@@ -41,6 +41,7 @@ class Deviations:
 
 APART = 3.0  # mm between two columns
 ROUNDING = 1e-12  # beside the largest number of its kind
+TURNINGS = {"omega": "velocity", "alpha": "acceleration"}  # and the vectors beside which they count
 TOGETHER = 15  # rows of a table stand in one column
 Table = list[list[Runs]]
 Off = Mapping[str, Deviation]  # how far off results are drawn, by name; empty where that is not told
@@ -63,6 +64,16 @@ def scalars(say: Tongue, what: str, name: str, unit: str, values: Mapping[str, A
     head = [sentence_runs(what), (*name_runs(name), *sentence_runs(f" {unit}"))]
     found = {name: (values[name],) for name in order if name in values}
     return _table(say, head, found, reduce(_larger, map(abs, values.values()), 0.0), off)
+
+
+def settled(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict[str, dict[str, Any]]:
+    """The results, with turnings that are but rounding beside the vectors of their kind as nothing."""
+    found = {kind: {**named} for kind, named in values.items()}
+    for turning in found.keys() & TURNINGS.keys():
+        least = ROUNDING * largest_size(values.get(TURNINGS[turning], {})) / reach
+        found[turning] = {name: rate if any(isinstance(one, Unknown) for one in (least, rate)) or abs(rate) > least
+                          else 0.0 for name, rate in found[turning].items()}
+    return found
 
 
 def _table(say: Tongue, head: list[Runs], values: Mapping[str, tuple[float, ...]], largest: float, off: Off,

@@ -19,7 +19,17 @@ from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.protocol import Entry, Passage, Protocol, lengths_of
 from graphplan.sheet.words.readings import Readings
 from graphplan.sheet.words.rows import Cell, TextRow
-from graphplan.sheet.words.tables import ROUNDING, Deviations, Table, joined_tables, narrow, rows, scalars, vectors
+from graphplan.sheet.words.tables import (
+    ROUNDING,
+    Deviations,
+    Table,
+    joined_tables,
+    narrow,
+    rows,
+    scalars,
+    settled,
+    vectors,
+)
 
 if TYPE_CHECKING:
     from graphplan.sheet.words.force_tables import ForceTables
@@ -56,7 +66,7 @@ class Words:
     @cached_property
     def values(self) -> Mapping[str, Mapping[str, Any]]:
         """What the construction reads off, by kind and name."""
-        return self.drawing.read(Floats())
+        return settled(self.drawing.read(Floats()), self.drawing.scene.extent)
 
     def rows(self, wide: float, scales: Scales, pencil: Deviations) -> list[TextRow]:
         """Everything, for a column of this width; `pencil` are the expected drawing errors where they are told."""

@@ -122,7 +122,8 @@ class Certified(Report):
     def _beside(self, key: str) -> Fraction:
         """The largest value of what a key of the printed data names."""
         size = Fraction(self.scene.extent)
-        if key in (plain := {"acts_at": size, "at": size, "efficiency": Fraction(1), "direction": Fraction(1)}):
+        lengths = "acts_at", "at", "centre", "radius", "pole", "inflection_pole", "diameter"
+        if key in (plain := {**dict.fromkeys(lengths, size), "efficiency": Fraction(1), "direction": Fraction(1)}):
             return plain[key]
         kind = {"omega": kinds.OMEGA, "alpha": kinds.ALPHA, "moment": kinds.SLIDE_MOMENT}.get(key)
         return self._sizes[kind.group] / Fraction(weight(self.drawing, kind)) if kind else self._sizes[key]

@@ -71,12 +71,14 @@ def _paths(found: Report) -> dict[str, Any]:
 
 def _curvature(found: Report, name: str, point: Any) -> dict[str, Any]:
     """The centre and the radius of curvature; none where the path is straight, the point itself at a cusp."""
-    results, at = found.results, tuple(point) if found.exact else tuple(map(float, point))
+    results = found.results
+    at = tuple(part if found.exact or not isinstance(part, Fraction) else float(part) for part in point)
     centre = at if name in results.get(kinds.CUSP, {}) else results.get(kinds.CENTRE, {}).get(name)
     if centre is None:
         x, y = results[kinds.STRAIGHT][name]
         square = x * x + y * y
-        if all(abs(number.value) <= number.bound for number in found.numbers[kinds.STRAIGHT][name]) or not square:
+        numbers = found.numbers.get(kinds.STRAIGHT, {}).get(name, ())
+        if all(abs(number.value) <= number.bound for number in numbers):
             return {"centre": None, "radius": None}
         centre = at[0] + x / square, at[1] + y / square
     return {"centre": _number(centre), **_lengths("radius", centre, at, found.exact)}
@@ -94,7 +96,8 @@ def _lengths(key: str, one: Any, two: Any, exact: bool) -> dict[str, Any]:
     """A distance; in fractions its square, too, and the distance itself only where it is rational."""
     square = sum((p - q) * (p - q) for p, q in zip(one, two, strict=True))
     if not exact:
-        return {key: math.dist(tuple(map(float, one)), tuple(map(float, two)))}
+        root = getattr(square, "root", None)  # of enclosures a number, of symbols what makes it
+        return {key: math.sqrt(square) if root is None else root() if callable(root) else root}
     root, rational = numerals.root(square)
     return {**({key: _number(root)} if rational else {}), f"{key}_squared": _number(square)}
 

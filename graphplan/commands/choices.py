@@ -14,7 +14,7 @@ from graphplan.errors import Refused
 from graphplan.mechanism.items import perhaps
 from graphplan.mechanism.pairs.pair import FRAME
 from graphplan.mechanism.presentation import FRAMES, MOST_POSITIONS, PROTOCOLS, SIZES
-from graphplan.methods.styles import INERTIA, METHODS
+from graphplan.methods.styles import INERTIA, METHODS, OF_PATHS
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
@@ -48,8 +48,8 @@ def count(option: str, least: int, most: int | None = None) -> Callable[[str], i
 def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> None:
     """The options that choose how it is drawn."""
     add = command.add_argument
-    add("--method", default="", choices=tuple(METHODS),
-        help="the form of loci and rings; without it the pose chooses, and the protocol says why")
+    add("--method", default="", choices=(*METHODS, *OF_PATHS),
+        help="the form of loci and rings, or of centres of curvature; without it the pose chooses, and the protocol says why")
     add("--plan", default="", metavar="PLAN", help="orthogonal velocities on the mechanism plan, or polar plans "
         "(without either the lengths of the links decide); of the forces lever, polygons, or both (default); such as "
         "--plan polar,lever")

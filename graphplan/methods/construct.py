@@ -12,7 +12,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.motion.alternatives import growth_of_rates, ways
 from graphplan.methods.motion.network import Network
-from graphplan.methods.styles import METHODS, Style, style
+from graphplan.methods.styles import METHODS, OF_PATHS, Style, style
 from graphplan.phrases import digits, said
 
 UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vectors are too short to draw
@@ -23,9 +23,10 @@ def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = 
     """The construction of what the scene asks for.
 
     `method` names the form of loci and rings (auxiliary, trial or poles; that draws by the links' poles where nothing
-    runs in rings); without it the pose chooses, and the construction says why.
-    `plan` is orthogonal or polar, and for forces lever, polygons or both, such as "polar,lever";
-    without a word for the motion velocities are orthogonal, unless some links are too short for that beside others.
+    runs in rings) or of centres of curvature (euler-savary, bobillier, hartmann or accelerations); without it the pose
+    chooses, and the construction says why. `plan` is orthogonal or polar, and for forces lever, polygons or both, such
+    as "polar,lever"; without a word for the motion velocities are orthogonal, unless some links are too short for that
+    beside others.
     `inertia` is the form of inertia forces: with a couple, shifted so that they need none, or at two points that
     replace the link; `strict` draws with compasses and straightedge alone. Fails with `Refused` where no move of the
     planner reaches what is asked; numbers are not looked at before they are read, so a singular pose shows then.
@@ -39,12 +40,13 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
 
     Those of the method that is asked for come first, then such of others, which say so.
     """
-    if method not in ("", *METHODS):
-        raise Refused(f"method {method}", "there is no such form", f"one of {', '.join(METHODS)}")
+    forms = METHODS | OF_PATHS
+    if method not in ("", *forms):
+        raise Refused(f"method {method}", "there is no such form", f"one of {', '.join(forms)}")
     chosen = style(plan, inertia)
     try:
         for found in _by_plans(scene, method, chosen):
-            found.prefer, found.strict = METHODS.get(method, ""), strict
+            found.prefer, found.strict = forms.get(method, ""), strict
             yield found
     except Refused:
         if not method:

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from graphplan.errors import Refused
 
-METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": "",  # with the form that each prefers
-           "euler-savary": "Euler-Savary", "bobillier": "Bobillier", "hartmann": "Hartmann", "accelerations": ""}
+METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}  # with the form that each prefers
+OF_PATHS = {"euler-savary": "Euler-Savary", "bobillier": "Bobillier", "hartmann": "Hartmann", "accelerations": ""}
 MOTION_PLANS = ("orthogonal", "polar")
 PLANS = (*MOTION_PLANS, "lever", "polygons", "both")
 INERTIA = ("couple", "shifted", "points")

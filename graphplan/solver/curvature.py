@@ -45,7 +45,7 @@ def curvature(rates: Rates, point: str) -> Pair:
 
 def from_pole(rates: Rates, point: str, link: str) -> Pair:
     """The vector from the pole of a link's motion to its point; divides by zero where the link does not turn."""
-    return times(-1 / rates.omega[link], turned(rates.velocity[point]))
+    return over(turned(rates.velocity[point]), -rates.omega[link])
 
 
 def pole(rates: Rates, link: str) -> Pair:
@@ -58,8 +58,13 @@ def inflection_pole(rates: Rates, link: str) -> Pair:
     """The point opposite the pole on a link's inflection circle; divides by zero where the link does not turn."""
     base, omega = rates.equations.bases[link], rates.omega[link]
     tangential = times(-rates.alpha[link], turned(from_pole(rates, base, link)))
-    return plus(rates.equations.scene.points[base],
-                times(1 / omega / omega, plus(rates.acceleration[base], tangential)))
+    towards = over(plus(rates.acceleration[base], tangential), omega)
+    return plus(rates.equations.scene.points[base], over(towards, omega))
+
+
+def over(a: Pair, number: Any) -> Pair:
+    """A vector over a number."""
+    return a[0] / number, a[1] / number
 
 
 def _of(rates: Rates, point: str) -> tuple[Any, Any]:

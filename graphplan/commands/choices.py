@@ -49,7 +49,8 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
     """The options that choose how it is drawn."""
     add = command.add_argument
     add("--method", default="", choices=(*METHODS, *OF_PATHS),
-        help="the form of loci and rings, or of centres of curvature; without it the pose chooses, and the protocol says why")
+        help="the form of loci and rings, or of centres of curvature; without it the pose chooses, and the protocol "
+        "says why")
     add("--plan", default="", metavar="PLAN", help="orthogonal velocities on the mechanism plan, or polar plans "
         "(without either the lengths of the links decide); of the forces lever, polygons, or both (default); such as "
         "--plan polar,lever")

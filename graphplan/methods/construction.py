@@ -88,7 +88,8 @@ class Construction(Recorded, Given):
 
     `drawn` is the program in single movements, in the form chosen for this pose. Velocities and accelerations are
     complex numbers in scene units, true and not turned. `rounds` are those of friction that are drawn.
-    `by_poles` says by which poles velocities are drawn, `poles_by` how poles are found that are asked for.
+    `by_poles` says by which poles velocities are drawn, `poles_by` how poles are found that are asked for, `paths_by`
+    how the curvature of paths is where no form says so.
     """
 
     ways: tuple[Said, ...] = ()
@@ -99,6 +100,7 @@ class Construction(Recorded, Given):
     rounds: int = 0
     by_poles: tuple[Said, ...] = ()
     poles_by: tuple[Said, ...] = ()
+    paths_by: tuple[Said, ...] = ()
 
     def __repr__(self) -> str:
         """One line: the title, and of what can be drawn in this pose how many steps it takes, by which methods."""
@@ -203,11 +205,20 @@ class Construction(Recorded, Given):
                 found[kind] = ways or [PLAIN[self.turned, kind]]
         if self.poles_by:
             found[kinds.POLES] = [*self.poles_by]
+        if curved := [*self._curvatures()]:
+            found[kinds.CURVES] = curved
         return found | (self._force_method() if self.scene.loads else {})
 
     def _ways(self, kind: str) -> tuple[Said, ...]:
         """How rings of links are broken; of velocities by poles, by which."""
         return self.by_poles if self.by_poles and kind == kinds.VELOCITY else self.ways
+
+    def _curvatures(self) -> Iterator[str]:
+        """How centres of curvature and inflection circles are found, each way once."""
+        chosen = (step.choice for step in self.drawn.steps if step.choice)
+        forms = (choice.form for choice in chosen if choice.compound.claimed("curved") or
+                 choice.compound.claimed("conjugate"))
+        yield from dict.fromkeys([*map(said, forms), *self.paths_by])
 
     def _loci(self, kind: str) -> Iterator[Said]:
         """The forms in which the loci of a kind's plans are drawn, auxiliary points with their letters."""

@@ -59,6 +59,7 @@ class Draughtsman:
         self.marks: list[Mark] = []
         self.readings: list[Reading] = []
         self.poles_by: tuple[Said, ...] = ()
+        self.paths_by: tuple[Said, ...] = ()
         self.at_rest: list[Said] = []
 
     def draw(self) -> Construction:
@@ -67,7 +68,9 @@ class Draughtsman:
         if self.scene.find.poles or self.velocity_moves is not self.moves:
             poles = Poles(self.board, self.scene, self.pose, velocity)
             velocity.pole_of = poles.mark
-        velocity.draw(self.velocity_moves)
+        find = self.scene.find
+        if self.scene.loads or find.velocity or find.acceleration or find.links or find.slides or find.poles:
+            velocity.draw(self.velocity_moves)
         self._points(velocity, kinds.VELOCITY, self.scene.find.velocity)
         self._links(velocity, kinds.OMEGA, self.scene.find.velocity)
         self._slides(velocity, kinds.SLIDE_VELOCITY, self.scene.find.velocity)
@@ -126,7 +129,7 @@ class Draughtsman:
         program = freeze(self.board, self.marks)
         return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar,
                             relied=tuple(self.net.relied), ways=tuple(_ways(self.moves)),
-                            by_poles=_by_poles(self.velocity_moves), poles_by=self.poles_by,
+                            by_poles=_by_poles(self.velocity_moves), poles_by=self.poles_by, paths_by=self.paths_by,
                             notes=[*replacements(self.net.bars), *redundancies(self.scene), *self.at_rest])
 
     @property
@@ -154,12 +157,19 @@ class Draughtsman:
 
         plans = [plan] if plan else []
 
+        def velocities() -> Velocity:
+            if not velocity.ends:
+                velocity.draw(self.velocity_moves)
+            return velocity
+
         def accelerations() -> Normal:
             if not plans:
-                plans.append(self.accelerations(velocity))
+                plans.append(self.accelerations(velocities()))
             return plans[0]
 
-        Curves(velocity, accelerations, self.method).draw(self.read, self.marks.append)
+        curves = Curves(self.board, self.pose, velocities, accelerations, self.method)
+        curves.draw(self.read, self.marks.append)
+        self.paths_by = tuple(curves.ways)
         return plans[0] if plans else None
 
     def read(self, kind: kinds.ResultKind, of: str, *marks: Mark, excess: Number = 0,

@@ -172,8 +172,8 @@ def _length(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
 
 
 def _place(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
-    """A marked point, or where two lines cross that nobody marks."""
-    return marks[0] if len(marks) == 1 else meet(domain, *marks)
+    """The last marked point, or where two lines cross that nobody marks."""
+    return marks[-1] if len(marks[-1]) == 2 else meet(domain, *marks)
 
 
 def _heading(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:

@@ -27,7 +27,7 @@ def centre(rates: Rates, point: str) -> Pair:
         pivots = [p for link in scene.links_of[point] for p in scene.links[link] if FRAME in scene.links_of[p]]
         if not pivots:
             raise
-        return scene.points[pivots[0]]
+        return plus(scene.points[pivots[0]], times(0, v))
 
 
 def curvature(rates: Rates, point: str) -> Pair:

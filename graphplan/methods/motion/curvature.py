@@ -19,20 +19,22 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import combinations
+from itertools import chain, combinations
 
 from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
-from graphplan.kernel.program import Mark, evaluate
+from graphplan.kernel.program import Board, Mark, evaluate
 from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.methods import kinds
 from graphplan.methods.motion.acceleration import Normal
 from graphplan.methods.motion.curve_stages import by_centres, by_rates, centre_by_rates, centre_of, circle_of
+from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.time_scale import apart
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, link_named
-from graphplan.phrases import said
+from graphplan.methods.poses import Pose
+from graphplan.phrases import Said, said
 
 NONE = 1e-9  # beside the mechanism: what is less is nothing, and further than its inverse at infinity
 MOST = 16  # pairs of points that are tried
@@ -94,12 +96,19 @@ def sources(scene: Scene) -> dict[str, tuple[Source, Source]]:
     return found
 
 
+def centre_name(point: str) -> str:
+    """The letter of the centre of curvature of a point's path."""
+    return "C_" + point.replace("_", "")
+
+
 class Curves:
     """Draws the curvature of paths on the mechanism plan, and says what is read of it."""
 
-    def __init__(self, velocity: Velocity, accelerations: Callable[[], Normal], method: str):
-        self.velocity, self.accelerations, self.method = velocity, accelerations, method
-        self.board, self.pose, self.scene = velocity.board, velocity.pose, velocity.net.scene
+    def __init__(self, board: Board, pose: Pose, velocities: Callable[[], Velocity],
+                 accelerations: Callable[[], Normal], method: str):
+        self.board, self.pose, self.scene = board, pose, pose.scene
+        self.velocities, self.accelerations, self.method = velocities, accelerations, method
+        self.ways: dict[Said, None] = {}
         self._circles: dict[str, Circle | None] = {}
 
     # ---- a link's circle ----------------------------------------------------------------------------------------
@@ -147,7 +156,8 @@ class Curves:
             rays = [self._ray(source) for source in two]
             P = self.board.meet(*rays, name="P")
             centres = [self._centre(source) for source in two]
-            points = [self._on_the_circle(source, centre, P) for source, centre in zip(two, centres, strict=True)]
+            points = [self._on_the_circle(source, centre, P, f"W_{number}")
+                      for number, (source, centre) in enumerate(zip(two, centres, strict=True), 1)]
             return replace(self._thales(P, rays, points), pins=self._pins(two, centres),
                            shown=link in self.scene.find.inflection)
 
@@ -183,12 +193,12 @@ class Curves:
             return self._curved(circle, source.point)
         return self._pole(source.link) if source.how == "pin" else None
 
-    def _on_the_circle(self, source: Source, centre: Mark | None, P: Mark) -> Mark:
+    def _on_the_circle(self, source: Source, centre: Mark | None, P: Mark, name: str) -> Mark:
         """The point of the inflection circle on the ray of a known point."""
         X = self.point(source.point)
         if source.how == "return":
-            return self.board.transfer(X, P, P)
-        return X if centre is None else self.board.third(X, centre, X, P)
+            return self.board.transfer(X, P, P, name=name)
+        return X if centre is None else self.board.third(X, centre, X, P, name=name)
 
     def _by_rates(self, link: str, two: tuple[str, str]) -> Circle:
         """The same from the velocities and the accelerations of two points of the link."""
@@ -205,15 +215,19 @@ class Curves:
 
     def _orthogonal(self, link: str, X: str) -> Mark:
         """The velocity of a point of a link, laid off from it a quarter turned."""
-        start, end = self.velocity.figure(link, X), self.velocity.end_in(link, X)
-        if self.velocity.turned:
-            return self.velocity.moved(end, start, self.point(X))
+        velocity = self.velocities()
+        start, end = self._vector(velocity, link, X)
+        if velocity.turned:
+            return velocity.moved(end, start, self.point(X))
         return self.board.quarter(start, end, self.point(X))
 
     def _acceleration(self, link: str, X: str) -> Mark:
         """The acceleration of a point of a link, laid off from it."""
-        plan = self.accelerations()
-        return self.board.transfer(plan.figure(link, X), plan.end_in(link, X), self.point(X))
+        return self.board.transfer(*self._vector(self.accelerations(), link, X), self.point(X))
+
+    def _vector(self, plan: MotionPlan, link: str, X: str) -> tuple[Mark, Mark]:
+        """Begin and end of the vector of a point of a link on a plan."""
+        return plan.figure(link, X), plan.end_in(link, X)
 
     # ---- what is asked for --------------------------------------------------------------------------------------
 
@@ -231,12 +245,12 @@ class Curves:
         circle = self.circle(link)
         if circle is None:
             two = self._pairs(link)[0]
-            ends = [mark for X in two for mark in (self.velocity.figure(link, X), self.velocity.end_in(link, X))]
+            ends = [mark for X in two for mark in self._vector(self.velocities(), link, X)]
             read(kinds.TRANSLATION, link, *map(self.point, two), *ends)
             return
         P, W0 = circle.pole, circle.inflection
         read(kinds.MOTION_POLE, link, P)
-        read(kinds.INFLECTION, link, W0)
+        read(kinds.INFLECTION, link, P, W0)
         if P is not W0:
             with self.board.on(MECHANISM, (link,), partial(circle_of, link)):
                 R0 = self.board.transfer(W0, P, P, name="R_0")
@@ -248,7 +262,7 @@ class Curves:
         """What is read of the path of a point: of which kind, from which marks."""
         link = min(self.scene.links_of[point], key=lambda other: (self._rank(other), other != link))
         if self._rank(link) == 0:
-            return kinds.CENTRE, (self._pole(link),)
+            return kinds.CENTRE, (self.point(point), self._pole(link))
         if self._rank(link) == 1:
             return kinds.STRAIGHT, ()
         circle = self.circle(link) if link in self.known or link in self.scene.find.inflection else None
@@ -270,7 +284,7 @@ class Curves:
             return kinds.CUSP, marks[:2]
         if abs(((P - M) * (W0 - M).conjugate()).real) <= NONE * abs(P - M) * max(abs(W0 - M), abs(P - M)):
             return kinds.STRAIGHT, marks
-        return kinds.CENTRE, (self._curved(circle, point, f"C_{point.replace('_', '')}"),)
+        return kinds.CENTRE, (marks[1], self._curved(circle, point))
 
     def _by_normal(self, point: str, link: str) -> tuple[kinds.ResultKind, tuple[Mark, ...]]:
         """From velocity and normal acceleration: the radius is the third proportional to the two."""
@@ -279,14 +293,14 @@ class Curves:
             return kinds.CUSP, (circle.pole, M)
         N = self.board.foot(self.board.side(M, end), self._acceleration(link, point))
         if self._together(M, N):
-            plan = self.accelerations()
-            return kinds.STRAIGHT, (M, self.velocity.figure(link, point), self.velocity.end_in(link, point),
-                                    plan.figure(link, point), plan.end_in(link, point))
-        return kinds.CENTRE, (self.board.third(M, N, M, end, name=f"C_{point.replace('_', '')}"),)
+            vectors = (self._vector(plan, link, point) for plan in (self.velocities(), self.accelerations()))
+            return kinds.STRAIGHT, (M, *chain.from_iterable(vectors))
+        self.ways |= {said("velocities and accelerations"): None}
+        return kinds.CENTRE, (M, self.board.third(M, N, M, end, name=centre_name(point)))
 
-    def _curved(self, circle: Circle, point: str, name: str = "") -> Mark:
+    def _curved(self, circle: Circle, point: str) -> Mark:
         """The centre of curvature of a point's path, from its link's circle or from two points with known centres."""
-        M = self.point(point)
+        M, name = self.point(point), centre_name(point)
         if circle.pins and (not circle.shown or self.method in ("bobillier", "hartmann")):
             letters = {letter: letter for letter in ("W_1", "W_2", "W_0", "Q", "R", "U", "t")}
             return self.board.conjugate(circle.pole, *circle.pins, M, name=name, names=letters)

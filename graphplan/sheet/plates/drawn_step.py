@@ -166,6 +166,7 @@ class StruckArc:
     mark: DrawnStep
     before: float
     after: float
+    pen: Pen = pens.ARC
 
     @property
     def half(self) -> bool:
@@ -177,5 +178,5 @@ class StruckArc:
         """The arc as it lies."""
         (x, y), (u, v) = self.of.at, self.mark.at
         middle = math.degrees(math.atan2(v - y, u - x))
-        return Arc(pens.ARC, LAYER, self.of.index, self.of.at, self.of.radius, middle - self.before,
+        return Arc(self.pen, LAYER, self.of.index, self.of.at, self.of.radius, middle - self.before,
                    middle + self.after)  # fmt: skip

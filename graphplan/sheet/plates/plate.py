@@ -333,7 +333,11 @@ class Plate:
     # ---- arcs ------------------------------------------------------------------------------------------------------
 
     def arcs(self, drawn: DrawnStep) -> list[StruckArc]:
-        """What of an arc is struck: about its crossings, or a half circle over its diameter."""
+        """What of an arc is struck: about its crossings, or a half circle over its diameter; all of one that is wanted.
+        """
+        if drawn.index in self.plans.drawing.drawn.wanted and drawn.kind == CIRCLE:
+            on = drawn.args[1].args[-1]
+            return [StruckArc(drawn, on, *halves, pens.NORMAL) for halves in ((180.0, 0.0), (0.0, 180.0))]
         marks = self.marks(drawn) if drawn.kind == CIRCLE and drawn.radius > 1e-6 else []
         end = self.plans.diameter(drawn.step) if marks else None
         if end is not None and self.plates.steps[end].panel == self.panel:

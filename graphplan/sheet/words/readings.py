@@ -16,9 +16,12 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.methods.recorded import Reading
 from graphplan.methods.results import thing_named
-from graphplan.phrases import Said, arranged, digits, in_any_case, joined, said, tenths, unit
+from graphplan.phrases import Said, arranged, digits, in_any_case, joined, phrase, said, tenths, unit
 from graphplan.sheet.words.lengths import NOTHING, Length, Lengths, Measure, size
 
+# Places that are told by how far they are from another mark, and what that length is called.
+FROM = {kinds.CENTRE: phrase("radius of curvature, {0}"),
+        kinds.INFLECTION: phrase("diameter of the inflection circle, {0}")}
 VECTORS = units.SPEED, units.ACCELERATING, units.FORCE, units.LENGTH
 
 
@@ -56,12 +59,12 @@ class Readings:
     def drawn(self) -> Iterator[Reading]:
         """The readings of what is drawn and not given."""
         return (reading for reading in self.drawing.readings if reading.given is None and reading.marks
-                and not reading.kind.place)
+                and (not reading.kind.place or reading.kind in FROM))
 
     def measured(self, reading: Reading) -> Measured | None:
         """What is read off, unless it is nothing."""
         if reading.kind.place:
-            return None
+            return self._way(reading)
         kind, dimension, value = reading.kind, reading.kind.dimension, self.values[reading.kind][reading.of]
         marks = [self.drawing.drawn.wanted[position] for position in reading.marks]
         if dimension in VECTORS:
@@ -82,6 +85,18 @@ class Readings:
         told = said("{0}: {1} = {2}; computed {3}", self._name(kind, reading.of), length.told,
                     joined((digits(read), symbol), " "), digits(computed))
         return Measured(kind, reading.of, length._replace(told=told), read, computed)
+
+    def _way(self, reading: Reading) -> Measured | None:
+        """A radius or a diameter, from where a place is measured."""
+        start, end = (self.drawing.drawn.wanted[position] for position in reading.marks)
+        if (long := self.lengths.mm(start, end)) < NOTHING:
+            return None
+        length, read = self._vector(units.LENGTH, Measure(long, (start, end)), reading.kind.group)
+        computed = math.dist(self.values[reading.kind][reading.of], self.drawing.values[start][:2])
+        symbol = unit(units.LENGTH.unit(self.drawing.scene.units))
+        told = said("{0}: {1} = {2}; computed {3}", FROM[reading.kind](reading.of), length.told,
+                    joined((digits(read), symbol), " "), digits(computed))
+        return Measured(reading.kind, reading.of, length._replace(told=told), read, computed)
 
     def _name(self, kind: ResultKind, of: str) -> Said:
         """What a result is called: v_B, omega_3; of pairs and balances in words."""

@@ -59,6 +59,8 @@ class Bounds:
     pi: Callable[[], Any]
     heading: Callable[[Fraction], tuple[Any, Any]]
     solve: Callable[[Sequence[Mapping[int, Any]], Sequence[float]], Callable[[Sequence[Any]], list[Any]]]
+    middle: Callable[[Any], Any]
+    rounds: int
     working: Callable[[], AbstractContextManager[None]] = nullcontext
 
     def root(self, square: Any) -> Any:
@@ -82,7 +84,7 @@ class Bounds:
 
 
 FLOATS = Bounds("floats", Floats, Unproven, bounded, lambda: PI, heading,
-                lambda rows, scales: Proven(rows, scales).solve)
+                lambda rows, scales: Proven(rows, scales).solve, lambda number: bounded(number.value), Domain.rounds)
 
 
 def enclosures(bits: int, name: str = "enclosures") -> Bounds:
@@ -90,7 +92,7 @@ def enclosures(bits: int, name: str = "enclosures") -> Bounds:
     from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, heading, pi, precision, solve
 
     return Bounds(name, Enclosures, Undecided, Enclosure, pi, heading, lambda rows, scales: by_blocks(rows, solve),
-                  lambda: precision(bits))
+                  Enclosures().middle, 4 + bits // 32, lambda: precision(bits))
 
 
 Arithmetic = Exact | Bounds
@@ -144,7 +146,7 @@ class Proofs(Domain):
     """Numbers with bounds in the rules of a construction: what they cannot tell is in doubt."""
 
     def __init__(self, by: Bounds):
-        self._by = by
+        self._by, self.rounds = by, by.rounds
 
     def lift(self, value: Any) -> Any:
         return self._by.lift(value)
@@ -161,6 +163,9 @@ class Proofs(Domain):
 
     def sign(self, value: Any, scale: Any) -> Any:
         raise self._by.doubt("the sense of a motion")
+
+    def middle(self, value: Any) -> Any:
+        return self._by.middle(value)
 
 
 def assembled(scene: Scene, given: Scene, by: Bounds) -> Scene:

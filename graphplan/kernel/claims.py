@@ -12,9 +12,11 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
+from graphplan.kernel.closures import closed
 from graphplan.kernel.curvature_claims import CURVED
 from graphplan.kernel.drawn import Drawn, Vector, cross, cross3, dot, forward, short, sideways, unit
 from graphplan.kernel.kinds import LINE, POINT, Claim
+from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, Step
 
 TOLERANCE = 1e-9
@@ -202,6 +204,15 @@ def _sighted(d: Drawn, P: int, Q: int) -> float:
     return abs(d.off(-1, d[P]) + cross(unit(u), v)) / (d.size + abs(v)) + ahead / d.size
 
 
+def _closes(d: Drawn) -> float:
+    """The group's links close on the outer joints, and the drawn joint is theirs."""
+    group, joints = d.params["group"], [(z.real, z.imag) for z in (d[k] for k in range(len(d.numbers) - 1))]
+    pose = closed(Floats(), joints, group)
+    body, at = group.joints[d.params["joint"]]
+    open_still = max(map(abs, group.residues(pose, joints, float)), default=0.0)
+    return (open_still + abs(complex(*pose[body].at((float(at[0]), float(at[1])))) - d[-1])) / d.size
+
+
 # By how much a claim fails, and what the drawn thing is that breaks it; {0}, {1}, ... are its operands.
 CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "stands": (lambda d: abs(d[-1] - complex(d.number("x"), d.number("y"))) / d.size, "not where it is given"),
@@ -262,6 +273,7 @@ CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "laid at": (lambda d: abs(d[-1] - d[0] - _angle(d)) / (d.size + abs(_angle(d))), "not at the given angle"),
     "cornered": (_cornered, "no corner of the link's figure on {0}{1}"),
     "set off": (_set_off, "not where the link has it from {1}"),
+    "closes": (_closes, "no joint of links whose lengths close"),
     "sighted": (_sighted, "it passes {0} at another distance"),
     **CURVED,
 }

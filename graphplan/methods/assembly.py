@@ -11,26 +11,31 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import combinations
 from typing import Any
 
 from graphplan.errors import Refused, by_name
+from graphplan.kernel.closures import Attitude as Lies
+from graphplan.kernel.closures import Closure, Guide, Pin
+from graphplan.kernel.closures import Hinge as Joined
 from graphplan.kernel.kinds import Quantity
-from graphplan.kernel.positions import Angle
 from graphplan.kernel.primitives import cross, dot
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Stage
 from graphplan.mechanism.assembly import STILL, following, turned_about, undone
-from graphplan.mechanism.model import FRAME, Assembly, Number, Pair, Scene, Slide
+from graphplan.mechanism.model import FRAME, Assembly, Pair, Scene, Slide
 from graphplan.mechanism.order import ordered_points
 from graphplan.mechanism.pairs.pair import Attitude
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.plane import less, plus, times
+from graphplan.mechanism.structure import structure
+from graphplan.methods.figures import alike, angle, figure, same_place, widest
 from graphplan.methods.motion.network import Network
 from graphplan.methods.panels import MECHANISM, listed
-from graphplan.phrases import Said, digits, said
+from graphplan.phrases import Said, said
 
-FLAT = 1e-13  # of the product of lengths: vectors that are no further apart run alike
 Hinge = str | Slide  # a joint by its point, or a slide
+CLOSING = {2: "close_on_two", 3: "close_on_three", 4: "close_on_four"}  # verbs, by how many joints they read
 
 
 @dataclass
@@ -81,10 +86,9 @@ class Assembler:
         return following(here, self._lies(weld.to))
 
     def _home(self, point: str) -> Body:
-        """The body of a point: the ground, if it is a point of it."""
-        links = self.given.links_of[point]
-        bodies = [self.bodies[self.net.body[link]] for link in links] or [self.ground]
-        return self.ground if self.ground in bodies else bodies[0]
+        """The first body placed of those that have a point."""
+        bodies = [self.bodies[self.net.body[link]] for link in self.given.links_of[point]] or [self.ground]
+        return next(body for body in self.placed if any(body is one for one in bodies))
 
     def _figure(self, body: Body, point: str) -> Pair:
         """Where a point is in a body's figure."""
@@ -117,7 +121,7 @@ class Assembler:
             same = next((mark for place, mark in drawn if same_place(place, at)), None)
             if same is not None:
                 return self.board.named(same, name)
-            if found := _widest(drawn):
+            if found := widest(drawn):
                 (p, P), (q, Q) = found
                 return self._corner(P, Q, less(at, p), less(q, p), name)
         if links and body is self.ground:
@@ -153,7 +157,7 @@ class Assembler:
         """The line through a place of a body's figure that runs as a vector of it does."""
         drawn = self._drawn(body)
         on = [(place, mark) for place, mark in drawn if alike(less(place, p), u)]
-        if ends := _widest(on):
+        if ends := widest(on):
             (one, P), (two, Q) = ends
             return self.board.line(P, Q) if float(dot(u, less(two, one))) > 0 else self.board.line(Q, P)
         P = on[0][1] if on else self._laid(body, p)
@@ -211,19 +215,73 @@ class Assembler:
         held = [(body, [*self._hinges(body, self.placed)]) for body in waiting]
         for body, hinges in held:
             if len(hinges) > 1:
-                return self._put([body], self._held(body, hinges))
+                self._held(body, hinges)
+                return self._put([body])
         single = [(body, hinges[0]) for body, hinges in held if len(hinges) == 1]
         for k, (one, outer) in enumerate(single):
             for two, other in single[k + 1:]:
                 inner = [*self._hinges(one, [two])]
                 if len(inner) == 1:
-                    return self._put([one, two], self._dyad(one, outer, inner[0], two, other))
-        links = sorted((link for body in waiting for link in body.lies), key=by_name)
-        raise Refused(str(listed(links)), said("their position is not found by arcs alone"), said("another travel"))
+                    self._dyad(one, outer, inner[0], two, other)
+                    return self._put([one, two])
+        return self._put(self._by_closing(waiting))
 
-    def _put(self, bodies: list[Body], law: Said) -> list[Body]:
+    def _put(self, bodies: list[Body]) -> list[Body]:
         self.placed += bodies
         return bodies
+
+    def _by_closing(self, waiting: list[Body]) -> list[Body]:
+        """Place the next group that arcs alone do not: one joint after the other, as all its lengths close."""
+        part = next(part.links for part in structure(self.given).parts
+                    if any({*part.links} & body.lies.keys() for body in waiting))
+        bodies = [body for body in waiting if {*part} & body.lies.keys()]
+        links = tuple(sorted((link for body in bodies for link in body.lies), key=by_name))
+        outer = list(dict.fromkeys(h for body in bodies for h in self._hinges(body, self.placed)))
+        joints = [h for h in outer if isinstance(h, str)]
+        if len(joints) < len(outer) or len(joints) not in CLOSING:
+            raise Refused(str(listed(links)), said("no steps are known that find their position"), said("another pose"))
+        group = self._closure(bodies, joints)
+        law = said("the lengths of all links of the group fit together: by trial, or where loci of a joint cross")
+        with self.board.on(MECHANISM, links, self._stage(law, links)):
+            read = [self.mark(joint) for joint in joints]
+            for joint in group.joints:
+                self.marks[joint] = getattr(self.board, CLOSING[len(joints)])(*read, group=group, joint=joint,
+                                                                              name=joint)
+        return bodies
+
+    def _closure(self, bodies: list[Body], outer: list[str]) -> Closure:
+        """The pairs of a group on its outer joints, and how it lies in this pose."""
+        pairs: list[Pin | Joined | Guide] = []
+        place = {id(body): i for i, body in enumerate(bodies)}
+        inner: dict[str, tuple[int, Pair]] = {}
+        for body in bodies:
+            pairs += [Pin(place[id(body)], self._figure(body, joint), outer.index(joint))
+                      for joint in self._hinges(body, self.placed) if isinstance(joint, str)]
+        for i, one in enumerate(bodies):
+            for two in bodies[i + 1:]:
+                for pair in self._hinges(one, [two]):
+                    if isinstance(pair, Slide):
+                        u, v = (next(lies for link, lies in body.lies.items() if link in pair.links)
+                                for body in (one, two))
+                        here, there = ((lies.at(self.given.points[pair.at]), lies.turned(pair.direction))
+                                       for lies in (u, v))
+                        pairs.append(Guide(i, *here, place[id(two)], *there))
+                    elif pair not in outer:
+                        pairs.append(Joined(i, at := self._figure(one, pair), place[id(two)], self._figure(two, pair)))
+                        inner.setdefault(pair, (i, at))
+        return Closure(str(listed([link for body in bodies for link in body.lies])), pairs,
+                       [self._followed(body) for body in bodies], inner)
+
+    def _followed(self, body: Body) -> Lies:
+        """How a body lies in this pose, by two of its points that lie furthest apart."""
+        own = [name for link in body.lies for name in self.given.links[link] if name not in self.assembly.riding]
+        names = {name: complex(*map(float, self._figure(body, name))) for name in own}
+        P, Q = max(combinations(names, 2), key=lambda pair: abs(names[pair[0]] - names[pair[1]]))
+        here = {name: complex(*map(float, self.scene.points[name])) for name in (P, Q)}
+        turn = (here[Q] - here[P]) / (names[Q] - names[P])
+        turn /= abs(turn)
+        base = here[P] - turn * names[P]
+        return Lies(base.real, base.imag, turn.real, turn.imag)
 
     def _hinges(self, body: Body, others: list[Body]) -> Iterator[Hinge]:
         """The joints and slides of a body with some others."""
@@ -236,7 +294,7 @@ class Assembler:
                 elif self.placed is others or pair.at not in self.marks:
                     yield pair.at
 
-    def _held(self, body: Body, hinges: list[Hinge]) -> Said:
+    def _held(self, body: Body, hinges: list[Hinge]) -> None:
         """A body that more pairs hold than place it: two joints do, or a joint and a guide."""
         joints, guides = [h for h in hinges if isinstance(h, str)], [h for h in hinges if isinstance(h, Slide)]
         for joint in joints:
@@ -244,9 +302,8 @@ class Assembler:
         if len(joints) < 2 and guides:
             at = self._figure(body, joints[0]) if joints else self._figure(body, guides[0].at)
             body.heading = self._heads(guides[0], body), self._path(guides[0], body, at)
-        return said("what is placed already holds it")
 
-    def _dyad(self, one: Body, outer: Hinge, inner: Hinge, two: Body, other: Hinge) -> Said:
+    def _dyad(self, one: Body, outer: Hinge, inner: Hinge, two: Body, other: Hinge) -> None:
         """Two bodies on what is placed, by their pairs there and with each other."""
         links = tuple(sorted((*one.lies, *two.lies), key=by_name))
         if isinstance(outer, Slide) and isinstance(other, str):
@@ -280,7 +337,6 @@ class Assembler:
                     self.marks[B] = self.board.meet(self.lines[outer.name], self.lines[other.name], name=B)
                 case str(A), Slide(), Slide():
                     self._alike(one, A, inner, two, other)
-        return law
 
     def _arc(self, body: Body, centre: str, point: str) -> Mark:
         """The circle about a joint on which another point of its body lies."""
@@ -334,32 +390,3 @@ class Assembler:
 
     def _stage(self, law: Said, links: tuple[str, ...]) -> Stage:
         return Stage(said("Position of {0}", listed(links)), law)
-
-
-def figure(v: Pair, u: Pair) -> dict[str, Number]:
-    """A vector of a link's figure beside another, as parameters."""
-    return {"dx": v[0], "dy": v[1], "ux": u[0], "uy": u[1]}
-
-
-def angle(v: Pair) -> Angle:
-    """The direction of a vector, spoken in degrees from the x-axis."""
-    x, y = map(float, v)
-    return Angle(digits(round(math.degrees(math.atan2(y, x)), 6), 6), *v)
-
-
-def alike(v: Pair, u: Pair) -> bool:
-    """Whether a vector runs along another, or has no length."""
-    (x, y), (a, b) = map(float, v), map(float, u)
-    return abs(a * y - b * x) <= FLAT * (abs(a) + abs(b)) * (abs(x) + abs(y))
-
-
-def same_place(one: Pair, other: Pair) -> bool:
-    """Whether two places of a figure are one."""
-    pairs = zip(map(float, one), map(float, other), strict=True)
-    return all(abs(p - q) <= FLAT * (abs(p) + abs(q)) for p, q in pairs)
-
-
-def _widest(drawn: list[tuple[Pair, Mark]]) -> tuple[tuple[Pair, Mark], tuple[Pair, Mark]] | None:
-    """The two of some marks that lie furthest apart; none where all lie in one place."""
-    pairs = [(one, two) for k, one in enumerate(drawn) for two in drawn[k + 1:] if not same_place(one[0], two[0])]
-    return max(pairs, key=lambda ends: math.dist(*([float(part) for part in place] for place, _ in ends)), default=None)

@@ -14,6 +14,7 @@ from typing import Any
 
 from graphplan.errors import GraphplanError
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE, Board, Mark, Primitive, Program
+from graphplan.kernel.closures import Attitude, Closure, Hinge, Pin
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.positions import Angle
@@ -49,6 +50,7 @@ PARAMS: dict[str, Callable[[Random], Any]] = {
     **dict.fromkeys(("radius", "coefficient"), lambda r: Fraction(r.randint(1, 8), 8)),
     "ratio": lambda r: Fraction(r.choice((-3, -2, -1, 1, 2, 3, 5)), 2),
     "angle": lambda r: Angle("30", Fraction(r.randint(-8, 8), 4), Fraction(r.randint(-8, 8), 4)),
+    **dict.fromkeys(("group", "joint"), lambda r: "J"),
     "plan": lambda r: "N-plan",
     "number": lambda r: r.randint(1, 3),
     "way": lambda r: r.choice(("on", "back")),
@@ -95,9 +97,21 @@ def _conjugate(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[
     return p[0], p[1], centres[0], p[2], centres[1], p[3]
 
 
+def _closing(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mark, ...]:
+    """Two bars, from the first joint and from the last, that meet in a joint of theirs."""
+    (x, y), *_, (u, v) = ([float(b.steps[mark.step.index].params[key]) for key in "xy"] for mark in p)
+    J = [float(part) for part in quarters(r)]
+    start = Attitude(x, y, 1.0, 0.0), Attitude(u, v, 1.0, 0.0)
+    one, two = (J[0] - x, J[1] - y), (J[0] - u, J[1] - v)
+    pairs = Pin(0, (0.0, 0.0), 0), Pin(1, (0.0, 0.0), len(p) - 1), Hinge(0, one, 1, two)
+    params["group"], params["joint"] = Closure("2 and 3", pairs, start, {"J": (0, one)}), "J"
+    return tuple(p)
+
+
 FITTING: dict[str, tuple[int, Draw]] = {
     "divide": (4, _divide), "similar": (4, _similar), "settle": (6, _settle), "coriolis": (4, _coriolis),
     "false_position": (7, _false_position), "corner": (1, _corner), "conjugate": (4, _conjugate),
+    "close_on_two": (2, _closing), "close_on_three": (3, _closing), "close_on_four": (4, _closing),
 }
 
 NEEDED = {POINT: 1, LINE: 2, OPENING: 2, CIRCLE: 3}

@@ -126,6 +126,7 @@ FAULTS: list[tuple[str, str, Callable[[Rule], Rule]]] = [
     ("set_off", "backwards", reflected(1)),
     ("sight", "wrong way", lambda rule: turned(rule, way=OTHER["way"])),
     ("sight", "runs the other way", backwards),
+    *((name, "off it", doubled(0)) for name in ("close_on_two", "close_on_three", "close_on_four")),
 ]
 
 

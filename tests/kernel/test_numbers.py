@@ -72,7 +72,8 @@ def test_fractions_equal_floats(name: str) -> None:
     assert both or name in ROOTS
 
 
-ROOTS = {"line_meets_circle", "circles_meet", "set_off", "sight"}
+ROOTS = {"line_meets_circle", "circles_meet", "set_off", "sight",
+         "close_on_two", "close_on_three", "close_on_four"}
 
 
 @PLACES

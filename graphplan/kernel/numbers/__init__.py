@@ -15,7 +15,7 @@ from graphplan.errors import Undrawable
 
 
 class Domain(ABC):
-    """The four questions a rule may ask, and one that is asked of its answer."""
+    """The questions that a rule may ask, and one that is asked of its answer."""
 
     def lift(self, value: Any) -> Any:
         """The scene's number in this domain."""
@@ -32,6 +32,12 @@ class Domain(ABC):
     @abstractmethod
     def sign(self, value: Any, scale: Any) -> Any:
         """1, -1, or 0 where `value` is zero beside `scale`: the sense of a motion, and whether there is one."""
+
+    rounds = 8  # of Newton's method, where a rule has to ask for it: each leaves some fifteen digits more
+
+    def middle(self, value: Any) -> Any:
+        """A number that Newton's method may go on from, without what is not known of it."""
+        return value
 
     def whole(self, value: Any) -> Any:
         """A rule's answer, nothing of it left for poses that it could not draw."""

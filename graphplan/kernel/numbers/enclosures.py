@@ -200,6 +200,13 @@ class Enclosures(Domain):
             return Enclosure(arb(0, 1))  # either sense, or none
         return Enclosure((value.ball > 0) - (value.ball < 0))
 
+    @property
+    def rounds(self) -> int:  # type: ignore[override]
+        return 4 + int(ctx.prec) // 32
+
+    def middle(self, value: Enclosure) -> Enclosure:
+        return Enclosure(value.ball.mid())
+
     def _undrawable(self, undecided: bool, code: str, why: str) -> Undrawable:
         self.undecided = undecided
         return Undrawable(code, why)

@@ -97,6 +97,9 @@ class Gradients(Domain):
         self._floats.nonzero(_steady(value), _steady(scale), code, why)
         return value
 
+    def middle(self, value: Any) -> float:
+        return _steady(value)
+
     def sign(self, value: Any, scale: Any) -> float:
         return self._floats.sign(_steady(value), _steady(scale))
 

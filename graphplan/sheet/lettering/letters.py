@@ -148,10 +148,11 @@ class Letters:
         return _numbers(*filter(self.plate.numbers, marks))
 
     def _places(self) -> dict[Spot, list[DrawnStep]]:
-        """The marks that need a letter or number, by where they lie."""
+        """The marks that need a letter or number, by where they lie; the mechanism letters its own."""
+        joints = self.plate.plans.drawing.scene.points
         places: dict[Spot, list[DrawnStep]] = {}
         for mark in self.plate.steps:
-            if mark.number and self.plate.shown(mark) and self.spoken(mark):
+            if mark.number and mark.name not in joints and self.plate.shown(mark) and self.spoken(mark):
                 key = next((other for other in places if math.dist(other, mark.at) < NEAR), mark.at)
                 places.setdefault(key, []).append(mark)
         return places

@@ -67,6 +67,7 @@ class Draughtsman:
         poles = None
         if self.scene.find.poles or self.velocity_moves is not self.moves:
             poles = Poles(self.board, self.scene, self.pose, velocity)
+            poles.draw(self.scene.find.poles)
             velocity.pole_of = poles.mark
         find = self.scene.find
         if self.scene.loads or find.velocity or find.acceleration or find.links or find.slides or find.poles:

@@ -125,6 +125,18 @@ def link_named(link: str) -> Said:
     return said("the frame") if link == FRAME else said("link {0}", link)
 
 
+def pole_letter(links: Sequence[str]) -> str:
+    """What the pole of two links is called: by both, 0 being the frame, whichever comes first."""
+    named = ["0" if link == FRAME else link for link in sorted(links, key=lambda link: (link == FRAME, by_name(link)))]
+    return "P_" + ("" if all(len(name) == 1 for name in named) else ",").join(named)
+
+
+def pole_named(scene: Scene, name: str) -> Said:
+    """The two links of a pole."""
+    one, two = map(link_named, scene.link_pair(name))
+    return said("{0} relative to {1}", one, two)
+
+
 def slide_named(slide: Slide) -> Said:
     """A slide by its links: 3 along 2, or 3 along the frame."""
     return said("{0} along {1}", _bare(slide.link), _bare(slide.along))

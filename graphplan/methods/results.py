@@ -8,7 +8,7 @@ from typing import Any
 
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods import kinds
-from graphplan.methods.panels import reactions_named
+from graphplan.methods.panels import pole_named, reactions_named
 
 
 class Vectors(dict[str, Any]):
@@ -74,8 +74,8 @@ class Given(ABC):
 
 
 def thing_named(scene: Scene, kind: kinds.ResultKind, of: str) -> str:
-    """What a reading of a kind is of, in words: a slide, a link at a joint, else a point or link as it is."""
-    return reactions_named(scene)[of] if kind.pair else of
+    """What a reading of a kind is of, in words: a slide, a link at a joint, two links, else a point or link by name."""
+    return reactions_named(scene)[of] if kind.pair else pole_named(scene, of) if kind.group == kinds.POLES else of
 
 
 def balances(scene: Scene, results: Mapping[str, Mapping[str, Any]],

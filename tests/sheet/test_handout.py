@@ -151,7 +151,8 @@ def test_every_reading_has_its_empty_boxes(name: str) -> None:
     """A box for each component and size that the construction gives, on the task sheet and on the guided one."""
     _, _, *parts = handout_of(name)
     drawing = drawing_of(name)
-    sizes = {kind: 1 if KINDS[kind].single else 2 if kind == "slide arm" else 3 for kind in drawing.kinds}
+    sizes = {kind: 1 if KINDS[kind].single else 2 if kind == "slide arm" or KINDS[kind].place else 3
+             for kind in drawing.kinds}
     numbers = sum(sizes[kind] * len(found) for kind, found in drawing.read(Floats()).items())
     assert numbers
     for pages in parts:

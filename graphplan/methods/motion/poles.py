@@ -10,7 +10,7 @@ velocities cross in its pole, and the diagram goes on from there.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from itertools import combinations
 from typing import Any, NamedTuple
@@ -29,7 +29,7 @@ from graphplan.mechanism.pairs.gear import Gear
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.motion.circle_diagram import ONE, PENCIL, CircleDiagram, FoundPole, PoleLine, Sides, cross
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import MECHANISM, link_named, listed
+from graphplan.methods.panels import MECHANISM, link_named, listed, pole_letter
 from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, joined, said
 
@@ -111,7 +111,7 @@ class Poles:
             if isinstance(slide, RollingGuide) and slide.given == gear:
                 return DrawnPole(self.pose.points[slide.at])
         one, *other = (self.pose.points[centre] for centre in gear.centres)
-        letter = self.letter(self.diagram.sides(*gear.links))
+        letter = pole_letter(gear.links)
         if not other:
             across = self.board.perpendicular(self._along(gear, one), one)
             return DrawnPole(self.board.lay_along(across, one, length=-gear.radius, name=letter))
@@ -154,6 +154,13 @@ class Poles:
                           "ask for other poles")
         return self._draw(sides)
 
+    def draw(self, names: Iterable[str]) -> None:
+        """Draw those of the poles of this name that the diagram gives: they need no velocities."""
+        for name in names:
+            sides = self.diagram.sides(*self.scene.link_pair(name))
+            if sides in self.diagram.found:
+                self._draw(sides)
+
     def near(self) -> Iterator[tuple[str, Pair]]:
         """The links whose poles relative to the frame the circle diagram gives, no pins, each with where it is."""
         for sides, found in self.diagram.found.items():
@@ -170,7 +177,7 @@ class Poles:
         if len(found.lines) < 2:
             raise Refused(said("the pole of {0}", listed(sides)), said("it is at infinity"), "ask for other poles")
         with self._on(sides, self._law(sides)):
-            mark = self.board.meet(*found.lines, name=self.letter(sides))
+            mark = self.board.meet(*found.lines, name=pole_letter(sides))
         self.drawn[sides] = DrawnPole(mark)
         return mark
 
@@ -184,12 +191,7 @@ class Poles:
         """How they are found."""
         yield said("Kennedy's theorem, in the order of the circle diagram")
         if self.seeds:
-            yield said("{0} by velocities", ", ".join(map(self.letter, self.seeds)))
-
-    def letter(self, sides: Sides) -> str:
-        """What a pole is called: by its two links, 0 being the frame."""
-        named = ["0" if link == FRAME else link for link in sides]
-        return "P_" + ("" if all(len(name) == 1 for name in named) else ",").join(named)
+            yield said("{0} by velocities", ", ".join(map(pole_letter, self.seeds)))
 
     # ---- drawing ------------------------------------------------------------------------------------------------
 
@@ -203,7 +205,7 @@ class Poles:
             if len(lines) < 2 or self.diagram.at_infinity(sides):
                 self.drawn[sides] = DrawnPole(None, (lines[0],))
             elif self.diagram.distance(sides) <= NEAR:
-                self.drawn[sides] = DrawnPole(self.board.meet(*lines, name=self.letter(sides)))
+                self.drawn[sides] = DrawnPole(self.board.meet(*lines, name=pole_letter(sides)))
             else:
                 self.drawn[sides] = DrawnPole(None, tuple(lines))
         return self.drawn[sides]
@@ -231,7 +233,7 @@ class Poles:
         """Draw the steps inside in the stage of a pole, which has this law."""
         sides = self.diagram.sides(*links)
         one, two = map(link_named, sides)
-        stage = Stage(said("Pole {0} of {1} relative to {2}", self.letter(sides), one, two), law)
+        stage = Stage(said("Pole {0} of {1} relative to {2}", pole_letter(sides), one, two), law)
         return self.board.on(MECHANISM, tuple(link for link in sides if link != FRAME), stage)
 
     def _law(self, sides: Sides) -> Said:
@@ -247,7 +249,7 @@ class Poles:
         """A pole by its letter, and that of the joint that it is."""
         drawn = self.drawn.get(sides)
         name = drawn.mark.step.name if drawn and drawn.mark is not None else ""
-        return f"{self.letter(sides)} = {name}" if name in self.scene.points else self.letter(sides)
+        return f"{pole_letter(sides)} = {name}" if name in self.scene.points else pole_letter(sides)
 
     @property
     def velocity(self) -> Velocity:

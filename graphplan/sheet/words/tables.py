@@ -58,6 +58,12 @@ def vectors(say: Tongue, what: str, letter: str, unit: str, values: Mapping[str,
     return _table(say, head, found, _larger(largest_size(values), largest_size(beside)), off, spoken)
 
 
+def places(say: Tongue, head: Sequence[str], values: Mapping[str, Any], off: Off,
+           spoken: Callable[[str], str]) -> Table:
+    """Coordinates with their deviations, or components of headings; nothing if there are none."""
+    return _table(say, [*map(sentence_runs, head)], values, largest_size(values), off, spoken)
+
+
 def scalars(say: Tongue, what: str, name: str, unit: str, values: Mapping[str, Any], order: Iterable[str],
             off: Off) -> Table:
     """Single numbers with their deviations, each row with its name first; nothing if there are none."""

@@ -10,8 +10,8 @@ from typing import Any
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PROTRACTOR, SCALE, SET_SQUARES, STRAIGHTEDGE
 from graphplan.mechanism.model import Balance, Contact, Gear, Loads, Pair, Scene
 from graphplan.mechanism.order import named_forces
-from graphplan.methods.kinds import REACTION, SLIDE_REACTION, kind_of
-from graphplan.methods.panels import JointForce, link_named, listed, slide_named
+from graphplan.methods.kinds import POLE, POLE_HEADING, REACTION, SLIDE_REACTION, kind_of
+from graphplan.methods.panels import JointForce, link_named, listed, pole_letter, slide_named
 from graphplan.phrases import Said, arranged, coordinates, digits, joined, phrase, said, unit
 from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.composition import Composition
@@ -208,6 +208,8 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
     if values.get("slide velocity") or values.get("slide acceleration"):
         moving = dict.fromkeys((*values.get("slide velocity", ()), *values.get("slide acceleration", ())))
         yield said("Sliding velocities and accelerations: {0}.", joined(slides[name] for name in moving))
+    if poles := [pole_letter(scene.link_pair(name)) for kind in (POLE, POLE_HEADING) for name in values.get(kind, ())]:
+        yield said("Instant centres: {0}.", ", ".join(poles))
     told = values.get(REACTION, ())
     joints = [p for p in scene.joints if any(JointForce(p, link).name in told for link in scene.links_of[p])]
     if joints or values.get(SLIDE_REACTION):

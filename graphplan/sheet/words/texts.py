@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.stages import Equation
 from graphplan.methods.construction import Construction
-from graphplan.methods.kinds import WORDS
-from graphplan.methods.panels import slide_named
+from graphplan.methods.kinds import POLE, POLE_HEADING, WORDS
+from graphplan.methods.panels import pole_letter, slide_named
 from graphplan.phrases import Said, arranged, digits, joined, said, unit
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import HEADING, SIZE, Runs, equation_runs, sentence_runs, width, wrap
@@ -25,6 +25,7 @@ from graphplan.sheet.words.tables import (
     Table,
     joined_tables,
     narrow,
+    places,
     rows,
     scalars,
     settled,
@@ -189,6 +190,16 @@ class Words:
                scalars(say, link, "alpha", f"{rate}²", values.get("alpha", {}), scene.links, pencil.of("alpha")))
         slides = {slide.name: say(slide_named(slide)) for slide in scene.slides}
         yield self._vectors(slide, ("slide velocity", "slide acceleration"), slides, pencil, slides.__getitem__)
+        yield self._poles(pencil)
+
+    def _poles(self, pencil: Deviations) -> tuple[Table, Table]:
+        """The tables of poles by their letters: where they are, and which way those at infinity lie."""
+        say, scene = self.plans.tongue, self.drawing.scene
+        long = say(unit(scene.units.length))
+        heads = {POLE: (say(said("pole")), "x", f"y {long}"), POLE_HEADING: (say(said("pole at infinity")), "dx", "dy")}
+        one, two = (places(say, head, self.values.get(kind, {}), pencil.of(kind),
+                           lambda name: pole_letter(scene.link_pair(name))) for kind, head in heads.items())
+        return one, two
 
     def _vectors(self, what: str, kinds: tuple[str, str], order: Iterable[str], pencil: Deviations,
                  spoken: Callable[[str], str] = str) -> tuple[Table, Table]:

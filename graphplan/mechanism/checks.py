@@ -115,6 +115,18 @@ def check_mobility(scene: Scene, faults: Faults) -> Scene:
 
     A fault unless it has as many drives and given motions as degrees of freedom, and each link is held just once.
     """
+    counted = Faults()
+    moved = _counted(scene, counted)
+    loose = Faults()
+    if scene.gears and faults.none_in("points") and counted.none_in("links"):  # a missing pivot tells more
+        check_gears(scene, loose)
+    for fault in loose if len(loose) else counted:
+        faults.add(fault.where, fault.what, fault.instead)
+    return moved
+
+
+def _counted(scene: Scene, faults: Faults) -> Scene:
+    """The same by the count of freedoms, with what special geometry makes redundant."""
     freedoms, drives, motions = mobility(scene), len(scene.drives), len(scene.motions)
     given = drives + 2 * motions
     told = _count(drives, "drive") + (f" and {_count(motions, 'given motion')} (two degrees each)" if motions else "")

@@ -15,7 +15,6 @@ from graphplan.errors import Fault, SceneError
 from graphplan.mechanism import sections
 from graphplan.mechanism.checks import (
     check_connections,
-    check_gears,
     check_joints,
     check_loads,
     check_mobility,
@@ -215,9 +214,7 @@ def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults) -> Scene:
         faults.add("links", "no link moves", 'a link besides the frame, such as 1 = "O A"')
     elif faults.none_in("links", *PAIR_KEYS, "motion"):
         check_connections(scene, faults)
-        if faults.none_in("links") and scene.gears and faults.none_in("points"):
-            check_gears(scene, faults)
-        if faults.none_in("links", "gears"):
+        if faults.none_in("links"):
             scene = check_mobility(scene, faults)
         if faults.none_in("links", "gears", "drive", *sections.LOADS):
             check_loads(scene, faults)

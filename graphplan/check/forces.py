@@ -11,8 +11,8 @@ from typing import Any
 from graphplan.check.arithmetics import Bounds, independent_facts
 from graphplan.check.compared import Results, plain
 from graphplan.mechanism.elimination import transpose
-from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
-from graphplan.mechanism.pairs.pair import Along, Statement
+from graphplan.mechanism.model import FRAME, Contact, Force, Gear, Number, Pair, Scene, Slide
+from graphplan.mechanism.pairs.pair import Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.plane import dot
 from graphplan.mechanism.units import metre
@@ -21,7 +21,8 @@ from graphplan.methods.forces.groups import pairs
 from graphplan.methods.panels import JointForce
 from graphplan.methods.results import balances
 from graphplan.solver.equations import Equations, held
-from graphplan.solver.friction import Frictional, delivered, efficiency, leaning, with_friction
+from graphplan.solver.friction import Frictional, contact_slip, delivered, efficiency, leaning, with_friction
+from graphplan.solver.higher_pairs import force, held_at, pushes
 from graphplan.solver.rates import Rates
 from graphplan.solver.statics import Reactions, acting, asked, repeating, resultants
 from graphplan.solver.statics import read as read_forces
@@ -29,25 +30,37 @@ from graphplan.solver.statics import read as read_forces
 # ---- the solver between bounds --------------------------------------------------------------------------------------
 
 
-def bounded_reactions(scene: Scene, motion: Rates, by: Bounds, stated: Iterable[Statement] | None = None) -> Reactions:
-    """The reactions and balances of a scene with loads, from its rates; of these facts, if not its own."""
-    equations = held(scene) if stated is None else Equations(scene, tuple(stated))
-    right = [-value for value in resultants(equations, acting(scene, motion))]
+def bounded_reactions(scene: Scene, motion: Rates, by: Bounds) -> Reactions:
+    """The reactions and balances of a scene with loads, from its rates."""
+    found = _equilibrium(replace(held(scene), root=by.root), motion, by)
+    apart = tuple(pushes(found.equations, found.higher))
+    return _equilibrium(found.equations, motion, by, apart) if apart else found
+
+
+def _equilibrium(equations: Equations, motion: Rates, by: Bounds, more: tuple[Force, ...] = ()) -> Reactions:
+    """What holds the links by these facts against their loads and `more`."""
+    scene = equations.scene
+    right = [-value for value in resultants(equations, (*acting(scene, motion), *more))]
     kept = independent_facts(equations)
     facts = [equations.facts[i] for i in kept]
-    scales = [math.hypot(*map(float, fact.direction)) if isinstance(fact, Along) else 1 / equations.reach
-              for fact in facts]
+    scales = [_scale(equations, fact) for fact in facts]
     solve = by.solve(transpose([equations.rows[i] for i in kept], equations.width), scales)
     values = dict(zip(kept, solve(right), strict=True))
     told = (values.get(i, 0) for i in range(len(equations.facts)))
     return read_forces(equations, told, repeating(equations), motion)
 
 
+def _scale(equations: Equations, fact: Statement) -> float:
+    """The size of the force that is one time what holds a fact; a couple counts as it does at the reach."""
+    x, y, turn = map(float, held_at(equations, fact))
+    return max(math.hypot(x, y), abs(turn) / equations.reach)
+
+
 def rubbed(smooth: Reactions, rounds: int, by: Bounds) -> Reactions:
     """The reactions and balances after so many rounds of friction from those without."""
     last = smooth
     for _ in range(rounds):
-        last = bounded_reactions(smooth.equations.scene, smooth.rates, by, _leaning(last, by))
+        last = _equilibrium(replace(smooth.equations, facts=tuple(_leaning(last, by))), smooth.rates, by)
     return last
 
 
@@ -56,16 +69,19 @@ def _leaning(last: Reactions, by: Bounds) -> Iterator[Statement]:
     scene, rates = last.equations.scene, last.rates
     omega: dict[str, Any] = rates.omega | {FRAME: by.lift(0)}
     journals = {f.at: f.radius * f.coefficient for f in asked(scene).frictions if f.at}
-    guides = {f.slide: f.coefficient for f in asked(scene).frictions if f.slide}
+    coefficients = {f.links: f.coefficient for f in asked(scene).frictions if f.links}
 
     def arm(joint: Revolute, link: str, force: Pair) -> Any:
         square = by.lift(dot(force, force))
         circle = journals.get(joint.at, 0) * -_sense(omega[link] - omega[joint.links[0]], by)
         return circle / square.root if circle and _sense(square, by) else 0
 
-    def lean(slide: Slide, pressure: Any) -> Number:
-        slip = _sense(dot(rates.slide_velocity[slide.name], slide.direction), by)
-        return guides.get(slide.links, 0) * -slip * _sense(pressure, by)
+    def lean(pair: Slide | Gear | Contact, along: Pair, size: Any) -> Number:
+        if isinstance(pair, Gear):
+            return pair.tangent * _sense(size, by)
+        slip = (dot(rates.slide_velocity[pair.name], pair.direction) if isinstance(pair, Slide)
+                else contact_slip(rates, pair))
+        return coefficients.get(pair.links, 0) * -_sense(slip, by) * _sense(size, by)
 
     return leaning(last, arm, lean)
 
@@ -88,6 +104,9 @@ def force_truth(scene: Scene, results: Results, found: Reactions,
     slides, moments = ({name: both[k] for name, both in found.slides.items()} for k in (0, 1))
     told: dict[str, Any] = {
         kinds.REACTION: joints, kinds.SLIDE_REACTION: slides, kinds.SLIDE_MOMENT: moments, kinds.SLIDE_ARM: arms}
+    for pair, sizes in found.higher.items():
+        kind = kinds.GEAR_REACTION if isinstance(pair, Gear) else kinds.CONTACT_REACTION
+        told.setdefault(kind, {})[pair.name] = force(found.equations, pair, sizes)
     named = asked(scene).named_balances
     for way in kinds.BY_PLANS, kinds.BY_LEVER, kinds.RUBBED:
         last = found if way != kinds.RUBBED else rough

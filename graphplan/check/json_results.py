@@ -142,6 +142,10 @@ def _forces(found: Report) -> dict[str, Any]:
     for slide in found.scene.slides:
         if slide.name in found.results.get(kinds.SLIDE_REACTION, {}):
             entries.append(_slide(found, slide))
+    for sort, kind, pairs in (("gear", kinds.GEAR_REACTION, found.scene.gears),
+                              ("contact", kinds.CONTACT_REACTION, found.scene.contacts)):
+        for name, (on, by) in ((pair.name, pair.links) for pair in pairs if pair.name in found.results.get(kind, {})):
+            entries.append({sort: name, "on": on, "from": by, "force": _number(found.results[kind][name])})
     kept = {"balance": told[0] if len(told) == 1 else told} if told else {}
     return {**kept, "reactions": entries, **_indeterminate(found.scene), **_friction(found, found.forces)}
 

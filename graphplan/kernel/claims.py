@@ -172,6 +172,15 @@ def _leans(d: Drawn, l: int, B: int, w: int, p: int, q: int) -> float:
     return min(abs(d.way(-1) - unit(way * (1 + 1j * lean))) for lean in (full, 0.0 if still else full))
 
 
+def _presses(d: Drawn, P: int, B: int, p: int, q: int) -> float:
+    """The line leans from the force pq, which is square to the radius, towards the wheel's centre."""
+    inwards = d[B] - d[P]
+    part = cross(inwards, d[q] - d[p])
+    full = 1j * math.copysign(1.0, part) + d.number("coefficient")
+    still = abs(part) <= STILL * d.size * abs(inwards)
+    return min(abs(cross(d.way(-1), unit(inwards * way))) for way in (full, 1j if still else full))
+
+
 # ---- positions of links ---------------------------------------------------------------------------------------------
 
 
@@ -267,6 +276,9 @@ CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "takes couple": (_takes_couple, "the force there has not the couple's moment"),
     "touches": (_touches, "the force there does not touch the friction circle"),
     "leans": (_leans, "not turned by the friction angle"),
+    "presses": (_presses, "not inclined by the pressure angle"),
+
+
     "spans": (lambda d: (d.radius(-1) - abs(complex(d.number("dx"), d.number("dy")))) / d.size,
               "not of the given length"),
     "inclined": (lambda d: abs(d.way(-1) - unit(_angle(d))), "not at the given angle"),

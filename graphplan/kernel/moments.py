@@ -92,6 +92,21 @@ def lean(d: Any, l: Any, B: Any, w: Any, p: Any, q: Any, /, *, coefficient: Any)
     return a, b, -(a * B[0] + b * B[1])
 
 
+@primitive((POINT, POINT, POINT, POINT), LINE, SET_SQUARES,
+           "Through {0} draw {out}, the line of pressure: it leans from the force that runs from {2} to {3}, towards "
+           "{1}, by the pressure angle, of tangent {coefficient}.",
+           claims=(("on", 0), ("presses", 0, 1, 2, 3)), fails=("points-coincide",), where=0, params=("coefficient",),
+           source="Ozols 1974, 11-2, figs. 11-3 to 11-5")
+def pressure_line(d: Any, P: Any, B: Any, p: Any, q: Any, /, *, coefficient: Any) -> Any:
+    """The line of the tooth force at the pitch point P on the wheel with the centre B; pq is its circumferential part.
+
+    Each wheel is pushed away from its mate, whichever way pq runs. Where it is nothing, the line does not lean.
+    """
+    arm, force = apart(d, P, B, "the wheel has no radius"), vector(p, q)
+    k = d.sign(cross(arm, force), (size(p) + size(q)) * size(arm)) * d.lift(coefficient)
+    a, b = arm[0] + k * arm[1], arm[1] - k * arm[0]
+    return a, b, -(a * P[0] + b * P[1])
+
 @primitive((POINT, POINT, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
            "The force from {1} to {2} at {0} and the couple of the force from {5} to {6} at {4}, with its answer at "
            "{3}, are one force, shifted by the couple over the force: mark {out}, a point of its line.",

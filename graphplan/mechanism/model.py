@@ -120,12 +120,19 @@ class Balance:
 
 @dataclass(frozen=True)
 class Friction:
-    """Friction in a pair: a journal `at` a joint, with its radius, or a slide (link, along); and its coefficient."""
+    """Friction in a pair, with its coefficient: a journal `at` a joint, with its radius, a slide (link, along), or a
+    contact of two links."""
 
     at: str
     slide: tuple[str, str] | None
     radius: Number
     coefficient: Number
+    contact: tuple[str, str] | None = None
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """The links of a slide or a contact."""
+        return self.slide or self.contact or ()
 
 
 @dataclass(frozen=True)

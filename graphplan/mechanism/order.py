@@ -30,7 +30,7 @@ def _ordered_loads(loads: Loads) -> Loads:
     masses = {link: loads.masses[link] for link in sorted(loads.masses, key=by_name)}
     return replace(loads, masses=masses, forces=tuple(sorted(loads.forces, key=key)),
                    moments=tuple(sorted(loads.moments, key=key)),
-                   frictions=tuple(sorted(loads.frictions, key=lambda f: (f.slide or (), by_name(f.at)))))
+                   frictions=tuple(sorted(loads.frictions, key=lambda f: (f.links, by_name(f.at)))))
 
 
 def named_forces(loads: Loads) -> dict[str, Force]:

@@ -12,7 +12,8 @@ from graphplan.mechanism import model
 from graphplan.mechanism.directions import GUIDE
 from graphplan.mechanism.fields import Either, Field, Kind, Named, Names, Row, Rows, Table, on_link
 from graphplan.mechanism.items import Item
-from graphplan.mechanism.model import FRAME, Pair, Slide
+from graphplan.mechanism.model import FRAME, Contact, Gear, Pair, Slide
+from graphplan.mechanism.pairs.gear import LOADS as LOADS
 from graphplan.mechanism.pairs.sliding import has_slide
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.mechanism.values import AMOUNT, LINK, NAME, NUMBER, POINT, TWO_LINKS, VECTOR, asked, choice, moving
@@ -79,9 +80,9 @@ def _slides(names: Names) -> tuple[str, ...]:
 
 
 def _pairs(names: Names) -> Iterator[str]:
-    """The joints and the slides."""
+    """The joints, the slides, the gears and the contacts."""
     yield from (p for p in names.points if names.held[p] > 1)
-    yield from _slides(names)
+    yield from dict.fromkeys(pair.name for pair in names.pairs if isinstance(pair, Slide | Gear | Contact))
 
 
 def _links(names: Names) -> tuple[str, ...]:
@@ -141,9 +142,11 @@ FIND = Table("what is asked for", (
           asked("pair of links", '["2 frame", "2 3"]', lambda names: [*map(" ".join, permutations(_links(names), 2))],
                 lambda names: tuple(map(" ".join, combinations(_links(names), 2))), many="pairs of links",
                 after=("links",)), default=[]),
-    Field("reactions", 'the joints and slides (such as "3 along 2") whose reactions are asked for, or "all"',
-          asked("joint or slide", '["A", "3 along 2"]', lambda names: [*_pairs(names)], lambda names: None,
-                many="joints and slides", after=("slides", "links", "points"))),
+    Field("reactions", 'the joints, slides (such as "3 along 2"), gears and contacts (such as "2 3") whose reactions '
+          'are asked for, or "all"',
+          asked("joint, slide, gear or contact", '["A", "3 along 2"]', lambda names: [*_pairs(names)],
+                lambda names: None, many="joints, slides, gears and contacts",
+                after=("slides", "gears", "contacts", "links", "points"))),
     Field("curvature", 'the points on links (such as "M on 2") the centres of curvature of whose paths are asked for, '
           'or "all"',
           asked("point on a link", '["M on 2"]', _traced, many="points on links", after=("links", "points"),
@@ -216,8 +219,23 @@ def _rubbing(row: Row) -> model.Friction | None:
     return model.Friction("", slide.links, Fraction(0), row["coefficient"]) if slide else None
 
 
+def _sliding(row: Row) -> model.Friction | None:
+    item, links = row.items["contact"], row["contact"]
+    known = [pair for pair in row.names.pairs if isinstance(pair, Contact)]
+    found = next((pair for pair in known if {*pair.links} == {*links}), None)
+    if found is None:
+        instead = ", ".join('contact = ["{}", "{}"]'.format(*pair.links) for pair in known) or "[[contacts]] with it"
+        return item.fault("no contact of links {} and {}".format(*links), instead) if item.faults.none_in(
+            "links", "contacts") else None
+    if found.rolling:
+        return item.fault(f"the contact {found.name} rolls: nothing slides in it", "a contact that slides")
+    return model.Friction("", None, Fraction(0), row["coefficient"], found.links)
+
+
 def _rubbed(friction: model.Friction) -> tuple[object, str]:
     """The pair that has the friction."""
+    if friction.contact:
+        return friction.contact, "friction of contact {} {}".format(*friction.contact)
     if friction.slide is None:
         return friction.at, f"friction of joint {friction.at}"
     return friction.slide, "friction of slide {} along {}".format(*friction.slide)
@@ -232,10 +250,10 @@ FRICTION = Rows(Either((Table("friction in a journal", (
 ), _journal), Table("friction in a slide", (
     Field("slide", "the sliding link and the link with the guide", TWO_LINKS, 'a slide, such as slide = ["3", "2"]'),
     _COEFFICIENT,
-), _rubbing))), once=_rubbed, remedy="one for each joint or slide")
-
-LOADS = ("forces", "moments", "friction", "masses", "balance")
-
+), _rubbing), Table("friction in a contact", (
+    Field("contact", "the two links that touch", TWO_LINKS, 'two links that touch, such as contact = ["2", "3"]'),
+    _COEFFICIENT,
+), _sliding))), once=_rubbed, remedy="one for each joint, slide or contact")
 
 def loads(read: Mapping[str, Any]) -> model.Loads | None:
     """The loads of a scene, from what is read of its tables; None where it has none of them."""

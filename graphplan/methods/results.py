@@ -63,8 +63,8 @@ class Given(ABC):
 
     @property
     def reactions(self) -> dict[str, Any]:
-        """The reactions, on links at joints, such as `2 at B`, and of slides."""
-        return self.named(kinds.REACTION) | self.named(kinds.SLIDE_REACTION)
+        """The reactions, on links at joints, such as `2 at B`, of slides, gears and contacts."""
+        return {name: force for kind in kinds.REACTIONS for name, force in self.named(kind).items()}
 
     @property
     def balances(self) -> list[Any]:

@@ -1,9 +1,11 @@
-"""Reactions with friction: a journal's force touches its friction circle, a slide's leans by its friction angle.
+"""Reactions with friction: a journal's force touches its friction circle, that of a slide or a contact leans by the
+friction angle.
 
-Which way a force leans depends on the force itself. So each round takes the directions of the forces from the last and
-solves for all their sizes at once, which is Newton's method: it stands after a few rounds, or there is no equilibrium
-and the mechanism locks itself. Friction grows in a few steps: at its full size at once, where it is near to locking,
-the rounds may miss the equilibrium. The size of a journal's force is a root: fractions have friction of slides alone.
+Which way a force leans depends on the force itself, that between teeth by the pressure angle, too. So each round takes
+the directions of the forces from the last and solves for all their sizes at once, which is Newton's method: it stands
+after a few rounds, or there is no equilibrium and the mechanism locks itself. Friction grows in a few steps: at its
+full size at once, where it is near to locking, the rounds may miss the equilibrium. The size of a journal's force is a
+root: fractions have friction of slides and contacts alone.
 """
 
 from __future__ import annotations
@@ -15,12 +17,13 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.errors import SingularPose
-from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
+from graphplan.mechanism.model import FRAME, Contact, Gear, Number, Pair, Scene, Slide
 from graphplan.mechanism.pairs.pair import Along, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
-from graphplan.mechanism.plane import dot, plus, times, turned
+from graphplan.mechanism.plane import dot, less, plus, times, turned
 from graphplan.mechanism.units import metre
 from graphplan.solver.equations import Equations
+from graphplan.solver.higher_pairs import first_held, force, leant
 from graphplan.solver.rates import Rates
 from graphplan.solver.statics import Reactions, asked, equilibrium, reactions
 
@@ -93,38 +96,45 @@ def _leant(last: Reactions, against: Rubbing) -> Iterator[Statement]:
         size = math.hypot(*force) if circle else 0
         return circle / size if size > least else 0
 
-    def lean(slide: Slide, pressure: Number) -> Number:
-        return against.guides[slide.name] * sign(float(pressure), least * math.hypot(*slide.direction))
+    def lean(pair: Slide | Gear | Contact, along: Pair, size: Number) -> Number:
+        by = pair.tangent if isinstance(pair, Gear) else against.guides[pair]
+        return by * sign(float(size) * math.hypot(*along), least)
 
     return leaning(last, arm, lean)
 
 
 def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
-            lean: Callable[[Slide, Number], Number]) -> Iterator[Statement]:
+            lean: Callable[[Slide | Gear | Contact, Pair, Number], Number]) -> Iterator[Statement]:
     """The supports of the scene, with friction.
 
-    A journal's line of action touches the friction circle: `arm` is its radius by the last force on a link. A slide's
-    force leans by so much, from its last component across the guide.
+    A journal's line of action touches the friction circle: `arm` is its radius by the last force on a link. The force
+    of a slide, a contact or a gear leans by so much, from the last one: as many times a direction.
     """
     scene = last.equations.scene
-    for joint in scene.revolutes:
-        for part in joint.states(scene):
-            force = last.joints[joint.at, part.link]
-            yield replace(part, lever=arm(joint, part.link, force) * dot(part.direction, force))
-    for slide in scene.slides:
-        for fact in slide.states(scene):
-            if isinstance(fact, Along):
-                by = lean(slide, dot(fact.direction, last.slides[slide.name][0]))
-                yield replace(fact, direction=plus(fact.direction, times(by, slide.direction)))
-            else:
-                yield fact
+    for pair in scene.binding:
+        if isinstance(pair, Revolute):
+            for part in pair.states(scene):
+                force = last.joints[pair.at, part.link]
+                yield replace(part, lever=arm(pair, part.link, force) * dot(part.direction, force))
+        elif isinstance(pair, Slide):
+            for fact in pair.states(scene):
+                if isinstance(fact, Along):
+                    size = dot(fact.direction, last.slides[pair.name][0]) / dot(fact.direction, fact.direction)
+                    aside = times(lean(pair, fact.direction, size), pair.direction)
+                    yield replace(fact, direction=plus(fact.direction, aside))
+                else:
+                    yield fact
+        elif isinstance(pair, Gear | Contact):
+            along = first_held(last.equations, pair)
+            yield from leant(last.equations, pair, lean(pair, along, last.higher[pair][0]))
     for balance in asked(scene).balances:
         yield from balance.states(scene)
 
 
 def forces(found: Reactions) -> list[Pair]:
-    """The forces in all joints and slides."""
-    return [*found.joints.values(), *(force for force, _ in found.slides.values())]
+    """The forces in all pairs."""
+    return [*found.joints.values(), *(force for force, _ in found.slides.values()),
+            *(force(found.equations, pair, sizes) for pair, sizes in found.higher.items())]
 
 
 def largest(found: Reactions) -> float:
@@ -139,7 +149,7 @@ def largest(found: Reactions) -> float:
 
 def locked(scene: Scene) -> SingularPose:
     """The error that no balance keeps the motion up, with the links that rub."""
-    rubbed = {link for f in asked(scene).frictions for link in f.slide or scene.links_of[f.at]}
+    rubbed = {link for f in asked(scene).frictions for link in f.links or scene.links_of[f.at]}
     why = "self-locking: with this friction no balance keeps up the motion"
     return SingularPose(why, tuple(link for link in scene.moving if link in rubbed))
 
@@ -152,10 +162,10 @@ def finished(plain: Reactions, last: Reactions, against: Rubbing) -> Frictional:
     for slide in plain.equations.scene.slides:
         across = turned(slide.direction)
         size = dot(across, last.slides[slide.name][0]) / dot(across, across)
-        drags[slide.name] = times(against.guides[slide.name] * max(size, -size), slide.direction)
+        drags[slide.name] = times(against.guides[slide] * max(size, -size), slide.direction)
     slides = {name: (plus(force, drags[name]), moment) for name, (force, moment) in last.slides.items()}
-    return Frictional(last.equations, last.joints, slides, last.balances, last.rates, couples, drags,
-                      efficiency(delivered(plain), delivered(last)))
+    return Frictional(last.equations, last.joints, slides, last.higher, last.balances, last.rates, couples,
+                      drags, efficiency(delivered(plain), delivered(last)))
 
 
 # --- which way friction acts: against the turning in each journal and the slip in each slide -----------------------
@@ -165,16 +175,17 @@ def finished(plain: Reactions, last: Reactions, against: Rubbing) -> Frictional:
 class Rubbing:
     """What friction makes of a reaction, negative where it opposes a positive motion.
 
-    `journals`: by point and link, the radius of the friction circle. `guides`: by slide, the coefficient of friction.
+    `journals`: by point and link, the radius of the friction circle. `guides`: by slide or contact, the coefficient of
+    friction.
     """
 
     journals: dict[tuple[str, str], Number]
-    guides: dict[str, Number]
+    guides: dict[Slide | Contact, Number]
 
     def part(self, share: Number) -> Rubbing:
         """The same with all coefficients smaller."""
         journals = {name: share * circle for name, circle in self.journals.items()}
-        return Rubbing(journals, {name: share * coefficient for name, coefficient in self.guides.items()})
+        return Rubbing(journals, {pair: share * coefficient for pair, coefficient in self.guides.items()})
 
 
 def rubbing(scene: Scene, rates: Rates) -> Rubbing:
@@ -186,16 +197,34 @@ def rubbing(scene: Scene, rates: Rates) -> Rubbing:
     points = (abs(float(x)) for v in (rates.velocity, rates.slide_velocity) for pair in v.values() for x in pair)
     still = ROUNDING * rates.condition * max(*points, *(abs(float(turn)) * reach for turn in omega.values()))
     circles = {f.at: f.radius * f.coefficient for f in frictions}
-    coefficients = {f.slide: f.coefficient for f in frictions}
-    journals, guides = dict[tuple[str, str], Number](), dict[str, Number]()
+    coefficients = {f.links: f.coefficient for f in frictions}
+    journals, guides = dict[tuple[str, str], Number](), dict[Slide | Contact, Number]()
     for joint in scene.revolutes:
         for link in joint.links[1:]:
             speed = float(omega[link] - omega[joint.links[0]]) * reach
             journals[joint.at, link] = -circles.get(joint.at, Fraction(0)) * sign(speed, still)
     for slide in scene.slides:
         speed = float(dot(rates.slide_velocity[slide.name], slide.direction)) / math.hypot(*slide.direction)
-        guides[slide.name] = -coefficients.get(slide.links, Fraction(0)) * sign(speed, still)
+        guides[slide] = -coefficients.get(slide.links, Fraction(0)) * sign(speed, still)
+    for contact in scene.contacts:
+        speed = float(contact_slip(rates, contact)) / math.hypot(*contact.normal(scene.points))
+        guides[contact] = -coefficients.get(contact.links, Fraction(0)) * sign(speed, still)
     return Rubbing(journals, guides)
+
+
+def contact_slip(rates: Rates, contact: Contact) -> Number:
+    """How fast the link that the contact holds first slides on the other, along its normal turned by a quarter.
+
+    In as many times the normal's length as it has.
+    """
+    fact = next(contact.states(rates.equations.scene))
+    def velocity(link: str) -> Pair:
+        if link == FRAME:
+            return 0, 0
+        arm, base = rates.equations.arm(link, contact.at), rates.equations.bases[link]
+        return plus(rates.velocity[base], times(rates.omega[link], turned(arm)))
+
+    return dot(less(velocity(fact.link), velocity(fact.on)), turned(first_held(rates.equations, contact)))
 
 
 def sign(value: float, least: float) -> int:

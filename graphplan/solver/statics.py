@@ -14,11 +14,26 @@ from typing import Any
 
 from graphplan.errors import Refused, SingularPose
 from graphplan.mechanism.elimination import Elimination
-from graphplan.mechanism.model import FRAME, Balance, Force, Loads, Mass, Moment, Number, Pair, Scene
+from graphplan.mechanism.model import (
+    FRAME,
+    Balance,
+    Contact,
+    Force,
+    Gear,
+    Loads,
+    Mass,
+    Moment,
+    Number,
+    Pair,
+    Scene,
+    Slide,
+)
 from graphplan.mechanism.pairs.pair import Along, Rate
+from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.plane import less, times, turned
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.solver.equations import Equations, Solution, bound, held, require_fractions
+from graphplan.solver.higher_pairs import pushes
 from graphplan.solver.rates import Rates, bound_by, moved_by, solve, solved
 
 Load = Force | Moment
@@ -30,12 +45,14 @@ class Reactions(Solution):
 
     `joints`: by point and link, the force on that link from the one that carries the pin, which the scene names first.
     `slides`: by name, the force on the sliding link from its guide, at the point `at`, and the moment about it.
+    `higher`: by gear or contact, its force as so many times the directions of what holds its links.
     `balances`: a moment or a force for each balance of the scene. `rates`: the motion that all this keeps up.
     Pairs that special geometry leaves statically indeterminate are left out.
     """
 
     joints: dict[tuple[str, str], Pair]
     slides: dict[str, tuple[Pair, Number]]
+    higher: dict[Gear | Contact, tuple[Number, ...]]
     balances: tuple[Pair | Number, ...]
     rates: Rates
 
@@ -46,12 +63,15 @@ def reactions(scene: Scene, exact: bool = False) -> Reactions:
     Fails with `Refused` where the scene has no loads or fractions are asked of an irrational one, and with
     `SingularPose`, which names the links, where its motion or its forces are not determined.
     """
-    return equilibrium(held(scene), solve(scene, exact), exact)
+    found = equilibrium(held(scene), solve(scene, exact), exact)
+    apart = tuple(pushes(found.equations, found.higher))
+    return equilibrium(found.equations, found.rates, exact, apart) if apart else found
 
 
-def equilibrium(equations: Equations, rates: Rates, exact: bool) -> Reactions:
-    """What must hold the facts, so that on each link, with the loads, forces and moments add up to nothing."""
-    right = [-value for value in resultants(equations, acting(equations.scene, rates))]
+def equilibrium(equations: Equations, rates: Rates, exact: bool, more: tuple[Force, ...] = ()) -> Reactions:
+    """What must hold the facts, so that on each link, with its loads and `more`, forces and moments add up to nothing.
+    """
+    right = [-value for value in resultants(equations, (*acting(equations.scene, rates), *more))]
     if exact:
         require_fractions(equations.scene, right)
     linear = equations.ready(exact, forces=True)
@@ -91,19 +111,25 @@ def read(equations: Equations, values: Iterable[Number], free: Container[int], r
     """
     scene, unknown = equations.scene, (None if i in free else value for i, value in enumerate(values))
     unit, slides, balances = metre(scene.units), dict[str, tuple[Pair, Number]](), list[Pair | Number]()
+    higher = dict[Gear | Contact, tuple[Number, ...]]()
     linked = [(fact.at, fact.link) for fact in equations.facts if fact.way == "x"]
     joints = {joint: (next(unknown), next(unknown)) for joint in linked}
-    for slide in scene.slides:
-        found: dict[str, Any] = {fact.way: next(unknown) for fact in slide.states(scene)}
-        if all(value is not None for value in found.values()):
+    for pair in scene.binding:
+        found: dict[str, Any] = {} if isinstance(pair, Revolute) else {
+            fact.way: next(unknown) for fact in pair.states(scene)}
+        if any(value is None for value in found.values()):
+            continue
+        if isinstance(pair, Slide):
             across = found["across"]
-            slides[slide.name] = times(across, turned(slide.direction)), scaled(1 / unit, found.get("turn", 0 * across))
+            slides[pair.name] = times(across, turned(pair.direction)), scaled(1 / unit, found.get("turn", 0 * across))
+        elif isinstance(pair, Gear | Contact):
+            higher[pair] = tuple(found.values())
     for balance, value in zip(asked(scene).balances, unknown, strict=True):
         if value is not None:
             balances.append(scaled(1 / unit, value) if balance.direction is None else times(value, balance.direction))
     whole = {(at, link): (x, y) for (at, link), (x, y) in joints.items()
              if x is not None and y is not None and link != scene.links_of[at][0]}
-    return Reactions(equations, whole, slides, tuple(balances), rates)
+    return Reactions(equations, whole, slides, higher, tuple(balances), rates)
 
 
 # --- what acts on the links besides each other -----------------------------------------------------------------------
@@ -139,7 +165,7 @@ def scaled(factor: Fraction, number: Any) -> Any:
 def resultants(equations: Equations, loads: tuple[Load, ...]) -> list[Number]:
     """Of each moving link: its forces (x, y) added up and, in force * length, the moments about its base."""
     sums: list[Number] = [0] * equations.width
-    for load in loads:
+    for load in (load for load in loads if load.on != FRAME):
         k = equations.columns[load.on]
         sums[k : k + 3] = [a + b for a, b in zip(sums[k : k + 3], weights(equations, load), strict=True)]
     return sums

@@ -428,7 +428,7 @@ FAULTS: list[tuple[str, str]] = [
     # friction
     (
         LOADED.replace("[find]", '[[friction]]\nat = "A"\nradius = 6\ncoefficient = 0.1\n\n[find]'),
-        "friction.3: a second friction of joint A; one for each joint or slide",
+        "friction.3: a second friction of joint A; one for each joint, slide or contact",
     ),
     (changed(LOADED, ("radius = 5\n", "")), "friction.1: radius is missing; the journal's radius"),
     (
@@ -485,19 +485,20 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (
         changed(LOADED, ('"3 along frame"]\n', '"3 along 2"]\n')),
-        "find.reactions: there is no joint or slide 3 along 2; perhaps 3 along frame",
+        "find.reactions: there is no joint, slide, gear or contact 3 along 2; perhaps 3 along frame",
     ),
     (
         changed(LOADED, ('reactions = ["A"', 'reactions = ["M"')),
-        "find.reactions: there is no joint or slide M; one of 3 along frame, A, B, O",
+        "find.reactions: there is no joint, slide, gear or contact M; one of 3 along frame, A, B, O",
     ),
     (
         changed(LOADED, ('reactions = ["A"', "reactions = [3")),
-        'find.reactions: the number 3 where the name of a joint or slide is wanted; a name in quotes, such as "3"',
+        "find.reactions: the number 3 where the name of a joint, slide, gear or contact is wanted; a name in quotes, "
+        'such as "3"',
     ),
     (
         changed(LOADED, ('reactions = ["A", "3 along frame"]', 'reactions = "A"')),
-        'find.reactions: the string "A" where a list of joints and slides is wanted; '
+        'find.reactions: the string "A" where a list of joints, slides, gears and contacts is wanted; '
         'a list such as ["A", "3 along 2"], or "all"',
     ),
     # bracing

@@ -9,15 +9,19 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphplan.mechanism.directions import GUIDE, Written
-from graphplan.mechanism.fields import Either, Field, Row, Rows, Table
-from graphplan.mechanism.numerals import exactly, is_exact, root, shown
+from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
+from graphplan.mechanism.items import Item
+from graphplan.mechanism.numerals import TO_A_FLOAT, exactly, is_exact, root, shown
 from graphplan.mechanism.pairs.pair import ROLLING, KinematicPair, OnRack, Rolling, Statement
 from graphplan.mechanism.plane import Number, Pair, dot, less, plus, times, turned
-from graphplan.mechanism.values import CENTRES, DISTANCE, FLAG, RADII, TEETH, TWO_LINKS, centres_on, choice
+from graphplan.mechanism.values import AMOUNT, CENTRES, DISTANCE, FLAG, RADII, TEETH, TWO_LINKS, centres_on, choice
 from graphplan.phrases import phrase
 
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
+
+LOADS = ("forces", "moments", "friction", "masses", "balance")
+"""The tables that load a scene: without them nothing hangs on pressure angles."""
 
 NEAR = Fraction(1, 10**9)
 """Rounded lengths that differ by less than this part of the larger were meant to be equal."""
@@ -30,6 +34,8 @@ class Gear(KinematicPair):
     omega_a is the turning of the line of `centres`, each a point of its link; `factors` are k_1 and k_2. Of outer
     gears, friction wheels and a crossed `belt` they are the numbers of teeth or the radii; a ring, which is the second,
     and the second pulley of an open belt have theirs negative. `teeth` and `radii` are as written, where they are.
+
+    `tangent` is that of the pressure angle, by which the force between flanks leans from the circumferential one.
 
     On a rack there is one centre: a wheel of this `radius` rolls on the pitch line along `direction`, which is fixed to
     the second link; the wheel is on the left of it. It is `alone` where its links have no other gear or contact.
@@ -50,6 +56,7 @@ class Gear(KinematicPair):
     through: tuple[str, str] | None = None
     written: Written = field(default=None, compare=False)
     alone: bool = True
+    tangent: Number = 0
 
     @property
     def links(self) -> tuple[str, str]:
@@ -111,7 +118,8 @@ def _wheels(row: Row) -> Gear | None:
         return None
     one, other = row["teeth"] or row["radii"]
     factors = (one, -other if internal or belt == "open" else other)
-    return Gear(row["links"], row["centres"], factors, row["teeth"], row["radii"], internal, belt)
+    return Gear(row["links"], row["centres"], factors, row["teeth"], row["radii"], internal, belt,
+                tangent=row.values.get("pressure_angle", 0))
 
 
 def _rack(row: Row) -> Gear | None:
@@ -123,7 +131,7 @@ def _rack(row: Row) -> Gear | None:
     if is_exact(direction) and not root(x * x + y * y)[1]:
         row.names.irrational.append(f"{row.item.where}: a rack along a direction of irrational length")
     return Gear(row["links"], row["centres"], radius=row["radius"], direction=direction, through=through,
-                written=written)
+                written=written, tangent=row["pressure_angle"])
 
 
 def _of_links(row: Row, count: int) -> bool:
@@ -181,6 +189,25 @@ def _laid(row: Row, belt: str, internal: bool) -> bool:
                                          f"radii whose {what} is the distance, or teeth"))
 
 
+def _pressure(item: Item, names: Names) -> Number | None:
+    """The tangent of an angle in degrees, which is irrational."""
+    degrees = item.number()
+    if degrees is None or not 0 <= degrees < 90:
+        return None if degrees is None else item.fault(f"the pressure angle {shown(degrees)}",
+                                                       "an angle from 0 to less than 90 degrees")
+    cosine, sine, exact = TO_A_FLOAT.heading(degrees)
+    if not exact and not names.tables.keys().isdisjoint(LOADS):
+        names.irrational.append(f"{item.where}: pressure angle")
+    return sine if exact else float(sine / cosine)
+
+
+_DEGREES = Kind("degrees", _pressure, {"type": "number", "minimum": 0, "exclusiveMaximum": 90})
+_TANGENT = Table("its tangent", (Field("tangent", "its tangent", AMOUNT, "the tangent, such as { tangent = 0.364 }"),),
+                 lambda row: row["tangent"])
+_PRESSURE = Field("pressure_angle", "the angle in degrees by which the flanks are inclined, or its tangent; 0 for "
+                  "friction wheels",
+                  Either((_DEGREES, _TANGENT), lambda item: _TANGENT if isinstance(item.value, dict) else _DEGREES),
+                  default=20)
 _WHEELS = (
     Field("links", "the two links", TWO_LINKS, 'the two links, such as links = ["2", "3"]'),
     Field("centres", "the centre of each pitch circle: a point of that link", CENTRES,
@@ -193,6 +220,7 @@ FIELD = Field("gears", "two links that roll on each other without slipping: gear
               Rows(Either((Table("a pair of gears", (
     *_WHEELS,
     Field("internal", "whether the second is a ring and the first runs inside it", FLAG, default=False),
+    _PRESSURE,
 ), _wheels), Table("a belt or chain", (
     *_WHEELS,
     Field("belt", "open: the pulleys turn the same way; crossed: opposite ways", choice("open", "crossed")),
@@ -202,5 +230,6 @@ FIELD = Field("gears", "two links that roll on each other without slipping: gear
     Field("radius", "the radius of the pitch circle", DISTANCE, "the gear's radius, such as radius = 30"),
     Field("direction", "the direction of the pitch line, with the gear on its left: a vector, an angle in degrees, or "
           "two points", GUIDE, "the direction of the pitch line, such as direction = [1, 0]"),
+    _PRESSURE,
 ), _rack))), remedy="one about two centres", once=lambda gear: (
     (frozenset(gear.links), frozenset(gear.centres)), "gear between links {} and {}".format(*gear.links))))

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Known as Told
 from graphplan.kernel.stages import Vector
-from graphplan.mechanism.model import FRAME, Balance, Scene, Slide
+from graphplan.mechanism.model import FRAME, Balance, Gear, Scene, Slide
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.forces.stages import joint, known_forces, line_of_action
 from graphplan.methods.forces.unknown_forces import ForceGroup, Part, UnknownForce, has_line
@@ -96,6 +96,7 @@ class DrawnForces:
         self.slides: dict[Slide, Span] = {}
         self.pairs: dict[Slide, Pair | None] = {}
         self.seats: dict[Slide, Mark] = {}
+        self.teeth: dict[Gear, Span] = {}
         self.balances: dict[Balance, Span] = {}
         self.moments: dict[Balance, Pair | None] = {}
 

@@ -16,13 +16,15 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from graphplan.kernel.program import Mark
-from graphplan.mechanism.model import FRAME, Friction, Scene, Slide
+from graphplan.mechanism.model import FRAME, Friction, Number, Scene, Slide
 from graphplan.mechanism.order import by_name
+from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.forces import stages
 from graphplan.methods.forces.free_bodies import DrawnForces, Span, reaction_on
+from graphplan.methods.forces.higher_pairs import TouchingGuide, line_of_pressure, on_first, posed_for, toothed
 from graphplan.methods.forces.loading import Loading
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import MECHANISM, link_named, slide_named
+from graphplan.methods.panels import MECHANISM, link_named, listed, slide_named
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
 
@@ -70,10 +72,13 @@ class Rubbed:
 
     def __init__(self, velocity: Velocity, loading: Loading, forces: DrawnForces):
         self.velocity, self.loading, self.forces, self.board = velocity, loading, forces, loading.board
-        slides = {(slide.link, slide.along): slide for slide in loading.scene.slides}
+        self.posed = posed_for(loading.pose, forces.scene)
         self.touching = {journal: self._touching(journal) for journal in journals(loading.net.scene)}
-        self.leaning = {slides[friction.slide]: self._leaning(slides[friction.slide], friction)
-                        for friction in loading.loads.frictions if friction.slide and friction.coefficient}
+        coefficients = {frozenset(friction.links): friction.coefficient for friction in loading.loads.frictions}
+        self.leaning = {slide: self._leaning(slide, coefficients[frozenset(slide.links)])
+                        for slide in forces.scene.slides if coefficients.get(frozenset(slide.links))
+                        and not isinstance(slide, RollingGuide)}
+        self.leaning |= {guide: self._pressing(guide) for guide in toothed(forces.scene)}
 
     @property
     def pose(self) -> Pose:
@@ -106,13 +111,21 @@ class Rubbed:
         one, two = self.loading.arm_points(journal.link if journal.link != FRAME else journal.pin)
         return two if one == journal.friction.at else one
 
-    def _leaning(self, slide: Slide, friction: Friction) -> Mark:
-        """The guide of a slide, turned by the friction angle."""
-        pose, why = self.loading.pose, said("the friction of the slide {0}", slide_named(slide))
+    def _pressing(self, guide: RollingGuide) -> Mark:
+        """The line of centres of two gears, turned by the pressure angle."""
+        pose, (tail, head) = self.posed, on_first(guide, self.forces)
+        with self.board.on(MECHANISM, guide.links, stages.pressure(guide)):
+            return self.board.perpendicular(line_of_pressure(pose, guide, tail, head), pose.points[guide.at])
+
+    def _leaning(self, slide: Slide, coefficient: Number) -> Mark:
+        """The guide of a slide, or the tangent of a contact, turned by the friction angle."""
+        pose = self.posed
+        why = (said("the friction of the contact {0}", listed(slide.links)) if isinstance(slide, TouchingGuide)
+               else said("the friction of the slide {0}", slide_named(slide)))
         with self.board.on(MECHANISM, (slide.link, slide.along), stages.guide(why)):
             slip = self.velocity.slip(slide.along, slide.link, slide.at)
             return self.board.lean(pose.guide(slide), pose.points[slide.at], slip, *self.forces.slides[slide],
-                                   coefficient=friction.coefficient, why=why)
+                                   coefficient=coefficient, why=why)
 
     def stands(self, then: Rubbed, valued: Valued) -> bool:
         """Whether the forces of this round act as they themselves say: so `then` would have them act.

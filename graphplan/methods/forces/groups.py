@@ -7,13 +7,14 @@ from functools import cached_property
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import Scene, Slide
+from graphplan.mechanism.model import Contact, Scene, Slide
 from graphplan.mechanism.order import ordered
 from graphplan.methods import kinds
 from graphplan.methods.forces import stages as told
 from graphplan.methods.forces.force_plan import ForcePolygon
-from graphplan.methods.forces.free_bodies import DrawnForces, reaction_on
+from graphplan.methods.forces.free_bodies import DrawnForces, Span, reaction_on
 from graphplan.methods.forces.friction import rough
+from graphplan.methods.forces.higher_pairs import TouchingGuide, bearing, on_first, posed_for, press, rolling_point
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.forces.statics import Equilibrium, StaticMove
 from graphplan.methods.forces.unknown_forces import ForceGroup, Position, groups, in_general, posed
@@ -36,8 +37,8 @@ class ForceTransfer:
     choices there are.
     """
 
-    def __init__(self, scene: Scene):
-        self.scene = scene
+    def __init__(self, given: Scene):
+        self.given, self.scene = given, (scene := bearing(given))
         self.groups: list[ForceGroup] = []
         self._general = in_general(scene)
         self.planners: dict[str, Planner] = {}  # of the motions that levers assume, by their panel
@@ -56,8 +57,8 @@ class ForceTransfer:
     @cached_property
     def rough(self) -> ForceTransfer:
         """The plans of the scene whose journals rub."""
-        changed = rough(self.scene)
-        return self if changed.links == self.scene.links else ForceTransfer(changed)
+        changed = rough(self.given)
+        return self if changed.links == self.given.links else ForceTransfer(changed)
 
     @cached_property
     def _posed(self) -> Position:
@@ -93,7 +94,7 @@ def _indeterminate(scene: Scene, links: Iterable[str], untold: set[str]) -> bool
 def reactions(board: Board, pose: Pose, loading: Loading, plans: ForceTransfer, way: Way,
               before: DrawnForces | None = None) -> DrawnForces:
     """All reactions, drawn in a pose; in one of friction after those of the round `before`."""
-    forces = DrawnForces(plans.scene, before)
+    forces, pose = DrawnForces(plans.scene, before), posed_for(pose, plans.scene)
     for group in plans.groups:
         plan = ForcePolygon(board, pose, group, loading, forces)
         if plan.idle():
@@ -101,6 +102,8 @@ def reactions(board: Board, pose: Pose, loading: Loading, plans: ForceTransfer, 
         else:
             plan.draw(plans.moves(group, way))
         plan.enter()
+    if before is None:
+        press(board, pose, plans.scene, forces)
     return forces
 
 
@@ -132,6 +135,12 @@ def results(scene: Scene, loading: Loading, forces: DrawnForces, board: Board) -
         if (asked is None or slide.name in asked) and slide in forces.slides:
             yield kinds.SLIDE_REACTION, slide.name, forces.slides[slide]
             yield kinds.SLIDE_MOMENT, slide.name, _moment(loading, slide, forces)
+    for gear, span in forces.teeth.items():
+        if asked is None or gear.name in asked:
+            yield kinds.GEAR_REACTION, gear.name, span
+    for contact in scene.contacts:
+        if (touching := _touching(forces, contact)) and (asked is None or contact.name in asked):
+            yield kinds.CONTACT_REACTION, contact.name, touching
     yield from balances(loading, forces, kinds.BY_PLANS)
 
 
@@ -153,6 +162,14 @@ def _told(scene: Scene, forces: DrawnForces, point: str, link: str) -> bool:
     """Whether the force on a link at a joint is drawn, or those on all others there."""
     others = [other for other in scene.links_of[point] if other != link]
     return (point, link) in forces.joints or all((point, other) in forces.joints for other in others)
+
+
+def _touching(forces: DrawnForces, contact: Contact) -> Span | None:
+    """The force of a contact on its first link."""
+    if contact.rolling:
+        return forces.joints.get((rolling_point(contact), contact.links[0]))
+    return next((on_first(slide, forces) for slide in forces.slides
+                 if isinstance(slide, TouchingGuide) and slide.given == contact), None)
 
 
 def _moment(loading: Loading, slide: Slide, forces: DrawnForces) -> tuple[Mark, ...]:

@@ -25,6 +25,8 @@ INERTIA = said("the inertia force is against the acceleration of the mass centre
 JOURNAL = said("the force of a journal touches its friction circle, on the side that is against the turning")
 GUIDE = said("the force of a slide leans from the normal of the guide by the friction angle, against the sliding")
 COUPLE = said("a couple is a pair of equal and opposite forces, with any arm")
+PRESSURE = said("each wheel pushes its mate away: the tooth force leans from the circumferential one by the pressure "
+                "angle, and the bearings at both centres bear its radial component")
 SEAT = said("a force and a couple are one force, shifted by the couple over the force")
 POWERS = said("moments about the pole balance, since powers do")
 
@@ -88,6 +90,11 @@ def journal(why: Said) -> Stage:
 def guide(why: Said) -> Stage:
     """How the force of a slide that rubs leans."""
     return Stage(arranged("{0:capital}", why), GUIDE)
+
+
+def pressure(guide: Slide) -> Stage:
+    """The tooth force from its circumferential part."""
+    return Stage(said("Tooth force at {0}, of {1} and {2}", guide.at, *map(link_named, guide.links)), PRESSURE)
 
 
 def seat(slide: Slide) -> Stage:

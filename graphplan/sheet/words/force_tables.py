@@ -47,7 +47,8 @@ class ForceTables:
     def reactions(self) -> Table:
         """Every reaction with its components and size, those of slides with their moments about the slide's point."""
         slides = self.values.get(kinds.SLIDE_REACTION, {})
-        forces, letters = {**self.values.get(kinds.REACTION, {}), **slides}, self._letters()
+        forces = {name: force for kind in kinds.REACTIONS for name, force in self.values.get(kind, {}).items()}
+        letters = self._letters()
         largest = largest_size(forces)
         table = [[sentence_runs(word) for word in (self.tongue(said("reaction")), "R_x", "R_y", f"|R| {self.unit}")]]
         column = [sentence_runs(f"M {self.moment}")]
@@ -58,7 +59,7 @@ class ForceTables:
             sizes = sign * force[0], sign * force[1], size(*force)
             table.append([letter, *(self._figure(part, largest) for part in sizes)])
             column.append((*told, *self._off(kinds.SLIDE_MOMENT, name)))
-        table = with_deviations(self.tongue, table, list(forces), self.pencil.of(kinds.REACTION, kinds.SLIDE_REACTION))
+        table = with_deviations(self.tongue, table, list(forces), self.pencil.of(*kinds.REACTIONS))
         if slides:
             table = [[*row, cell] for row, cell in zip(table, column, strict=True)]
         return table if forces else []
@@ -75,14 +76,17 @@ class ForceTables:
         """The letter of every reaction, by its name in results, and its sign."""
         scene = self.drawing.scene
         joints = {JointForce(point, link).name: self._lettered(pin, link, point) for point, link, pin in pairs(scene)}
-        return joints | {slide.name: self._lettered(slide.along, slide.link, slide.at) for slide in scene.slides}
+        slides = {slide.name: self._lettered(slide.along, slide.link, slide.at) for slide in scene.slides}
+        contacts = {pair.name: self._lettered(*pair.links[::-1], pair.at) for pair in scene.contacts}
+        return joints | slides | contacts | {gear.name: self._lettered(*gear.links[::-1]) for gear in scene.gears}
 
-    def _lettered(self, one: str, other: str, point: str) -> tuple[Runs, int]:
-        """The letter of the force of one link on another at a point; its answer, with the sign -1, if that is drawn."""
+    def _lettered(self, one: str, other: str, point: str = "") -> tuple[Runs, int]:
+        """The letter of the force of one link on another, at a point or between teeth; its answer, with the sign -1, if
+        that is drawn."""
         drawn = {vector.label for vector in self.drawing.arrows}
         letter, answer = pair_letter(one, other), pair_letter(other, one)
         sign = -1 if answer in drawn and letter not in drawn else 1
-        place = self.tongue(said("at {0}", point))
+        place = self.tongue(said("at {0}", point) if point else said("in mesh"))
         return (*name_runs(letter if sign > 0 else answer), *sentence_runs(f" {place}", (point,))), sign
 
     def seats(self) -> Iterator[Said]:

@@ -10,7 +10,15 @@ from typing import Any
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PROTRACTOR, SCALE, SET_SQUARES, STRAIGHTEDGE
 from graphplan.mechanism.model import Balance, Contact, Gear, Loads, Pair, Scene
 from graphplan.mechanism.order import named_forces
-from graphplan.methods.kinds import POLE, POLE_HEADING, REACTION, SLIDE_REACTION, kind_of
+from graphplan.methods.kinds import (
+    CONTACT_REACTION,
+    GEAR_REACTION,
+    POLE,
+    POLE_HEADING,
+    REACTION,
+    SLIDE_REACTION,
+    kind_of,
+)
 from graphplan.methods.panels import JointForce, link_named, listed, pole_letter, slide_named
 from graphplan.phrases import Said, arranged, coordinates, digits, joined, phrase, said, unit
 from graphplan.sheet.frames.title import GUIDED, TASK
@@ -194,8 +202,9 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
         yield said("Moment on {0}: {1}.", link_named(moment.on), value)
     slides = {(slide.link, slide.along): slide for slide in scene.slides}
     for friction in loads.frictions:
-        where = slide_named(slides[friction.slide]) if friction.slide else said("at {0}", friction.at)
-        radius = [] if friction.slide else [_with_unit("r", friction.radius, units.length)]
+        where = (slide_named(slides[friction.slide]) if friction.slide
+                 else listed(friction.links) if friction.links else said("at {0}", friction.at))
+        radius = [] if friction.links else [_with_unit("r", friction.radius, units.length)]
         yield said("Friction {0}: {1}.", where, joined((arranged("mu = {0}", _figure(friction.coefficient)), *radius)))
 
 
@@ -210,10 +219,13 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
         yield said("Sliding velocities and accelerations: {0}.", joined(slides[name] for name in moving))
     if poles := [pole_letter(scene.link_pair(name)) for kind in (POLE, POLE_HEADING) for name in values.get(kind, ())]:
         yield said("Instant centres: {0}.", ", ".join(poles))
-    told = values.get(REACTION, ())
-    joints = [p for p in scene.joints if any(JointForce(p, link).name in told for link in scene.links_of[p])]
-    if joints or values.get(SLIDE_REACTION):
-        yield said("Reactions: {0}.", joined((*joints, *(slides[name] for name in values.get(SLIDE_REACTION, ())))))
+    forces = values.get(REACTION, ())
+    joints = [p for p in scene.joints if any(JointForce(p, link).name in forces for link in scene.links_of[p])]
+    told = [*joints, *(slides[name] for name in values.get(SLIDE_REACTION, ()))]
+    told += [listed(pair.links) for kind, pairs in ((GEAR_REACTION, scene.gears), (CONTACT_REACTION, scene.contacts))
+             for pair in pairs if pair.name in values.get(kind, {})]
+    if told:
+        yield said("Reactions: {0}.", joined(told))
     if scene.loads and any(kind_of(kind).way for kind in values):
         yield from map(_keeping, scene.loads.balances)
 

@@ -50,9 +50,11 @@ class Seat(NamedTuple):
 
 
 class Closing(NamedTuple):
-    """The arms of two links end in one point.
+    """The arms of two links end in one point, or `far` from each other.
 
-    With a guide, only the component of the gap along a way that is fixed to it is what a drive has it, or nothing.
+    With a guide, only the component of the gap along a way that is fixed to it is what a drive has it, or nothing; or
+    as the link has rolled there, which turns on the other with a `lever`. Both numbers are told by their places among
+    the arms.
     """
 
     link: int
@@ -62,13 +64,24 @@ class Closing(NamedTuple):
     guide: int | None = None
     way: int | None = None
     drive: int | None = None
+    far: int | None = None
+    lever: int | None = None
+
+
+class Mesh(NamedTuple):
+    """Two links turn on a third so that by their `factors`, a pair among the arms, the sum of the angles is nothing."""
+
+    one: int
+    other: int
+    carrier: int
+    factors: int
 
 
 class Layout(NamedTuple):
     """The structure of a group, which says all but its numbers; links are told by their places, 0 is the frame.
 
     `known` links are placed before. The unknowns are the angles in the order of `spins`, then what the seats ask for.
-    `turnings` are spins that close a loop.
+    `turnings` are spins that close a loop. Where the angles are `counted`, links know how far they have turned in all.
     """
 
     known: int
@@ -78,6 +91,8 @@ class Layout(NamedTuple):
     seats: tuple[Seat, ...]
     closings: tuple[Closing, ...]
     turnings: tuple[Spin, ...]
+    meshes: tuple[Mesh, ...] = ()
+    counted: bool = False
 
     @property
     def angles(self) -> int:
@@ -92,7 +107,8 @@ class Layout(NamedTuple):
 
 
 class Drive(NamedTuple):
-    """Where a drive is: the cosine and sine of its angle, or its length; and its rate by the travel, if asked for."""
+    """Where a drive is: the cosine and sine of its angle, and that itself where angles are counted, or its length; and
+    its rate by the travel, if asked for."""
 
     at: Any
     rate: Any
@@ -102,13 +118,14 @@ class Drive(NamedTuple):
 class Body:
     """A link in a pose: its base and its turn, a vector of length 1, or none where it does not turn.
 
-    `moves` and `spin` are their derivatives, the turn's as angles.
+    `moves` and `spin` are their derivatives, the turn's as angles. `angle` is how far it has turned in all, if counted.
     """
 
     base: Vector = (0.0, 0.0)
     turn: Vector | None = None
     moves: Moves = field(default_factory=dict)
     spin: Moves = field(default_factory=dict)
+    angle: Any = 0.0
 
     def at(self, arm: Vector | None) -> tuple[Vector, Moves]:
         """The link's point at an arm, and how it moves."""
@@ -126,7 +143,8 @@ def rotated(turn: Any, vector: Any) -> Any:
 
 def bodies(layout: Layout, known: Sequence[Body], arms: Sequence[Vector], drives: Sequence[Drive],
            state: Sequence[Any], moving: bool = True) -> list[Body]:
-    """All links, those of the group after the known ones; in `state` an unknown angle is its cosine and sine.
+    """All links, those of the group after the known ones; in `state` an unknown angle is its cosine and sine, and where
+    angles are counted the angle itself.
 
     If they are not `moving`, derivatives by angles are left out.
     """
@@ -135,14 +153,16 @@ def bodies(layout: Layout, known: Sequence[Body], arms: Sequence[Vector], drives
     for spin in layout.spins:
         link = links[spin.link]
         if spin.on is None:
-            i, link.turn = next(unknown)
-            link.spin = {i: None} if moving else {}
+            i, (cos, sin, *angle) = next(unknown)
+            link.turn, link.spin = (cos, sin), {i: None} if moving else {}
+            link.angle = angle[0] if angle else 0.0
             continue
         on = links[spin.on]
-        link.turn, link.spin = on.turn, on.spin
+        link.turn, link.spin, link.angle = on.turn, on.spin, on.angle
         if spin.drive is not None:
-            angle, rate = drives[spin.drive]
-            link.turn, link.spin = rotated(on.turn, angle), _sum(on.spin, _driven(rate))
+            (cos, sin, *angle), rate = drives[spin.drive]
+            link.turn, link.spin = rotated(on.turn, (cos, sin)), _sum(on.spin, _driven(rate))
+            link.angle = on.angle + angle[0] if angle else on.angle
     for seat in layout.seats:
         _seat(links, seat, arms, drives, unknown)
     return links
@@ -190,6 +210,7 @@ def _arm(arms: Sequence[Vector], place: int | None) -> Vector | None:
 def left_open(layout: Layout, links: Sequence[Body], arms: Sequence[Vector], drives: Sequence[Drive]) -> list[Row]:
     """What the pairs that seat no link leave open in a pose in which the links lie so."""
     rows = [row for closing in layout.closings for row in _closed(links, closing, arms, drives)]
+    rows += [_meshed(links, mesh, arms) for mesh in layout.meshes]
     return rows + [_turned(links, turning, drives) for turning in layout.turnings]
 
 
@@ -198,6 +219,11 @@ def _closed(links: Sequence[Body], closing: Closing, arms: Sequence[Vector], dri
     place, moves = links[closing.link].at(_arm(arms, closing.arm))
     other, others = links[closing.on].at(_arm(arms, closing.rest))
     gap, moves = less(place, other), _difference(moves, others)
+    if closing.far is not None:
+        far, _ = arms[closing.far]
+        yield {RESIDUE: (dot(gap, gap) - far * far) / (far + far),
+               **{k: dot(gap, move) / far for k, move in moves.items()}}
+        return
     if closing.guide is None or closing.way is None:
         for i in range(2):
             yield {RESIDUE: gap[i], **{k: move[i] for k, move in moves.items()}}
@@ -211,7 +237,25 @@ def _closed(links: Sequence[Body], closing: Closing, arms: Sequence[Vector], dri
     if closing.drive is not None:
         far, rate = drives[closing.drive]
         left, row = left - far, _sum(row, {k: -w for k, w in _driven(rate).items()})
+    if closing.lever is not None:
+        one, two, (lever, _) = links[closing.link], links[closing.on], arms[closing.lever]
+        left = left + lever * (one.angle - two.angle)
+        row = _sum(row, _sum(_weighed(lever, one.spin), _weighed(-lever, two.spin)))
     yield {RESIDUE: left, **row}
+
+
+def _meshed(links: Sequence[Body], mesh: Mesh, arms: Sequence[Vector]) -> Row:
+    """What a pair of gears leaves open: an angle, as linear in those of the links as it is."""
+    (k1, k2), row, left = arms[mesh.factors], Row(), 0.0
+    for weight, place in ((k1, mesh.one), (k2, mesh.other), (-(k1 + k2), mesh.carrier)):
+        left = left + weight * links[place].angle
+        row = _sum(row, _weighed(weight, links[place].spin))
+    return {RESIDUE: left, **row}
+
+
+def _weighed(weight: Any, spin: Moves) -> Moves:
+    """The derivatives of so many times an angle."""
+    return {k: weight if w is None else weight * w for k, w in spin.items()}
 
 
 def _turned(links: Sequence[Body], turning: Spin, drives: Sequence[Drive]) -> Row:
@@ -219,8 +263,8 @@ def _turned(links: Sequence[Body], turning: Spin, drives: Sequence[Drive]) -> Ro
     link, on = links[turning.link], links[turning.on or 0]
     rest, spin = on.turn or (1.0, 0.0), on.spin
     if turning.drive is not None:
-        angle, rate = drives[turning.drive]
-        rest, spin = rotated(on.turn, angle), _sum(spin, _driven(rate))
+        (cos, sin, *_), rate = drives[turning.drive]
+        rest, spin = rotated(on.turn, (cos, sin)), _sum(spin, _driven(rate))
     mirrored = rest[0], -rest[1]
     cos, sin = rotated(link.turn or (1.0, 0.0), mirrored)
     apart = _sum({k: 1.0 if w is None else w for k, w in link.spin.items()},

@@ -20,7 +20,7 @@ from graphplan.cycle.closure import Body
 from graphplan.cycle.groups import Group
 from graphplan.cycle.linkage import Array, Linkage, direction
 from graphplan.kernel.numbers.floats import ZERO
-from graphplan.mechanism.model import FRAME, Slide
+from graphplan.mechanism.model import FRAME, Contact, Gear, Slide
 
 
 class Failure(NamedTuple):
@@ -118,7 +118,8 @@ def dyad(linkage: Linkage, group: Group,
     The places and turns of links are arrays, or any numbers that compute as complex ones.
     """
     part, before = group.part, (FRAME, *group.carriers)
-    if len(part) != 2:
+    pairs = (pair for link in part for pair in linkage.pairs(link, (*before, *part)))
+    if len(part) != 2 or any(isinstance(pair, Gear | Contact) for pair in pairs):
         return None
     outer = [_hinges(linkage, link, before, placed) for link in part]
     inner = [hinge for hinge in _hinges(linkage, part[0], part[1:], placed)

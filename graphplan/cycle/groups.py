@@ -14,11 +14,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.cycle import closure, newton
-from graphplan.cycle.closure import Body, Closing, Layout, Seat, Spin
+from graphplan.cycle.closure import Body, Closing, Layout, Mesh, Seat, Spin
+from graphplan.cycle.higher import Apart, Geared, Racked
 from graphplan.cycle.linkage import Linkage, direction
 from graphplan.cycle.newton import Corrected, Lies
 from graphplan.mechanism.model import FRAME
-from graphplan.mechanism.pairs.pair import Along, Turning
+from graphplan.mechanism.pairs.pair import TOUCHING, Along, Turning
 
 Array = Any
 
@@ -70,10 +71,15 @@ class Group:
         flat += self._flat
         for turns, rate in self.drives:
             angle = rate * travel
-            flat += (math.cos(angle), math.sin(angle), rate) if turns else (angle, rate)
+            flat += (*self._turn(angle), rate) if turns else (angle, rate)
         for angle in state[: self._angles]:
-            flat += math.cos(angle), math.sin(angle)
+            flat += self._turn(angle)
         return Corrected(*self._run(*flat, *state[self._angles:]))
+
+    def _turn(self, angle: Any) -> tuple[Any, ...]:
+        """An angle as the closure has it."""
+        turn = (np.cos(angle), np.sin(angle)) if isinstance(angle, np.ndarray) else (math.cos(angle), math.sin(angle))
+        return (*turn, angle) if self.layout.counted else turn
 
     def settled(self, placed: Mapping[str, Lies], travel: float, state: list[float], size: float,
                 ) -> tuple[list[float], Corrected] | None:
@@ -107,9 +113,9 @@ class Group:
 
     def read(self, travel: Array, state: Sequence[Array]) -> tuple[list[closure.Drive], list[Any]]:
         """The drives of n poses, and their states as the closure has them."""
-        drives = [closure.Drive((np.cos(rate * travel), np.sin(rate * travel)) if turns else rate * travel, None)
+        drives = [closure.Drive(self._turn(rate * travel) if turns else rate * travel, None)
                   for turns, rate in self.drives]
-        return drives, [(np.cos(value), np.sin(value)) if i < self._angles else value for i, value in enumerate(state)]
+        return drives, [self._turn(value) if i < self._angles else value for i, value in enumerate(state)]
 
     def lie(self, known: Sequence[Body], travel: Array, state: Sequence[Array]) -> list[Body]:
         """How the links lie in n poses, their states taken as they are."""
@@ -139,12 +145,16 @@ class Group:
 
         if self._still.shape[1] < n:
             self._still = np.repeat(np.array(self._flat)[:, None], n, axis=1)
-        bases = (part for body in known[1:] for part in (body.base, body.turn or (1.0, 0.0)))
+        counted = self.layout.counted
+        bases = (part for body in known[1:]
+                 for part in (body.base, body.turn or (1.0, 0.0), *((body.angle,) if counted else ())))
         moving = (*(drive.at for drive in drives), *numbers)
-        found = np.empty((self.unknowns + 1 + 4 * len(self.links), n))
+        width = 5 if counted else 4
+        found = np.empty((self.unknowns + 1 + width * len(self.links), n))
         run.run([*arrays(bases), *self._still[:, :n], *arrays(moving)], list(found))
         corrections, (determinant, *lies) = found[: self.unknowns], found[self.unknowns:]
-        links = [Body((x, y), (cos, sin)) for x, y, cos, sin in zip(*(lies[i::4] for i in range(4)), strict=True)]
+        links = [Body((x, y), (cos, sin), angle=angle[0] if angle else 0.0)
+                 for x, y, cos, sin, *angle in zip(*(lies[i::width] for i in range(width)), strict=True)]
         return corrections, determinant, links
 
 
@@ -152,29 +162,32 @@ class _Maker:
     """Finds the layout of one part."""
 
     def __init__(self, linkage: Linkage, part: tuple[str, ...]):
-        self.linkage, self.part, self.carriers = linkage, part, linkage.carriers(part)
-        bonds = [bond for link in part for bond in linkage.bonds[link]]
+        self.linkage, self.part, self.carriers = linkage, linkage.members[part], linkage.carriers(part)
+        bonds = [bond for link in self.part for bond in linkage.bonds[link]]
         self.arms: list[tuple[float, float]] = []
         self.ends: list[End] = []
         self.drives: list[tuple[bool, float]] = []
         self.turnings = [bond for bond in bonds if isinstance(bond, Turning)]
-        self.joints: dict[tuple[str, str, str], list[Along]] = {}
+        self.joints: dict[tuple[Any, ...], list[Along]] = {}
         for bond in bonds:
             if isinstance(bond, Along):
-                self.joints.setdefault((bond.link, bond.on, bond.at), []).append(bond)
+                alone = (bond.direction,) if bond.way == TOUCHING else ()
+                self.joints.setdefault((bond.link, bond.on, bond.at, *alone), []).append(bond)
         self.seated: list[str] = []
         seats = list(self._seats())
         self.place = {link: i for i, link in enumerate((FRAME, *self.carriers, *self.seated))}
         self.spins = tuple(self._spins())
         self.seats = tuple(self._seat(*seat) for seat in seats)
-        self.closings = tuple(closing for joint in self.joints.values() for closing in self._closings(joint))
+        self.closings = (*(closing for joint in self.joints.values() for closing in self._closings(joint)),
+                         *(self._rolled(bond) for bond in bonds if isinstance(bond, Apart | Racked)))
+        self.meshes = tuple(self._meshed(bond) for bond in bonds if isinstance(bond, Geared))
 
     def layout(self) -> Layout:
         """What was found."""
         turnings = tuple(Spin(self.place[bond.link], self.place[bond.on], self._drive(True, float(bond.rate)))
                          for bond in self.turnings)
         return Layout(1 + len(self.carriers), len(self.arms), tuple(turns for turns, _ in self.drives), self.spins,
-                      self.seats, self.closings, turnings)
+                      self.seats, self.closings, turnings, self.meshes, self.linkage.counted)
 
     def _spins(self) -> Iterator[Spin]:
         """How each link turns: with one that is known to turn, or else by an unknown angle."""
@@ -239,6 +252,28 @@ class _Maker:
             drive = self._drive(False, float(bond.rate) / self.linkage.reach)
             yield closing._replace(guide=self.place[bond.to or bond.on], way=self._way(bond, direction(bond)),
                                    drive=drive)
+
+    def _rolled(self, bond: Apart | Racked) -> Closing:
+        """What closes a loop by a length: the distance of two centres, or the radius by which a wheel rolls."""
+        places, reach = self.linkage.places, self.linkage.reach
+        other = bond.other if isinstance(bond, Apart) else bond.at
+        closing = Closing(self.place[bond.link], self._arm(bond.link, places[bond.at], bond.at),
+                          self.place[bond.on], self._arm(bond.on, places[other], other))
+        if isinstance(bond, Apart):
+            return closing._replace(far=self._number(abs(places[bond.at] - places[other]) / reach))
+        way = self._entered(direction(bond), End(bond.on, bond.at, True))
+        return closing._replace(guide=self.place[bond.on], way=way, lever=self._number(bond.lever / reach))
+
+    def _meshed(self, bond: Geared) -> Mesh:
+        """What a pair of gears closes; of its factors, and their sum, the largest is 1."""
+        k1, k2 = bond.factors
+        size = max(abs(k1), abs(k2), abs(k1 + k2))
+        carrier = self.linkage.lines.carriers[bond.arm]
+        return Mesh(self.place[bond.link], self.place[bond.on], self.place[carrier], self._number(k1 / size, k2 / size))
+
+    def _number(self, one: float, other: float = 0.0) -> int:
+        """Numbers that stand among the arms, and are on no link."""
+        return self._entered(complex(one, other), End("", "", False))
 
     def _arm(self, link: str, place: complex, at: str) -> int | None:
         """The arm from a link's base to a place, that of a point."""

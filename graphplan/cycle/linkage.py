@@ -12,8 +12,9 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
+from graphplan.cycle.higher import Bond, Geared, LinesOfCentres, Racked, stated
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
-from graphplan.mechanism.pairs.pair import Along, KinematicPair, Statement
+from graphplan.mechanism.pairs.pair import Along, KinematicPair
 from graphplan.mechanism.pairs.revolute import Revolute, across
 from graphplan.mechanism.structure import structure
 
@@ -24,6 +25,7 @@ Array = Any
 class Linkage:
     """A scene's links, their bonds, and its parts (driving links and groups) in the order of motion transfer.
 
+    Its `links` are those of the scene and the arms that are thought in for gears, `members` those of each part.
     `paces` are the travels of the drives for a unit of the first one's. `origins` are where the bases of links were
     given: a first point, until the group of a link says better.
     """
@@ -32,10 +34,17 @@ class Linkage:
         self.scene, self.paces = scene, paces
         self.places = {name: number(*at) for name, at in scene.points.items()}
         self.parts = tuple(part.links for part in structure(scene).parts)
-        self.links = (FRAME, *(link for part in self.parts for link in part))
+        links = [FRAME, *(link for part in self.parts for link in part)]
+        place = {FRAME: -1} | {link: i for i, part in enumerate(self.parts) for link in part}
+        self.lines = LinesOfCentres(scene, {link: i for i, link in enumerate(links)}, place)
+        self.members = {part: (*part, *(name for name, gear in self.lines.arms.items()
+                                        if max(place[gear.link], place[gear.on]) == i))
+                        for i, part in enumerate(self.parts)}
+        self.links = (FRAME, *(link for part in self.parts for link in self.members[part]))
         self.order = {link: i for i, link in enumerate(self.links)}
         self.origins = {link: self.places[points[0]] if points else 0j
                         for link in self.links for points in [scene.links.get(link, ())]}
+        self.origins |= {name: self.places[gear.at] for name, gear in self.lines.arms.items()}
 
     @cached_property
     def reach(self) -> float:
@@ -44,16 +53,27 @@ class Linkage:
         return max(abs(place - first) for place in self.places.values()) or 1.0
 
     @cached_property
-    def bonds(self) -> dict[str, tuple[Statement, ...]]:
+    def bonds(self) -> dict[str, tuple[Bond, ...]]:
         """For each link what ties it to links placed before it, or with it; a drive with its pace."""
-        found: dict[str, list[Statement]] = {link: [] for link in self.links}
-        bonds = [bond for pair in self.scene.binding for bond in self._placed(pair).states(self.scene)
+        found: dict[str, list[Bond]] = {link: [] for link in self.links}
+        bonds = [bond for pair in self.scene.binding for bond in stated(self.scene, self._placed(pair))
                  if bond.condition not in self.scene.redundant]
+        bonds += [bond for name in self.lines.arms for bond in self.lines.bonds(name, self.places)]
         bonds += [replace(bond, rate=pace) for drive, pace in zip(self.scene.drives, self.paces, strict=True)
                   for bond in drive.states(self.scene)]
         for bond in bonds:
-            found[max(bond.link, bond.on, key=self.order.__getitem__)].append(bond)
+            found[max(self.tied(bond), key=self.order.__getitem__)].append(bond)
         return {link: tuple(bonds) for link, bonds in found.items()}
+
+    def tied(self, bond: Bond) -> tuple[str, ...]:
+        """The links that a bond ties, that of its direction and the line of centres among them."""
+        more = self.lines.carriers[bond.arm] if isinstance(bond, Geared) else getattr(bond, "to", "")
+        return (bond.link, bond.on, more) if more else (bond.link, bond.on)
+
+    @property
+    def counted(self) -> bool:
+        """Whether it must be known how far links have turned in all."""
+        return any(isinstance(bond, Geared | Racked) for bonds in self.bonds.values() for bond in bonds)
 
     def _placed(self, pair: KinematicPair) -> KinematicPair:
         """A joint's pin is on the link that is placed first; a link that it holds in one way alone has its own axis."""
@@ -79,8 +99,8 @@ class Linkage:
 
     def carriers(self, part: tuple[str, ...]) -> tuple[str, ...]:
         """The links placed before a part that it is tied to, but for the frame."""
-        bonds = [bond for link in part for bond in self.bonds[link]]
-        ends = {end for bond in bonds for end in (bond.link, bond.on, getattr(bond, "to", "")) if end}
+        bonds = [bond for link in self.members[part] for bond in self.bonds[link]]
+        ends = {end for bond in bonds for end in self.tied(bond)}
         placed = {self.order[end] for end in ends - {FRAME}}
         return tuple(self.links[i] for i in sorted(placed) if i < self.order[part[0]])
 
@@ -103,7 +123,7 @@ def number(x: Number, y: Number) -> complex:
     return complex(float(x), float(y))
 
 
-def direction(of: Slide | Along) -> complex:
+def direction(of: Slide | Along | Racked) -> complex:
     """A direction in the given pose, of length 1."""
     along = number(*of.direction)
     return along / abs(along)

@@ -14,6 +14,7 @@ from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import said
 
+TURNS = 16  # of the first drive, in which gears must be back
 BEFORE = 0.002  # of the way: so far before a limit it turns round, as there are no velocities at the limit itself
 
 
@@ -27,21 +28,43 @@ class Loop:
 
 
 def whole_motion(scene: Scene) -> RangeOfMotion:
-    """As far as the mechanism goes from its given pose: one turn of the first drive; of one that slides to its limits,
-    or where there are none as far as the mechanism is large.
+    """As far as the mechanism goes from its given pose: one turn of the first drive, or with gears as many as it takes
+    until all is back, if not too many; of a drive that slides to its limits, or where there are none as far as the
+    mechanism is large.
 
     Fails with `Refused` where that is nowhere.
     """
     check_drives(scene)
+    found = range_of_motion(scene)
+    if found.path.travel[0] == found.path.travel[-1]:
+        raise Refused("the cycle", said("the mechanism does not move on from the given pose"), "another pose")
+    return found
+
+
+def range_of_motion(scene: Scene) -> RangeOfMotion:
+    """The same, be it nowhere."""
     if scene.drives[0].slides:
         places = [complex(*map(float, at)) for at in scene.points.values()]
         far = max(abs(p - q) for p in places for q in places)
         found = RangeOfMotion(scene, -far, far, closed=False)
     else:
         found = RangeOfMotion(scene, 0.0, TURN, closes(scene, paces(scene)))
-    if found.path.travel[0] == found.path.travel[-1]:
-        raise Refused("the cycle", said("the mechanism does not move on from the given pose"), "another pose")
+        if found.closed and found.linkage.counted and not (found.whole or found.path.upper):
+            found = _until_back(scene) or found
     return found
+
+
+def _until_back(scene: Scene) -> RangeOfMotion | None:
+    """The motion through the fewest turns after which all is back; none where these are too many, or it stops."""
+    most = 1
+    while most < TURNS:
+        found, most = RangeOfMotion(scene, 0.0, 2 * most * TURN, closed=True), 2 * most
+        if found.path.upper:
+            return None
+        for count in range(most // 2 + 1, most + 1):
+            if found.back(count * TURN):
+                return found if count == most else RangeOfMotion(scene, 0.0, count * TURN, closed=True)
+    return None
 
 
 def loop(scene: Scene, count: int, span: tuple[float, float] | None = None) -> Loop:
@@ -56,7 +79,7 @@ def loop(scene: Scene, count: int, span: tuple[float, float] | None = None) -> L
         low, high = sorted(travels(scene, 2, span).tolist())
         motion, ends = RangeOfMotion(scene, min(0.0, low), max(0.0, high), closed=False), (low, high)
     if motion.whole:
-        return Loop(motion.turn(TURN * np.arange(count) / count), range(count))
+        return Loop(motion.turn(motion.path.travel[-1] * np.arange(count) / count), range(count))
     low, high = _inside(motion, *ends)
     half = count // 2
     travel = (low + high) / 2 - (high - low) / 2 * np.cos(np.pi * np.arange(half + 1) / max(1, half))

@@ -94,14 +94,17 @@ def rates_of(link: Body, rates: Sequence[Any]) -> Iterator[Any]:
 
 
 def corrected(layout: Layout, state: Sequence[Any], corrections: Sequence[Any]) -> list[Any]:
-    """The state less the corrections; an angle is turned back by Cayley's formula, right to second order."""
+    """The state less the corrections; an angle is turned back by Cayley's formula, right to second order, and where it
+    is counted less the correction itself."""
     found = list(state)
     for i, correction in enumerate(corrections):
         if i < layout.angles:
             half = 0.5 * correction
             square = half * half
             size = 1.0 + square
-            found[i] = rotated(state[i], ((1.0 - square) / size, -correction / size))
+            cos, sin, *angle = state[i]
+            turned = rotated((cos, sin), ((1.0 - square) / size, -correction / size))
+            found[i] = (*turned, *(one - correction for one in angle))
         else:
             found[i] = state[i] - correction
     return found
@@ -111,7 +114,8 @@ def corrected(layout: Layout, state: Sequence[Any], corrections: Sequence[Any]) 
 
 
 Lies = tuple[float, ...]
-"""How a link lies in one pose: its base and turn as x, y, cos, sin, and their rates by the travel as x, y, angle."""
+"""How a link lies in one pose: its base and turn as x, y, cos, sin, and their rates by the travel as x, y, angle; where
+angles are counted then how far it has turned in all."""
 
 
 Run = Blocks | Machine
@@ -134,13 +138,14 @@ class _Record:
     """
 
     def __init__(self, layout: Layout, rates: bool):
-        self.tape, self.inputs = Symbols().tape, list[int]()
+        self.tape, self.inputs, self.layout = Symbols().tape, list[int](), layout
         known = [Body(), *(Body(self._pair(), self._pair(), {TRAVEL: self._pair()} if rates else {},
-                                {TRAVEL: self._new()} if rates else {}) for _ in range(layout.known - 1))]
+                                {TRAVEL: self._new()} if rates else {}, self._new() if layout.counted else 0.0)
+                           for _ in range(layout.known - 1))]
         arms = [self._pair() for _ in range(layout.arms)]
-        drives = [Drive(self._pair() if turns else self._new(), self._new() if rates else None)
+        drives = [Drive(self._angle() if turns else self._new(), self._new() if rates else None)
                   for turns in layout.drives]
-        state = [self._pair() if i < layout.angles else self._new() for i in range(layout.unknowns)]
+        state = [self._angle() if i < layout.angles else self._new() for i in range(layout.unknowns)]
         links = bodies(layout, known, arms, drives, state)
         self.step = step(left_open(layout, links, arms, drives), layout.unknowns, Symbol.root)
         closed = bodies(layout, known, arms, drives, corrected(layout, state, self.step.corrections), moving=False)
@@ -154,6 +159,10 @@ class _Record:
     def _pair(self) -> Vector:
         return self._new(), self._new()
 
+    def _angle(self) -> tuple[Symbol, ...]:
+        """The cosine and sine of an angle, and where angles are counted that itself."""
+        return tuple(self._new() for _ in range(3 if self.layout.counted else 2))
+
     def told(self, *numbers: Any) -> tuple[int, ...]:
         """The places of numbers."""
         return tuple(map(self.tape.place, numbers))
@@ -161,6 +170,10 @@ class _Record:
     def lies(self, i: int) -> tuple[Any, ...]:
         """How a link of the group lies."""
         return *self.closed[i].base, *(self.closed[i].turn or (1.0, 0.0))
+
+    def angles(self, i: int) -> tuple[Any, ...]:
+        """How far it has turned in all, if that is counted."""
+        return (self.closed[i].angle,) if self.layout.counted else ()
 
     def moves(self, i: int) -> Iterator[Any]:
         """How it moves."""
@@ -175,7 +188,7 @@ def recorded(layout: Layout) -> tuple[Tape, list[int], Any]:
     """
     record = _Record(layout, rates=True)
     found, told = record.step, record.told
-    lies = tuple(told(*record.lies(i), *record.moves(i)) for i in range(len(record.links)))
+    lies = tuple(told(*record.lies(i), *record.moves(i), *record.angles(i)) for i in range(len(record.links)))
     return record.tape, record.inputs, Corrected(told(*found.corrections), told(*found.rates),
                                                  record.tape.place(found.determinant), lies)
 
@@ -189,8 +202,9 @@ def for_one(layout: Layout) -> Callable[..., Any]:
 
 @lru_cache(maxsize=64)
 def for_many(layout: Layout, machine: bool) -> Run:
-    """The same over arrays, without rates: corrections, determinant, and x, y, cos, sin of each link."""
+    """The same over arrays, without rates: corrections, determinant, and x, y, cos, sin of each link, then the angle if
+    counted."""
     record = _Record(layout, rates=False)
-    lies = [number for i in range(len(record.links)) for number in record.lies(i)]
+    lies = [number for i in range(len(record.links)) for number in (*record.lies(i), *record.angles(i))]
     told = record.told(*record.step.corrections, record.step.determinant, *lies)
     return (Machine if machine else Blocks)(record.tape, record.inputs, told)

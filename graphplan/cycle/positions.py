@@ -8,6 +8,7 @@ where it is not to be trusted, the pose is walked to. Poses are placed in blocks
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -120,7 +121,7 @@ class Placing:
     def _enter(self, group: Group, links: Sequence[Body], bodies: dict[str, Body], at: Array) -> None:
         """Write down the points of a group."""
         for link, body in zip(group.links, links, strict=True):
-            bodies[link] = Body(body.base, body.turn)
+            bodies[link] = Body(body.base, body.turn, angle=body.angle)
             x, y = (self.linkage.reach * number for number in body.base)
             x, y = x + self.linkage.origins[FRAME].real, y + self.linkage.origins[FRAME].imag
             for point, lever in self.owned[link]:
@@ -154,8 +155,8 @@ def _settled(group: Group, known: Sequence[Body], travel: Array, state: Array, s
                                         (state - corrections)[:, again], size, sense,
                                         np.where(settled, NEAR * size, SHRINKING * far), settled, run)
         for link, other in zip(links, rest, strict=True):
-            for array, some in zip((*link.base, *(link.turn or ())), (*other.base, *(other.turn or (1.0, 0.0))),
-                                   strict=False):
+            for array, some in zip((*link.base, link.angle, *(link.turn or ())),
+                                   (*other.base, other.angle, *(other.turn or (1.0, 0.0))), strict=False):
                 if isinstance(array, np.ndarray):
                     array[again] = some
     return links, trusted
@@ -163,8 +164,8 @@ def _settled(group: Group, known: Sequence[Body], travel: Array, state: Array, s
 
 def _some(body: Body, at: Array) -> Body:
     """A link in some of its poses."""
-    def part(vector: closure.Vector) -> closure.Vector:
-        x, y = (number[at] if isinstance(number, np.ndarray) else number for number in vector)
-        return x, y
+    def part(vector: tuple[Any, ...]) -> Any:
+        return tuple(number[at] if isinstance(number, np.ndarray) else number for number in vector)
 
-    return Body(part(body.base), part(body.turn) if body.turn else None)
+    (angle,) = part((body.angle,))
+    return Body(part(body.base), part(body.turn) if body.turn else None, angle=angle)

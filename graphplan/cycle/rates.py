@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -38,10 +38,11 @@ def moved(linkage: Linkage, groups: Sequence[Group], travel: Array, points: Mapp
     """How every link lies and moves where its points and turns are so; nan where they are, and where it is singular."""
     frame, reach, still = linkage.origins[FRAME], linkage.reach, np.zeros(travel.shape)
     bodies = {FRAME: Body()}
+    turns = {**turns, **dict(_turned_arms(linkage, points))}
     for link in linkage.links[1:]:
-        origin, pin = linkage.origins[link], linkage.points(link)[0]
-        base = (points[pin] + turns[link] * (origin - linkage.places[pin]) - frame) / reach
-        bodies[link] = Body(_pair(base), _pair(turns[link]))
+        origin, pin = linkage.origins[link], next(iter(linkage.points(link)), "")
+        at = points[pin] + turns[link] * (origin - linkage.places[pin]) if pin else points[linkage.lines.arms[link].at]
+        bodies[link] = Body(_pair((at - frame) / reach), _pair(turns[link]))
     for group in groups:
         _move(group, bodies, travel)
     found = {FRAME: Moved(frame, still + frame, still + 1.0, still + 0j, still)}
@@ -51,6 +52,13 @@ def moved(linkage: Linkage, groups: Sequence[Group], travel: Array, points: Mapp
         found[link] = Moved(linkage.origins[link], frame + reach * _complex(body.base), turns[link],
                             reach * _complex((x, y)) + still, spin + still)
     return found
+
+
+def _turned_arms(linkage: Linkage, points: Mapping[str, Array]) -> Iterator[tuple[str, Array]]:
+    """How the arms turn that are thought in."""
+    for name, gear in linkage.lines.arms.items():
+        line, given = points[gear.other] - points[gear.at], linkage.places[gear.other] - linkage.places[gear.at]
+        yield name, line / np.abs(line) / (given / abs(given))
 
 
 def _move(group: Group, bodies: dict[str, Body], travel: Array) -> None:

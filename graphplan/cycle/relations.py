@@ -24,14 +24,15 @@ from graphplan.cycle.closure import Body, Drive
 from graphplan.cycle.dyads import Placed, dyad
 from graphplan.cycle.ground import Ground
 from graphplan.cycle.groups import Group
+from graphplan.cycle.higher import touching
 from graphplan.cycle.linkage import Linkage, grounded
+from graphplan.cycle.loop import range_of_motion
 from graphplan.cycle.planar import planar
-from graphplan.cycle.travel import TURN, closes, paces
 from graphplan.cycle.turn import RangeOfMotion, under
 from graphplan.errors import GraphplanError
 from graphplan.kernel.tape.record import Symbol, Symbols
 from graphplan.kernel.tape.written import DEEPEST, Language, Writer, function
-from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.model import FRAME, Contact, Scene
 from graphplan.sheet.plates.view import View
 
 STEPS = 6  # of Newton: enough for pins that are dragged by a tenth of the linkage
@@ -106,11 +107,13 @@ class Relations:
         places = {name: view((float(x), float(y))) for name, (x, y) in scene.points.items()}
         self.domain = Symbols()
         self.tape = self.domain.tape
-        self._on_paper = _OnPaper(self.scene.posed(places, lambda one: one.direction))
+        self._on_paper = _OnPaper(self.scene.posed(places, lambda one: one.direction,
+                                                   lambda length: view.scale * float(length)))
         self.places, self.angles = self._on_paper.places, list[bool]()
         self._ground = Ground(self.domain, self.scene, view, self.places)
         self.free = self._ground.free
         self.placed: dict[str, Any] = {FRAME: self._ground}
+        self._turned: dict[str, Any] = {}  # in all, where that is counted
         self.groups = [Group(self._on_paper, part) for part in self._on_paper.parts]
         for group in self.groups:
             self.placed.update(self._followed(group))
@@ -119,7 +122,8 @@ class Relations:
 
     def _followed(self, group: Group) -> Iterator[tuple[str, Any]]:
         """The links of a group, driven, crossed or closed."""
-        links = dyad(self._on_paper, group, self.placed) if group.unknowns else None
+        counted = group.layout.counted  # the compass rules do not know how far links have turned in all
+        links = dyad(self._on_paper, group, self.placed) if group.unknowns and not counted else None
         if links and not self._on_paper.special(group.part):
             self.angles += [i < group.layout.angles for i in range(group.unknowns)]
             yield from zip(group.part, links[0], strict=True)
@@ -131,7 +135,7 @@ class Relations:
         else:
             lies = self._closed(group, known, arms, drives)
         for link, body in zip(group.links, lies[len(known):], strict=True):
-            base = planar(body.base) + self._on_paper.origins[FRAME]
+            base, self._turned[link] = planar(body.base) + self._on_paper.origins[FRAME], body.angle
             yield link, Placed(self._on_paper.origins[link], base, planar(body.turn or (1.0, 0.0)))
 
     def _body(self, link: str) -> Body:
@@ -140,7 +144,7 @@ class Relations:
             return Body()
         placed = self.placed[link]
         base = placed.at(self._on_paper.origins[link]) - self._on_paper.origins[FRAME]
-        return Body((base.re, base.im), (placed.turn.re, placed.turn.im))
+        return Body((base.re, base.im), (placed.turn.re, placed.turn.im), angle=self._turned.get(link, 0.0))
 
     def _arms(self, group: Group) -> list[Spot]:
         """The arms of a group: those of the frame end in pins."""
@@ -153,33 +157,35 @@ class Relations:
 
     def _drives(self, group: Group) -> list[Drive]:
         """The drives of a group where their inputs have them."""
-        return [self._drive(turns, rate) for turns, rate in group.drives]
+        return [self._drive(turns, rate, group.layout.counted) for turns, rate in group.drives]
 
-    def _drive(self, turns: bool, rate: float) -> Drive:
+    def _drive(self, turns: bool, rate: float, counted: bool) -> Drive:
         """Which drive it is its rate says, and which way."""
         k = round(abs(rate)) - 1
+        at = [self.tape.input(f"travel {k}")] if counted or not turns else []
+        travel = [far if rate > 0 else -far for far in at]
         if not turns:
-            travel = self.tape.input(f"travel {k}")
-            return Drive(travel if rate > 0 else -travel, None)
+            return Drive(travel[0], None)
         cos, sin = self.tape.input(f"cos {k}"), self.tape.input(f"sin {k}")
-        return Drive((cos, sin if rate > 0 else -sin), None)
+        return Drive((cos, sin if rate > 0 else -sin, *travel), None)
 
     def _closed(self, group: Group, known: list[Body], arms: Sequence[Spot], drives: Sequence[Drive]) -> list[Body]:
         """A group by Newton's steps, on its branch."""
         layout, first, state = group.layout, len(self.angles), list[Any]()
         self.angles += [i < layout.angles for i in range(group.unknowns)]
         for i, angle in enumerate(self.angles[first:], first):
-            parts = [self.tape.input(f"{part}state {i}") for part in (("cos ", "sin ") if angle else ("",))]
+            kinds = ("cos ", "sin ", *([""] if layout.counted else ())) if angle else ("",)
+            parts = [self.tape.input(f"{part}state {i}") for part in kinds]
             state.append(tuple(parts) if angle else parts[0])
         for _ in range(STEPS):
             links = closure.bodies(layout, known, arms, drives, state)
-            step = newton.step(closure.left_open(layout, links, arms, drives), layout.unknowns, Symbol.root)
+            step = newton.step(closure.left_open(layout, links, arms, drives), layout.unknowns, _root)
             state = newton.corrected(layout, state, step.corrections)
         reach = super(_OnPaper, self._on_paper).reach
         far = [move if i < layout.angles else move / reach for i, move in enumerate(step.corrections)]
         sure = 0.0 * self.tape.sqrt(self.tape.place(CLOSE**2 - sum(move * move for move in far)))
         sure = sure + 0.0 * self.tape.sqrt(self.tape.place(step.determinant * self._sense(group)))
-        state = [(one[0] + sure, one[1]) if isinstance(one, tuple) else one + sure for one in state]
+        state = [(one[0] + sure, *one[1:]) if isinstance(one, tuple) else one + sure for one in state]
         return closure.bodies(layout, known, arms, drives, state, moving=False)
 
     def _sense(self, group: Group) -> float:
@@ -204,7 +210,16 @@ class Relations:
             carrier = min(links, key=order.__getitem__) if links else FRAME
             at = self._ground.pins[name] if carrier == FRAME else self.placed[carrier].at(place)
             found[name] = at.re, at.im
-        return found | {name: found[at] for name, at in under(self.scene).items()}
+        found |= {name: found[at] for name, at in under(self.scene).items()}
+        return found | {contact.at: self._touching(contact, found) for contact in self.scene.contacts
+                        if not self.scene.links_of[contact.at]}
+
+    def _touching(self, contact: Contact, points: Mapping[str, Spot]) -> Spot:
+        """Where two profiles touch."""
+        on = self.placed[contact.curved[1]]
+        turn = planar(1.0) if contact.curved[1] == FRAME else on.turn
+        at = touching(self._on_paper.scene, contact, {name: planar(spot) for name, spot in points.items()}, turn)
+        return at.re, at.im
 
     @cached_property
     def turns(self) -> dict[str, Spot]:
@@ -226,11 +241,7 @@ class Relations:
     @cached_property
     def motion(self) -> RangeOfMotion:
         """How far the undragged linkage goes: once round, or to its limits."""
-        scene = self.scene
-        if not scene.drives[0].slides:
-            return RangeOfMotion(scene, 0.0, TURN, closes(scene, paces(scene)))
-        far = max(abs(p - q) for p in self.places.values() for q in self.places.values()) / self.view.scale
-        return RangeOfMotion(scene, -far, far, closed=False)
+        return range_of_motion(self.scene)
 
     @cached_property
     def limits(self) -> tuple[float, float]:
@@ -319,3 +330,8 @@ class Relations:
         told = tuple({name: tuple(map(self.tape.place, spot)) for name, spot in some.items()}
                      for some in (self.points, self.guides))
         return function(self.tape, [*self.asked.values()], told)
+
+
+def _root(number: Any) -> Any:
+    """The square root of a symbol, or of a number: the factors of gears are such."""
+    return number.root() if isinstance(number, Symbol) else math.sqrt(number)

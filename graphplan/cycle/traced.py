@@ -81,12 +81,8 @@ def _centrodes(motion: RangeOfMotion, links: str, travel: Array) -> Iterator[Cen
 
 def _carriers(motion: RangeOfMotion, link: str) -> Iterator[tuple[str, Spot]]:
     """A point of a link, and of it, or of one that turns alike, the two that lie farthest apart; as they are given."""
-    places, alike = motion.linkage.places, [link]
-    for one in alike:
-        alike += {other for slide in motion.scene.slides if slide.turns_alike and one in slide.links
-                  for other in slide.links} - {*alike}
-    pin = motion.linkage.points(link)[0]
-    bars = (ends for one in alike for ends in combinations(motion.linkage.points(one), 2))
+    places, pin = motion.linkage.places, motion.linkage.points(link)[0]
+    bars = (ends for one in motion.scene.turning_alike(link) for ends in combinations(motion.linkage.points(one), 2))
     bar = max(bars, key=lambda ends: abs(places[ends[1]] - places[ends[0]]), default=())
     yield from ((name, _spot(places[name])) for name in (pin, *bar))
 

@@ -17,11 +17,13 @@ import numpy as np
 from graphplan.cycle.continuation import Continuation, Limit, Path, Progress
 from graphplan.cycle.dyads import Failure
 from graphplan.cycle.groups import Group
+from graphplan.cycle.higher import touching
 from graphplan.cycle.linkage import Array, Linkage, number
 from graphplan.cycle.positions import Placing
 from graphplan.cycle.rates import Moved, moved
 from graphplan.cycle.travel import TURN, closes, paces, told, travel_unit, travels
 from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.replaced import guides
 from graphplan.methods.motion.network import Network
 from graphplan.phrases import Said, said
 
@@ -73,7 +75,8 @@ class RangeOfMotion:
     """How far a scene is followed from its given pose, between two travels of its first drive: `path` says where it
     stops.
 
-    Where the motion is `closed`, as every drive is back after a turn, it goes backwards as far as a turn leaves over.
+    Where the motion is `closed`, as every drive is back at the end, it goes backwards as far as a turn leaves over,
+    unless gears have turned then who knows how far.
     Fails as :func:`follow` does.
     """
 
@@ -82,33 +85,50 @@ class RangeOfMotion:
         self.linkage = Linkage(scene, paces(scene))
         self.groups = [Group(self.linkage, part) for part in self.linkage.parts]
         self._continuation = Continuation(self.linkage, self.groups, lower, upper, progress)
-        self.path = self._continuation.path(closed)
+        self._round = closed and not self.linkage.counted
+        self.path = self._continuation.path(self._round)
 
     @property
     def whole(self) -> bool:
-        """Whether a full turn leads back to its beginning, and no limit stands in the way."""
-        return self.closed and not (self.path.lower or self.path.upper)
+        """Whether it leads back to its beginning, and no limit stands in the way."""
+        free = self.closed and not (self.path.lower or self.path.upper)
+        return free and (self._round or self.back(float(self.path.travel[-1])))
+
+    def back(self, travel: float) -> bool:
+        """Whether every link is back in its place at a travel that the path reaches."""
+        near = int(np.argmin(np.abs(self.path.travel - travel)))
+        there = abs(self.path.travel[near] - travel) <= self._continuation.finest
+        found = self.path.knots[near].state if there else self._continuation.state(self.path, travel)
+        if found is None:
+            return False
+        state = iter(found.tolist())
+        apart = [abs(2 * math.sin(value / 2) if i < group.layout.angles else value)
+                 for group in self.groups for i, value in zip(range(group.unknowns), state, strict=False)]
+        return max(apart, default=0.0) <= _BACK
 
     def turn(self, travel: Array, compiled: bool = False) -> Turn:
         """The poses at these travels, an array of shape (n,) in any order."""
         scene = self.scene
-        slides = [slide for slide in scene.slides if slide.through is None and slide.along != FRAME]
-        course, placing = self._placed(travel, [slide.along for slide in slides], compiled)
+        moving = {name: guide for name, guide in guides(scene).items() if guide.along != FRAME}
+        course, placing = self._placed(travel, {guide.along for guide in moving.values()}, compiled)
         points = {name: placing.points[name] for name in scene.points}
-        guides = {slide.name: number(*slide.direction) * placing.turns[slide.along] for slide in slides}
+        turns = {name: placing.turns[guide.along] for name, guide in moving.items()}
+        ways = {name: number(*guide.direction) * turns[name] for name, guide in moving.items() if guide.through is None}
         points |= {name: points[at] for name, at in under(scene).items()}
-        back = self.closed and _comes_back(self.path, self.groups)
-        return Turn(travel, points, guides, course.faults(placing.failures), back)
+        points |= {contact.at: touching(scene, contact, points, turns.get(contact.name, 1.0))
+                   for contact in scene.contacts if not scene.links_of[contact.at]}
+        back = self.closed and self.path.upper is None and self.back(float(self.path.travel[-1]))
+        return Turn(travel, points, ways, course.faults(placing.failures), back)
 
     def moved(self, travel: Array) -> dict[str, Moved]:
         """How every link lies and moves at these travels; nan where the pose is not reached."""
-        course, placing = self._placed(travel, self.linkage.links[1:], compiled=False)
+        course, placing = self._placed(travel, self.scene.moving, compiled=False)
         return moved(self.linkage, self.groups, course.at, placing.points, placing.turns)
 
     def _placed(self, travel: Array, turning: Iterable[str], compiled: bool) -> tuple[Course, Placing]:
         """The points, and the turns of some links, at these travels."""
         path = self.path
-        course = Course(self.scene, path, travel, self.closed)
+        course = Course(self.scene, path, travel, self._round)
         placing = Placing(self.linkage, self.groups, len(travel), turning)
         placing.follow(path, course.at, np.flatnonzero(course.reached & ~course.knots), compiled)
         placing.retry(partial(self._continuation.state, path), course.at)
@@ -121,14 +141,6 @@ class RangeOfMotion:
         for array in (*placing.points.values(), *placing.turns.values()):
             array[lost] = complex(np.nan, np.nan)
         return course, placing
-
-
-def _comes_back(path: Path, groups: Sequence[Group]) -> bool:
-    """Whether every link is back in its place at the end of the path, a turn later."""
-    state = iter(path.nearest(np.array([TURN]))[:, 0].tolist())
-    apart = [abs(2 * math.sin(value / 2) if i < group.layout.angles else value)
-             for group in groups for i, value in zip(range(group.unknowns), state, strict=False)]
-    return path.upper is None and max(apart, default=0.0) <= _BACK
 
 
 def under(scene: Scene) -> dict[str, str]:

@@ -326,6 +326,14 @@ class Scene:
         """The links that touch each other."""
         return tuple(pair for pair in self.written if isinstance(pair, Contact))
 
+    def turning_alike(self, link: str) -> tuple[str, ...]:
+        """The links that turn as one does by the slides between them, itself first."""
+        found = [link]
+        for one in found:
+            found += {other for slide in self.slides if slide.turns_alike and one in slide.links
+                      for other in slide.links} - {*found}
+        return tuple(found)
+
     @property
     def guided(self) -> tuple[Slide | Gear | Contact, ...]:
         """The pairs that may have a direction."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.program import Program
 from graphplan.kernel.tape.record import Symbols
 from graphplan.kernel.tape.written import function, places
 from graphplan.mechanism.model import FRAME, Pair, Slide
@@ -122,9 +123,14 @@ def guide_steps(construction: Recorded, slide: Slide) -> list[int]:
     """
     for name, other in guides(construction.scene).items():
         alike = other.at == slide.at and other.direction == slide.direction and other.through is None
-        if alike and other.along != slide.along:
+        if alike and other.along not in construction.scene.turning_alike(slide.along):
             raise Refused(f"guides {slide.name} and {name}", "they are drawn as one line, and turn apart",
                           "two points of its link for the direction of each")
-    return [step.index for step in construction.program.steps
+    return guided(construction.program, slide)
+
+
+def guided(program: Program, slide: Slide) -> list[int]:
+    """The steps of a program that draw the guide of a slide in its given direction."""
+    return [step.index for step in program.steps
             if step.op.movement is Movement.GUIDED and step.links == slide.links
             and (step.params["dx"], step.params["dy"]) == slide.direction]

@@ -63,7 +63,8 @@ def loose(program: Program, values: Sequence[Any], place: Callable[[int], Panel]
           views: Mapping[str, View] = VIEWS) -> Plates:
     """A program as it is drawn, without vectors and links."""
     scene = SimpleNamespace(title="A figure", source="", text="", points={}, links={}, moving=(), slides=(), drives=(),
-                            joints=(), motions={}, links_of={}, sheet=SimpleNamespace(convention="real"),
+                            gears=(), contacts=(), joints=(), motions={}, links_of={},
+                            sheet=SimpleNamespace(convention="real"),
                             units=SimpleNamespace(length="mm", force="N"))  # fmt: skip
     sentences = [program.sentence(step.index) for step in program.steps]
     drawing = SimpleNamespace(scene=scene, drawn=program, values=values, arrows=(), sentences=lambda: sentences,

@@ -76,6 +76,8 @@ class Linkage:
         for part in ("cos", "sin"):
             yield f"{part} {k}", self.objects.numeric(f"{part}travel_{{{k + 1}}}".replace("travel", "drive"),
                                                       f"{part}({travel}°)")
+        if f"travel {k}" in self.relations.asked:  # where it is counted how far links have turned in all
+            yield f"travel {k}", self.objects.numeric(f"turned_{{{k + 1}}}", f"{self._round(travel, k)} * pi / 180")
 
     def _limits(self, k: int, drive: Drive) -> tuple[float, float]:
         """From where to where the slider goes, in degrees or scene lengths."""
@@ -119,6 +121,15 @@ class Linkage:
         empty(element, "pointStyle", val=2)
         return f"Angle[{begin}, {pivot}, {handle(k)}] / (1°)"
 
+    def _round(self, travel: str, k: int) -> str:
+        """The first drive's travel, in degrees, within the round that the knots tell; any other travel as it is."""
+        knots = self.relations.knots
+        if k or knots is None or self.scene.drives[0].slides:
+            return travel
+        period = 360 * max(1, round((knots.high - knots.low) / math.tau))
+        low = math.degrees((knots.low + knots.high) / 2) - period / 2
+        return f"({travel} - {period} * floor(({travel} - {number(low)}) / {period}))"
+
     # ---- where Newton's steps begin --------------------------------------------------------------------------------
 
     def _states(self) -> Iterator[tuple[str, str]]:
@@ -129,10 +140,7 @@ class Linkage:
             yield from chain.from_iterable(((f"cos state {i}", "1"), (f"sin state {i}", "0"), (f"state {i}", "0"))
                                            for i in states)
             return
-        travel = "travel_{1}"
-        if not self.scene.drives[0].slides:
-            low = math.degrees((knots.low + knots.high) / 2) - 180
-            travel = f"({travel} - 360 * floor(({travel} - {number(low)}) / 360))"
+        travel = self._round("travel_{1}", 0)
         unit = 1.0 if self.scene.drives[0].slides else math.radians(1.0)
         part = f"({travel} - {number(knots.low / unit)}) / {number((knots.high - knots.low) / unit)}"
         done = self.objects.numeric("knot_{1}", f"Min[1, Max[0, {part}]]")

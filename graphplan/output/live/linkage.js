@@ -4,10 +4,11 @@ class Linkage {
     this.data = data;
     this.rules = data.rules;
     this.unknowns = 0;
+    this.width = data.counted ? 8 : 7;  // of how a link lies for the tapes, with how far it has turned in all
     this.groups = data.groups.map((group) => {
-      const inputs = 7 * group.carriers.length + group.arms.length + 3 * group.drives.length + 2 * group.unknowns;
+      const inputs = 8 * group.carriers.length + group.arms.length + 4 * group.drives.length + 3 * group.unknowns;
       const made = { ...group, run: steps[group.step], first: this.unknowns, arms: Float64Array.from(group.arms),
-                     x: new Float64Array(inputs), y: new Float64Array(2 * group.unknowns + 1 + 7 * group.links.length) };
+                     x: new Float64Array(inputs), y: new Float64Array(2 * group.unknowns + 1 + this.width * group.links.length) };
       this.unknowns += group.unknowns;
       return made;
     });
@@ -25,40 +26,58 @@ class Linkage {
     }
   }
 
-  /** One step of Newton's for a group from a state; fills its y. */
+  /** One step of Newton's for a group from the state of all; fills its y. */
   step(group, lies, drives, rates, state) {
-    const x = group.x;
+    const { x, first } = group, { counted } = this.data;
     let n = 0;
-    for (const link of group.carriers) for (let i = 0; i < 7; i++) x[n++] = lies[7 * link + i];
+    const angle = (at) => {
+      x[n++] = Math.cos(at);
+      x[n++] = Math.sin(at);
+      if (counted) x[n++] = at;
+    };
+    for (const link of group.carriers) {
+      for (let i = 0; i < 7; i++) x[n++] = lies[7 * link + i];
+      if (counted) x[n++] = this.angle(link, drives, state);
+    }
     for (const number of group.arms) x[n++] = number;
     for (const [drive, turns, rate] of group.drives) {
       const at = rate * drives[drive];
-      x[n++] = turns ? Math.cos(at) : at;
-      if (turns) x[n++] = Math.sin(at);
+      if (turns) angle(at);
+      else x[n++] = at;
       x[n++] = rate * rates[drive];
     }
     for (let i = 0; i < group.unknowns; i++) {
-      x[n++] = i < group.angles ? Math.cos(state[i]) : state[i];
-      if (i < group.angles) x[n++] = Math.sin(state[i]);
+      if (i < group.angles) angle(state[first + i]);
+      else x[n++] = state[first + i];
     }
     group.run(x, group.y);
     return group.y;
   }
 
+  /** How far a link has turned in all, where the drives and the state are so. */
+  angle(link, drives, state) {
+    let found = 0;
+    for (let at = link; at; at = this.data.counted[at].on) {
+      const { unknown, drive, rate } = this.data.counted[at];
+      found += (unknown < 0 ? 0 : state[unknown]) + (drive < 0 ? 0 : rate * drives[drive]);
+    }
+    return found;
+  }
+
   /** Closes a group from a predicted state, and says whether that is to be trusted: the first correction is small
       beside the step that was predicted, each further one beside the one before. */
   settle(group, lies, drives, rates, state, size) {
-    const rules = this.rules, n = group.unknowns;
+    const rules = this.rules, n = group.unknowns, { first } = group;
     let allowed = rules.near * size, settled = n === 0;
     for (;;) {
       const y = this.step(group, lies, drives, rates, state);
       let far = 0;
       for (let i = 0; i < n; i++) {
-        const change = Math.abs(y[i]) / (i < group.angles ? 1 : Math.max(1, Math.abs(state[i])));
+        const change = Math.abs(y[i]) / (i < group.angles ? 1 : Math.max(1, Math.abs(state[first + i])));
         far = change <= far ? far : change;  // not a number stays
       }
       if (!(far <= allowed) || Math.abs(y[2 * n]) < rules.nothing) return false;
-      for (let i = 0; i < n; i++) state[i] -= y[i];
+      for (let i = 0; i < n; i++) state[first + i] -= y[i];
       if (settled || far <= rules.closed * size) return true;
       settled = far <= rules.settled * size;
       allowed = settled ? rules.near * size : rules.shrinking * far;
@@ -71,8 +90,8 @@ class Linkage {
     const lies = new Float64Array(7 * this.data.bases.length), determinants = new Float64Array(this.groups.length);
     lies[2] = 1;
     for (const [g, group] of this.groups.entries()) {
-      const n = group.unknowns, end = group.first + n;
-      if (!this.settle(group, lies, drives, rates, state.subarray(group.first, end), size)) return g;
+      const n = group.unknowns;
+      if (!this.settle(group, lies, drives, rates, state, size)) return g;
       rate.set(group.y.subarray(n, 2 * n), group.first);
       determinants[g] = group.y[2 * n];
       this.lay(group, lies);
@@ -112,7 +131,7 @@ class Linkage {
     const lies = Float64Array.from(knot.lies);
     for (const group of this.groups) {
       const { first, unknowns } = group;
-      const y = this.step(group, lies, drives, rates, knot.state.subarray(first, first + unknowns));
+      const y = this.step(group, lies, drives, rates, knot.state);
       for (let i = 0; i < unknowns; i++) tell(first + i, y[i], y[unknowns + i]);
       this.lay(group, lies);
     }
@@ -121,8 +140,8 @@ class Linkage {
 
   /** Enters how the links of a group lie, as its last step has it. */
   lay(group, lies) {
-    const from = 2 * group.unknowns + 1;
-    group.links.forEach((link, k) => lies.set(group.y.subarray(from + 7 * k, from + 7 * k + 7), 7 * link));
+    const from = 2 * group.unknowns + 1, { width } = this;
+    group.links.forEach((link, k) => lies.set(group.y.subarray(from + width * k, from + width * k + 7), 7 * link));
   }
 
   /** The first group that has left the branch of another knot, or is too near to where another meets it; or -1. */

@@ -91,7 +91,16 @@ class Motion {
     const lies = this.knot.lies;
     for (const name of Object.keys(this.data.linkage.owned)) found[name] = this.at(name, lies);
     for (const [name, at] of Object.entries(this.data.under)) found[name] = found[at];
+    for (const contact of this.data.touching) if (!contact.else) found[contact.at] = this.touching(contact, found);
     return found;
+  }
+
+  /** Where two profiles touch: between their centres, or off one as a straight profile turns. */
+  touching({ centre, other, share, off, on }, points) {
+    const [x, y] = points[centre], k = other ? 0 : 7 * this.data.linkage.links[on];
+    if (other) return [x + share * (points[other][0] - x), y + share * (points[other][1] - y)];
+    const [cos, sin] = this.knot.lies.subarray(k + 2, k + 4);
+    return [x + cos * off[0] - sin * off[1], y + sin * off[0] + cos * off[1]];
   }
 
   /** Where a moving point is when the links lie so. */
@@ -290,8 +299,8 @@ class Motion {
   /** Moves a pin of the frame towards a place as far as the linkage follows, the drives standing still. */
   shift(name, goal) {
     const data = this.data.linkage, shared = Object.fromEntries(this.data.shared), serves = (pin) => shared[pin] ?? pin;
-    if (data.locked) {
-      this.said = data.locked;
+    if (data.locked || data.held[name]) {
+      this.said = data.locked || data.held[name];
       return;
     }
     const pins = Object.keys(this.fixed).filter((pin) => serves(pin) === serves(name)), from = this.fixed[name];
@@ -335,6 +344,14 @@ class Motion {
     delete scene.vary;
     scene.points = Object.fromEntries(this.data.placed.map((name) => [name, points[name]]));
     for (const slide of [scene.slides ?? []].flat()) slide.direction = guides[`${slide.link} along ${slide.along}`] ?? slide.direction;
+    this.data.touching.forEach((contact, k) => {
+      if (contact.else) [[scene.contacts].flat()[k].at, scene.points[contact.else]] = [contact.else, this.touching(contact, points)];
+    });
+    this.data.linkage.ways.forEach(([name, table, place, side]) => {
+      const pair = [scene[table]].flat()[place], way = guides[name];
+      if (way && side === null) pair.direction = way;
+      else if (way) pair.centres[side] = way;
+    });
     this.data.lines.forEach((line, k) => {
       if (line) [scene.balance].flat()[k].direction = line;
     });

@@ -16,12 +16,14 @@ from graphplan.cycle import continuation, groups, newton
 from graphplan.cycle.closure import Layout
 from graphplan.cycle.continuation import Limit
 from graphplan.cycle.groups import Group
+from graphplan.cycle.higher import share
 from graphplan.cycle.linkage import Linkage, grounded
 from graphplan.cycle.travel import TURN, check_drives, paces, travel_unit
 from graphplan.cycle.turn import RangeOfMotion, stopped, under
 from graphplan.errors import Refused
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer
-from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.model import FRAME, Scene, Slide
+from graphplan.mechanism.replaced import guides
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.batch import apart
 from graphplan.methods.construction import Construction
@@ -43,7 +45,8 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
     linkage, steps = _linkage(scene)
     data = {
         "points": {name: [*map(float, at)] for name, at in scene.points.items()},
-        "guides": {slide.name: [*map(float, slide.direction)] for slide in scene.slides},
+        "guides": {name: [*map(float, guide.direction)] for name, guide in guides(scene).items()},
+        "touching": [*_touching(scene)],
         "under": under(scene), "shared": [[point, at, apart(point, at)] for point, at in drawings[0].shared.items()],
         "lined": [[one, other, said("guides {0} and {1} are drawn as one line, and turn apart here", one, other)]
                   for one, other in _lined(scene)],
@@ -61,15 +64,18 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
 
 def _lined(scene: Scene) -> Iterator[tuple[str, str]]:
     """The guides that are one line in the given pose, and ride on two links."""
-    for one, other in combinations([slide for slide in scene.slides if slide.through is None], 2):
-        if one.at == other.at and one.direction == other.direction and one.along != other.along:
-            yield one.name, other.name
+    straight = ((name, guide) for name, guide in guides(scene).items() if guide.through is None)
+    for (name, one), (another, other) in combinations(straight, 2):
+        if (one.at == other.at and one.direction == other.direction
+                and other.along not in scene.turning_alike(one.along)):
+            yield name, another
 
 
 def _placed(scene: Scene) -> Iterator[str]:
     """The points that a scene must have whose points are given by coordinates: others only served to place them."""
-    through = {name for slide in scene.slides for name in slide.through or ()}
-    return (name for name, links in scene.links_of.items() if links or name in through)
+    needed = {name for guide in guides(scene).values() for name in guide.through or ()}
+    needed |= {contact.at for contact in scene.contacts}
+    return (name for name, links in scene.links_of.items() if links or name in needed)
 
 
 def rolling(scene: Scene) -> Iterator[list[str]]:
@@ -118,11 +124,13 @@ def _linkage(scene: Scene) -> tuple[Data, list[str]]:
     return {
         "rules": RULES, "reach": linkage.reach, "origin": _pair(linkage.origins[FRAME]), **_followed(scene),
         "groups": [_group(group, other, moving, layouts) for group, other in zip(parts, others, strict=True)],
+        "counted": _counted(parts, others, moving) if linkage.counted else None,
         "links": moving, "opinion": _opinion(scene, moving),
         "bases": [_pair(linkage.origins[link] - linkage.origins[FRAME], linkage.reach) for link in linkage.links],
         "owned": dict(_owned(linkage)), "guided": dict(_guided(scene, moving)),
-        "anchors": list(_anchors(linkage, parts)),
+        "ways": list(_ways(scene)), "anchors": list(_anchors(linkage, parts)),
         "locked": said("the links move by their special geometry alone") if scene.redundant else "",
+        "held": {name: said("the gears and profiles of the frame hold point {0}", name) for name in _held(scene)},
     }, [_step(layout) for layout in layouts]  # fmt: skip
 
 
@@ -203,6 +211,26 @@ def _group(group: Group, other: Group, moving: Mapping[str, int], layouts: Seque
     }  # fmt: skip
 
 
+def _counted(groups: Sequence[Group], others: Sequence[Group], moving: Mapping[str, int]) -> list[Data]:
+    """For each link by what its angle is counted: an unknown, or the angle of the link `on`, and a drive; -1 for none.
+    """
+    found, first = [{"on": 0, "unknown": -1, "drive": -1, "rate": 0.0} for _ in moving], 0
+    for group, other in zip(groups, others, strict=True):
+        places = [moving[link] for link in (FRAME, *group.carriers, *group.links)]
+        unknowns = iter(range(first, first + group.unknowns))
+        for spin in group.layout.spins:
+            one = found[places[spin.link]]
+            if spin.on is None:
+                one["unknown"] = next(unknowns)
+                continue
+            one["on"] = places[spin.on]
+            if spin.drive is not None:
+                rate, as_told = group.drives[spin.drive][1], other.drives[spin.drive][1]
+                one |= {"drive": round(as_told / rate) - 1, "rate": rate}
+        first += group.unknowns
+    return found
+
+
 def _owned(linkage: Linkage) -> Iterator[tuple[str, tuple[float, ...]]]:
     """Each moving point by its link and where that has it: its base's place, and from there."""
     for point, links in linkage.scene.links_of.items():
@@ -215,8 +243,43 @@ def _owned(linkage: Linkage) -> Iterator[tuple[str, tuple[float, ...]]]:
 
 def _guided(scene: Scene, moving: Mapping[str, int]) -> Iterator[tuple[str, int]]:
     """The guides that ride on links in a direction of their own, each with its link."""
-    return ((slide.name, moving[slide.along]) for slide in scene.slides
-            if slide.through is None and slide.along != FRAME)
+    return ((name, moving[guide.along]) for name, guide in guides(scene).items()
+            if guide.through is None and guide.along != FRAME)
+
+
+def _ways(scene: Scene) -> Iterator[tuple[str, str, int, int | None]]:
+    """Where the scene writes the directions of racks and of straight profiles: by name the table, the place in it, and
+    in that of which centre."""
+    for place, gear in enumerate(scene.gears):
+        if gear.direction is not None:
+            yield gear.name, "gears", place, None
+    for place, contact in enumerate(scene.contacts):
+        if contact.direction is not None:
+            yield contact.name, "contacts", place, contact.centres.index(None)
+
+
+def _held(scene: Scene) -> Iterator[str]:
+    """The points of the frame that keep the distance of two pitch circles, or the direction of a rack or profile."""
+    fixed = {*scene.links.get(FRAME, ())}
+    for gear in scene.gears:
+        if gear.radii and not gear.belt and {*gear.centres} <= fixed:
+            yield from gear.centres
+    for pair in scene.guided:
+        yield from fixed & {*(pair.through or ())} if not isinstance(pair, Slide) else ()
+
+
+def _touching(scene: Scene) -> Iterator[Data]:
+    """Where contacts touch: between two centres by a share, or off one as a link turns. The point that this is in the
+    given pose is `at`; if it is on a link, the place has a name of its own in other poses, `else`."""
+    given = {name: complex(*map(float, at)) for name, at in scene.points.items()}
+    for contact in scene.contacts:
+        _, on, centre = contact.curved
+        other = f"{contact.at}'" if scene.links_of[contact.at] else ""
+        found: Data = {"at": contact.at, "centre": centre, "else": other}
+        if contact.direction is not None:
+            yield found | {"off": _pair(given[contact.at] - given[centre]), "on": on}
+        else:
+            yield found | {"other": contact.centres[1], "share": share(scene, contact)}
 
 
 def _anchors(linkage: Linkage, parts: Iterable[Group]) -> Iterator[tuple[Any, ...]]:

@@ -11,13 +11,15 @@ from graphplan.check.forces import Forces
 from graphplan.check.json_results import data as as_solved
 from graphplan.check.report import Report
 from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import POINT, Movement
+from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Program, Step, error_at, evaluate
 from graphplan.kernel.tape.record import Symbol, Symbols, Tape
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer, asked_of
 from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.replaced import guides
 from graphplan.methods.batch import apart
 from graphplan.methods.construction import Construction
+from graphplan.methods.replay import guided
 
 SOLVED = ("check", "bounds", "arithmetic", "method", "steps")
 """What of the solver's report is another in each pose."""
@@ -96,7 +98,8 @@ class PosedTapes:
         self.drawing, scene = drawing, drawing.scene
         given = {step.name for program in (drawing.drawn, drawing.program) for step in program.steps[:program.givens]}
         self.points = [name for name in scene.points if name in given]
-        self.guides = [slide.name for slide in scene.slides if slide.through is None and slide.along != FRAME]
+        self.guides = {name: guide for name, guide in guides(scene).items()
+                       if guide.through is None and guide.along != FRAME}
         drawn, rules = self._told(drawing.drawn), self._told(drawing.program)
         self.wanted = [(i, j) for i, j in zip(drawing.drawn.wanted, drawing.program.wanted, strict=True)
                        if drawing.drawn.steps[i].op.gives == POINT]
@@ -105,7 +108,7 @@ class PosedTapes:
         self.rules = self._function(rules, {"points": points, "results": self._results(rules)})
         steps = len(drawing.drawn) - drawing.drawn.givens
         self.data = {
-            "points": self.points, "guides": self.guides, "wanted": [i for i, _ in self.wanted],
+            "points": self.points, "guides": [*self.guides], "wanted": [i for i, _ in self.wanted],
             "asked": {"drawn": self._reasons(drawing.drawn, drawn), "rules": self._reasons(drawing.program, rules)},
             "relied": [[one, other, apart(one, other)] for one, other in drawing.relied],
             "title": scene.title, "method": drawing.method, "steps": steps,
@@ -116,10 +119,9 @@ class PosedTapes:
         domain, asked = _Asking(), list[Step]()
         number = domain.tape.input
         given: dict[Any, Any] = {name: {part: number(f"{name}.{part}") for part in "xy"} for name in self.points}
-        for name in self.guides:
+        for name, guide in self.guides.items():
             way = {part: number(f"{name}.{part}") for part in ("dx", "dy")}
-            given |= {step.index: way for step in program.steps
-                      if step.op.movement is Movement.GUIDED and " along ".join(step.links) == name}
+            given |= dict.fromkeys(guided(program, guide), way)
         values = evaluate(program, domain, given,
                           lambda step: asked.extend([step] * (len(domain.tape.questions) - len(asked))))
         return _Told(domain, values, asked)

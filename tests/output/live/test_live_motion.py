@@ -20,6 +20,7 @@ from pathlib import Path
 from random import Random
 from typing import Any, NamedTuple
 
+import higher
 import numpy as np
 import pytest
 
@@ -141,6 +142,8 @@ def constructions() -> Iterator[Construction]:
     for name in packaged():
         yield gp.construct(gp.load(name), checked=False)
     yield gp.construct(parse(PARALLELOGRAM, "parallelogram"), checked=False)
+    for name, text in higher.TEXTS.items():
+        yield gp.construct(parse(text, name), checked=False)
     for seed in range(LINKAGES):
         try:
             drawing = gp.construct(parse(random_linkages().linkage(seed).text(), f"random {seed}"), checked=False)

@@ -7,6 +7,7 @@ of curvature is known gives a ray through P and a W on it:
 - a pin on a link that slides on the frame: its path is straight, and it is W itself;
 - a pivot by which a line of the link always passes: it is a return point, W lies opposite, as far from P;
 - a pin on a link whose circle is known: its centre by Euler and Savary, then W the third proportional;
+- the centre of a wheel that rolls on the frame: P is where it touches, W_0 its centre's third proportional;
 - any point whose velocity and acceleration are drawn: W divides the normal acceleration as P the velocity, twice.
 
 Which of them a link has, its joints say. Where the pose puts P or a centre at infinity, the rates serve.
@@ -26,9 +27,17 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, evaluate
 from graphplan.mechanism.model import FRAME, Scene, Slide
+from graphplan.mechanism.replaced import RollingGuide, rolling_guides
 from graphplan.methods import kinds
 from graphplan.methods.motion.acceleration import Normal
-from graphplan.methods.motion.curve_stages import by_centres, by_rates, centre_by_rates, centre_of, circle_of
+from graphplan.methods.motion.curve_stages import (
+    by_centres,
+    by_rates,
+    by_rolling,
+    centre_by_rates,
+    centre_of,
+    circle_of,
+)
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.time_scale import apart
 from graphplan.methods.motion.velocity import Velocity
@@ -37,6 +46,7 @@ from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, said
 
 NONE = 1e-9  # beside the mechanism: what is less is nothing, and further than its inverse at infinity
+BY_CENTRES, BY_RATES = said("two known centres"), said("velocities and accelerations")
 MOST = 16  # pairs of points that are tried
 Point = tuple[float, float]
 
@@ -59,9 +69,16 @@ class Circle:
     inflection: Mark
     pins: tuple[Mark, ...] = ()
     shown: bool = False
+    by: Said = BY_CENTRES
 
 
 PREFERRED = "pin", "path", "return", "chain"
+
+
+def rolling(scene: Scene) -> dict[str, RollingGuide]:
+    """The links that roll on the frame, each with what it rolls by."""
+    guides = (guide for guide in rolling_guides(scene) if FRAME in guide.links)
+    return {next(link for link in guide.links if link != FRAME): guide for guide in guides}
 
 
 def sources(scene: Scene) -> dict[str, tuple[Source, Source]]:
@@ -69,7 +86,7 @@ def sources(scene: Scene) -> dict[str, tuple[Source, Source]]:
     fixed = scene.links.get(FRAME, ())
     pivots = {link: point for link in scene.moving for point in scene.links[link] if point in fixed}
     slides = {s.link if s.along == FRAME else s.along: s for s in scene.slides if FRAME in s.links and s.turns_alike}
-    found: dict[str, tuple[Source, Source]] = {}
+    found, wheels = dict[str, tuple[Source, Source]](), rolling(scene)
 
     def known(link: str) -> Iterator[Source]:
         for point in scene.links[link]:
@@ -78,7 +95,7 @@ def sources(scene: Scene) -> dict[str, tuple[Source, Source]]:
                     yield Source("pin", point, other)
                 elif other in slides and other != link:
                     yield Source("path", point, other, slides[other])
-                elif other in found:
+                elif other in found or (other in wheels and other != link):
                     yield Source("chain", point, other)
         for slide in scene.slides:
             other = next((one for one in slide.links if one != link), "")
@@ -118,6 +135,11 @@ class Curves:
         """Of each link two points with known centres; of none where the rates are asked for."""
         return sources(self.scene) if self.method != "accelerations" else {}
 
+    @cached_property
+    def wheels(self) -> dict[str, RollingGuide]:
+        """The links that roll on the frame; none where the rates are asked for."""
+        return rolling(self.scene) if self.method != "accelerations" else {}
+
     def circle(self, link: str) -> Circle | None:
         """The link's inflection circle; None where its pole is at infinity in this pose."""
         if link not in self._circles:
@@ -128,9 +150,20 @@ class Curves:
 
     def _ways(self, link: str) -> Iterator[Callable[[], Circle]]:
         """How the circle may be drawn: from known centres, or else from the rates of two of the link's points."""
+        if link in self.wheels:
+            yield partial(self._by_rolling, link, self.wheels[link])
         if link in self.known:
             yield partial(self._by_centres, link)
-        yield from (partial(self._by_rates, link, two) for two in self._pairs(link))
+        pairs = self._pairs(link)
+        yield from (partial(self._by_rates, link, two) for two in pairs)
+        yield lambda: self._by_rates(link, (pairs[0][0], self._corner(link, *pairs[0])))
+
+    def _corner(self, link: str, P: str, R: str) -> str:
+        """A point of the link's plane aside of two others: where all are on one line, the pole lies on it, too."""
+        name = f"corner of {link}"
+        A, B = self.point(P), self.point(R)
+        self.pose.points[name] = self.board.quarter(A, B, A, name=self.pose.letter(name))
+        return name
 
     def _pairs(self, link: str) -> list[tuple[str, str]]:
         """Two points of a link's plane each: its own, those furthest apart first, then other links' in their place."""
@@ -148,6 +181,20 @@ class Curves:
                        for mark in self.values(circle.pole, circle.inflection) for part in mark):
                     return circle
         return None
+
+    def _by_rolling(self, link: str, guide: RollingGuide) -> Circle:
+        """P where the wheel touches, W_0 on the line of centres: its centre's third proportional, the centre itself on
+        a straight rail; of a rail that rolls the point opposite the wheel's centre."""
+        with self.board.on(MECHANISM, (link,), partial(by_rolling, link)):
+            P = self.point(guide.at)
+            if guide.through:
+                B, C = sorted(guide.through, key=lambda centre: centre not in self.scene.links[link])
+                W0 = self.board.third(self.point(B), self.point(C), self.point(B), P, name="W_0")
+            else:
+                W0 = self.point(guide.base)
+                if guide.base not in self.scene.links[link]:
+                    W0 = self.board.transfer(W0, P, P, name="W_0")
+            return Circle(P, W0, by=said("rolling"))
 
     def _by_centres(self, link: str) -> Circle:
         """P where the rays cross, W_0 where the perpendiculars to them in W_1 and W_2 do."""
@@ -211,7 +258,7 @@ class Curves:
                 X, N = self.point(name), self.board.foot(ray, self._acceleration(link, name))
                 once = self.board.divide(X, end, P, X, N)  # a_n = omega^2 XW, and v = omega XP
                 points.append(self.board.divide(X, end, P, X, once))
-            return self._thales(P, rays, points)
+            return replace(self._thales(P, rays, points), by=BY_RATES)
 
     def _orthogonal(self, link: str, X: str) -> Mark:
         """The velocity of a point of a link, laid off from it a quarter turned."""
@@ -249,6 +296,7 @@ class Curves:
             read(kinds.TRANSLATION, link, *map(self.point, two), *ends)
             return
         P, W0 = circle.pole, circle.inflection
+        self.ways |= {circle.by: None} if P is not W0 else {}
         read(kinds.MOTION_POLE, link, P)
         read(kinds.INFLECTION, link, P, W0)
         if P is not W0:
@@ -265,7 +313,8 @@ class Curves:
             return kinds.CENTRE, (self.point(point), self._pole(link))
         if self._rank(link) == 1:
             return kinds.STRAIGHT, ()
-        circle = self.circle(link) if link in self.known or link in self.scene.find.inflection else None
+        told = link in self.known or link in self.wheels or link in self.scene.find.inflection
+        circle = self.circle(link) if told else None
         with self.board.on(MECHANISM, (link,), partial(centre_of if circle else centre_by_rates, point)):
             return self._by_circle(circle, point) if circle else self._by_normal(point, link)
 
@@ -274,7 +323,7 @@ class Curves:
         if FRAME in self.scene.links and {*self.scene.links[link]} & {*self.scene.links[FRAME]}:
             return 0
         sliding = any({link, FRAME} == {*slide.links} and slide.turns_alike for slide in self.scene.slides)
-        return 1 if sliding else 2 if link in self.known else 3
+        return 1 if sliding else 2 if link in self.known or link in self.wheels else 3
 
     def _by_circle(self, circle: Circle, point: str) -> tuple[kinds.ResultKind, tuple[Mark, ...]]:
         """By Euler and Savary, Bobillier or Hartmann."""
@@ -295,7 +344,7 @@ class Curves:
         if self._together(M, N):
             vectors = (self._vector(plan, link, point) for plan in (self.velocities(), self.accelerations()))
             return kinds.STRAIGHT, (M, *chain.from_iterable(vectors))
-        self.ways |= {said("velocities and accelerations"): None}
+        self.ways |= {BY_RATES: None}
         return kinds.CENTRE, (M, self.board.third(M, N, M, end, name=centre_name(point)))
 
     def _curved(self, circle: Circle, point: str) -> Mark:

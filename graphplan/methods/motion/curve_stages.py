@@ -12,6 +12,8 @@ EULER = said("by Euler and Savary the way from a point to the pole is the mean p
              "inflection circle and to its centre of curvature, which lie on one side of it")
 RATES = said("the acceleration towards the pole is omega squared times the way to the inflection circle, as the "
              "velocity is omega times the way to the pole")
+ROLLING = said("the pole is where the wheel touches, and the inflection pole lies on the line of centres: the centre "
+               "of a wheel on a rail, of a wheel on a wheel by Euler and Savary")
 MIRRORED = said("the pole and the inflection pole are opposite points of the inflection circle; the return circle is "
                 "its mirror image in the pole")
 NORMAL = said("the radius of curvature is the third proportional to the normal acceleration and the velocity")
@@ -20,6 +22,12 @@ NORMAL = said("the radius of curvature is the third proportional to the normal a
 def by_centres(link: str, forms: Collection[str]) -> Stage:
     """The inflection circle of a link from two points with known centres of curvature."""
     return Stage(said("Inflection circle of {0}", link_named(link)), EULER, (Equation("MP² = MW · MC", ()),))
+
+
+def by_rolling(link: str, forms: Collection[str]) -> Stage:
+    """The inflection circle of a wheel that rolls on another, or on a rail."""
+    return Stage(said("Inflection circle of {0}, which rolls", link_named(link)), ROLLING,
+                 (Equation("BP² = BW_0 · BC", ()),))
 
 
 def by_rates(link: str, forms: Collection[str]) -> Stage:

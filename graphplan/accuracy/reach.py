@@ -175,7 +175,7 @@ def _drawn_in(drawing: Construction, points: dict[str, complex], guides: dict[st
 
 def _afresh(scene: Scene, drawing: Construction) -> Construction:
     """What the planner finds for a pose, on the same plans."""
-    return construct(scene, plan="orthogonal" if drawing.turned else "polar", strict=drawing.strict)
+    return construct(scene, plan=drawing.plan, strict=drawing.strict)
 
 
 # ---- compounds that their forms do not hold everywhere ---------------------------------------------------------------

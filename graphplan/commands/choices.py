@@ -51,9 +51,9 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
     add("--method", default="", choices=(*METHODS, *OF_PATHS),
         help="the form of loci and rings, or of centres of curvature; without it the pose chooses, and the protocol "
         "says why")
-    add("--plan", default="", metavar="PLAN", help="orthogonal velocities on the mechanism plan, or polar plans "
-        "(without either the lengths of the links decide); of the forces lever, polygons, or both (default); such as "
-        "--plan polar,lever")
+    add("--plan", default="", metavar="PLAN", help="orthogonal velocities on the mechanism plan, polar plans, or "
+        "velocity triangles on the lines of centres of gears (without any the lengths of the links decide); of the "
+        "forces lever, polygons, or both (default); such as --plan polar,lever")
     add("--inertia", default=INERTIA[0], choices=INERTIA, help="inertia forces: at the centre of mass with a couple "
         "(default), shifted so that they need none, or at two points that replace the link")
     add("--rounds", type=count("--rounds", 1, MOST_ROUNDS), metavar="N",

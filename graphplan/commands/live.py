@@ -95,7 +95,7 @@ def _variants(options: argparse.Namespace) -> Iterator[Variant]:
         with suppress(*(() if first else (Refused,))):
             composition = compose(drawing, protocol="none")
             others = _others(drawing)
-            yield Variant(PLANS[drawing.turned], method, on_one_sheet(composition, others if first else others[:AGAIN]))
+            yield Variant(drawing.plan, method, on_one_sheet(composition, others if first else others[:AGAIN]))
 
 
 def _others(drawing: Construction) -> list[Construction]:

@@ -43,16 +43,24 @@ def _on_the_link(way: str, s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> An
     return None if PQ.fallen else s.line_meets_circle(PQ, s.circle(P, s.opening(A, P1)), way=way)
 
 
+def _upright(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
+    """Where P and Q stand over A and B, square to AB, so does what is sought over C."""
+    return s.meet(s.perpendicular(s.side(A, B), C), s.side(P, Q))
+
+
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
            "Divide {3}{4} in {out} as {2} divides {0}{1}.",
            claims=(("along", (0, 2), (0, 1)), ("along", (3, -1), (3, 4)), ("proportion", 0, 1, 2, 3, 4)),
            fails=("points-coincide",), forms={
                "at an end": lambda s, A, B, C, P, Q:
                    P if s.one(A, C) or s.one(P, Q) else Q if s.one(B, C) else None,
+               "upright": _upright,
                "ray": partial(_ray, "on"),
                "ray, beyond": partial(_ray, "back"),
                "on the link": partial(_on_the_link, "on"),
-               "on the link, beyond": partial(_on_the_link, "back")})
+               "on the link, beyond": partial(_on_the_link, "back")},
+           by_form={"upright": phrase("At {2} erect the perpendicular on {0}{1}: it meets the line through {3} and {4} "
+                                      "in {out}.")})
 def divide(d: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
     """The point of PQ that divides it as C divides AB; A, B, C lie on one line."""
     u = apart(d, A, B)

@@ -18,7 +18,7 @@ from graphplan.kernel.passes import gathered
 from graphplan.kernel.program import Panel, Program, Step, evaluate
 from graphplan.methods import kinds
 from graphplan.methods.controls import Control, controls
-from graphplan.methods.panels import ACCELERATION_PLAN, MECHANISM, N_PLAN, ForcePlan, LeverPlan
+from graphplan.methods.panels import ACCELERATION_PLAN, MECHANISM, N_PLAN, ForcePlan, LeverPlan, TrianglePlan
 from graphplan.methods.recorded import Recorded
 from graphplan.methods.results import Given
 from graphplan.phrases import Phrase, Said, said
@@ -195,6 +195,13 @@ class Construction(Recorded, Given):
                   if step.choice and step.choice.others]
         return self.notes + [said("step {0}: {1}", *told) for told in chosen]
 
+    @property
+    def plan(self) -> str:
+        """Which plans of the motion are drawn: orthogonal, polar or triangles."""
+        if self.turned:
+            return "orthogonal"
+        return "triangles" if isinstance(self.program.steps[0].panel, TrianglePlan) else "polar"
+
     @cached_property
     def method(self) -> dict[str, list[str]]:
         """How velocities, accelerations and forces are found, in a few words each."""
@@ -202,7 +209,7 @@ class Construction(Recorded, Given):
         for kind in (kinds.VELOCITY, kinds.ACCELERATION):
             if any(reading.marks and reading.kind.group == kind for reading in self.readings):
                 ways: list[str] = list(dict.fromkeys([*self._loci(kind), *self._ways(kind)]))
-                found[kind] = ways or [PLAIN[self.turned, kind]]
+                found[kind] = ways or [PLAIN[self.plan, kind]]
         if self.poles_by:
             found[kinds.POLES] = [*self.poles_by]
         if curved := [*self._curvatures()]:
@@ -309,11 +316,13 @@ class Construction(Recorded, Given):
         return 0j
 
 
-PLAIN = {
-    (True, kinds.VELOCITY): said("parallels on the mechanism plan"),
-    (True, kinds.ACCELERATION): said("plan of relative normal accelerations"),
-    (False, kinds.VELOCITY): said("polar velocity plan"),
-    (False, kinds.ACCELERATION): said("polar acceleration plan"),
+PLAIN: dict[tuple[str, str], Said] = {
+    ("orthogonal", kinds.VELOCITY): said("parallels on the mechanism plan"),
+    ("triangles", kinds.VELOCITY): said("velocity triangles"),
+    ("polar", kinds.VELOCITY): said("polar velocity plan"),
+    ("orthogonal", kinds.ACCELERATION): said("plan of relative normal accelerations"),
+    ("triangles", kinds.ACCELERATION): said("plan of relative normal accelerations"),
+    ("polar", kinds.ACCELERATION): said("polar acceleration plan"),
 }
 
 

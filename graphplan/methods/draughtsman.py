@@ -26,7 +26,7 @@ from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.poles import Poles, Unseen
 from graphplan.methods.motion.time_scale import apart, tempo
-from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
+from graphplan.methods.motion.velocity import Orthogonal, Polar, Triangles, Velocity
 from graphplan.methods.panels import link_named, listed, redundancies, replacements
 from graphplan.methods.poses import Pose
 from graphplan.methods.recorded import Reading
@@ -51,9 +51,10 @@ class Draughtsman:
 
     def __init__(self, scene: Scene, planner: Planner, style: Style):
         self.scene, self.net, self.polar = scene, planner.net, style.polar
+        self.velocities = Polar if style.polar else Triangles if style.triangles else Orthogonal
         self.board = Board()
         self.net.relied.clear()
-        self.pose = Pose(self.board, self.net.scene, self.net.shared)
+        self.pose = Pose(self.board, self.net.scene, self.net.shared, self.velocities.mechanism)
         self.tempo = tempo(scene)
         self.moves, self.method = planner.moves, planner.method
         self.marks: list[Mark] = []
@@ -63,7 +64,7 @@ class Draughtsman:
         self.at_rest: list[Said] = []
 
     def draw(self) -> Construction:
-        velocity = (Polar if self.polar else Orthogonal)(self.board, self.net, self.pose, self.tempo)
+        velocity = self.velocities(self.board, self.net, self.pose, self.tempo)
         poles = None
         if self.scene.find.poles or self.velocity_moves is not self.moves:
             poles = Poles(self.board, self.scene, self.pose, velocity)
@@ -128,7 +129,7 @@ class Draughtsman:
         self._rates(velocity, kinds.OMEGA)
         self.readings.sort(key=lambda reading: kinds.ORDER.get(reading.kind, len(kinds.ORDER)))
         program = freeze(self.board, self.marks)
-        return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar,
+        return Construction(self.scene, self.tempo, program, tuple(self.readings), self.velocities.turned,
                             relied=tuple(self.net.relied), ways=tuple(_ways(self.moves)),
                             by_poles=_by_poles(self.velocity_moves), poles_by=self.poles_by, paths_by=self.paths_by,
                             notes=[*replacements(self.net.bars), *redundancies(self.scene), *self.at_rest])

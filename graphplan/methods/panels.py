@@ -30,7 +30,17 @@ class _MechanismPlan(Panel):
         return said("Mechanism plan")
 
 
+class TrianglePlan(_MechanismPlan):
+    """The mechanism with its velocities as they are, each drawn from its point."""
+
+    def caption(self, kinds: Collection[str]) -> Said:
+        if kinds and {"acceleration", "load", "part", "reaction", "balance"}.isdisjoint(kinds):
+            return said("Mechanism plan with velocity triangles")
+        return super().caption(kinds)
+
+
 MECHANISM = _MechanismPlan("mechanism", said("mechanism plan"))
+TRIANGLES = TrianglePlan(str(MECHANISM), MECHANISM.words)
 N_PLAN = Panel("N-plan", said("N-plan"), said("N-plan: relative normal accelerations"))
 VELOCITY_PLAN = Panel("velocity plan", said("velocity plan"))
 ACCELERATION_PLAN = Panel("acceleration plan", said("acceleration plan"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import ChainMap
 from collections.abc import Mapping, MutableMapping
 
-from graphplan.kernel.program import Board, Mark
+from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.order import by_name, ordered_points
 from graphplan.mechanism.replaced import RollingGuide, rolling_guides
@@ -23,10 +23,10 @@ class Pose:
     motion are among `points` alone.
     """
 
-    def __init__(self, board: Board, scene: Scene, shared: Mapping[str, str]):
+    def __init__(self, board: Board, scene: Scene, shared: Mapping[str, str], panel: Panel = MECHANISM):
         self.board, self.scene = board, scene
         self.assembled = Assembler(board, scene, scene.assembly) if scene.assembly else None
-        with board.on(MECHANISM):
+        with board.on(panel):
             self._rolling = rolling_guides(scene)
             drawn = {guide.at: guide for guide in self._rolling if guide.base}
             apart = {name: scene.points[name] for name in ordered_points(scene) if name not in {*shared, *drawn}}

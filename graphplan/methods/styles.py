@@ -8,14 +8,15 @@ from graphplan.errors import Refused
 
 METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}  # with the form that each prefers
 OF_PATHS = {"euler-savary": "Euler-Savary", "bobillier": "Bobillier", "hartmann": "Hartmann", "accelerations": ""}
-MOTION_PLANS = ("orthogonal", "polar")
+MOTION_PLANS = ("orthogonal", "polar", "triangles")
 PLANS = (*MOTION_PLANS, "lever", "polygons", "both")
 INERTIA = ("couple", "shifted", "points")
 
 
 @dataclass(frozen=True)
 class Style:
-    """Which plans are drawn: orthogonal or polar ones of the motion; the lever, force polygons, or both.
+    """Which plans are drawn: orthogonal or polar ones of the motion, or velocity triangles with the N-plan; the lever,
+    force polygons, or both.
 
     `free` says that the plans of the motion are not asked for by name: then the lengths of the links may decide.
     """
@@ -25,6 +26,7 @@ class Style:
     lever: bool = True
     polygons: bool = True
     inertia: str = "couple"
+    triangles: bool = False
 
 
 def style(plan: str, inertia: str) -> Style:
@@ -38,4 +40,4 @@ def style(plan: str, inertia: str) -> Style:
     lever, polygons = "lever" in words, "polygons" in words
     both = "both" in words or not (lever or polygons)
     free = not {*MOTION_PLANS} & {*words}
-    return Style("polar" in words, free, lever or both, polygons or both, inertia)
+    return Style("polar" in words, free, lever or both, polygons or both, inertia, "triangles" in words)

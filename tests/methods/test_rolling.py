@@ -136,3 +136,17 @@ def test_a_point_of_contact_that_is_left_behind_is_refused() -> None:
     drawing = gp.construct(parse(rail, "rail"))
     with pytest.raises(gp.Refused, match="point K"):
         drawing.evaluate(points={"B": np.array([31 + 40j])})
+
+
+def test_velocity_triangles_end_on_straight_lines() -> None:
+    """Ozols 7-2: on the plan of triangles a planet's ends lie on one line, which perpendiculars to its line of centres
+    meet; other mechanisms have no such plan, and four-bars are refused."""
+    for name in ("planet", "ring", "belt"):
+        assert not any(report(SCENES[name], exact=True, plan="triangles").check.values())
+    drawing = gp.construct(SCENES["ring"], plan="triangles")
+    assert drawing.method["velocity"] == ["velocity triangles"]
+    assert not drawing.broken
+    told = [step.sentence for step in drawing.compounds]
+    assert any(line.startswith("At B erect the perpendicular on ") for line in told), told
+    with pytest.raises(gp.Refused, match="triangles"):
+        gp.construct(SCENES["cam"], plan="triangles")

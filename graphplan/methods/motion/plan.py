@@ -16,7 +16,6 @@ from collections.abc import Iterable, Mapping
 from copy import copy
 from fractions import Fraction
 from functools import partial
-from typing import Any
 
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.program import Board, Mark, Panel
@@ -125,8 +124,7 @@ class MotionPlan:
 
     def draw(self, planned: Iterable[Move]) -> None:
         for group in self.stages.grouped(planned):
-            place = self.stages.place(group[-1])
-            stage = partial(self.stages.tell, group, self.prime, place in self._located)
+            stage = partial(self.stages.tell, group, self.prime, self.stages.place(group[-1]) in self._located)
             for move in group:
                 with self.board.on(self.panel, self._links(move), stage):
                     if isinstance(move, moves.FalsePosition):
@@ -156,12 +154,12 @@ class MotionPlan:
             case moves.Settle(body, K, X, B):
                 self._end(X[0], self._outward(body, X[0], self._settled(body, K, X, B)), move)
             case moves.SimilarFigure(body, K, X, R, like, copy):
-                mark = self._outward(body, X, self._figured(body, K, X, R, like))
-                self._end(copy or X, mark, move)
+                self._end(copy or X, self.drawn_figure(body, K, X, R, like), move)
             case moves.Guide(slide, point, known, new):
                 self._guide(slide, point, known, new, move)
             case moves.Common(point=point, known=known, new=new):
-                self._end(self.net.place(point, new), self.end_in(known, point))
+                place = self.net.place(point, new)
+                self._end(place, self.moved(self.end_in(known, point), self.figure(new, point), self.home(place)))
             case moves.Meet(place, (one, two), copy):
                 self._end(copy or place, self.board.meet(self.loci[place, one], self.loci[place, two]), move)
             case moves.Auxiliary(body, A, B, place):
@@ -332,8 +330,7 @@ class MotionPlan:
     def _settled(self, body: str, K: BodyPoint, X: Locus, B: Locus) -> Mark:
         known = self.point(K), self._inward(body, K, self.ends[K])
         one, two = self._locus_in(body, X), self._locus_in(body, B)
-        args: tuple[Any, ...] = (*known, self.point(X[0]), one, self.point(B[0]), two)
-        return self.board.settle(*args, turn=self.turn)
+        return self.board.settle(*known, self.point(X[0]), one, self.point(B[0]), two, turn=self.turn)
 
     def _figured(self, body: str, K: BodyPoint, X: BodyPoint, R: BodyPoint | None, like: str) -> Mark:
         at = self._inward(body, K, self.ends[K])
@@ -342,6 +339,10 @@ class MotionPlan:
         sides = self.point(K), self.point(R), self.point(X)
         other = self._inward(body, R, self.ends[R])
         return self.board.similar(*sides, at, other, turn=self.turn)
+
+    def drawn_figure(self, body: str, K: BodyPoint, X: BodyPoint, R: BodyPoint | None, like: str) -> Mark:
+        """The end of X at its home, by the figure of its body."""
+        return self._outward(body, X, self._figured(body, K, X, R, like))
 
     def _guide(self, slide: Slide, point: str, known: str, new: str, move: Move) -> None:
         place = self.net.place(point, new)

@@ -231,8 +231,8 @@ class MotionStages:
                 return said("Pole {0} of {1}", self.name(*place), self._links(body))
             case FalsePosition():
                 return arranged("{0:capital}", said("false position of {0}", end))
-            case Common(point=place) | Settle(X=(place, _)) | Rest(place=place) | Seed(place=place) | Meet(place=place):
-                return self.words.point(self.name(*place))
+            case Common() | Settle() | Rest() | Seed() | Meet():
+                return self.words.point(self.name(*self.place(move)))
 
     def _links(self, body: str) -> Said:
         return listed([link for link in self.net.members[body] if link != FRAME])

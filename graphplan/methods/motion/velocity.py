@@ -1,17 +1,21 @@
-"""Velocities: orthogonal on the mechanism plan (Rosenauer, Ozols), or true on a polar plan (Jaanimets)."""
+"""Velocities: orthogonal on the mechanism plan (Rosenauer, Ozols), true on a polar plan (Jaanimets), or true in
+triangles on the mechanism plan (Ozols)."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 
+from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Slide
+from graphplan.mechanism.replaced import rolling_guides
 from graphplan.methods.motion.moves import Carry, Centre, Guide, Meet, Move, Roll, Settle, SimilarFigure, Slip, Swing
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.motion.plan import MotionPlan, Vector
 from graphplan.methods.motion.stages import VELOCITIES, begun
 from graphplan.methods.motion.time_scale import Tempo
-from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
+from graphplan.methods.panels import MECHANISM, TRIANGLES, VELOCITY_PLAN
 from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, said
 
@@ -32,12 +36,16 @@ POLAR_LAWS = LAWS | {
     SimilarFigure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
     Guide: said("the sliding pair leaves only a velocity along the guide"),
 }
+TRIANGLE_LAWS = POLAR_LAWS | {
+    SimilarFigure: said("the velocities of points of a link in line end on one straight line"),
+}
 
 
 class Velocity(MotionPlan):
     """What both velocity plans share: drives, guides, and the relative velocities that accelerations need."""
 
     words = VELOCITIES
+    mechanism = MECHANISM  # the plan on which the mechanism's points lie
     pole_of: Callable[[str, str], Mark]  # of two links, where velocities are drawn by poles
 
     def _draw(self, move: Move) -> None:
@@ -116,8 +124,12 @@ class Polar(Velocity):
 
     def __init__(self, board: Board, net: Network, pose: Pose, tempo: Tempo):
         super().__init__(board, net, pose, tempo)
-        with board.on(self.panel, stage=begun("p", self.panel.words, pole=True)):
-            self.pole = board.pole(plan=self.panel, name="p")
+        self.pole = self._begun()
+
+    def _begun(self) -> Mark:
+        """The mark from which all velocities are laid off."""
+        with self.board.on(self.panel, stage=begun("p", self.panel.words, pole=True)):
+            return self.board.pole(plan=self.panel, name="p")
 
     def far_from(self, place: BodyPoint) -> Mark:
         """As far from the pole as the place is from another point of its link."""
@@ -128,3 +140,65 @@ class Polar(Velocity):
 
     def _less(self, less: Mark, end: Mark, P: str, B: str) -> Mark:
         return self.board.quarter(less, end, self.pose.points[B])
+
+
+class Triangles(Polar):
+    """True velocities, each drawn from its point on the mechanism plan.
+
+    Those of the centres and pitch points of a train in line are square to the line, and the ends of each wheel's lie on
+    one straight line (Ozols 1974, 7-2). Points off that line are found as from a pole, which is a fixed point.
+    """
+
+    panel, laws, ending = TRIANGLES, TRIANGLE_LAWS, "v_{0}"
+    mechanism = TRIANGLES
+
+    def __init__(self, board: Board, net: Network, pose: Pose, tempo: Tempo):
+        super().__init__(board, net, pose, tempo)
+        self.trains = trains(net)
+        if not self.trains:
+            raise Refused("plan triangles", "no gears here have a line of centres", "orthogonal or polar")
+
+    def _begun(self) -> Mark:
+        return next(self.pose.points[point] for point in (*self.net.links.get(FRAME, ()), *self.pose.points))
+
+    def home(self, place: BodyPoint) -> Mark:
+        return self.point(place)
+
+    def far_from(self, place: BodyPoint) -> Mark:
+        return self.pose.far_from(place)
+
+    def _rest(self, place: BodyPoint) -> Mark:
+        """On a link that a drive turns on the frame the velocity is laid off at its point."""
+        weld = self.net.welds.get(self.net.link_at(self.net.ground, place))
+        if weld is None or weld.slide or weld.to != FRAME:
+            return super()._rest(place)
+        much, X = weld.sign * self.prescribed(weld.drive.rates), self.point(place)
+        return self._step((self.pose.points[weld.at], X), X, much) if much and place[0] != weld.at else X
+
+    def drawn_figure(self, body: str, K: BodyPoint, X: BodyPoint, R: BodyPoint | None, like: str) -> Mark:
+        one_link = R and len({self.net.link_at(body, place) for place in (K, X, R)}) == 1
+        if R and one_link and any({K[0], X[0], R[0]} <= train for train in self.trains):
+            return self.board.divide(*(self.point(place) for place in (K, R, X)), self.ends[K], self.ends[R])
+        return super().drawn_figure(body, K, X, R, like)
+
+
+def trains(net: Network) -> list[set[str]]:
+    """The centres and pitch points that lie in line in every pose: those of gears whose centres are points of one link
+    in line."""
+    found: list[set[str]] = []
+    for guide in rolling_guides(net.scene):
+        line = {guide.at, *guide.through} if guide.through else set[str]()
+        for train in [train for train in found if _in_line(net, train | line)]:
+            line |= train
+            found.remove(train)
+        found += [line] if line else []
+    return found
+
+
+def _in_line(net: Network, points: set[str]) -> bool:
+    """Whether these points are in line, and the centres among them all on one link."""
+    centres = points - net.wandering
+    (x, y), *others = (net.scene.points[point] for point in sorted(points))
+    rays = [(p - x, q - y) for p, q in others]
+    flat = all(p[0] * q[1] == p[1] * q[0] for p, q in pairwise(ray for ray in rays if any(ray)))
+    return flat and any(centres <= {*link} for link in net.links.values())

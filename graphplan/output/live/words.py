@@ -17,6 +17,7 @@ WORDS: dict[str, Said] = {
     "run": said("Run"), "stop": said("Stop"), "back": said("Given pose"), "plan": said("Plan"),
     "method": said("Method"), "language": said("Language"), "own": said("chosen for the pose"),
     "orthogonal": said("orthogonal velocities"), "polar": said("polar plans"),
+    "triangles": said("velocity triangles"),
     "auxiliary": said("auxiliary points"), "trial": said("trial figures"), "poles": said("poles"),
     "print": said("Print"), "copy": said("Copy as a scene"), "copied": said("The scene is copied."),
     "take": said("The scene in this pose, to be copied from here:"), "close": said("Close"),

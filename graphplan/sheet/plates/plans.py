@@ -73,7 +73,9 @@ class Plans:
     @cached_property
     def panels(self) -> list[Panel]:
         """The plans in drawing order, the mechanism's first."""
-        return list(dict.fromkeys([MECHANISM, *self.plan_of_step]))
+        drawn = dict.fromkeys(self.plan_of_step)
+        mechanism = next((panel for panel in drawn if panel == MECHANISM), MECHANISM)
+        return list(dict.fromkeys([mechanism, *drawn]))
 
     @cached_property
     def sentences(self) -> list[str]:

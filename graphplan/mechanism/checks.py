@@ -19,7 +19,6 @@ from graphplan.mechanism.items import Faults, quoted
 from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Pair, Scene
 from graphplan.mechanism.numerals import exactly, is_exact
 from graphplan.mechanism.order import ordered_links
-from graphplan.mechanism.pairs.pair import TOUCHING
 from graphplan.mechanism.structure import mobility
 
 _SAME = Fraction(1, 10**12)
@@ -72,42 +71,40 @@ def check_connections(scene: Scene, faults: Faults) -> None:
 
 
 def check_gears(scene: Scene, faults: Faults) -> None:
-    """Without the gears, too, their centres are held apart, and that of a gear on a rack at its pitch line."""
-    for number, gear in enumerate(scene.gears, 1):
-        if not _held_apart(scene, gear):
-            what, instead = f"{gear.centres[0]} can leave the pitch line", "a pin, or a slide along it"
-            if gear.direction is None:
-                what = f"nothing holds the centres {' and '.join(gear.centres)} apart"
-                instead = "an arm: a link with a joint at each"
-            faults.add(f"gears.{number}.centres", what, instead)
+    """Without the gears, too, their centres are held apart, and that of a gear on a rack at its pitch line.
 
-
-def _held_apart(scene: Scene, gear: Gear) -> bool:
-    """Whether the other links do what a bar between the centres would do, or a slide along a pitch line.
-
-    An arm does so in any position. What does so by special geometry alone must do so beyond its velocities.
+    An arm does so in any position, so that a motion by chance keeps what a bar between the centres would.
     """
-    from graphplan.mechanism.special import special  # few scenes need it
-
-    others = tuple(pair for pair in scene.written if not isinstance(pair, Gear | Drive))
-    centres = (gear.centres[0], gear.centres[1] if gear.direction is None else None)
-    bar = Contact(gear.links, centres[0], centres, direction=gear.direction, through=gear.through, written=gear.written)
-    free = replace(scene, written=others)
-    if gear.direction is None and _adds_nothing(free, bar):
-        return True
-    before, after = special(free), special(replace(free, written=(*others, bar)))
-    return before.freedoms == after.freedoms and after.moves
-
-
-def _adds_nothing(scene: Scene, bar: Contact) -> bool:
-    """Whether a motion of the pairs that chance gives keeps what a bar would keep, points being anywhere."""
-    system = System(scene)
+    free = replace(scene, written=tuple(pair for pair in scene.written if not isinstance(pair, Gear | Drive)))
+    system = System(free)
     columns = {unknown: j for j, unknown in enumerate(system.unknowns)}
     rows = [{columns[unknown]: c for unknown, c in equation.terms.items()} for equation in system.pairs]
     moved = Elimination(rows, len(columns), PRIME).moved
-    found = System(replace(scene, written=(bar,)))
-    terms = next(equation.terms for equation in found.pairs if equation.fact.way == TOUCHING)
-    return not sum(c * moved[columns[unknown]] for unknown, c in terms.items()) % PRIME
+    for number, gear in enumerate(scene.gears, 1):
+        bar, of = _bar(gear), " and ".join(gear.centres)
+        if gear.direction is None:
+            terms = system.terms(next(bar.states(system.posed)))
+            if not sum(c * moved[columns[unknown]] for unknown, c in terms.items()) % PRIME:
+                continue
+            what, instead = f"nothing holds the centres {of} apart", "an arm: a link with a joint at each"
+        else:
+            what, instead = f"{of} can leave the pitch line", "a pin, or a slide along it"
+        if not _held_in_its_pose(free, bar):
+            faults.add(f"gears.{number}.centres", what, instead)
+
+
+def _bar(gear: Gear) -> Contact:
+    """A bar between the centres of a gear, or a slide of its centre along the pitch line."""
+    one, two = gear.centres[0], gear.centres[1] if gear.direction is None else None
+    return Contact(gear.links, one, (one, two), False, gear.direction, gear.through, gear.written)
+
+
+def _held_in_its_pose(free: Scene, bar: Contact) -> bool:
+    """Whether the links do what a bar would do by special geometry, and not for their velocities alone."""
+    from graphplan.mechanism.special import special  # few scenes need it
+
+    before, after = special(free), special(replace(free, written=(*free.written, bar)))
+    return before.freedoms == after.freedoms and after.moves
 
 
 def check_mobility(scene: Scene, faults: Faults) -> Scene:

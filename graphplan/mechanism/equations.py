@@ -119,14 +119,17 @@ class System:
     def _stated(self, pairs: Iterable[KinematicPair | Balance]) -> Iterator[Equation]:
         """What these pairs state, as equations."""
         for pair in pairs:
-            for fact in pair.states(self.posed):
-                terms: dict[Unknown, Any] = {}
-                arms: Any = [self.posed.points[point] if point else (0, 0) for _, point in fact.ends]
-                for (body, point), weights in zip(fact.ends, fact.weights(arms, self._root), strict=True):
-                    thing = ("link", body) if body != PIN else ("joint", point)
-                    terms |= {(thing, way): weight for way, weight in zip(WAYS, weights, strict=True)
-                              if weight and (thing, way) in self._free}
-                yield Equation(terms, fact)
+            yield from (Equation(self.terms(fact), fact) for fact in pair.states(self.posed))
+
+    def terms(self, fact: Statement) -> dict[Unknown, Any]:
+        """How much each freedom counts in what is stated."""
+        terms: dict[Unknown, Any] = {}
+        arms: Any = [self.posed.points[point] if point else (0, 0) for _, point in fact.ends]
+        for (body, point), weights in zip(fact.ends, fact.weights(arms, self._root), strict=True):
+            thing = ("link", body) if body != PIN else ("joint", point)
+            terms |= {(thing, way): weight for way, weight in zip(WAYS, weights, strict=True)
+                      if weight and (thing, way) in self._free}
+        return terms
 
 
 # --- in which order motion passes ------------------------------------------------------------------------------------

@@ -26,6 +26,7 @@ from graphplan.cams.task import CONVEX, PRESSURE, SMALLEST, Limits, Task
 from graphplan.errors import Refused
 from graphplan.mechanism.numerals import shown
 
+LEAST = 1e-9  # radians: an arm that lies on the line of centres
 SCAN, HALVINGS = 180, 48  # angles of an arm that are tried, before the best is searched between two of them
 
 
@@ -132,6 +133,9 @@ def _arm_angle(task: Task) -> float:
     if angle is None:
         raise Refused(f"{task.name}: cam.base", f"no base circle keeps the pressure angle at a centre distance of "
                       f"{shown(a)} and an arm of {shown(l)}", "another centre distance or arm, or larger angles")
+    if angle < LEAST:
+        raise Refused(f"{task.name}: cam.base", "the pressure angle is never reached, so there is no smallest base "
+                      "circle", "a radius")
     return angle
 
 
@@ -168,7 +172,7 @@ def _first(over: Callable[[float, int], float], most: float) -> float | None:
     good = next((k for k, value in enumerate(tried) if over(value, 0) <= 0), None)
     if good is None:
         return None
-    low, high = tried[good] - 2 * most / SCAN, tried[min(good + 1, len(tried) - 1)]
+    low, high = max(0.0, tried[good] - 2 * most / SCAN), tried[min(good + 1, len(tried) - 1)]
     for _ in range(HALVINGS):
         middle = (low + high) / 2
         low, high = (low, middle) if over(middle, ROUNDS) <= 0 else (middle, high)

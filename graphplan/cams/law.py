@@ -133,10 +133,11 @@ class Law:
     @cached_property
     def jumps(self) -> tuple[Jump, ...]:
         """The hard and soft shocks in the order of the turn."""
-        scale = [max(self._largest(order), 1e-300) for order in range(ORDERS)]
+        scale = [max(self.largest(order), 1e-300) for order in range(ORDERS)]
         return tuple(jump for jump in self._joints() if abs(jump.after - jump.before) > SMALL * scale[jump.order])
 
-    def _largest(self, order: int) -> float:
+    def largest(self, order: int) -> float:
+        """About how large the derivative of an order is where it is largest."""
         found = (abs(one.at(np.linspace(float(one.start), float(one.end), 9), order)).max() for one in self.stretches)
         return self.times * max(map(float, found))
 

@@ -6,13 +6,14 @@ Lengths are in the task's unit, angles in degrees. Lifts of an oscillating follo
 from __future__ import annotations
 
 import math
+import os
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
 from graphplan.cams.law import Law, Stage
 from graphplan.cams.motions import DWELL, MOTIONS, TABLE, spline
-from graphplan.errors import SceneError
+from graphplan.errors import Fault, SceneError
 from graphplan.mechanism import sections
 from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
 from graphplan.mechanism.items import Faults, Item, Vector, described
@@ -248,6 +249,8 @@ TASK = Table("a cam: the law of its follower, the follower, and what is given of
 
 def load(source: str) -> Task:
     """The task in a file or on standard input (`-`); fails with `SceneError`, one line a fault."""
+    if source != "-" and not os.path.exists(source):
+        raise SceneError(source, (Fault("file", "no such file", "a task file, as graphplan cam --help has one"),))
     return parse(source_text(source, source), source)
 
 

@@ -4,12 +4,12 @@ differentiated, and the scene of the cam, solved by the analytic solver, against
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from graphplan.cams.construction import CamDrawing
+from graphplan.cams.law import Stretch
 from graphplan.cams.motions import ORDERS
 from graphplan.cams.pose import END, FOLLOWER, motion, scene_text
 from graphplan.cams.profile import Cam
@@ -18,9 +18,10 @@ from graphplan.kernel.claims import broken
 from graphplan.mechanism.scene import parse
 from graphplan.solver import solve
 
-STEP = 1e-3  # radians of the cam between numbers that are differentiated
+STEP = 1e-4  # radians of the cam between numbers that are differentiated
 CLOSE = {"points": 1e-11, "motion": 1e-11, "curvature": 1e-5, "law": 1e-6}  # by so much opinions may differ
-STENCIL = np.array([1, -8, 0, 8, -1]) / 12, np.array([-1, 16, -30, 16, -1]) / 12
+SPACED = 400  # of them at least in a piece of the law
+STENCIL = np.array([1, -8, 0, 8, -1]) / 12  # of five neighbours
 
 
 def checked(drawing: CamDrawing) -> dict[str, float]:
@@ -44,32 +45,39 @@ def checked(drawing: CamDrawing) -> dict[str, float]:
 
 def _moved(cam: Cam, angle: float) -> float:
     """By how much the solver's velocity and acceleration of the follower differ from the law's, beside those of a point
-    of the cam as far out as the base circle, or beside the cam's turning where the follower turns."""
+    of the cam as far out as the base circle, or the cam's turning, or beside the largest where that is larger."""
     rates, wanted, omega = solve(parse(scene_text(cam, angle), cam.task.name)), motion(cam, angle), cam.task.cam.omega
     if cam.task.follower.oscillates:
         size, solved = 1.0, (rates.omega[FOLLOWER], rates.alpha[FOLLOWER])
     else:
         size, solved = cam.pair.base, (rates.velocity[END][1], rates.acceleration[END][1])
     gaps = [abs(float(one) - law) for one, law in zip(solved, wanted, strict=True)]
-    return max(gap / (size * omega**order) for order, gap in enumerate(gaps, 1))
+    sizes = (max(size, cam.law.largest(order)) * omega**order for order in (1, 2))
+    return max(gap / size for gap, size in zip(gaps, sizes, strict=True))
 
 
-def _inner(cam: Cam) -> Mapping[Any, Any]:
-    """Angles well inside each piece of the law, in degrees, by piece."""
-    edge = np.degrees(3 * STEP)
-    return {one: np.linspace(float(one.start) + edge, float(one.end) - edge, 7) for one in cam.law.stretches}
+def _near(one: Stretch) -> tuple[Any, float]:
+    """Angles inside a piece of the law in rows of five neighbours, in degrees, and their distance in radians."""
+    low, high = float(one.start), float(one.end)
+    step = min(STEP, np.radians(high - low) / SPACED)
+    edge = 3 * np.degrees(step)
+    return np.linspace(low + edge, high - edge, 7)[:, None] + np.degrees(step) * np.arange(-2, 3), step
 
 
 def _curvature(cam: Cam) -> float:
-    """The curvature of the profile against that of its points, times the radius of the base circle."""
+    """The curvature of the profile against the turning of its normal over the way of its points, times the radius of
+    the base circle; and how far that way is from being square to the normal."""
     worst = 0.0
-    for one, angles in _inner(cam).items():
-        near = angles[:, None] + np.degrees(STEP) * np.arange(-2, 3)
-        spots = cam.pair.turned(cam.touched(one, near).point, near)
-        first, second = spots @ STENCIL[0] / STEP, spots @ STENCIL[1] / STEP**2
-        bend = -cam.pair.sense * (first.conjugate() * second).imag / abs(first) ** 3
-        own = 1 / cam.touched(one, angles).radius
-        worst = max(worst, float((abs(bend - own) / (abs(own) + 1 / cam.pair.base)).max()))
+    for one in cam.law.stretches:
+        angles, step = _near(one)
+        touch = cam.touched(one, angles)
+        spots, normals = (cam.pair.turned(vectors, angles) for vectors in (touch.point, touch.normal))
+        way, turning = spots @ STENCIL / step, normals @ STENCIL / step
+        own, n = touch.radius[:, 2], normals[:, 2]
+        across, along = (way / n).real, (way / n).imag
+        turned = (turning / n).imag
+        gap = abs(along / turned - own) / (abs(own) + cam.pair.base)
+        worst = max(worst, float(gap.max()), float(abs(across).max()) / cam.pair.base)
     return worst
 
 
@@ -77,9 +85,9 @@ def _law(cam: Cam) -> float:
     """Each derivative of the law against the one before it, differentiated, beside the largest."""
     worst = 0.0
     for order in range(1, ORDERS):
-        size = max(float(abs(one.at(angles, order)).max()) for one, angles in _inner(cam).items()) or 1.0
-        for one, angles in _inner(cam).items():
-            near = angles[:, None] + np.degrees(STEP) * np.arange(-2, 3)
-            sloped = one.at(near, order - 1) @ STENCIL[0] / STEP
-            worst = max(worst, float(abs(sloped - one.at(angles, order)).max()) / size)
+        rows = [(one, *_near(one)) for one in cam.law.stretches]
+        size = max(float(abs(one.at(angles, order)).max()) for one, angles, _ in rows) or 1.0
+        for one, angles, step in rows:
+            sloped = one.at(angles, order - 1) @ STENCIL / step
+            worst = max(worst, float(abs(sloped - one.at(angles[:, 2], order)).max()) / size)
     return worst

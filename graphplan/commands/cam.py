@@ -46,7 +46,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from graphplan.commands.choices import add_language, add_paper, count
-from graphplan.commands.output import Messages, as_json, kind, write
+from graphplan.commands.output import STANDARD, Messages, as_json, kind, paged, write, write_all
 from graphplan.errors import Refused
 from graphplan.mechanism.presentation import FRAMES
 from graphplan.output import back_end, loaded
@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from graphplan.cams.profile import Cam
 
 ENDINGS = (".svg", ".pdf", ".png", ".dxf", ".json", ".toml")
+PROTOCOL = "-protocol"  # what the name of a page of words adds to that of the sheet
 DOTS, POSITIONS, TOLERANCE = 150, 360, 0.001
 
 
@@ -94,11 +95,15 @@ def run(options: argparse.Namespace) -> int:
         messages.remark(f"{task.name}: {note}")
     tolerance = TOLERANCE if options.tolerance is None else options.tolerance
     if ending in ("svg", "pdf", "png"):
-        from graphplan.output.cams.sheet import sheet
+        from graphplan.output.cams.sheet import sheets
 
-        found = sheet(drawing, check, task.sheet.paper or None)
+        pages, write_out = sheets(drawing, check, task.sheet.paper or None), back_end(ending)
         look = {"dpi": options.dpi or DOTS} if ending == "png" else {}
-        write(back_end(ending)([found] if ending == "pdf" else found, **look), options.output)
+        if ending == "pdf":
+            write(write_out(pages), options.output)
+        else:
+            names = paged(options.output, len(pages), PROTOCOL)
+            write_all([(name, write_out(page, **look)) for name, page in zip(names, pages, strict=False)])
     else:
         write(_data(cam, ending, options, tolerance, check), options.output)
     return 0
@@ -112,7 +117,7 @@ def _asked(options: argparse.Namespace, ending: str) -> None:
         if getattr(options, name) is not None and ending not in endings:
             raise Refused(f"--{name} {getattr(options, name)}", f"a .{ending} has no use for it",
                           f"leave it out, or -o FILE.{endings[0]}")
-    if options.output and os.path.realpath(options.output) == os.path.realpath(options.task):
+    if options.output not in (None, STANDARD) and os.path.realpath(options.output) == os.path.realpath(options.task):
         raise Refused(f"-o {options.output}", "this is the task itself", "another name")
     if options.tolerance is not None and not 1e-9 <= options.tolerance < float("inf"):
         raise Refused("--tolerance", f"{options.tolerance:g}", "give a length above 0, 1e-9 at least")

@@ -43,6 +43,15 @@ def test_sheets_have_steps_and_panels(written: Callable[..., Path]) -> None:
     assert written("svg").read_text() == svg
 
 
+def test_words_without_room_stand_on_a_page_of_their_own(written: Callable[..., Path]) -> None:
+    """On paper that is too small for all words the steps follow on another page, as with other sheets."""
+    first = written("svg", "--paper", "A4")
+    steps = first.with_name("made-protocol.svg")
+    assert "Base circle: radius" in first.read_text()
+    assert "Construction" in steps.read_text()
+    assert "Construction" not in first.read_text()
+
+
 def test_numbers_are_those_of_the_law(written: Callable[..., Path]) -> None:
     """JSON has base circle, table, outline and checks; the table follows the law."""
     found = json.loads(written("json", "--positions", "12").read_text())

@@ -140,8 +140,8 @@ class Paper:
         if hard:
             yield from self._infinite(at, high)
         letter, scale = one.letter, digits(mu)
-        told = "{0} = 0" if still else "{0}, {1}   (k_{2} = {3} {1}/mm)"
-        head = arranged(told, letter, unit(one.measure), letter, scale)
+        told = "{0} = 0" if still else "{0}, {1}   (k_{0} = {2} {3})"
+        head = arranged(told, letter, unit(one.measure), scale, unit(f"{one.measure}/mm"))
         names = (letter, f"k_{letter}")
         yield Text(pens.LETTERS, "letters", None, (x0, rect.top + 1.6), sentence_runs(self.tongue(head), names),
                    self.letters.text)
@@ -283,5 +283,5 @@ class Paper:
 
     def _scaled(self, window: View, rect: Rect) -> Item:
         """The scale of a figure, in its corner."""
-        told = arranged("k_s = {0} {1}/mm", digits(1 / window.scale), unit(self.cam.task.units.length))
+        told = arranged("k_s = {0} {1}", digits(1 / window.scale), unit(f"{self.cam.task.units.length}/mm"))
         return self.text((rect.left + 2.0, rect.bottom + 2.0), told)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -20,17 +20,22 @@ from graphplan.phrases import Said, arranged, digits, joined, said, unit
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import Page
 from graphplan.sheet.layout.layout import stacked
-from graphplan.sheet.layout.paper import lower_right, sheet_size
+from graphplan.sheet.layout.paper import Arrangement, lower_right, packed, sheet_size, words_page
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.lettering import HEADING, SIZE, LetterSizes, letter_sizes, sentence_runs, wrap
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Text
 from graphplan.sheet.plates.view import least, view
 from graphplan.sheet.words.lengths import Lengths
-from graphplan.sheet.words.rows import Cell, TextRow, fill, lettered
+from graphplan.sheet.words.rows import Cell, Placed, TextRow, fill, lettered
 from graphplan.words.tongue import Tongue, tongue
 
 DOCUMENT = said("Cam sheet")
+MOVED = {"uniform": said("uniform"), "parabolic": said("parabolic"), "harmonic": said("harmonic"), "sine": said("sine"),
+         "trapezoid": said("trapezoid"), "3-4-5": said("polynomial 3-4-5"), "table": said("by a table")}
+MOVES = {"translating": said("translating"), "oscillating": said("oscillating")}
+CONTACTS = {"point": said("point"), "roller": said("roller"), "flat": said("flat face")}
+OPINIONS = {"points": said("points"), "motion": said("motion"), "curvature": said("curvature"), "law": said("law")}
 PAPERS = ("A3", "A2", "A1")
 COLUMN, GAP, CAPTION, AROUND, OUTSIDE = 96.0, 4.0, 7.0, 3.0, 9.0  # mm: see _Sheet
 PLAN_WIDE, PLAN_HIGH = 0.6, 0.64  # of the room beside the words: the plan; above the curve x(s)
@@ -38,16 +43,19 @@ FEW = 2  # steps that are told rather than counted
 INDENT, LEAD = 4.0, 3.0  # mm: of a step's number, and over a heading
 
 
-def sheet(drawing: CamDrawing, check: dict[str, float], paper: str | None = None) -> Sheet:
+def sheets(drawing: CamDrawing, check: dict[str, float], paper: str | None = None) -> list[Sheet]:
     """The sheet of a cam on the paper named, or on the smallest on which its words have room.
 
-    Fails with `Refused` where they have none on the paper named.
+    On the paper named the steps stand on pages of their own where they have none. Fails with `Refused` where what is
+    given and found has none.
     """
     for name in [paper] if paper else PAPERS:
         found = _Sheet(drawing, check, name)
-        if found.placed is not None:
-            return found.sheet
-    raise Refused(f"paper {paper or PAPERS[-1]}", "the words do not fit on it", "a larger one, or no name")
+        if found.placed(found.rows) is not None:
+            return [found.page(found.rows)]
+    if found.placed(found.brief) is None:
+        raise Refused(f"paper {name}", "what is given and found does not fit on it", "a larger one, or no name")
+    return [found.page(found.brief), *found.further]
 
 
 @dataclass(frozen=True)
@@ -108,22 +116,52 @@ class _Sheet:
         times = self.letters.times
         return self.panels[panel].inset(AROUND, AROUND, AROUND, AROUND + times * CAPTION)
 
-    @cached_property
-    def placed(self) -> list[tuple[TextRow, float, float]] | None:
-        """The words in their column; nothing where they do not fit."""
+    def placed(self, rows: Sequence[TextRow]) -> list[Placed] | None:
+        """Words in their column; nothing where they do not fit."""
         right, times = self.space.right - GAP, self.letters.times
         column = Rect(right - times * COLUMN, self.title.top + GAP, right, self.space.top - GAP)
-        return fill([row.enlarged(times) for row in self._rows()], [column])
+        return fill([row.enlarged(times) for row in rows], [column])
+
+    @cached_property
+    def brief(self) -> list[TextRow]:
+        """What is given and found."""
+        return [*self._rows()]
+
+    @cached_property
+    def steps(self) -> list[TextRow]:
+        """The construction in words."""
+        return [self._heading(said("Construction")), *self._steps()]
 
     @property
-    def sheet(self) -> Sheet:
-        """All of it as one display list."""
+    def rows(self) -> list[TextRow]:
+        """All words."""
+        return [*self.brief, *self.steps]
+
+    @cached_property
+    def _apart(self) -> tuple[Arrangement, list[list[Placed]]]:
+        """A page of words alone, and the steps page by page."""
+        frame = frame_of(self.scene)
+        page = words_page(self.paper, frame, frame.block(self.scene, self.tongue))
+        return page, packed([row.enlarged(self.letters.times) for row in self.steps], page)
+
+    @property
+    def further(self) -> Iterator[Sheet]:
+        """The pages of steps that follow the first."""
+        arrangement, pages = self._apart
+        for number, placed in enumerate(pages, 2):
+            items = [*self._framed(arrangement.title, {}, number, 1 + len(pages)), *lettered(placed)]
+            yield replace(self.page(()), panels={}, items=tuple(stacked(items)))
+
+    def page(self, rows: Sequence[TextRow]) -> Sheet:
+        """The first page with these words, as one display list."""
         program, cam = self.drawing.program, self.drawing.cam
         wide, high = sheet_size(self.paper)
         rect = self._inside(CAM_PLAN)
         plan = CamPlan(self.drawing, view(extent(self.drawing), rect, self.k_s), self.letters)
         figures = Paper(cam, self.letters, self.tongue)
-        items = [*self._framed(), *plan.items(), *figures.law(self._inside(LAW_PLAN)), *lettered(self.placed or [])]
+        count = 1 if len(rows) > len(self.brief) else 1 + len(self._apart[1])
+        items = [*self._framed(self.title, self.panels, 1, count), *plan.items(), *figures.law(self._inside(LAW_PLAN)),
+                 *lettered(self.placed(rows) or [])]
         for panel in self.panels:
             if panel in (CENTRE_PLAN, CURVATURE_PLAN):
                 items += figures.centre(self._inside(panel))
@@ -133,18 +171,17 @@ class _Sheet:
                      tuple(stacked(items)), cam.task.title, told, sentences, self._scales, self.tongue.code,
                      self.scene.text, program.givens)
 
-    def _framed(self) -> Iterator[Item]:
-        """Frame, panels with their captions, and the title block."""
+    def _framed(self, title: Rect, panels: Mapping[Panel, Rect], number: int, of: int) -> Iterator[Item]:
+        """Frame, panels with their captions, and the title block, of one page of so many."""
         frame = frame_of(self.scene)
         yield from frame.items(self.paper, self.space, self.tongue)
-        for panel, rect in self.panels.items():
+        for panel, rect in panels.items():
             yield Outline(pens.BORDER, "paper", None, rect.corners, str(panel))
             runs = sentence_runs(self.tongue(panel.heading))
             size = self.letters.mark
             yield Text(pens.LETTERS, "text", None, (rect.left + 2.5, rect.top - 1.6 * size), runs, size, bold=True)
-        page = Page(DOCUMENT, self.paper, self.tongue(ratio(self.k_s, self.drawing.cam.task.units.length)))
-        block = frame.block(self.scene, self.tongue).on(self.paper)
-        yield from block.items(self.title, page)
+        page = Page(DOCUMENT, self.paper, ratio(self.k_s, self.drawing.cam.task.units.length), number, of)
+        yield from frame.block(self.scene, self.tongue).on(self.paper).items(title, page)
 
     # ---- words -----------------------------------------------------------------------------------------------------
 
@@ -155,8 +192,6 @@ class _Sheet:
         yield self._heading(said("Found"))
         for words in self._found():
             yield from self._paragraph(words)
-        yield self._heading(said("Construction"))
-        yield from self._steps()
 
     def _heading(self, words: Said, size: float = HEADING) -> TextRow:
         return TextRow((Cell(0.0, sentence_runs(self.tongue(words)), bold=True),), size=size, gap=LEAD, keep=2)
@@ -184,16 +219,15 @@ class _Sheet:
             if stage.motion == DWELL:
                 yield said("{0}° to {1}°: dwell", *ends)
             else:
-                yield said("{0}° to {1}°: {2}, {3} {4}", *ends, said(stage.motion), digits(float(stage.stroke)), lifted)
-        kinds = {"point": said("point"), "roller": said("roller"), "flat": said("flat face")}
-        moves = {"translating": said("translating"), "oscillating": said("oscillating")}
-        yield said("Follower: {0}, {1}", moves[task.follower.moves], kinds[task.follower.contact])
+                stroke = digits(float(stage.stroke))
+                yield said("{0}° to {1}°: {2}, {3} {4}", *ends, MOVED[stage.motion], stroke, lifted)
+        yield said("Follower: {0}, {1}", MOVES[task.follower.moves], CONTACTS[task.follower.contact])
         for words, value in ((said("radius of the roller"), task.follower.radius), (said("arm"), task.follower.arm),
                              (said("centre distance"), task.follower.distance)):
             if value:
                 yield arranged("{0:capital}: {1} {2}", words, digits(float(value)), length)
         turns = said("counter-clockwise") if task.cam.sense > 0 else said("clockwise")
-        yield said("The cam turns {0}, {1} rad/s", turns, digits(task.cam.omega))
+        yield said("The cam turns {0}, {1} {2}", turns, digits(task.cam.omega), unit("rad/s"))
 
     def _found(self) -> Iterator[Said]:
         """Base circle, pressure angles, curvature, what is told of the law, and the checks."""
@@ -215,7 +249,7 @@ class _Sheet:
             yield said("The contact wanders from {0} to {1} {2} along the face", digits(low), digits(high), length)
         for note in cam.notes:
             yield arranged("{0:capital}", note)
-        parts = [joined((said(name), f"{size:.1e}"), " ") for name, size in self.check.items()]
+        parts = [joined((OPINIONS[name], digits(size, 2)), " ") for name, size in self.check.items()]
         yield said("Second opinions differ by: {0}", joined(parts))
 
     def _steps(self) -> Iterator[TextRow]:

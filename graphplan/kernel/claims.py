@@ -16,6 +16,7 @@ from graphplan.kernel.closures import closed
 from graphplan.kernel.curvature_claims import CURVED
 from graphplan.kernel.drawn import Drawn, Vector, cross, cross3, dot, forward, short, sideways, unit
 from graphplan.kernel.kinds import LINE, POINT, Claim
+from graphplan.kernel.loci import ahead, along
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, Step
 
@@ -222,6 +223,16 @@ def _closes(d: Drawn) -> float:
     return (open_still + abs(complex(*pose[body].at((float(at[0]), float(at[1])))) - d[-1])) / d.size
 
 
+def _fair(d: Drawn, which: int) -> float:
+    """The point lies on a curve through four others, but for what the true path is known to be off there."""
+    curve, plans = d.params["curve"], [(d[k].real, d[k].imag) for k in range(4 * which, 4 * which + 4)]
+    u, X = curve.at[which], d[-1] - complex(*curve.off[which])
+    for _ in range(8):
+        way = complex(*ahead(plans, u))
+        u -= dot(way, complex(*along(Floats(), plans, u)) - X) / (abs(way) ** 2 or 1.0)
+    return abs(complex(*along(Floats(), plans, u)) - X) / d.size
+
+
 # By how much a claim fails, and what the drawn thing is that breaks it; {0}, {1}, ... are its operands.
 CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "stands": (lambda d: abs(d[-1] - complex(d.number("x"), d.number("y"))) / d.size, "not where it is given"),
@@ -285,6 +296,7 @@ CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "laid at": (lambda d: abs(d[-1] - d[0] - _angle(d)) / (d.size + abs(_angle(d))), "not at the given angle"),
     "cornered": (_cornered, "no corner of the link's figure on {0}{1}"),
     "set off": (_set_off, "not where the link has it from {1}"),
+    "fair": (_fair, "not on the curve"),
     "closes": (_closes, "no joint of links whose lengths close"),
     "sighted": (_sighted, "it passes {0} at another distance"),
     **CURVED,

@@ -9,8 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple, Self
 
-from graphplan.kernel.kinds import COMPASSES, POINT, primitive
-
 Vector = tuple[Any, Any]
 CLOSED = 1e-9  # of the linkage: a last correction that is larger leads nowhere
 
@@ -196,27 +194,3 @@ def _moved(lies: Attitude, x: Any, y: Any, turn: Any) -> Attitude:
     whole = 1 + t * t
     c, s = (1 - t * t) / whole, (2 * t) / whole
     return Attitude(lies.x - x, lies.y - y, lies.cos * c + lies.sin * s, lies.sin * c - lies.cos * s)
-
-
-def _fit(d: Any, joints: Sequence[Vector], group: Closure, joint: str) -> Vector:
-    body, at = group.joints[joint]
-    return closed(d, joints, group)[body].at((d.lift(at[0]), d.lift(at[1])))
-
-
-def _entered(count: int, name: str) -> None:
-    def rule(d: Any, *joints: Any, group: Closure, joint: str) -> Any:
-        """The joint of a group where the lengths of all its links close on its outer joints."""
-        return _fit(d, joints, group, joint)
-
-    rule.__name__ = name
-    listed = ", ".join(f"{{{k}}}" for k in range(count))
-    primitive((POINT,) * count, POINT, COMPASSES,
-              f"On {listed} let the lengths of links {{group}} close: mark {{out}}, their joint {{joint}}.",
-              claims=(("closes",),), fails=("circles-miss",), params=("group", "joint"),
-              source="Ozols 1974, section 5-2: method of loci")(rule)
-
-
-for number, word in ((2, "close_on_two"), (3, "close_on_three"), (4, "close_on_four")):
-    _entered(number, word)
-
-__all__ = ["Attitude", "Closure", "Guide", "Hinge", "Pin", "closed", "inverted"]

@@ -97,3 +97,16 @@ class LyingLines:
         """Take back the lines of all steps after the first `length`."""
         while self.lines and self.lines[-1].step >= length:
             self._drawers[self.lines.pop().drawer].pop()
+
+
+def runs_against(one: Any, two: Any) -> bool:
+    """Whether two lines run opposite ways."""
+    return bool(sum(p * q for p, q in zip(one, two, strict=True)) < 0)
+
+
+def line_gap(one: Any, two: Any, reach: float) -> float:
+    """How far apart two lines run within `reach` of the origin."""
+    n, m = math.hypot(one[0], one[1]), math.hypot(two[0], two[1])
+    foot = -one[0] / n * one[2] / n, -one[1] / n * one[2] / n
+    gap = abs(two[0] * foot[0] + two[1] * foot[1] + two[2]) / m
+    return float(gap + reach * abs(one[0] * two[1] - one[1] * two[0]) / n / m)

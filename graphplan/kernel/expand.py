@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from graphplan.errors import ConstructionError, Undrawable
-from graphplan.kernel.coincidence import ROUNDED, LyingLine, LyingLines
+from graphplan.kernel.coincidence import ROUNDED, LyingLine, LyingLines, line_gap, runs_against
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.primitives import dot
@@ -129,7 +129,7 @@ class Expander:
 
     def _along(self, truth: Any, mark: Mark) -> Mark:
         """A line as it runs in truth. A locus has no way to run: drawn out, it may run against its rule."""
-        return mark.reversed if _runs_against(truth, self.value(mark)) else mark
+        return mark.reversed if runs_against(truth, self.value(mark)) else mark
 
     def value(self, mark: Mark) -> Any:
         """The float value of a mark on the board."""
@@ -263,8 +263,8 @@ class Expander:
         read = max(self.reach[arg.step.index] for arg in args)
         if op.gives == LINE:
             locus = op.claimed("locus") or op.claimed("concurrent")
-            gap, spread = _line_gap(truth, value, read), read
-            if _runs_against(truth, value) and not locus:
+            gap, spread = line_gap(truth, value, read), read
+            if runs_against(truth, value) and not locus:
                 return False
         else:
             gap = math.dist(truth, value)
@@ -324,6 +324,11 @@ class FormBoard(Verbs):
         drawn = mark.step.op.name, tuple(self._expander.board.marks[arg] for arg in mark.step.args)
         return self._expander._made.get(mark.step.index, drawn)
 
+    def place(self, P: Mark) -> tuple[float, float]:
+        """Where a point lies."""
+        x, y = self._expander.value(P)
+        return x, y
+
     # What a draughtsman sees on the sheet, by which a form that is not for this pose gives nothing.
 
     def one(self, P: Mark, Q: Mark) -> bool:
@@ -374,11 +379,6 @@ class FormBoard(Verbs):
         return None if far is None or self.one(P, mark := self._expander.board.marks[far]) else mark
 
 
-def _runs_against(one: Any, two: Any) -> bool:
-    """Whether two lines run opposite ways."""
-    return bool(dot(one, two) < 0)
-
-
 def crossing(step: Step, values: Sequence[Any]) -> float:
     """The sine of the angle under which the two curves of a crossing meet."""
     X = complex(*values[step.index])
@@ -390,11 +390,3 @@ def _normal(kind: str, curve: Any, X: complex) -> complex:
     """The unit normal of a line, or of a circle at X."""
     normal = X - complex(*curve[:2]) if kind == CIRCLE else complex(*curve[:2])
     return normal / (abs(normal) or 1.0)
-
-
-def _line_gap(one: Any, two: Any, reach: float) -> float:
-    """How far apart two lines run within `reach` of the origin."""
-    n, m = math.hypot(one[0], one[1]), math.hypot(two[0], two[1])
-    foot = -one[0] / n * one[2] / n, -one[1] / n * one[2] / n
-    gap = abs(two[0] * foot[0] + two[1] * foot[1] + two[2]) / m
-    return float(gap + reach * abs(one[0] * two[1] - one[1] * two[0]) / n / m)

@@ -72,6 +72,8 @@ class Movement(Enum):
     ARCS_MET = "two arcs cross"
     OPENED = "a distance is taken between the compasses' points"
     STRUCK = "an arc is struck"
+    TRACED = "a curve through points crosses an arc"
+    TRACES_MET = "two curves through points cross"
     HALVED = "a distance is halved"
     DROPPED = "a perpendicular is dropped"
     LAID_OFF = "a vector is laid off, or a multiple of it"

@@ -15,9 +15,12 @@ from typing import Any
 from graphplan.errors import GraphplanError
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE, Board, Mark, Primitive, Program
 from graphplan.kernel.closures import Attitude, Closure, Hinge, Pin
+from graphplan.kernel.loci import Curve, ahead, along
 from graphplan.kernel.numbers import Domain
+from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.positions import Angle
+from graphplan.kernel.primitives import dot
 from graphplan.kernel.program import evaluate
 
 Place = Callable[[Random], tuple[Any, Any]]
@@ -50,7 +53,7 @@ PARAMS: dict[str, Callable[[Random], Any]] = {
     **dict.fromkeys(("radius", "coefficient"), lambda r: Fraction(r.randint(1, 8), 8)),
     "ratio": lambda r: Fraction(r.choice((-3, -2, -1, 1, 2, 3, 5)), 2),
     "angle": lambda r: Angle("30", Fraction(r.randint(-8, 8), 4), Fraction(r.randint(-8, 8), 4)),
-    **dict.fromkeys(("group", "joint"), lambda r: "J"),
+    **dict.fromkeys(("group", "joint", "curve"), lambda r: "J"),
     "plan": lambda r: "N-plan",
     "number": lambda r: r.randint(1, 3),
     "way": lambda r: r.choice(("on", "back")),
@@ -108,9 +111,38 @@ def _closing(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Ma
     return tuple(p)
 
 
+def _at(b: Board, mark: Mark) -> tuple[float, float]:
+    """Where a given point is."""
+    x, y = (float(b.steps[mark.step.index].params[key]) for key in "xy")
+    return x, y
+
+
+def _curve_and_arc(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mark, ...]:
+    """A curve and an arc that cross in a place which is a little off the cubic."""
+    places, (x, y) = [_at(b, mark) for mark in p[:4]], _at(b, p[4])
+    u, off = r.uniform(-0.5, 1.5), (0.125, -0.25)
+    X = tuple(one + two for one, two in zip(along(Floats(), places, u), off, strict=True))
+    slope = 2 * dot((X[0] - x, X[1] - y), ahead(places, u))
+    params["curve"] = Curve("a curve", [u], [off], [[1 / (slope or 1.0)]])
+    return *p[:4], b.circle(p[4], b.opening(p[4], b.given(x=X[0], y=X[1], name="X")))
+
+
+def _two_curves(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mark, ...]:
+    """Two curves that cross in a place which is a little off both cubics."""
+    own = [[_at(b, mark) for mark in p[k : k + 4]] for k in (0, 4)]
+    at, X = [r.uniform(-0.5, 1.5) for _ in own], _at(b, p[8])
+    offs = [tuple(one - two for one, two in zip(X, along(Floats(), *pair), strict=True))
+            for pair in zip(own, at, strict=True)]
+    (a, c), (e, f) = (ahead(*pair) for pair in zip(own, at, strict=True))
+    whole = (c * e - a * f) or 1.0
+    params["curve"] = Curve("a curve", at, offs, [[-f / whole, e / whole]])
+    return tuple(p[:8])
+
+
 FITTING: dict[str, tuple[int, Draw]] = {
     "divide": (4, _divide), "similar": (4, _similar), "settle": (6, _settle), "coriolis": (4, _coriolis),
     "false_position": (7, _false_position), "corner": (1, _corner), "conjugate": (4, _conjugate),
+    "curve_meets_circle": (5, _curve_and_arc), "curves_meet": (9, _two_curves),
     "close_on_two": (2, _closing), "close_on_three": (3, _closing), "close_on_four": (4, _closing),
 }
 

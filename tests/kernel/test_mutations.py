@@ -128,6 +128,8 @@ FAULTS: list[tuple[str, str, Callable[[Rule], Rule]]] = [
     ("set_off", "backwards", reflected(1)),
     ("sight", "wrong way", lambda rule: turned(rule, way=OTHER["way"])),
     ("sight", "runs the other way", backwards),
+    ("curve_meets_circle", "as the plans come the other way", ordered(3, 2, 1, 0, 4)),
+    ("curves_meet", "off it", doubled(0)),
     *((name, "off it", doubled(0)) for name in ("close_on_two", "close_on_three", "close_on_four")),
 ]
 

@@ -73,7 +73,7 @@ def test_fractions_equal_floats(name: str) -> None:
 
 
 ROOTS = {"line_meets_circle", "circles_meet", "set_off", "sight",
-         "close_on_two", "close_on_three", "close_on_four"}
+         "curve_meets_circle", "curves_meet", "close_on_two", "close_on_three", "close_on_four"}
 
 
 @PLACES

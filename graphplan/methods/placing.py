@@ -1,0 +1,193 @@
+"""What is placed of a mechanism in another pose: its bodies, with the points and lines that are drawn of them.
+
+Links that a drive holds together are one body: of it all lengths are known, whichever way it lies.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+from graphplan.kernel.primitives import dot
+from graphplan.kernel.program import Board, Mark
+from graphplan.kernel.stages import Stage
+from graphplan.mechanism.assembly import STILL, following, turned_about, undone
+from graphplan.mechanism.model import FRAME, Assembly, Pair, Scene, Slide
+from graphplan.mechanism.order import ordered_points
+from graphplan.mechanism.pairs.pair import Attitude
+from graphplan.mechanism.plane import less, plus, times
+from graphplan.methods.figures import alike, angle, figure, same_place, widest
+from graphplan.methods.motion.network import Network
+from graphplan.methods.panels import MECHANISM, listed
+from graphplan.phrases import Said, said
+
+Hinge = str | Slide  # a joint by its point, or a slide
+CLOSING = {2: "close_on_two", 3: "close_on_three", 4: "close_on_four"}  # verbs, by how many joints they read
+
+
+@dataclass
+class Body:
+    """Links that drives hold together: how each lies in the body's own figure, and what is drawn of it.
+
+    `spots` are marks of it without a name in the scene, by their place in the figure; `heading` is a line that runs as
+    a vector of the figure does.
+    """
+
+    top: str
+    lies: dict[str, Attitude]
+    spots: list[tuple[Pair, Mark]] = field(default_factory=list)
+    heading: tuple[Pair, Mark] | None = None
+
+
+class Placing:
+    """The bodies of a scene, of which `placed` are drawn so far; `marks` are those of its points."""
+
+    def __init__(self, board: Board, scene: Scene, assembly: Assembly):
+        self.board, self.scene, self.assembly, self.given = board, scene, assembly, assembly.given
+        self.net = Network(self.given)
+        self.marks: dict[str, Mark] = {}
+        self.lines: dict[str, Mark] = {}
+        self.bodies = {top: Body(top, {link: self._lies(link) for link in members})
+                       for top, members in self.net.members.items()}
+        self.ground = self.bodies.setdefault(self.net.ground or FRAME, Body(FRAME, {FRAME: STILL}))
+        self.placed = [self.ground]
+        self._fixed()
+
+    # ---- figures of bodies ------------------------------------------------------------------------------------------
+
+    def _lies(self, link: str) -> Attitude:
+        """How a link lies in its body, after what its drives have moved it."""
+        if link not in self.net.welds:
+            return STILL
+        weld = self.net.welds[link]
+        x, y = self.assembly.moves[self.given.drives.index(weld.drive)]
+        here = (turned_about(self.given.points[weld.at], x, weld.sign * y) if weld.slide is None
+                else Attitude(weld.sign * x, weld.sign * y, 1, 0))
+        return following(here, self._lies(weld.to))
+
+    def _home(self, point: str) -> Body:
+        """The first body placed of those that have a point."""
+        bodies = [self.bodies[self.net.body[link]] for link in self.given.links_of[point]] or [self.ground]
+        return next(body for body in self.placed if any(body is one for one in bodies))
+
+    def _figure(self, body: Body, point: str) -> Pair:
+        """Where a point is in a body's figure."""
+        link = next((link for link in body.lies if point in self.given.links.get(link, ())), FRAME)
+        at: Pair = body.lies.get(link, STILL).at(self.given.points[point])
+        return at
+
+    def _drawn(self, body: Body, links: tuple[str, ...] = ()) -> list[tuple[Pair, Mark]]:
+        """The marks of a body, or of some links of it, by their places in its figure."""
+        names = dict.fromkeys(point for link in links or body.lies for point in self.given.links.get(link, ())
+                              if point in self.marks and point not in self.assembly.riding)
+        return [(self._figure(body, name), self.marks[name]) for name in names] + ([] if links else body.spots)
+
+    # ---- points and lines of a body that is placed -------------------------------------------------------------------
+
+    def mark(self, point: str) -> Mark:
+        """The mark of a point of the scene."""
+        point = self.assembly.riding.get(point, point)
+        if point not in self.marks:
+            body = self._home(point)
+            self.marks[point] = self._laid(body, self._figure(body, point), self.given.links_of[point], point)
+        return self.marks[point]
+
+    def _laid(self, body: Body, at: Pair, links: tuple[str, ...] = (), name: str = "") -> Mark:
+        """The mark at a place of a body's figure: one that is there, else one that is drawn from two of the same link,
+        or from two of the body."""
+        links = tuple(link for link in links if link in body.lies and link != FRAME)
+        for own in (links, ()):
+            drawn = self._drawn(body, own) if own or not links or body is not self.ground else []
+            same = next((mark for place, mark in drawn if same_place(place, at)), None)
+            if same is not None:
+                return self.board.named(same, name)
+            if found := widest(drawn):
+                (p, P), (q, Q) = found
+                return self._corner(P, Q, less(at, p), less(q, p), name)
+        if links and body is self.ground:
+            return self._driven(body, links[0], at, name)
+        (p, P), = self._drawn(body)[:1]
+        assert body.heading is not None
+        u, line = body.heading
+        with self.board.on(MECHANISM, tuple(body.lies)):
+            return self.board.set_off(line, P, **figure(less(at, p), u), name=name)
+
+    def _corner(self, P: Mark, Q: Mark, v: Pair, u: Pair, name: str) -> Mark:
+        return self.board.corner(P, Q, **figure(v, u), name=name)
+
+    def _driven(self, body: Body, link: str, at: Pair, name: str) -> Mark:
+        """The first mark of a link that is driven from the frame: a crank laid off, or a slider moved along."""
+        weld = self.net.welds[link]
+        law = (said("{0} lies at the angle that the drive gives its link, as far off as the link is long", name or link)
+               if weld.slide is None else said("{0} has gone along its guide as far as its drive says", name or link))
+        with self.board.on(MECHANISM, (link,), self._stage(law, (link,))):
+            if weld.slide is None:
+                root = self._figure(body, weld.at)
+                return self.board.crank(self.mark(weld.at), angle=angle(less(at, root)), name=name)
+            before = undone(Attitude(weld.sign * self._move(weld)[0], weld.sign * self._move(weld)[1], 1, 0), at)
+            line = self._line(body, before, weld.slide.direction)
+            travel = self.assembly.travels[self.given.drives.index(weld.drive)]
+            start = self._laid(body, before)
+            return self.board.lay_along(line, start, length=weld.sign * travel, name=name)
+
+    def _move(self, weld: Any) -> Pair:
+        return self.assembly.moves[self.given.drives.index(weld.drive)]
+
+    def _line(self, body: Body, p: Pair, u: Pair) -> Mark:
+        """The line through a place of a body's figure that runs as a vector of it does."""
+        drawn = self._drawn(body)
+        on = [(place, mark) for place, mark in drawn if alike(less(place, p), u)]
+        if ends := widest(on):
+            (one, P), (two, Q) = ends
+            return self.board.line(P, Q) if float(dot(u, less(two, one))) > 0 else self.board.line(Q, P)
+        P = on[0][1] if on else self._laid(body, p)
+        if body.heading and alike(body.heading[0], u):
+            along, line = body.heading
+            return self.board.parallel(line if float(dot(along, u)) > 0 else line.reversed, P)
+        if body is self.ground:
+            return self.board.guide(P, dx=u[0], dy=u[1])
+        far = 2.0 ** round(math.log2(self.scene.extent / 4 / math.hypot(*map(float, u))))
+        far = int(far) if far >= 1 else far
+        return self.board.line(P, self._laid(body, plus(p, times(far, u))))
+
+    def _path(self, slide: Slide, body: Body, at: Pair) -> Mark:
+        """The line on what is placed along which a place of a body's figure slides."""
+        mover, guide = (link for link in sorted(slide.links, key=lambda link: link not in body.lies))
+        on = self.bodies[self.net.body[guide]] if guide in self.net.body else self.ground
+        lies = on.lies.get(guide, STILL)
+        return self._line(on, lies.at(undone(body.lies[mover], at)), lies.turned(slide.direction))
+
+    def _heads(self, slide: Slide, body: Body) -> Pair:
+        """The direction of a slide in a body's figure."""
+        way: Pair = next(lies for link, lies in body.lies.items() if link in slide.links).turned(slide.direction)
+        return way
+
+    def guide(self, slide: Slide) -> Mark:
+        """The guide of a slide through its point, as its direction runs."""
+        slide, point = next(one for one in self.given.slides if one.name == slide.name), self.mark(slide.at)
+        if slide.name in self.lines:
+            return self.board.parallel(self.lines[slide.name], point)
+        body = self.bodies.get(self.net.body.get(slide.along, ""), self.ground)
+        lies = body.lies.get(slide.along, STILL)
+        line = self._line(body, lies.at(self.given.points[slide.at]), lies.turned(slide.direction))
+        return self.board.parallel(line, point)
+
+    # ---- the ground --------------------------------------------------------------------------------------------------
+
+    def _fixed(self) -> None:
+        """Mark the points that stand still, and where a guide of the frame passes none of them, one of it."""
+        with self.board.on(MECHANISM):
+            fixed = [name for name in ordered_points(self.scene) if name not in self.assembly.riding
+                     and (FRAME in (links := self.given.links_of[name]) or not links)]
+            for name in fixed:
+                x, y = self.given.points[name]
+                self.marks[name] = self.board.given(x=x, y=y, name=name)
+            for slide in self.net.all_slides:
+                at = self.given.points[slide.at]
+                if FRAME in slide.links and (slide not in self.net.slides or not any(
+                        alike(less(place, at), slide.direction) for place, _ in self._drawn(self.ground))):
+                    self.ground.spots.append((at, self.board.given(x=at[0], y=at[1], name=f"{slide.at}_0")))
+
+    def _stage(self, law: Said, links: tuple[str, ...]) -> Stage:
+        return Stage(said("Position of {0}", listed(links)), law)

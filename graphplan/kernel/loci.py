@@ -106,7 +106,7 @@ class Side(NamedTuple):
 
 
 def sides(group: Closure, joint: str) -> list[Side]:
-    """The parts into which a group falls when a joint is freed, in which it is on two bodies; none where it does not.
+    """The two parts into which a group falls when a joint is freed, each with one way to move; none where it does not.
     """
     freed, at = group.joints[joint]
     others = [(h.other, h.there) if (h.body, h.at) == (freed, at) else (h.body, h.at) for h in group.pairs
@@ -114,7 +114,16 @@ def sides(group: Closure, joint: str) -> list[Side]:
     if len(others) != 1 or any(not isinstance(pair, Pin | Hinge) for pair in group.pairs):
         return []
     found = [_side(group, freed, at, joint), _side(group, *others[0], joint)]
-    return found if not {*found[0].bodies} & {*found[1].bodies} else []
+    apart = not {*found[0].bodies} & {*found[1].bodies}
+    return found if apart and all(_mobility(group, side, joint) == 1 for side in found) else []
+
+
+def _mobility(group: Closure, side: Side, joint: str) -> int:
+    """In how many ways a side can move on the outer joints."""
+    freed = group.joints[joint]
+    pairs = sum(pair.body in side.bodies for pair in group.pairs
+                if isinstance(pair, Pin) or freed not in ((pair.body, pair.at), (pair.other, pair.there)))
+    return 3 * len(side.bodies) - 2 * pairs
 
 
 def _side(group: Closure, body: int, at: Vector, joint: str) -> Side:

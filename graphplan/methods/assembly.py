@@ -1,9 +1,8 @@
 """The mechanism in another pose, put together from the lengths of its links: cranks by protractor, dyads by arcs.
 
-A dyad is placed on
-what is placed already by what its three pairs say (Ozols, section 5-2: the method of arcs): two arcs; an arc and the
-line of a guide; a guide that passes a point; two guides. On which side a point lies is read from the given pose: it can
-only change at a limit.
+A dyad is placed on what is placed already by what its three pairs say (Ozols 1974, section 5-2: the method of arcs):
+two arcs; an arc and the line of a guide; a guide that passes a point; two guides. Which way a point lies along a guide
+is read from the given pose: it can only change at a limit. Of larger groups a joint is located first, by loci.
 """
 
 from __future__ import annotations
@@ -239,8 +238,8 @@ class Assembler(Placing):
     # ---- the given pose ----------------------------------------------------------------------------------------------
 
     def _turns(self, A: str, B: str, C: str) -> float:
-        """Whether B lies left of the ray from A to C in the given pose: positive, or negative where it is right."""
-        a, b, c = (self.given.points[name] for name in (A, B, C))
+        """Whether B lies left of the ray from A to C in this pose: positive, or negative where it is right."""
+        a, b, c = (self.scene.points[name] for name in (A, B, C))
         return float(cross(less(c, a), less(b, a)))
 
     def _ahead(self, A: str, B: str, u: Pair) -> str:

@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement, made_by
 from graphplan.kernel.program import Panel, Step
@@ -235,6 +236,16 @@ class Plate:
             yield from (stroke for stroke, _ in self.breaks(stretch))
         elif root and not self._vector_between(root.at, drawn.at):
             yield from self._laid_off(drawn, root)
+        elif drawn.step.op.movement in (Movement.TRACED, Movement.TRACES_MET):
+            yield from self._traced(drawn)
+
+    def _traced(self, drawn: DrawnStep) -> Iterator[Stroke]:
+        """The curves that cross in a point, each through four others, two on either side."""
+        points = [mark for mark in drawn.args if mark.kind == POINT]
+        for k in range(0, len(points), 4):
+            for ends in pairwise([*points[k:k + 2], drawn, *points[k + 2:k + 4]]):
+                if inside := self._inside(Stroke(drawn, *ends)):
+                    yield inside
 
     def _laid_off(self, drawn: DrawnStep, root: DrawnStep) -> Iterator[Stroke]:
         """A vector that is given has a head; one brought from another plan is a firm stroke; all else is thin."""

@@ -162,31 +162,36 @@ def _ratio(row: Row) -> bool:
 
 def _laid(row: Row, belt: str, internal: bool) -> bool:
     """Whether wheels of these sizes fit between their centres."""
-    (r1, r2), key = row["radii"] or row["teeth"], "radii" if row["radii"] else "teeth"
     if any(point not in row.names.placed for point in row["centres"]):
         return True  # the point has its own fault
-    ends = [row.names.placed[point] for point in row["centres"]]
-    (ax, ay), (bx, by) = map(exactly, ends)
-    distance = root((bx - ax) ** 2 + (by - ay) ** 2)[0]
-    told = f"the distance {shown(float(distance))} of the centres {' and '.join(row['centres'])}"
+    misfit = _misfit(row, belt, internal)
+    if misfit is not None:
+        key, *told = misfit
+        row.items[key].fault(*told)
+    return misfit is None
+
+
+def _misfit(row: Row, belt: str, internal: bool) -> tuple[str, str, str] | None:
+    """What is wrong between the centres of two wheels, under which key, and what would be right; None where nothing."""
+    (r1, r2), key = row["radii"] or row["teeth"], "radii" if row["radii"] else "teeth"
+    ends, of = [row.names.placed[point] for point in row["centres"]], " and ".join(row["centres"])
+    apart = less(*map(exactly, ends))
+    distance, rational = root(Fraction(dot(apart, apart)))
+    told = f"the distance {shown(float(distance))} of the centres {of}"
     if not distance:
-        return bool(row.items["centres"].fault(f"the centres {' and '.join(row['centres'])} coincide",
-                                               "centres that lie apart"))
+        return "centres", f"the centres {of} coincide", "centres that lie apart"
     if internal and r1 >= r2:
-        return bool(row.items[key].fault(f"the ring, which is the second, is no larger than the gear in it: "
-                                         f"{shown(r1)} and {shown(r2)}", "a ring that is larger"))
-    if not row["radii"]:
-        return True
+        what = f"the ring, which is the second, is no larger than the gear in it: {shown(r1)} and {shown(r2)}"
+        return key, what, "a ring that is larger"
     if belt:
         least, what = (r1 + r2, "r_1 + r_2") if belt == "crossed" else (abs(r1 - r2), "the difference of the radii")
-        return distance > least or bool(row.items["radii"].fault(
-            f"{told} is no more than {what} = {shown(least)}: the belt cannot be laid", "centres further apart"))
-    sum_, what = (r2 - r1, "difference") if internal else (r1 + r2, "sum")
-    if abs(distance - sum_) <= (0 if is_exact(*ends) and isinstance(distance, Fraction) and
-                                root((bx - ax) ** 2 + (by - ay) ** 2)[1] else NEAR * max(r1 + r2, distance)):
-        return True
-    return bool(row.items["radii"].fault(f"{told} is not the {what} {shown(sum_)} of the radii",
-                                         f"radii whose {what} is the distance, or teeth"))
+        what = f"{told} is no more than {what} = {shown(least)}: the belt cannot be laid"
+        return (key, what, "centres further apart") if key == "radii" and distance <= least else None
+    whole, what = (r2 - r1, "difference") if internal else (r1 + r2, "sum")
+    slack = 0 if rational and is_exact(*ends) else NEAR * max(r1 + r2, distance)
+    if key == "teeth" or abs(distance - whole) <= slack:
+        return None
+    return key, f"{told} is not the {what} {shown(whole)} of the radii", f"radii whose {what} is the distance, or teeth"
 
 
 def _pressure(item: Item, names: Names) -> Number | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from random import Random
 
 from linkages import FRAME, Linkage, linkage
@@ -14,10 +14,10 @@ from graphplan.mechanism.scene import parse
 TRIES = 40  # sets of balances that are tried
 
 
-def loaded_scenes(seed: int, orders: int = 2) -> Iterator[Scene]:
+def loaded_scenes(seed: int, orders: int = 2, made: Callable[[int], Linkage] = linkage) -> Iterator[Scene]:
     """A loaded linkage, as it came and in further orders of writing; none where no balance that was tried holds it."""
     random = Random(seed)
-    found = linkage(seed)
+    found = made(seed)
     found.loads += _loads(found, random)
     find = _asked(found, random)
     gravity = random.choice(("", "gravity = [0, -10]\n", "gravity = [3, -9.81]\n"))

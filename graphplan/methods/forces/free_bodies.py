@@ -100,6 +100,15 @@ class DrawnForces:
         self.balances: dict[Balance, Span] = {}
         self.moments: dict[Balance, Pair | None] = {}
 
+    def enlarged(self, span: Span, whole: Span) -> None:
+        """A reaction that is part of a larger one is drawn as such, and the whole in its place."""
+        for place, one in enumerate(self.shown):
+            ahead = one.tail is span[0] and one.head is span[1]
+            if one.kind == "reaction" and (ahead or (one.tail is span[1] and one.head is span[0])):
+                self.shown[place] = one._replace(kind="part", label="T" + one.label[1:])
+                self.shown.append(Shown("reaction", one.label, *signed(whole, 1 if ahead else -1)))
+                return
+
 
 def reaction_on(forces: DrawnForces, board: Board, point: str, link: str) -> Span:
     """The force on a link, the frame among them, at a joint."""

@@ -139,7 +139,7 @@ def results(scene: Scene, loading: Loading, forces: DrawnForces, board: Board) -
         if asked is None or gear.name in asked:
             yield kinds.GEAR_REACTION, gear.name, span
     for contact in scene.contacts:
-        if (touching := _touching(forces, contact)) and (asked is None or contact.name in asked):
+        if (touching := _touching(forces, board, contact)) and (asked is None or contact.name in asked):
             yield kinds.CONTACT_REACTION, contact.name, touching
     yield from balances(loading, forces, kinds.BY_PLANS)
 
@@ -164,10 +164,11 @@ def _told(scene: Scene, forces: DrawnForces, point: str, link: str) -> bool:
     return (point, link) in forces.joints or all((point, other) in forces.joints for other in others)
 
 
-def _touching(forces: DrawnForces, contact: Contact) -> Span | None:
+def _touching(forces: DrawnForces, board: Board, contact: Contact) -> Span | None:
     """The force of a contact on its first link."""
     if contact.rolling:
-        return forces.joints.get((rolling_point(contact), contact.links[0]))
+        at, link = rolling_point(contact), contact.links[0]
+        return reaction_on(forces, board, at, link) if _told(forces.scene, forces, at, link) else None
     return next((on_first(slide, forces) for slide in forces.slides
                  if isinstance(slide, TouchingGuide) and slide.given == contact), None)
 

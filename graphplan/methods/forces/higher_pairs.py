@@ -10,7 +10,6 @@ force depends on it (Ozols 1974, 11-1 and 11-2).
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Iterator
 from copy import copy
 from dataclasses import dataclass, field, replace
 
@@ -21,7 +20,8 @@ from graphplan.mechanism.pairs.pair import LINE
 from graphplan.mechanism.plane import turned
 from graphplan.mechanism.replaced import EqualTurning, RollingGuide, replaced
 from graphplan.methods.forces import stages
-from graphplan.methods.forces.free_bodies import DrawnForces, Shown, Span, pair_letter, signed
+from graphplan.methods.forces.free_bodies import DrawnForces, Span, signed
+from graphplan.methods.forces.loading import Acting
 from graphplan.methods.panels import MECHANISM
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
@@ -93,25 +93,74 @@ def posed_for(pose: Pose, scene: Scene) -> Pose:
 
 
 def press(board: Board, pose: Pose, scene: Scene, forces: DrawnForces) -> None:
-    """Add the radial components: to the tooth forces, and to the reactions in the bearings of both wheels."""
+    """Add the radial components: to the tooth forces, and to the reactions in the bearings of both wheels.
+
+    Fails with `Refused` where the centres are held apart by more than one link.
+    """
     for guide in scene.slides:
         if isinstance(guide, RollingGuide) and isinstance(guide.given, Gear):
             forces.teeth[guide.given] = on_first(guide, forces)
     for guide in toothed(scene):
         gear: Gear = guide.given
         tail, head = forces.teeth[gear]
+        bearings = _Bearings(board, scene, gear, forces)
         if tail is head:
             continue
         with board.on(links=gear.links, stage=stages.pressure(guide)):
             line = line_of_pressure(pose, guide, tail, head)
             tip = board.meet(board.parallel(line, tail), board.parallel(pose.guide(guide), head))
         forces.teeth[gear] = tail, tip
-        forces.shown.append(Shown("reaction", pair_letter(*gear.links[::-1]), tail, tip))
-        for bearing, sign in _bearings(scene, gear):
-            if bearing in forces.joints:
-                begin, end = forces.joints[bearing]
-                with board.on(stage=stages.joint(bearing[0])):
-                    forces.joints[bearing] = begin, board.transfer(*signed((head, tip), sign), end)
+        forces.enlarged((tail, head), (tail, tip))
+        bearings.press(Acting(pose.points[guide.at], head, tip))
+
+
+class _Bearings:
+    """What holds the two wheels of a gear apart: joints at the centres on an arm, or the slide of the arm on a rack."""
+
+    def __init__(self, board: Board, scene: Scene, gear: Gear, forces: DrawnForces):
+        self.board, self.gear, self.forces = board, gear, forces
+        first, second = gear.links
+        arms = [link for link, points in scene.links.items() if link not in gear.links and {*gear.centres} <= {*points}]
+        self.slide = next((slide for slide in scene.slides for arm in arms if {*slide.links} == {arm, second}
+                           and slide.turns_alike), None) if gear.direction is not None else None
+        if not arms or (gear.direction is not None and self.slide is None):
+            why = said("the centres of the gear {0} are held apart by more than one link", gear.name)
+            raise Refused("force plans", why, "ask for the balance, with --plan lever, or give pressure_angle = 0")
+        arm = next(link for link in self.slide.links if link != second) if self.slide else arms[0]
+        self.joints = [((gear.centres[0], first), -1), ((gear.centres[0], arm), 1)]
+        if self.slide is None:
+            self.joints += [((gear.centres[1], second), 1), ((gear.centres[1], arm), -1)]
+
+    def press(self, radial: Acting) -> None:
+        """Enter the radial force on the first wheel in the reactions."""
+        for joint, sign in self.joints:
+            if joint in self.forces.joints:
+                with self.board.on(stage=stages.joint(joint[0])):
+                    self.forces.joints[joint] = self._added(self.forces.joints[joint], radial, sign)
+        if self.slide:
+            sign = 1 if self.slide.link == self.gear.links[1] else -1
+            with self.board.on(stage=stages.seat(self.slide)):
+                self._add_couple(self.slide, radial if sign > 0 else radial.reversed)
+                self.forces.slides[self.slide] = self._added(self.forces.slides[self.slide], radial, sign)
+
+    def _added(self, span: Span, radial: Acting, sign: int) -> Span:
+        """A reaction with the radial force, which is drawn in its place."""
+        whole = span[0], self.board.transfer(*signed((radial.tail, radial.head), sign), span[1])
+        self.forces.enlarged(span, whole)
+        return whole
+
+    def _add_couple(self, slide: Slide, radial: Acting) -> None:
+        """A slide's reaction goes on acting at its seat: the radial force makes a couple with its answer there."""
+        seat, pair = self.forces.seats[slide], self.forces.pairs[slide]
+        answer = Acting(seat, radial.head, radial.tail)
+        if pair is None:
+            self.forces.pairs[slide] = radial, answer
+            return
+        (R, first, mark), Y = (pair[0].at, pair[0].tail, pair[0].head), pair[1].at
+        for force in (radial, answer):
+            if force.at is not Y:
+                mark = self.board.balance(Y, R, force.at, force.head, force.tail, mark)
+        self.forces.pairs[slide] = Acting(R, first, mark), Acting(Y, mark, first)
 
 
 def toothed(scene: Scene) -> list[RollingGuide]:
@@ -132,14 +181,3 @@ def line_of_pressure(pose: Pose, guide: RollingGuide, tail: Mark, head: Mark) ->
     with pose.board.on(MECHANISM, gear.links):
         return pose.board.pressure_line(pose.points[guide.at], pose.points[gear.centres[0]], tail, head,
                                         coefficient=gear.tangent)
-
-
-def _bearings(scene: Scene, gear: Gear) -> Iterator[tuple[tuple[str, str], int]]:
-    """The joints at both centres, on wheel and on arm: and whether they bear the radial force on the first wheel."""
-    arms = [link for link, points in scene.links.items() if link not in gear.links and {*gear.centres} <= {*points}]
-    if not arms or len(gear.centres) < 2:
-        why = said("the centres of the gear {0} are held apart by more than one link", gear.name)
-        raise Refused("force plans", why, "ask for the lever, with --plan lever, or give pressure_angle = 0")
-    for centre, wheel, sign in zip(gear.centres, gear.links, (-1, 1), strict=True):
-        yield (centre, wheel), sign
-        yield (centre, arms[0]), -sign

@@ -18,7 +18,16 @@ from graphplan.kernel.passes import gathered
 from graphplan.kernel.program import Panel, Program, Step, evaluate
 from graphplan.methods import kinds
 from graphplan.methods.controls import Control, controls
-from graphplan.methods.panels import ACCELERATION_PLAN, MECHANISM, N_PLAN, ForcePlan, LeverPlan, TrianglePlan
+from graphplan.methods.motion.circle_diagram import DrawnCircle
+from graphplan.methods.panels import (
+    ACCELERATION_PLAN,
+    MECHANISM,
+    N_PLAN,
+    ForcePlan,
+    LeverPlan,
+    TrianglePlan,
+    pole_letter,
+)
 from graphplan.methods.recorded import Recorded
 from graphplan.methods.results import Given
 from graphplan.phrases import Phrase, Said, said
@@ -88,8 +97,8 @@ class Construction(Recorded, Given):
 
     `drawn` is the program in single movements, in the form chosen for this pose. Velocities and accelerations are
     complex numbers in scene units, true and not turned. `rounds` are those of friction that are drawn.
-    `by_poles` says by which poles velocities are drawn, `poles_by` how poles are found that are asked for, `paths_by`
-    how the curvature of paths is where no form says so.
+    `by_poles` says by which poles velocities are drawn, `poles_by` how poles are found that are asked for, `circle` in
+    which order, `paths_by` how the curvature of paths is where no form says so.
     """
 
     ways: tuple[Said, ...] = ()
@@ -100,6 +109,7 @@ class Construction(Recorded, Given):
     rounds: int = 0
     by_poles: tuple[Said, ...] = ()
     poles_by: tuple[Said, ...] = ()
+    circle: DrawnCircle | None = None
     paths_by: tuple[Said, ...] = ()
 
     def __repr__(self) -> str:
@@ -193,7 +203,15 @@ class Construction(Recorded, Given):
     def _forms(self, rivals: int | None = None) -> list[str]:
         chosen = [(self.drawn.number(step.index), step.choice.reason(rivals)) for step in self.drawn.steps
                   if step.choice and step.choice.others]
-        return self.notes + [said("step {0}: {1}", *told) for told in chosen]
+        return [*self.notes, *self._unmarked(), *(said("step {0}: {1}", *told) for told in chosen)]
+
+    def _unmarked(self) -> Iterator[Said]:
+        """The poles that are off the sheet, by the lines that cross in them."""
+        for reading in self.readings:
+            if reading.kind == kinds.POLE and len(reading.marks) == 2:
+                lines = (self.drawn.text(self.drawn.wanted[position]) for position in reading.marks)
+                letter = pole_letter(self.scene.link_pair(reading.of))
+                yield said("{0} lies far off the sheet, where {1} meets {2}", letter, *lines)
 
     @property
     def plan(self) -> str:

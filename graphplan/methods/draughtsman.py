@@ -21,6 +21,7 @@ from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.motion.acceleration import Normal, PolarAcceleration
+from graphplan.methods.motion.circle_diagram import DrawnCircle
 from graphplan.methods.motion.moves import Auxiliary, Centre, FalsePosition, Move, Pole
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.planner import Planner
@@ -62,6 +63,7 @@ class Draughtsman:
         self.poles_by: tuple[Said, ...] = ()
         self.paths_by: tuple[Said, ...] = ()
         self.at_rest: list[Said] = []
+        self.circle: DrawnCircle | None = None
 
     def draw(self) -> Construction:
         velocity = self.velocities(self.board, self.net, self.pose, self.tempo)
@@ -79,6 +81,7 @@ class Draughtsman:
         plan = self.accelerations(velocity) if self._accelerated else None
         if poles:
             self._poles(poles)
+            self.circle = poles.circle
         return self.finished(velocity, plan)
 
     def _poles(self, poles: Poles) -> None:
@@ -131,7 +134,8 @@ class Draughtsman:
         program = freeze(self.board, self.marks)
         return Construction(self.scene, self.tempo, program, tuple(self.readings), self.velocities.turned,
                             relied=tuple(self.net.relied), ways=tuple(_ways(self.moves)),
-                            by_poles=_by_poles(self.velocity_moves), poles_by=self.poles_by, paths_by=self.paths_by,
+                            by_poles=_by_poles(self.velocity_moves), poles_by=self.poles_by,
+                            circle=self.circle, paths_by=self.paths_by,
                             notes=[*replacements(self.net.bars), *redundancies(self.scene), *self.at_rest])
 
     @property

@@ -13,6 +13,7 @@ import graphplan as gp
 from graphplan.check.json_results import data
 from graphplan.check.report import Report
 from graphplan.check.trusted import report
+from graphplan.kernel.kinds import LINE
 from graphplan.mechanism.model import FRAME, Find, Scene
 from graphplan.mechanism.scene import parse
 from graphplan.methods.kinds import POLE, POLE_HEADING
@@ -67,3 +68,45 @@ def test_velocities_are_drawn_by_poles(name: str) -> None:
     assert found.drawing.method["velocity"][-1].startswith("poles of link")
     assert not any(way.startswith("poles") for way in found.drawing.method["acceleration"])
     assert found.results == report(scene, exact=True).results
+
+
+@pytest.mark.parametrize(("name", "links"), [("four-bar", 4), ("slider-crank", 4), ("triad", 6),
+                                             ("double-butterfly", 8)])
+def test_a_circle_diagram_has_a_side_for_each_pole(name: str, links: int) -> None:
+    """Of n links there are n(n - 1)/2 poles; of four all n(n - 1)(n - 2)/6 pole lines are drawn (Ozols 1974, 5-2)."""
+    drawing = gp.construct(with_all_poles(gp.load(name)))
+    assert drawing.circle is not None
+    assert len(drawing.circle.links) == links
+    assert len(drawing.circle.sides) == links * (links - 1) // 2
+    numbers = [side.number for side in drawing.circle.sides if side.number]
+    assert numbers == [*range(1, len(numbers) + 1)]
+    if name == "four-bar":
+        assert sum(step.op.gives == LINE for step in drawing.program.steps) == links * (links - 1) * (links - 2) // 6
+
+
+def test_poles_that_hang_on_the_drives_are_found_by_velocities() -> None:
+    """Kennedy's theorem gives the pole of no coupler of a five-bar: velocities give one, and by that it has the others.
+    """
+    told = gp.construct(with_all_poles(gp.load("five-bar"))).method["poles"]
+    assert told == ["Kennedy's theorem, in the order of the circle diagram", "P_30 by velocities"]
+
+
+def test_a_pole_may_be_a_joint() -> None:
+    """Where crank and coupler are in line their joint with the rocker is the coupler's pole."""
+    text = FOUR_BAR.replace("B = [90, 60]", "B = [60, 90]").replace("C = [100, 0]", "C = [140, 90]")
+    found = data(report(parse(text % '["2 frame", "1 3", "2 3"]', "dead centre"), exact=True))
+    assert found["poles"] == {"2 frame": {"at": ["60", "90"]}, "1 3": {"at": ["0", "0"]}, "2 3": {"at": ["60", "90"]}}
+
+
+def test_links_that_turn_alike_have_their_pole_at_infinity() -> None:
+    """The coupler of a parallelogram turns as the frame does: its pole lies the way of the cranks."""
+    text = FOUR_BAR.replace("B = [90, 60]", "B = [120, 30]") % '["2 frame", "1 3"]'
+    found = data(report(parse(text, "parallelogram"), exact=True))
+    assert found["poles"] == {"2 frame": {"direction": ["2/5", "3/5"]}, "1 3": {"direction": ["1", "0"]}}
+
+
+def test_links_that_rest_on_each_other_have_no_pole_of_their_own() -> None:
+    """Any point is a pole of links that do not move relative to each other: none is given, which is said; pins are."""
+    found = report(parse(FOUR_BAR.replace("omega = 2", "omega = 0") % '["2 frame", "1 2"]', "at rest"), exact=True)
+    assert data(found)["poles"] == {"2 frame": {"at": None}, "1 2": {"at": ["20", "30"]}}
+    assert any("any point is a pole" in note for note in found.drawing.notes)

@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import combinations
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Scene
@@ -25,7 +25,7 @@ from graphplan.mechanism.model import Scene
 Vector = tuple[Any, Any, Any]
 Sides = tuple[str, str]  # the two links of a pole, in the order of the diagram
 PENCIL = 1e-3  # how far off a point is that is given or marked, beside the mechanism
-EQUAL = 10.0  # errors within this factor count as equal: then the fewest lines win
+EQUAL = 3.0  # errors within this factor count as equal: then the fewest lines win
 WILD = 1e3  # times a pencil's error: such a pole waits for better lines
 ONE = 1e-9  # the sine of an angle below which two vectors are one
 
@@ -35,6 +35,20 @@ def cross(u: Vector, v: Vector) -> Vector:
     found = u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
     most = max(found, key=abs)
     return (found[0] / most, found[1] / most, found[2] / most) if most else found
+
+
+class DrawnSide(NamedTuple):
+    """A side of a circle diagram that is drawn: as which one, or 0 of one that is there at the outset."""
+
+    links: Sides
+    number: int
+
+
+class DrawnCircle(NamedTuple):
+    """A circle diagram as it is drawn: the links around it, and its sides."""
+
+    links: tuple[str, ...]
+    sides: tuple[DrawnSide, ...]
 
 
 @dataclass(frozen=True)

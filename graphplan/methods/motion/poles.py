@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager
-from itertools import combinations
+from itertools import combinations, product
 from typing import Any, NamedTuple
 
 from graphplan.errors import Refused, Undrawable
@@ -27,7 +27,17 @@ from graphplan.mechanism.order import by_name, ordered_links, ordered_slides
 from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.gear import Gear
 from graphplan.mechanism.replaced import RollingGuide
-from graphplan.methods.motion.circle_diagram import ONE, PENCIL, CircleDiagram, FoundPole, PoleLine, Sides, cross
+from graphplan.methods.motion.circle_diagram import (
+    ONE,
+    PENCIL,
+    CircleDiagram,
+    DrawnCircle,
+    DrawnSide,
+    FoundPole,
+    PoleLine,
+    Sides,
+    cross,
+)
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, link_named, listed, pole_letter
 from graphplan.methods.poses import Pose
@@ -193,6 +203,14 @@ class Poles:
         if self.seeds:
             yield said("{0} by velocities", ", ".join(map(pole_letter, self.seeds)))
 
+    @property
+    def circle(self) -> DrawnCircle | None:
+        """The circle diagram as far as it is drawn, if anything is found by it."""
+        found = [sides for sides in self.drawn if sides not in self.outset]
+        outset = [DrawnSide(sides, 0) for sides in self.diagram.found if sides in self.outset]
+        sides = (*outset, *(DrawnSide(sides, number) for number, sides in enumerate(found, 1)))
+        return DrawnCircle(self.diagram.links, sides) if found else None
+
     # ---- drawing ------------------------------------------------------------------------------------------------
 
     def _draw(self, sides: Sides) -> DrawnPole:
@@ -200,6 +218,9 @@ class Poles:
         if sides in self.drawn:
             return self.drawn[sides]
         found = self.diagram.found[sides]
+        for link, line in product(sides, found.lines):
+            if line.drawn is None:
+                self._draw(self.diagram.sides(link, line.by))  # before its own lines are begun
         lines = [line for line in (self._line(sides, line) for line in found.lines) if line is not None]
         with self._on(sides, self._law(sides)):
             if len(lines) < 2 or self.diagram.at_infinity(sides):

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, HEADING, SIZE, Runs, width
-from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Text
+from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Text, moved
 from graphplan.sheet.plates.pens import BORDER, LETTERS, THIN
 
 LEADING = 1.42  # of the letter size, base line to base line
@@ -31,7 +31,8 @@ class TextRow:
     """One line of a column; `gap` is left free above it, and `keep` more rows must stand in the same column.
 
     A row belongs to a drawing step, or to the results that are read when all is drawn, or is always there. One to be
-    filled in is so `tall`, and has empty boxes, measured from its lower left corner.
+    filled in is so `tall`, and has empty boxes, measured from its lower left corner; so is one with a `figure`, which
+    is as wide as that.
     """
 
     cells: tuple[Cell, ...]
@@ -42,6 +43,7 @@ class TextRow:
     layer: str = "text"
     tall: float = 0.0
     boxes: tuple[Rect, ...] = ()
+    figure: tuple[Item, ...] = ()
 
     def enlarged(self, times: float) -> TextRow:
         """The row in letters so many times as large; those of headings are no larger than headings should be."""
@@ -50,7 +52,9 @@ class TextRow:
         cells = tuple(replace(cell, x=times * cell.x) for cell in self.cells)
         boxes = tuple(box.times(times) for box in self.boxes)
         size = max(min(times * self.size, HEADING), self.size)
-        return replace(self, cells=cells, size=size, gap=times * self.gap, tall=times * self.tall, boxes=boxes)
+        figure = tuple(moved(item, 0.0, 0.0, times) for item in self.figure)
+        return replace(self, cells=cells, size=size, gap=times * self.gap, tall=times * self.tall, boxes=boxes,
+                       figure=figure)
 
     @property
     def height(self) -> float:
@@ -60,7 +64,7 @@ class TextRow:
     def right(self) -> float:
         """How far the row reaches."""
         ends = (cell.x + width(cell.runs, self.size, cell.bold) * (1.0 - ANCHORS[cell.anchor]) for cell in self.cells)
-        return max((*ends, *(box.right for box in self.boxes)), default=0.0)
+        return max((*ends, *(box.right for box in self.boxes), self.tall if self.figure else 0.0), default=0.0)
 
 
 Placed = tuple[TextRow, float, float]
@@ -101,9 +105,10 @@ def lettered(placed: Sequence[Placed]) -> Iterator[Item]:
     """The rows as items; the lettering of a tall one stands half-way up."""
     for row, x, y in placed:
         foot = y - row.size * (LEADING - 1)
+        yield from (moved(item, x, foot) for item in row.figure)
         for box in row.boxes:
-            moved = Rect(x + box.left, foot + box.bottom, x + box.right, foot + box.top)
-            yield Polygon(BORDER, "blanks", row.step, moved.corners)
+            there = Rect(x + box.left, foot + box.bottom, x + box.right, foot + box.top)
+            yield Polygon(BORDER, "blanks", row.step, there.corners)
         base = foot + (row.tall - CAPS * row.size) / 2 if row.tall else y
         for cell in row.cells:
             yield Text(LETTERS, row.layer, row.step, (x + cell.x, base), cell.runs, row.size, cell.anchor, cell.bold)

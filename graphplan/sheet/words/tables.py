@@ -177,6 +177,6 @@ def ticked(row: TextRow) -> TextRow:
 
 def tightened(row: TextRow) -> TextRow:
     """The row where space is short: nearer to the one above, its boxes for numbers lower."""
-    if row.tall > TIGHT:
+    if row.boxes and row.tall > TIGHT:
         row = replace(row, tall=TIGHT, boxes=tuple(replace(box, top=TIGHT) for box in row.boxes))
     return replace(row, gap=row.gap / 2)

@@ -72,7 +72,8 @@ class Words:
     def rows(self, wide: float, scales: Scales, pencil: Deviations) -> list[TextRow]:
         """Everything, for a column of this width; `pencil` are the expected drawing errors where they are told."""
         if wide not in self._set or self._set[wide][0] != scales:
-            self._set[wide] = (scales, [*self._steps(wide, scales)], [*self._readings(wide, scales)],
+            steps = [*self._steps(wide, scales), *self._circle(wide)]
+            self._set[wide] = (scales, steps, [*self._readings(wide, scales)],
                                [*self._check(wide), *self._forms(wide)])
         _, before, read, after = self._set[wide]
         found = [*read, *self._results(wide, pencil), *self._errors(wide, pencil.told), *after]
@@ -119,6 +120,18 @@ class Words:
                 yield from self.entry(entry, wide)
             for control in passage.controls:
                 yield from self.paragraph(control, wide, passage.entries[-1].movements[-1].index)
+
+    def _circle(self, wide: float) -> Iterator[TextRow]:
+        """The circle diagram of the poles, where any are found by it."""
+        if circle := self.drawing.circle:
+            from graphplan.sheet.words.circle_diagram import figure, tall  # most scenes ask for no poles
+
+            yield self._heading(said("Circle diagram"))
+            yield TextRow((), tall=tall(circle), figure=tuple(figure(circle)), keep=1)
+            found = ", ".join(f"{side.number} {pole_letter(side.links)}" for side in circle.sides if side.number)
+            told = said("A side joins two links whose pole is known, thick those of pins, guides and pitch points; 0 "
+                        "is the frame. Found in this order: {0}.", found)
+            yield from self.paragraph(told, wide)
 
     def _protocol(self, scales: Scales) -> Protocol:
         """The protocol at these scales, told once for columns of any width."""

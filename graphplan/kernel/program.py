@@ -372,14 +372,15 @@ def evaluate(program: Program, domain: Domain, given: Mapping[Any, Mapping[str, 
     """The value of every step, in order.
 
     Reads a program, a number domain and, by name or index of a step, other parameters than were recorded (where a
-    point is given, how a guide runs); calls `after` after each step.
+    point is given, how a guide runs; of a point that is drawn from others its place is not); calls `after` after each
+    step.
     Fails with :class:`ConstructionError` naming the step, where the domain raises; arrays give nan instead.
     """
     values: list[Any] = []
     given = given or {}
     for step in program.steps:
         other = given.get(step.name) or given.get(step.index)
-        params = {**step.params, **other} if other else step.params
+        params = {**step.params, **other} if other and other.keys() <= step.params.keys() else step.params
         try:
             values.append(domain.whole(step.op.rule(domain, *[values[arg] for arg in step.args], **params)))
         except Undrawable as fault:

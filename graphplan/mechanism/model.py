@@ -184,6 +184,7 @@ class Presentation:
     convention: str = "real"
     curves: tuple[str, ...] = ()
     centrodes: tuple[str, ...] = ()
+    cubics: tuple[str, ...] = ()
     positions: int = 0
     student: str = ""
     variant: str = ""

@@ -13,7 +13,7 @@ from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.numerals import shown
 from graphplan.mechanism.pairs.pair import FRAME
 from graphplan.mechanism.units import METRES
-from graphplan.mechanism.values import DISTANCE, POINT, TEXT, asked, choice
+from graphplan.mechanism.values import DISTANCE, LINK, POINT, TEXT, asked, choice
 from graphplan.words import LANGUAGES
 
 SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
@@ -118,6 +118,9 @@ SHEET = Table("the sheet", (
           asked("pair of links", '["2 frame"]', lambda names: [*_on_another(names)],
                 lambda names: tuple(f"{link} {FRAME}" for link in names.moving), many="pairs of links",
                 after=("links",))),
+    Field("cubics", "the links of which the points that keep the curvature of their paths are drawn there and their "
+          'centres: the cubic of stationary curvature of this pose; or "all"',
+          asked("link", '["2"]', lambda names: names.moving, after=("links",), entry=LINK)),
     Field("positions", "how many positions of the mechanism are drawn there in faint lines, at equal travels",
           Kind("whole number", _count, {"type": "integer", "minimum": 1, "maximum": MOST_POSITIONS})),
 ), _presentation)

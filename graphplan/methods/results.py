@@ -52,6 +52,11 @@ class Given(ABC):
         return Vectors(self.named(kind), self.scene.links.get(FRAME, ()), self.zero())
 
     @property
+    def curvature(self) -> dict[str, Any]:
+        """The centres of curvature of paths, such as that of `M on 2`, where they are not at infinity."""
+        return self.named(kinds.CENTRE)
+
+    @property
     def omega(self) -> dict[str, Any]:
         """The angular velocities of links."""
         return self.named(kinds.OMEGA)

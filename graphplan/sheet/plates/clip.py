@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Rect, Spot
 
+OFF = 0.02  # mm that the chords of an arc may be off
 AIR = 0.6  # mm that a line keeps off letters at which it breaks off
 
 
@@ -39,7 +41,7 @@ def clipped(item: Item, rect: Rect) -> Iterator[Item]:
     if isinstance(item, Circle) and not rect.holds(item.centre):
         return
     if isinstance(item, Arc):
-        spots = item.spots()
+        spots = item.spots(min(4.0, math.degrees(math.sqrt(8 * OFF / item.radius))))
         if all(map(rect.holds, spots)):
             yield item
             return

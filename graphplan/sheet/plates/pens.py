@@ -52,6 +52,7 @@ BALLOON = Pen(0.18, GREY, fill=PAPER)
 DRIVE = Pen(0.35)
 PATH = Pen(0.18, INK, (6.0, 0.9, 0.4, 0.9, 0.4, 0.9))  # of a moving point, as ISO 128 has what moves
 FIXED_CENTRODE, MOVING_CENTRODE = Pen(0.25, BROWN), Pen(0.25, BROWN, (2.4, 1.0))
+CIRCLING_POINTS, CENTRE_POINTS = Pen(0.25, VIOLET, (2.4, 1.0)), Pen(0.25, VIOLET)
 PATH_END, PATH_DOT = Pen(0.35), Pen(0.0, fill=INK)
 POSITION = Pen(0.13, "#9a9a9a")
 

@@ -16,6 +16,7 @@ from graphplan.sheet.plates.symbols import hull, off, places, straight, unit
 View = Callable[[Spot], Spot]
 LAYER = "motion"
 FINE = 0.01  # mm by which what is drawn of a path may be off
+SAME = 1e-9  # of the mechanism: what moves less stands in the given pose
 AGAIN = 0.05  # mm: a path that goes back so near to itself is drawn once
 STOP, DOT = 1.5, 0.35  # mm: half of the stroke across the end of a path; the radius of the dots on it
 
@@ -56,13 +57,18 @@ class Centrode:
         return (said("moving centrode of {0} on {1}", link, on) if self.moving
                 else said("fixed centrode of {0} on {1}", link, on))
 
+    @property
+    def pen(self) -> pens.Pen:
+        """How it is drawn."""
+        return pens.MOVING_CENTRODE if self.moving else pens.FIXED_CENTRODE
+
     def items(self, view: View, scene: Scene) -> Iterator[Item]:
         """Its branches in the pose of a scene; the moving one has dashes."""
         carried = self._carried(scene)
         for branch in self.branches:
             spots = [view(carried(spot)) for spot in branch]
             if len(spots) > 1:
-                yield Polyline(pens.MOVING_CENTRODE if self.moving else pens.FIXED_CENTRODE, LAYER, None, once(spots))
+                yield Polyline(self.pen, LAYER, None, once(spots))
             else:
                 yield Circle(pens.PATH_DOT, LAYER, None, spots[0], 2 * DOT)
 
@@ -79,6 +85,27 @@ class Centrode:
             return place.real, place.imag
 
         return carried
+
+
+class StationaryCurve(Centrode):
+    """The points of a link that keep the curvature of their paths in one pose (`moving`), or their centres; in other
+    poses nothing."""
+
+    @property
+    def words(self) -> Said:
+        """What stands beside it."""
+        link, _ = self.links.split()
+        return said("circling points of {0}", link) if self.moving else said("centre points of {0}", link)
+
+    @property
+    def pen(self) -> pens.Pen:
+        """How it is drawn."""
+        return pens.CIRCLING_POINTS if self.moving else pens.CENTRE_POINTS
+
+    def items(self, view: View, scene: Scene) -> Iterator[Item]:
+        """Its branches in its own pose."""
+        if all(math.dist(at, tuple(map(float, scene.points[name]))) <= SAME * scene.extent for name, at in self.given):
+            yield from super().items(view, scene)
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ examples:
   graphplan draw alt-eight-link -o sheet.svg
   graphplan draw four-bar -o sheet.png --dpi 300
   graphplan draw scene.toml --plan polar > sheet.svg
+  graphplan draw triad --at 60 -o pose.svg             the pose 60 degrees on, constructed too
   graphplan draw scene.toml --frame gost --language ru -o sheet.pdf
   graphplan draw four-bar --steps 6-12 -o sheet.svg    the sheet after step 12, what was there before step 6 in grey
   graphplan draw triad --paper A2 --protocol aside -o sheet.svg    all on one page

@@ -5,6 +5,7 @@ examples:
   graphplan solve scene.toml --exact
   graphplan solve kinytskyi --digits 30
   graphplan solve scene.toml --bounds
+  graphplan solve four-bar --at 60                 in the pose 60 degrees on
   graphplan solve - --method trial < scene.toml
 """
 

@@ -80,6 +80,11 @@ class Closure(str):
         return Closure, (str(self), self.pairs, self.start, self.joints)
 
     @property
+    def square(self) -> bool:
+        """Whether its pairs state as much as its bodies have ways to move."""
+        return 2 * len(self.pairs) == 3 * len(self.start)
+
+    @property
     def inverse(self) -> list[list[float]]:
         """What makes corrections (x, y and turn of each body) of residues, as the pose is known; raises
         ZeroDivisionError where that is singular."""

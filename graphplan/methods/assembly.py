@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from graphplan.errors import Refused, by_name
+from graphplan.errors import by_name
 from graphplan.kernel.closures import Attitude as Lies
 from graphplan.kernel.closures import Closure, Guide, Pin
 from graphplan.kernel.closures import Hinge as Joined
@@ -79,8 +79,10 @@ class Assembler(Placing):
         outer = list(dict.fromkeys(h for body in bodies for h in self._hinges(body, self.placed)))
         joints = [h for h in outer if isinstance(h, str)]
         if len(joints) < len(outer) or len(joints) not in CLOSING:
-            raise Refused(str(listed(links)), said("no steps are known that find their position"), said("another pose"))
+            raise self._unknown(*links)
         group = self._closure(bodies, joints)
+        if not group.square:
+            raise self._unknown(*links)
         law = said("the lengths of all links of the group fit together: by trial, or where loci of a joint cross")
         with self.board.on(MECHANISM, links, self._stage(law, links)):
             read = [self.mark(joint) for joint in joints]
@@ -133,6 +135,8 @@ class Assembler(Placing):
         """How a body lies in this pose, by two of its points that lie furthest apart."""
         own = [name for link in body.lies for name in self.given.links[link] if name not in self.assembly.riding]
         names = {name: complex(*map(float, self._figure(body, name))) for name in own}
+        if len(names) < 2:
+            raise self._unknown(*body.lies)
         P, Q = max(combinations(names, 2), key=lambda pair: abs(names[pair[0]] - names[pair[1]]))
         here = {name: complex(*map(float, self.scene.points[name])) for name in (P, Q)}
         turn = (here[Q] - here[P]) / (names[Q] - names[P])

@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
+from graphplan.errors import Refused, by_name
 from graphplan.kernel.primitives import dot
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Stage
@@ -107,11 +108,17 @@ class Placing:
                 return self._corner(P, Q, less(at, p), less(q, p), name)
         if links and body is self.ground:
             return self._driven(body, links[0], at, name)
-        (p, P), = self._drawn(body)[:1]
-        assert body.heading is not None
-        u, line = body.heading
+        drawn = self._drawn(body)
+        if not drawn or body.heading is None:
+            raise self._unknown(*body.lies)
+        (p, P), (u, line) = drawn[0], body.heading
         with self.board.on(MECHANISM, tuple(body.lies)):
             return self.board.set_off(line, P, **figure(less(at, p), u), name=name)
+
+    def _unknown(self, *links: str) -> Refused:
+        """The error where no way is known to find where links are."""
+        why = said("no steps are known that find where they are at this travel")
+        return Refused(str(listed(sorted(links, key=by_name))), why, "the pose as it is given")
 
     def _corner(self, P: Mark, Q: Mark, v: Pair, u: Pair, name: str) -> Mark:
         return self.board.corner(P, Q, **figure(v, u), name=name)

@@ -179,9 +179,9 @@ def test_printed_results_are_valid(name: str, capsys: pytest.CaptureFixture[str]
 
 
 @pytest.mark.parametrize("how", [["jaanimets-10", "--exact"], ["jaanimets-10", "--digits", "20"],
-                                 ["four-bar", "--pencil", "point=0.2"]], ids=lambda how: " ".join(how))
+                                 ["four-bar", "--pencil", "point=0.2"], ["five-bar", "--at", "20"]], ids=" ".join)
 def test_other_numbers_are_valid(how: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    """So is what it prints as fractions, with proven digits, and with a pencil."""
+    """So is what it prints as fractions, with proven digits, with a pencil, and of another pose."""
     if "--digits" in how:
         pytest.importorskip("flint")
     assert errors(schema_of("solve"), printed(capsys, "solve", *how)) == []

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import partial
 from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PROTRACTOR, SCALE, SET_SQUARES, STRAIGHTEDGE
-from graphplan.mechanism.model import Balance, Contact, Gear, Loads, Pair, Scene
+from graphplan.mechanism.model import Balance, Contact, Drive, Gear, Loads, Pair, Scene
 from graphplan.mechanism.order import named_forces
 from graphplan.methods.kinds import (
     CONTACT_REACTION,
@@ -136,8 +137,9 @@ ASKED = {  # how kinds of results are asked for, and how those that have them ar
 
 def data(scene: Scene) -> Iterator[Said]:
     """The mechanism in its pose, what drives it and what loads it, a sentence each."""
+    given = scene if scene.assembly is None else scene.assembly.given
     yield said("Points, in {0}: {1}.", unit(scene.units.length),
-               joined(joined((name, _pair(at)), " ") for name, at in scene.points.items()))
+               joined(joined((name, _pair(at)), " ") for name, at in given.points.items()))
     yield said("Links: {0}.", joined(joined((link_named(link), f"({' '.join(names)})"), " ")
                                      for link, names in scene.links.items()))
     for kind in dict.fromkeys(type(slide) for slide in scene.slides):
@@ -148,6 +150,9 @@ def data(scene: Scene) -> Iterator[Said]:
     if scene.contacts:
         yield Contact.sentence(joined(map(_touching, scene.contacts), "; "))
     yield from _motion(scene)
+    if scene.assembly is not None:
+        for drive, travel in zip(scene.drives, scene.assembly.travels, strict=True):
+            yield _moved_on(drive, travel, scene.units.length)
     if scene.loads:
         yield from _loads(scene, scene.loads)
 
@@ -171,6 +176,13 @@ def _touching(contact: Contact) -> Said:
             else said("{0} straight along {1}", link_named(link), _pair(contact.direction or (0, 0)))
             for link, centre in zip(contact.links, contact.centres, strict=True)]
     return joined((said("at {0}", contact.at), *told, *([said("without slipping")] if contact.rolling else [])))
+
+
+def _moved_on(drive: Drive, travel: Fraction, length: str) -> Said:
+    """How far a drive has gone in the pose that is to be constructed."""
+    told = joined((_figure(travel), unit(length)), " ") if drive.slides else said("{0}°", _figure(travel))
+    return said("Construct the pose in which {0} has gone on by {1} relative to {2}.", link_named(drive.link), told,
+                link_named(drive.on))
 
 
 def _motion(scene: Scene) -> Iterator[Said]:

@@ -132,6 +132,8 @@ def _number(ours: Any, theirs: Any, scale: float) -> Compared:
         if not theirs.value and theirs.error <= ZERO and abs(ours) <= CLOSE * scale:
             return Compared(0.0, 0.0, 0.0, 0.0, theirs.size)  # proven to be nothing, and drawn so but for rounding
         gap = abs(ours - theirs.value)
+        if max(abs(theirs.value), gap) <= theirs.error and abs(ours) <= CLOSE * theirs.size:
+            gap, ours = abs(theirs.value), 0.0  # no digit of it is known: it may be nothing, and so it is printed
         return Compared(ours, theirs.value, gap, UP * (gap + theirs.error), max(theirs.size, abs(ours)),
                         close=gap <= theirs.error)
     if isinstance(ours, Fraction | int):

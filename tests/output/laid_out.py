@@ -7,7 +7,9 @@ from typing import Any
 
 import graphplan as gp
 from graphplan.methods.construction import Construction
+from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.plates.display import Rect
+from graphplan.sheet.plates.higher_pairs import reach
 from graphplan.sheet.plates.plans import Plans, around
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.view import view
@@ -20,7 +22,9 @@ def laid_out(name: str, strict: bool = False, times: float = 1.0) -> tuple[Const
     """A packaged scene constructed, and as it is drawn; its plans are so many `times` too large for their windows."""
     drawing = gp.construct(gp.load(name), strict=strict)
     plans = Plans(drawing)
-    boxes = {panel: around([plans.spot(index) for index in plans.points(panel)]) for panel in plans.panels}
+    wheels = {MECHANISM: [*reach(drawing.scene)]}
+    boxes = {panel: around([*wheels.get(panel, ()), *(plans.spot(index) for index in plans.points(panel))])
+             for panel in plans.panels}
     views: dict[str, Any] = {}
     for place, (panel, box) in enumerate(boxes.items()):
         rect = Rect(SIDE * place + 5, 5, SIDE * (place + 1) - 5, SIDE - 5)

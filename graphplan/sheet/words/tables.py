@@ -41,7 +41,6 @@ class Deviations:
 
 APART = 3.0  # mm between two columns
 ROUNDING = 1e-12  # beside the largest number of its kind
-TURNINGS = {"omega": "velocity", "alpha": "acceleration"}  # and the vectors beside which they count
 TOGETHER = 15  # rows of a table stand in one column
 Table = list[list[Runs]]
 Off = Mapping[str, Deviation]  # how far off results are drawn, by name; empty where that is not told
@@ -73,12 +72,16 @@ def scalars(say: Tongue, what: str, name: str, unit: str, values: Mapping[str, A
 
 
 def settled(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict[str, dict[str, Any]]:
-    """The results, with turnings that are but rounding beside the vectors of their kind as nothing."""
+    """The results, with turnings as nothing that are but rounding beside what others of their kind are made of.
+
+    What is unknown is not weighed.
+    """
     found = {kind: {**named} for kind, named in values.items()}
-    for turning in found.keys() & TURNINGS.keys():
-        least = ROUNDING * largest_size(values.get(TURNINGS[turning], {})) / reach
-        found[turning] = {name: rate if any(isinstance(one, Unknown) for one in (least, rate)) or abs(rate) > least
-                          else 0.0 for name, rate in found[turning].items()}
+    fastest = reduce(_larger, map(abs, values.get("omega", {}).values()), 0.0)
+    for turning, kind, other in (("omega", "velocity", fastest), ("alpha", "acceleration", fastest * fastest)):
+        least = ROUNDING * _larger(largest_size(values.get(kind, {})) / reach, other)
+        found |= {turning: {name: rate if isinstance(least, Unknown) or isinstance(rate, Unknown) or abs(rate) > least
+                            else 0.0 for name, rate in values[turning].items()}} if turning in values else {}
     return found
 
 

@@ -15,6 +15,7 @@ import pytest
 import graphplan as gp
 from graphplan.cycle import closure
 from graphplan.cycle.groups import Group
+from graphplan.cycle.higher import Apart, Geared, Racked
 from graphplan.cycle.linkage import Linkage, direction
 from graphplan.cycle.travel import paces
 from graphplan.mechanism.model import FRAME, Contact, Gear, Scene
@@ -32,6 +33,7 @@ from graphplan.mechanism.pairs.pair import (
     Sides,
     Statement,
     Touching,
+    Turning,
 )
 from graphplan.mechanism.plane import dot, less, turned
 from graphplan.mechanism.scene import packaged
@@ -137,19 +139,22 @@ def test_what_is_passed_on_is_what_binds(name: str) -> None:
         assert np.linalg.matrix_rank(rows) == np.linalg.matrix_rank(both) == np.linalg.matrix_rank(rows + both)
 
 
-@pytest.mark.parametrize("name", [name for name in SCENES if gp.load(name).drives and not gp.load(name).motions])
+@pytest.mark.parametrize("name", [*(name for name in SCENES if gp.load(name).drives and not gp.load(name).motions),
+                                  *HIGHER])
 def test_the_cycle_closes_what_is_stated(name: str) -> None:
     """Anywhere near the pose, what the closure leaves open is what the statements leave, lengths counted in reaches.
 
     Those that seat a link on another leave nothing, and derivatives are those of what is left.
     """
-    linkage, chance = Linkage(gp.load(name), paces(gp.load(name))), Random(name)
+    scene, chance = HIGHER.get(name) or gp.load(name), Random(name)
+    linkage = Linkage(scene, paces(scene))
     groups, bodies = [Group(linkage, part) for part in linkage.parts], {FRAME: closure.Body()}
     for group in groups:
         known, state = [bodies[link] for link in (FRAME, *group.carriers)], np.array(
             [chance.uniform(-0.1, 0.1) for _ in range(group.unknowns)])
         rows, links = _left(group, known, state)
-        bodies |= zip(group.links, (closure.Body(body.base, body.turn) for body in links[len(known):]), strict=True)
+        placed = (closure.Body(body.base, body.turn, angle=body.angle) for body in links[len(known):])
+        bodies |= zip(group.links, placed, strict=True)
         for i, step in enumerate(np.eye(group.unknowns) * STEP / 16):
             before, after = (_left(group, known, state + sign * step)[0] for sign in (-1, 1))
             for row, one, two in zip(rows, before, after, strict=True):
@@ -168,16 +173,27 @@ def _left(group: Group, known: list[closure.Body], state: Any) -> tuple[list[clo
 
 
 def _stated(linkage: Linkage, group: Group, bodies: dict[str, closure.Body]) -> Iterator[float]:
-    """What each statement on a group's links leaves, without its sign."""
+    """What each statement on a group's links leaves, without its sign; of gears with 1 for the largest factor."""
     lies = {link: Attitude(*body.base, *(body.turn or (1.0, 0.0))) for link, body in bodies.items()}
     for bond in [bond for link in group.links for bond in linkage.bonds[link]]:
+        if isinstance(bond, Geared):
+            turns = [lies[link] for link in (bond.link, bond.on, linkage.lines.carriers[bond.arm])]
+            one, other, line = (math.atan2(link.sin, link.cos) for link in turns)
+            k1, k2 = bond.factors
+            yield abs(k1 * (one - line) + k2 * (other - line)) / max(abs(k1), abs(k2), abs(k1 + k2))
+            continue
         arms: Any = None, None
-        if isinstance(bond, Along):
-            z = direction(bond)
-            bond = replace(bond, direction=(z.real, z.imag))
+        if isinstance(bond, Apart):
+            z = (linkage.places[bond.at] - linkage.places[bond.other]) / linkage.reach
+            radius, bond = abs(z), Touching(bond.link, bond.on, bond.at, (z.real, z.imag), bond.condition.way)
+        elif not isinstance(bond, Turning):
+            z, lever = direction(bond), bond.lever / linkage.reach if isinstance(bond, Racked) else 0
+            bond = Along(bond.link, bond.on, bond.at, (z.real, z.imag), "", to=getattr(bond, "to", ""), lever=lever)
+            radius = 1.0
+        if not isinstance(bond, Turning):
             ends = ((linkage.places[bond.at] - linkage.origins[end]) / linkage.reach for end in (bond.link, bond.on))
             arms = tuple((arm.real, arm.imag) for arm in ends)
-        yield abs(bond.residual(lies, arms))
+        yield abs(bond.residual(lies, arms)) / (1.0 if isinstance(bond, Turning) else radius)
 
 
 def test_every_kind_of_pair_is_in_a_scene() -> None:

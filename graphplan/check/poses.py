@@ -13,9 +13,9 @@ from graphplan.check.arithmetics import FLOATS
 from graphplan.check.compared import CLOSE, NOTHING, compared, drawn_sizes, each, plain, sliding, weight
 from graphplan.check.report import by_part, opinion
 from graphplan.errors import GraphplanError
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods.construction import Construction
-from graphplan.methods.kinds import FORCES, MOTION, kind_of
+from graphplan.methods.kinds import ACCELERATION, FORCES, MOTION, VELOCITY, kind_of
 from graphplan.solver import poses, solve
 from graphplan.solver.bounds import Unproven
 
@@ -94,7 +94,8 @@ def _against(part: Round, drawing: Construction, ours: Results) -> dict[str, Any
             group, numbers = kind_of(kind).group, each(truth[kind][name])
             true = numbers[0].value if len(numbers) == 1 else numbers[0].value + 1j * numbers[1].value
             besides = _read_from(scene, truth, kind, name), sliding(scene, truth, kind, name)
-            sizes = np.full(n, least[group] / weight(drawing, kind)), *(number.size for number in numbers), *besides
+            sizes = (np.full(n, least[group] / weight(drawing, kind)), *(number.size for number in numbers), *besides,
+                     _rolling(scene, motion, kind))
             size = np.max(np.broadcast_arrays(*sizes), axis=0)
             apart[group] = np.maximum(apart[group], np.abs(value - true) / size)
     return apart
@@ -109,6 +110,26 @@ def _read_from(scene: Scene, truth: Results, kind: str, name: str) -> Any:
     longest = max((float(np.max(np.hypot(a[0] - b[0], a[1] - b[1]))) for a, b in ends), default=0.0)
     sizes = [np.abs(plain(part)) for point in points for part in vectors[point]]
     return np.max(np.broadcast_arrays(*sizes), axis=0) / longest if longest else 0.0
+
+
+def _rolling(scene: Scene, motion: Any, kind: str) -> Any:
+    """The size of what is turned about centres where links roll on each other: it may cancel in the motion of others.
+
+    The pitch point has the velocity omega r about either centre, and the acceleration omega^2 r; nothing where no links
+    roll, or of other results.
+    """
+    if kind_of(kind).group not in (VELOCITY, ACCELERATION):
+        return 0.0
+    pitch: list[tuple[Any, Any]] = [(gear, gear.pitch_point(scene.points)) for gear in scene.gears]
+    pitch += [(contact, scene.points[contact.at]) for contact in scene.contacts if contact.rolling]
+    sizes: list[Any] = [0.0]
+    for pair, at in pitch:
+        for link, centre in zip(pair.links, pair.centres, strict=False):
+            if link != FRAME and centre and at:
+                rate = np.abs(plain(motion.omega[link])) ** (1 if kind_of(kind).group == VELOCITY else 2)
+                (x, y), (u, v) = at, scene.points[centre]
+                sizes.append(rate if kind_of(kind).turning else rate * np.hypot(x - u, y - v))
+    return np.max(np.broadcast_arrays(*sizes), axis=0)
 
 
 def sound(part: Round, drawing: Construction, results: Results, apart: Mapping[str, Any]) -> Any:
@@ -126,13 +147,15 @@ def _sound(pose: Round, drawing: Construction, ours: Results, worst: float) -> b
     """Whether one pose is sound: beside the bounds that are proven there, or where none are, beside the condition."""
     scene = _alone(pose.posed)
     try:
-        truth = opinion(scene, FLOATS).truth(ours)
+        told = opinion(scene, FLOATS)
+        truth = told.truth(ours)
     except Unproven:
         try:
             return bool(worst <= SAFETY * EPSILON * solve(scene).condition)
         except GraphplanError:
             return False
-    numbers = compared(drawing, ours, truth, lambda part, name: float(_read_from(scene, truth, part, name)))
+    numbers = compared(drawing, ours, truth, lambda part, name: max(
+        float(_read_from(scene, truth, part, name)), float(_rolling(scene, told.rates, part))))
     return all(number.close or number.gap <= SAFETY * (number.bound - number.gap)
                for named in numbers.values() for vector in named.values() for number in vector)
 

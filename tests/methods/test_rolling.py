@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from higher import ARM_DRIVE, DRIVE, TEXTS, gear, scenes, text
+from higher import ARM_DRIVE, DRIVE, TEXTS, gear, scenes, slide, text
 
 import graphplan as gp
+from graphplan.check.poses import Round, gaps, sound
 from graphplan.check.trusted import report
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.replaced import bars, replaced, rolling_guides
@@ -150,3 +151,17 @@ def test_velocity_triangles_end_on_straight_lines() -> None:
     assert any(line.startswith("At B erect the perpendicular on ") for line in told), told
     with pytest.raises(gp.Refused, match="triangles"):
         gp.construct(SCENES["cam"], plan="triangles")
+
+
+def test_a_rack_at_a_uniform_speed_is_sound_around_the_cycle() -> None:
+    """What cancels in the pitch point is no difference: the rack's acceleration is nothing beside the wheel's."""
+    rack = parse(TEXTS["rack"].split("[[drive]]")[0].replace("'4' = 'B'\n", "")
+                 .replace("'frame' = 'O'", "'frame' = 'B'").replace(slide("4", "B", "[4, 3]"), "")
+                 .replace("O = [0, 0]\n", "") + "[[drive]]\nlink = '2'\nomega = 2\n", "rack")
+    turn = gp.cycle.follow(rack, 5, (0, 90))
+    drawing = gp.construct(rack)
+    part = Round.reached(rack, turn.points, turn.guides)
+    results = drawing.evaluate(part.points, part.guides).results
+    apart = gaps(part, drawing, results)
+    assert max(abs(results["acceleration"]["S"])) > 0
+    assert sound(part, drawing, results, apart).all()

@@ -113,7 +113,11 @@ def _flat(task: Task) -> Pair:
     """The base circle for a flat face on a straight path."""
     if task.cam.base != CONVEX:
         return FlatTranslating(task.cam.sense, float(task.cam.base))
-    return FlatTranslating(task.cam.sense, least_flat(task.law)[1] + float(task.cam.least))
+    radius = max(0.0, least_flat(task.law)[1]) + float(task.cam.least)
+    if radius <= 0:
+        raise Refused(f"{task.name}: cam.base", "the profile is convex on any base circle, so there is no smallest",
+                      "a least_radius, or a radius")
+    return FlatTranslating(task.cam.sense, radius)
 
 
 def _arm_angle(task: Task) -> float:

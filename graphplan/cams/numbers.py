@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.cams.base import region
+from graphplan.cams.construction import CamDrawing
 from graphplan.cams.follower import Rolled, Translating
 from graphplan.cams.law import HARD
 from graphplan.cams.motions import ORDERS
@@ -18,9 +19,10 @@ from graphplan.cams.task import TURNS
 TABLED = ("lift", "velocity", "acceleration", "jerk")
 
 
-def numbers(cam: Cam, count: int, tolerance: float, check: Mapping[str, float]) -> dict[str, Any]:
+def numbers(drawing: CamDrawing, count: int, tolerance: float, check: Mapping[str, float]) -> dict[str, Any]:
     """All of it, plain data for JSON: lengths in the task's unit, angles in degrees, s; of an oscillating follower
     degrees, rad/s, rad/s^2, rad/s^3. What is infinite is null."""
+    cam, program = drawing.cam, drawing.program
     task = cam.task
     turns = next(word for word, sense in TURNS.items() if sense == cam.pair.sense)
     found: dict[str, Any] = {
@@ -36,6 +38,8 @@ def numbers(cam: Cam, count: int, tolerance: float, check: Mapping[str, float]) 
         "positions": _positions(cam, 360.0 * np.arange(count) / count),
         "outline": {"tolerance": tolerance,
                     "arcs": [[arc.start.real, arc.start.imag, arc.bulge] for arc in cam.arcs(tolerance)]},
+        "steps": [{"step": program.number(step.index), "stage": str(stage.title),
+                   "sentence": str(program.told(step.index))} for stage, steps in program.stages for step in steps],
         "check": dict(check),
     }
     return found

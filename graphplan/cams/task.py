@@ -284,7 +284,7 @@ def _checked(task: Task, faults: Faults) -> None:
     if rest:
         faults.add("law", f"after one turn the lift is {shown(rest)}", "strokes that add up to 0")
     at, depth = law.extremum(lambda angles, one: -one.at(angles))
-    if depth > 1e-9 * max(map(abs, law.lifts), default=1):
+    if depth > 1e-9 * law.largest(0) / law.times:
         faults.add("law", f"the lift is {shown(-depth)} at {shown(at)} degrees, below where it begins",
                    "begin with the stage in which the follower is lowest")
     if not any(stage.stroke or stage.motion == TABLE for stage in task.stages):

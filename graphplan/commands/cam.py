@@ -52,7 +52,7 @@ from graphplan.mechanism.presentation import FRAMES
 from graphplan.output import back_end, loaded
 
 if TYPE_CHECKING:
-    from graphplan.cams.profile import Cam
+    from graphplan.cams.construction import CamDrawing
 
 ENDINGS = (".svg", ".pdf", ".png", ".dxf", ".json", ".toml")
 PROTOCOL = "-protocol"  # what the name of a page of words adds to that of the sheet
@@ -105,7 +105,7 @@ def run(options: argparse.Namespace) -> int:
             names = paged(options.output, len(pages), PROTOCOL)
             write_all([(name, write_out(page, **look)) for name, page in zip(names, pages, strict=False)])
     else:
-        write(_data(cam, ending, options, tolerance, check), options.output)
+        write(_data(drawing, ending, options, tolerance, check), options.output)
     return 0
 
 
@@ -125,15 +125,16 @@ def _asked(options: argparse.Namespace, ending: str) -> None:
         raise Refused("--at", f"{options.at:g}", "give an angle in degrees")
 
 
-def _data(cam: Cam, ending: str, options: argparse.Namespace, tolerance: float, check: dict[str, float]) -> str | bytes:
+def _data(drawing: CamDrawing, ending: str, options: argparse.Namespace, tolerance: float,
+          check: dict[str, float]) -> str | bytes:
     """What is no sheet: the profile for CAD, the numbers, or a scene."""
     if ending == "toml":
         from graphplan.cams.pose import scene_text
 
-        return scene_text(cam, options.at or 0.0)
+        return scene_text(drawing.cam, options.at or 0.0)
     if ending == "json":
         from graphplan.cams.numbers import numbers
 
-        return as_json(numbers(cam, options.positions or POSITIONS, tolerance, check))
-    written: str | bytes = loaded("dxf", "cad.profile").profile_dxf(cam, tolerance)
+        return as_json(numbers(drawing, options.positions or POSITIONS, tolerance, check))
+    written: str | bytes = loaded("dxf", "cad.profile").profile_dxf(drawing.cam, tolerance)
     return written

@@ -99,6 +99,15 @@ def test_each_fault_has_its_place(change: tuple[str, str], line: str) -> None:
     assert any(found.startswith(f"cam.toml: {line}") for found in fault.value.lines), fault.value.lines
 
 
+def test_a_profile_that_is_always_convex_has_no_smallest_base_circle() -> None:
+    """A lift so gentle that no base circle makes the profile hollow needs a least radius."""
+    law = '[[law]]\ntable = [[0, 0], [90, 0.5], [180, 1], [270, 0.5], [360, 0]]\n'
+    flat = f'{law}[follower]\nmoves = "translating"\ncontact = "flat"\n[cam]\nrpm = 60\nbase = "convex"\n'
+    with pytest.raises(Refused, match="convex on any base circle"):
+        based(parse(flat, "cam.toml"))
+    assert based(parse(f"{flat}least_radius = 8\n", "cam.toml")).base == pytest.approx(8)
+
+
 def test_what_no_base_circle_can_do_is_refused() -> None:
     """An arm that is lifted too fast has no base circle within the angles, and says so."""
     with pytest.raises(Refused, match="no base circle keeps the pressure angle at a centre distance of 100"):

@@ -65,6 +65,7 @@ def test_numbers_are_those_of_the_law(written: Callable[..., Path]) -> None:
     assert rows[60.0]["velocity"] == pytest.approx(2 * 25 / math.radians(120) * omega)
     assert found["pressure_angle"]["return"]["largest"] == pytest.approx(30)
     assert max(found["check"].values()) < 1e-6
+    assert [step["step"] for step in found["steps"]] == list(range(1, len(found["steps"]) + 1))
 
 
 def test_profiles_are_true_to_size(written: Callable[..., Path]) -> None:

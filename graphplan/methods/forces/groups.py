@@ -14,7 +14,15 @@ from graphplan.methods.forces import stages as told
 from graphplan.methods.forces.force_plan import ForcePolygon
 from graphplan.methods.forces.free_bodies import DrawnForces, Span, reaction_on
 from graphplan.methods.forces.friction import rough
-from graphplan.methods.forces.higher_pairs import TouchingGuide, bearing, on_first, posed_for, press, rolling_point
+from graphplan.methods.forces.higher_pairs import (
+    TouchingGuide,
+    bearing,
+    on_first,
+    posed_for,
+    press,
+    refuse_couples,
+    rolling_point,
+)
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.forces.statics import Equilibrium, StaticMove
 from graphplan.methods.forces.unknown_forces import ForceGroup, Position, groups, in_general, posed
@@ -94,6 +102,7 @@ def _indeterminate(scene: Scene, links: Iterable[str], untold: set[str]) -> bool
 def reactions(board: Board, pose: Pose, loading: Loading, plans: ForceTransfer, way: Way,
               before: DrawnForces | None = None) -> DrawnForces:
     """All reactions, drawn in a pose; in one of friction after those of the round `before`."""
+    refuse_couples(plans.given)
     forces, pose = DrawnForces(plans.scene, before), posed_for(pose, plans.scene)
     for group in plans.groups:
         plan = ForcePolygon(board, pose, group, loading, forces)
@@ -139,7 +148,7 @@ def results(scene: Scene, loading: Loading, forces: DrawnForces, board: Board) -
         if asked is None or gear.name in asked:
             yield kinds.GEAR_REACTION, gear.name, span
     for contact in scene.contacts:
-        if (touching := _touching(forces, board, contact)) and (asked is None or contact.name in asked):
+        if (touching := touching_force(forces, board, contact)) and (asked is None or contact.name in asked):
             yield kinds.CONTACT_REACTION, contact.name, touching
     yield from balances(loading, forces, kinds.BY_PLANS)
 
@@ -164,7 +173,7 @@ def _told(scene: Scene, forces: DrawnForces, point: str, link: str) -> bool:
     return (point, link) in forces.joints or all((point, other) in forces.joints for other in others)
 
 
-def _touching(forces: DrawnForces, board: Board, contact: Contact) -> Span | None:
+def touching_force(forces: DrawnForces, board: Board, contact: Contact) -> Span | None:
     """The force of a contact on its first link."""
     if contact.rolling:
         at, link = rolling_point(contact), contact.links[0]

@@ -9,16 +9,18 @@ force depends on it (Ozols 1974, 11-1 and 11-2).
 
 from __future__ import annotations
 
+import math
 from collections import ChainMap
+from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import FRAME, Contact, Gear, Scene, Slide
+from graphplan.mechanism.model import FRAME, Contact, Gear, Pair, Scene, Slide
 from graphplan.mechanism.pairs.pair import LINE
-from graphplan.mechanism.plane import turned
-from graphplan.mechanism.replaced import EqualTurning, RollingGuide, replaced
+from graphplan.mechanism.plane import dot, turned
+from graphplan.mechanism.replaced import RollingGuide, replaced
 from graphplan.methods.forces import stages
 from graphplan.methods.forces.free_bodies import DrawnForces, Span, signed
 from graphplan.methods.forces.loading import Acting
@@ -38,18 +40,12 @@ class TouchingGuide(Slide):
 
 
 def bearing(scene: Scene) -> Scene:
-    """The scene whose free bodies are drawn: guides at pitch points and at contacts, joints where contacts roll.
-
-    Fails with `Refused` where a belt bears nothing but a couple.
-    """
+    """The scene whose free bodies are drawn: guides at pitch points and at contacts, joints where contacts roll."""
     lower = replaced(scene)
     if lower is scene:
         return scene
     points, links, written = dict(lower.points), dict(scene.links), [*scene.written]
     for pair in lower.written[len(scene.written):]:
-        if isinstance(pair, EqualTurning):
-            why = said("the belt over wheels of one size bears nothing but a couple")
-            raise Refused("force plans", why, "ask for the lever, with --plan lever")
         if isinstance(pair, RollingGuide) and isinstance(pair.given, Gear):
             written.append(pair)
     for contact in scene.contacts:
@@ -59,6 +55,14 @@ def bearing(scene: Scene) -> Scene:
         else:
             written.append(_touching(contact, scene))
     return replace(scene, points=points, links=links, written=tuple(written))
+
+
+def refuse_couples(scene: Scene) -> None:
+    """Fails with `Refused` where a belt bears nothing but a couple."""
+    for gear in scene.gears:
+        if gear.direction is None and not sum(gear.factors):
+            why = said("the belt over wheels of one size bears nothing but a couple")
+            raise Refused("force plans", why, "ask for the lever, with --plan lever")
 
 
 def rolling_point(contact: Contact) -> str:
@@ -72,6 +76,33 @@ def _touching(contact: Contact, scene: Scene) -> TouchingGuide:
     through, written = contact.through, contact.written
     direction = contact.direction or turned(contact.normal(scene.points))
     return TouchingGuide(link, along, contact.at, direction, through, written, contact)
+
+
+def pushing(contact: Contact, points: Mapping[str, Pair]) -> tuple[float, float] | None:
+    """The way in which a contact can push its first link; None where one of the two profiles is a corner.
+
+    The body of a convex profile is on the side of its centre; of two with their centres on one side that is the one of
+    the smaller radius.
+    """
+    x, y = map(float, points[contact.at])
+    arms = [(float(points[centre][0]) - x, float(points[centre][1]) - y) if centre else None
+            for centre in contact.centres]
+    sizes = [math.inf if arm is None else math.hypot(*arm) for arm in arms]
+    first, second = arms
+    if not all(sizes):
+        return None
+    if first is not None and (sizes[0] <= sizes[1] or (second is not None and dot(first, second) < 0)):
+        return first
+    assert second is not None
+    return -second[0], -second[1]
+
+
+def pressed(scene: Scene) -> tuple[set[str], set[Slide]]:
+    """The joints and the slides in whose reactions tooth forces have radial components."""
+    inclined = [gear for gear in scene.gears if gear.tangent]
+    racks = {gear.links[1] for gear in inclined if gear.direction is not None}
+    return ({centre for gear in inclined for centre in gear.centres},
+            {slide for slide in scene.slides if not racks.isdisjoint(slide.links)})
 
 
 def posed_for(pose: Pose, scene: Scene) -> Pose:

@@ -29,6 +29,7 @@ from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.forces import stages
 from graphplan.methods.forces.free_bodies import Shown, Span, balance_letter, pair_letter
 from graphplan.methods.forces.groups import ForceTransfer, Result, pairs
+from graphplan.methods.forces.higher_pairs import pressed
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.motion.alternatives import ways
 from graphplan.methods.motion.network import Network
@@ -39,6 +40,7 @@ from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan
 from graphplan.methods.poses import Pose
 from graphplan.methods.styles import Style
+from graphplan.phrases import Said, said
 
 AXES: tuple[Pair, Pair] = (Fraction(1), Fraction(0)), (Fraction(0), Fraction(1))
 
@@ -50,6 +52,7 @@ class Levers:
         self.pose, self.velocity, self.loading, self.plans = pose, velocity, loading, plans
         self.scene = loading.scene
         self.results: list[Result] = []
+        self.notes: list[Said] = []
         self.shown: list[Shown] = []
 
     def balances(self) -> Levers:
@@ -65,12 +68,16 @@ class Levers:
 
     def reactions(self, asked: Collection[str]) -> Levers:
         """The reactions of the joints and slides of these names that statics tells, each with its pair freed."""
-        scene = self.loading.net.scene
+        scene, (joints, guides) = self.loading.net.scene, pressed(self.plans.given)
+        left = sorted(joints & {*asked}) + [slide.name for slide in guides if slide.name in asked]
+        if left:
+            self.notes.append(said("reactions in {0}: force plans alone have the radial components of tooth forces",
+                                   ", ".join(left)))
         for point, link, pin in pairs(scene):
-            if point in asked and JointForce(point, link).name not in scene.indeterminate_pairs:
+            if point in asked and point not in joints and JointForce(point, link).name not in scene.indeterminate_pairs:
                 self._joint(JointForce(point, link), pin)
         for slide in self.scene.slides:
-            if slide.name in asked and slide.name not in scene.indeterminate_pairs:
+            if slide.name in asked and slide not in guides and slide.name not in scene.indeterminate_pairs:
                 lever = self._lever(freed_slide(self.scene, slide), LeverPlan.of(slide, "F"),
                                     pair_letter(slide.along, slide.link))
                 self._found(lever, kinds.SLIDE_REACTION, slide.name, lever.off_guide(slide), "reaction")

@@ -21,7 +21,17 @@ from graphplan.methods.construction import Construction, ForceArrow
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.forces.free_bodies import DrawnForces, Shown
 from graphplan.methods.forces.friction import SHORT, Rubbed
-from graphplan.methods.forces.groups import ForceTransfer, Result, Way, arms, balances, reactions, results
+from graphplan.methods.forces.groups import (
+    ForceTransfer,
+    Result,
+    Way,
+    arms,
+    balances,
+    reactions,
+    results,
+    touching_force,
+)
+from graphplan.methods.forces.higher_pairs import pushing
 from graphplan.methods.forces.lever import Levers
 from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.forces.statics import PREFERENCES
@@ -31,9 +41,9 @@ from graphplan.methods.motion.alternatives import EQUAL, growth, ways
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import link_named, slide_named
+from graphplan.methods.panels import link_named, listed, slide_named
 from graphplan.methods.styles import Style
-from graphplan.phrases import Phrase, phrase, said
+from graphplan.phrases import Phrase, Said, phrase, said
 
 NEAR = 2.0  # extents of the mechanism: where a slide's reaction acts further away, its line is not drawn
 SMALL = 1e-6  # of the largest reaction: a slide's that is smaller has no line to speak of
@@ -82,6 +92,7 @@ class Loaded(Draughtsman):
             levers = Levers(self.pose, velocity, loading, self.plans).balances()
             if not self.style.polygons:
                 levers.reactions(self.by_lever)
+                self.notes += levers.notes
                 if self.loads.frictions:
                     self.notes.append(said("friction is left out: force polygons alone have it"))
             self._note(levers.results, levers.shown)
@@ -106,10 +117,26 @@ class Loaded(Draughtsman):
         """The reactions and the balances, group by group against the motion's order; and once more with friction."""
         forces = reactions(self.board, self.pose, loading, self.plans, self.way)
         self._note(results(self.scene, loading, forces, self.board), forces.shown)
+        self.notes += self._pulling(forces)
         self._note(arms(self.scene, forces, self.board, self.pose, self.arms), ())
         moves = any(drive.rate for drive in self.scene.drives)  # at rest friction has no sense
         if self.loads.frictions and moves and not self.scene.repeating:
             self._rounds(velocity, loading, forces)
+
+    def _pulling(self, forces: DrawnForces) -> Iterator[Said]:
+        """What is said of the contacts whose links would part in this pose."""
+        for contact in self.scene.contacts:
+            span = touching_force(forces, self.board, contact)
+            way = pushing(contact, self.scene.points)
+            if span is None or way is None or span[0] is span[1]:
+                continue
+            try:
+                tail, head = self._valued(span)
+            except ConstructionError:  # whoever reads the numbers is told
+                return
+            if (head[0] - tail[0]) * way[0] + (head[1] - tail[1]) * way[1] < -SHORT * self.scene.extent**2:
+                yield said("the contact of {0} can only push, and its force pulls: something else must press them "
+                           "together, such as a spring", listed(contact.links))
 
     def _rounds(self, velocity: Velocity, loading: Loading, forces: DrawnForces) -> None:
         """Rounds of friction, as many as are asked for, or until the forces stand."""

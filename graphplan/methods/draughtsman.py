@@ -63,6 +63,7 @@ class Draughtsman:
         self.poles_by: tuple[Said, ...] = ()
         self.paths_by: tuple[Said, ...] = ()
         self.at_rest: list[Said] = []
+        self.special: list[Said] = []
         self.circle: DrawnCircle | None = None
 
     def draw(self) -> Construction:
@@ -136,7 +137,8 @@ class Draughtsman:
                             relied=tuple(self.net.relied), ways=tuple(_ways(self.moves)),
                             by_poles=_by_poles(self.velocity_moves), poles_by=self.poles_by,
                             circle=self.circle, paths_by=self.paths_by,
-                            notes=[*replacements(self.net.bars), *redundancies(self.scene), *self.at_rest])
+                            notes=[*replacements(self.net.bars), *redundancies(self.scene), *self.at_rest,
+                                   *self.special])
 
     @property
     def _accelerated(self) -> bool:
@@ -175,7 +177,7 @@ class Draughtsman:
 
         curves = Curves(self.board, self.pose, velocities, accelerations, self.method)
         curves.draw(self.read, self.marks.append)
-        self.paths_by = tuple(curves.ways)
+        self.paths_by, self.special = tuple(curves.ways), [*curves.special]
         return plans[0] if plans else None
 
     def read(self, kind: kinds.ResultKind, of: str, *marks: Mark, excess: Number = 0,

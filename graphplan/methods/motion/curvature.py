@@ -43,10 +43,16 @@ from graphplan.methods.motion.time_scale import apart
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, link_named
 from graphplan.methods.poses import Pose
-from graphplan.phrases import Said, said
+from graphplan.phrases import Phrase, Said, phrase, said
 
 NONE = 1e-9  # beside the mechanism: what is less is nothing, and further than its inverse at infinity
 BY_CENTRES, BY_RATES = said("two known centres"), said("velocities and accelerations")
+SPECIAL: dict[str, Phrase] = {
+    kinds.STRAIGHT: phrase("{0}: the path is straight to second order, its centre of curvature is at infinity"),
+    kinds.CUSP: phrase("{0}: the point is the pole, so its path has a cusp there"),
+    kinds.TRANSLATION: phrase("{0}: its pole is at infinity, so the paths of all its points have one curvature, and "
+                              "there is no inflection circle"),
+}
 MOST = 16  # pairs of points that are tried
 Point = tuple[float, float]
 
@@ -126,6 +132,7 @@ class Curves:
         self.board, self.pose, self.scene = board, pose, pose.scene
         self.velocities, self.accelerations, self.method = velocities, accelerations, method
         self.ways: dict[Said, None] = {}
+        self.special: list[Said] = []
         self._circles: dict[str, Circle | None] = {}
 
     # ---- a link's circle ----------------------------------------------------------------------------------------
@@ -285,6 +292,7 @@ class Curves:
             self._inflection(link, read, keep)
         for name, (point, link) in self.scene.find.traced.items():
             kind, marks = self._traced(point, link)
+            self.special += [SPECIAL[kind](name)] if kind in SPECIAL else []
             read(kind, name, *marks, given=None if marks else (0, 0))
 
     def _inflection(self, link: str, read: Callable[..., None], keep: Callable[..., None]) -> None:
@@ -293,6 +301,7 @@ class Curves:
         if circle is None:
             two = self._pairs(link)[0]
             ends = [mark for X in two for mark in self._vector(self.velocities(), link, X)]
+            self.special.append(SPECIAL[kinds.TRANSLATION](link_named(link)))
             read(kinds.TRANSLATION, link, *map(self.point, two), *ends)
             return
         P, W0 = circle.pole, circle.inflection

@@ -12,12 +12,17 @@ from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PROTRACTOR, SCALE, SET_S
 from graphplan.mechanism.model import Balance, Contact, Drive, Gear, Loads, Pair, Scene
 from graphplan.mechanism.order import named_forces
 from graphplan.methods.kinds import (
+    CENTRE,
     CONTACT_REACTION,
+    CUSP,
     GEAR_REACTION,
+    INFLECTION,
     POLE,
     POLE_HEADING,
     REACTION,
     SLIDE_REACTION,
+    STRAIGHT,
+    TRANSLATION,
     kind_of,
 )
 from graphplan.methods.panels import JointForce, link_named, listed, pole_letter, slide_named
@@ -231,6 +236,10 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
         yield said("Sliding velocities and accelerations: {0}.", joined(slides[name] for name in moving))
     if poles := [pole_letter(scene.link_pair(name)) for kind in (POLE, POLE_HEADING) for name in values.get(kind, ())]:
         yield said("Instant centres: {0}.", ", ".join(poles))
+    if traced := [name for kind in (CENTRE, STRAIGHT, CUSP) for name in values.get(kind, ())]:
+        yield said("Centres of curvature of the paths of: {0}.", ", ".join(traced))
+    if circles := [name for kind in (INFLECTION, TRANSLATION) for name in values.get(kind, ())]:
+        yield said("Inflection circles of: {0}.", listed(circles))
     forces = values.get(REACTION, ())
     joints = [p for p in scene.joints if any(JointForce(p, link).name in forces for link in scene.links_of[p])]
     told = [*joints, *(slides[name] for name in values.get(SLIDE_REACTION, ()))]

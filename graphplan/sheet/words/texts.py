@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.stages import Equation
 from graphplan.methods.construction import Construction
-from graphplan.methods.kinds import POLE, POLE_HEADING, WORDS
+from graphplan.methods.kinds import CENTRE, INFLECTION, MOTION_POLE, POLE, POLE_HEADING, WORDS
 from graphplan.methods.panels import pole_letter, slide_named
 from graphplan.phrases import Said, arranged, digits, joined, said, unit
 from graphplan.sheet.layout.scales import Scales
@@ -204,6 +204,7 @@ class Words:
         slides = {slide.name: say(slide_named(slide)) for slide in scene.slides}
         yield self._vectors(slide, ("slide velocity", "slide acceleration"), slides, pencil, slides.__getitem__)
         yield self._poles(pencil)
+        yield from self._curvatures(pencil)
 
     def _poles(self, pencil: Deviations) -> tuple[Table, Table]:
         """The tables of poles by their letters: where they are, and which way those at infinity lie."""
@@ -213,6 +214,16 @@ class Words:
         one, two = (places(say, head, self.values.get(kind, {}), pencil.of(kind),
                            lambda name: pole_letter(scene.link_pair(name))) for kind, head in heads.items())
         return one, two
+
+    def _curvatures(self, pencil: Deviations) -> Iterator[tuple[Table, Table]]:
+        """The tables of centres of curvature, and of inflection circles by their two poles."""
+        say, long = self.plans.tongue, self.plans.tongue(unit(self.drawing.scene.units.length))
+        heads = {CENTRE: say(said("centre of curvature")), MOTION_POLE: say(said("pole of link")),
+                 INFLECTION: say(said("inflection pole of link"))}
+        centres, one, two = (places(say, (head, "x", f"y {long}"), self.values.get(kind, {}), pencil.of(kind), str)
+                             for kind, head in heads.items())
+        yield centres, []
+        yield one, two
 
     def _vectors(self, what: str, kinds: tuple[str, str], order: Iterable[str], pencil: Deviations,
                  spoken: Callable[[str], str] = str) -> tuple[Table, Table]:

@@ -74,7 +74,7 @@ def test_compounds_are_told_as_one_step() -> None:
 def test_a_compound_stands_in_one_stage(name: str) -> None:
     """The movements of a compound are of one stage, and none is a part of two compounds."""
     compounds = [compound.movements for compound in drawing_of(name).compounds]
-    assert compounds
+    assert compounds or not gp.load(name).find.acceleration
     assert all(len({step.stage for step in steps}) == 1 for steps in compounds)
     assert len({step.index for steps in compounds for step in steps}) == sum(map(len, compounds))
 

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations
 from random import Random
 
 import pytest
+from polar import with_all_poles
 
 import graphplan as gp
+from graphplan.check.cycle import cycle
 from graphplan.check.json_results import data
 from graphplan.check.report import Report
 from graphplan.check.trusted import report
 from graphplan.kernel.kinds import LINE
-from graphplan.mechanism.model import FRAME, Find, Scene
+from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import parse
 from graphplan.methods.kinds import POLE, POLE_HEADING
 
@@ -24,12 +25,6 @@ links = { 1 = "O A", 2 = "A B", 3 = "B C", frame = "O C" }
 drive = [{ link = "1", omega = 2 }]
 find = { poles = %s }
 """
-
-
-def with_all_poles(scene: Scene) -> Scene:
-    """The scene, asked for the poles of all pairs of links, and for nothing else."""
-    links = (*scene.moving, FRAME)
-    return replace(scene, find=Find((), (), poles=tuple(map(" ".join, combinations(links, 2)))), loads=None)
 
 
 def poles(found: Report) -> dict[str, tuple[str, Fraction, Fraction]]:
@@ -46,7 +41,8 @@ def test_poles_of_a_four_bar_lie_where_its_sides_meet() -> None:
 
 
 @pytest.mark.parametrize("name", ["slider-crank", "slotted-link", "shaper", "five-bar", "open-chain", "triad",
-                                  "double-butterfly", "rosenauer-basic", "alt-ten-link"])
+                                  "double-butterfly", "rosenauer-basic", "alt-ten-link", "planetary", "racks",
+                                  "wheel-on-rail", "roller-cam"])
 def test_all_poles_are_those_of_the_solver(name: str) -> None:
     """Every pole of every pair of links is exactly where the solver's rates have it, however the scene is ordered."""
     scene = with_all_poles(gp.load(name))
@@ -89,6 +85,15 @@ def test_poles_that_hang_on_the_drives_are_found_by_velocities() -> None:
     """
     told = gp.construct(with_all_poles(gp.load("five-bar"))).method["poles"]
     assert told == ["Kennedy's theorem, in the order of the circle diagram", "P_30 by velocities"]
+
+
+@pytest.mark.parametrize("name", ["slider-crank", "triad"])
+def test_poles_are_found_in_other_poses(name: str) -> None:
+    """Around the cycle the same steps give the poles of every pose, as the solver has them."""
+    found = cycle(with_all_poles(gp.load(name)), 8)
+    assert found.check["poles"] < 1e-12
+    assert not found.wrong
+    assert all(len(z) == 8 for z in found.results[POLE].values())
 
 
 def test_a_pole_may_be_a_joint() -> None:

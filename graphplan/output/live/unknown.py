@@ -151,6 +151,13 @@ class Laters(Floats):
     def sqrt(self, value: Any, code: str, why: str) -> Any:
         return value**0.5
 
+    def nonzero(self, value: Any, scale: Any, code: str, why: str) -> Any:
+        return value
+
+    def sign(self, value: Any, scale: Any) -> Any:
+        tape = value.later.tape
+        return Number(value.later, tape.sign(*(tape.place(getattr(one, "symbol", one)) for one in (value, scale))))
+
 
 def unknown(later: Later, values: Sequence[Any]) -> list[tuple[Number, ...]]:
     """The values of marks, each number unknown."""

@@ -133,7 +133,8 @@ def _counted(scene: Scene, faults: Faults) -> Scene:
     if freedoms < given and not held.loose and (found := _in_its_pose(scene, given, told, faults)):
         return found
     if freedoms < given:
-        instead = "fewer drives, or fewer joints and slides" if freedoms > 0 else "a chain with fewer joints and slides"
+        pairs = "joints and slides" if not (scene.gears or scene.contacts) else "pairs, or gears whose ratios agree"
+        instead = f"fewer drives, or fewer {pairs}" if freedoms > 0 else f"a chain with fewer {pairs}"
         faults.add("drive", what, instead)
     elif freedoms > given and (ways := missing_pivots(scene, freedoms - given)):
         points = ", or ".join(" and ".join(way) for way in ways)

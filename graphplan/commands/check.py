@@ -58,8 +58,10 @@ def _lines(found: Report, groups: Sequence[str], notes: Sequence[str]) -> list[s
     lines += [_row(f"power balance {name}", "", _text(value)) for name, value in powers.items()]
     lines.append("")
     for kind, difference in found.check.items():
-        proof = "" if found.exact else f"; no number is further off than {float(found.bounds[kind]):.2g} of it"
-        lines.append(f"largest difference in {kind}: {float(difference):.2g} of the number's own size{proof}")
+        bound = None if found.exact else found.bounds.get(kind)
+        proof = "" if bound is None else f"; no number is further off than {float(bound):.2g} of it"
+        beside = "the number's own size" if kind in found.bounds else "the mechanism's extent"
+        lines.append(f"largest difference in {kind}: {float(difference):.2g} of {beside}{proof}")
     lines += notes
     if found.forces and found.forces.efficiency is not None:
         lines.append(f"instantaneous efficiency: {float(found.forces.efficiency):.4g} as drawn, "

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
+from graphplan.mechanism.model import FRAME
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said
 from graphplan.sheet.frames.corner_marks import corner_marks, page_code, sheet_code
@@ -99,16 +100,23 @@ def _begun(plate: Plate) -> Iterator[Item]:
     wishes = [Wish(listed([drawn.name]), (drawn.at,), step=drawn.index, label=drawn.name)
               for drawn in begins if drawn.name]
     if plate.panel == MECHANISM:
-        mechanism = DrawnMechanism(plate.plates.scene, plate.view)
-        given = list(GivenArrows(mechanism, plate.plans.tongue))
-        items += (item for item in plate.mechanism if item.layer != MOTION)
+        scene = plate.plates.scene
+        mechanism = _standing(plate) if scene.assembly else DrawnMechanism(scene, plate.view)
+        given = [] if scene.assembly else list(GivenArrows(mechanism, plate.plans.tongue))
+        items += mechanism.items() if scene.assembly else (item for item in plate.mechanism if item.layer != MOTION)
         items += (item for arrow, _ in given for item in arrow)
         wishes += [*of_mechanism(mechanism), *(value for _, value in given)]
-        spots += mechanism.spots.values()
+        spots += mechanism.shown.values()
     else:
         yield from _ruling(rect, spots)
     yield from items
     yield from placed(wishes, items, spots, rect, plate.plates.letters)
+
+
+def _standing(plate: Plate) -> DrawnMechanism:
+    """Of a mechanism whose pose is to be constructed the points that stand still."""
+    scene = plate.plates.scene
+    return DrawnMechanism(scene, plate.view, (), scene.links.get(FRAME, ()))
 
 
 def _ruling(rect: Rect, spots: Sequence[Spot]) -> Iterator[Item]:

@@ -15,6 +15,9 @@ from graphplan.commands import main
 from graphplan.errors import GraphplanError, Refused, SingularPose
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
+from graphplan.sheet.handout import task
+from graphplan.sheet.layout.composition import compose
+from graphplan.sheet.plates.display import Text
 
 DRIVEN = [name for name in packaged() if (scene := gp.load(name)).drives and not scene.motions
           and not (scene.gears or scene.contacts)]
@@ -88,6 +91,14 @@ def test_solve_tells_the_pose(capsys: pytest.CaptureFixture[str]) -> None:
     before = gp.load("four-bar").points["A"]
     assert abs(A - O - complex(*map(float, before)) * complex(0.5, math.sqrt(3) / 2)) < 1e-9
     assert main(["solve", "four-bar", "--at", "sixty"]) == 2
+
+
+def test_a_task_shows_what_stands_still() -> None:
+    """On the sheet of a task the pose that is asked for is not drawn; the travel is told."""
+    drawing = gp.construct(gp.at(gp.load("four-bar"), 60))
+    labels = {item.label for page in task(compose(drawing)) for item in page.items if isinstance(item, Text)}
+    assert {"O", "C"} <= labels
+    assert {"A", "B", "M"}.isdisjoint(labels)
 
 
 def test_strict_uses_the_chord() -> None:

@@ -17,6 +17,7 @@ from importlib.util import find_spec
 from graphplan.commands.choices import add_choices, add_preference, add_travel, drawn_by, given, reported
 from graphplan.commands.output import as_json, write
 from graphplan.errors import Refused
+from graphplan.mechanism.replaced import beyond
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -41,6 +42,9 @@ def run(options: argparse.Namespace) -> int:
         from graphplan.accuracy.drafted import drafted
 
         printed["pencil"] = drafted(found.drawing, options.pencil, check=found.check).data
+    if after := beyond(found.scene):
+        told = data(reported(options, after, exact=options.exact, alone=not options.pencil))
+        printed["beyond"] = {part: told[part] for part in ("points", "links", "slides")}
     write(as_json(printed, 2))
     return 0
 

@@ -11,7 +11,7 @@ Source: Ozols (1974), 5-2 and 5-7 (replacement of higher pairs), 7-3 (the pitch 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 from typing import Any
 
@@ -106,6 +106,13 @@ def replaced(scene: Scene) -> Scene:
     parts = {part.name: getattr(scene, part.name) for part in fields(Scene)}
     parts |= {"points": points, "links": links, "written": (*scene.written, *stand_ins.pairs)}
     return Replaced(**parts, bars=stand_ins.contacts)
+
+
+def beyond(scene: Scene) -> Scene | None:
+    """The scene just beyond the points where profiles go on with another curvature; None where none does."""
+    written = tuple(replace(pair.beyond, alone=pair.alone) if isinstance(pair, Contact) and pair.beyond else pair
+                    for pair in scene.written)
+    return replace(scene, written=written) if written != scene.written else None
 
 
 def rolling_guides(scene: Scene) -> tuple[RollingGuide, ...]:

@@ -169,6 +169,9 @@ def replacements(bars: Mapping[str, Contact]) -> Iterator[Said]:
         else:
             yield said("the bar {0} replaces the contact of {1} at {2}: it joins the centres of curvature {3} and {4}",
                        bar, links, contact.at, *contact.centres)
+        if contact.beyond:
+            yield said("at {0} a profile of {1} goes on with another curvature: accelerations jump there, and are "
+                       "drawn as they are before it", contact.at, links)
 
 
 def redundancies(scene: Scene) -> Iterator[Said]:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
+from pathlib import Path
 from random import Random
 from typing import Any
 
 import numpy as np
 import pytest
-from higher import ARM_DRIVE, DRIVE, TEXTS, gear, scenes, slide, text
+from higher import ARM_DRIVE, DRIVE, TEXTS, contact, gear, scenes, slide, text
 
 import graphplan as gp
 from graphplan.check.poses import Round, gaps, sound
 from graphplan.check.trusted import report
+from graphplan.commands import main
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.replaced import bars, replaced, rolling_guides
 from graphplan.mechanism.scene import parse
@@ -60,13 +63,13 @@ def moved(scene: Scene, random: Random) -> dict[str, complex]:
     """The scene's points elsewhere, each where contacts touch as far along the normal as before."""
     at = {name: complex(*map(float, place)) for name, place in scene.points.items()}
     new = {name: z + complex(random.uniform(-2, 2), random.uniform(-2, 2)) for name, z in at.items()}
-    for contact in scene.contacts:
-        one, two = (centre for centre in contact.centres)
+    for pair in scene.contacts:
+        one, two = pair.centres
         if one and two:
-            new[contact.at] = new[one] + (new[two] - new[one]) * (at[contact.at] - at[one]) / (at[two] - at[one])
+            new[pair.at] = new[one] + (new[two] - new[one]) * (at[pair.at] - at[one]) / (at[two] - at[one])
         else:
             centre = one or two or ""
-            new[contact.at] = new[centre] + at[contact.at] - at[centre]
+            new[pair.at] = new[centre] + at[pair.at] - at[centre]
     return new
 
 
@@ -165,3 +168,37 @@ def test_a_rack_at_a_uniform_speed_is_sound_around_the_cycle() -> None:
     apart = gaps(part, drawing, results)
     assert max(abs(results["acceleration"]["S"])) > 0
     assert sound(part, drawing, results, apart).all()
+
+
+def test_where_two_arcs_meet_the_acceleration_jumps(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """Ozols, fig. 5-33: at the point where the arc about C is followed by one about D velocities agree, accelerations
+    do not: both are printed, and the construction says which it draws."""
+    scene = tmp_path / "cam.toml"
+    scene.write_text("""
+[points]
+O = [0, 0]
+C = { from = "O", distance = 30, angle = 28.64788975654116 }
+A = { distances = { C = 45 }, on = { through = [10, 0], direction = [0, 1] }, pick = "right" }
+D = { on = "A C", distance = 30 }
+K = { on = "A C", distance = 10 }
+[links]
+1 = "O C D"
+2 = "A"
+frame = "O"
+""" + contact("1 2", "K", '["C", "A"]', 'next = ["D", "A"]') + slide("2", "A", "[0, 1]") + """
+[[drive]]
+link = "1"
+omega = 10
+[find]
+velocity = ["A"]
+acceleration = ["A"]
+""")
+    assert main(["solve", str(scene)]) == 0
+    told = json.loads(capsys.readouterr().out)
+    before, after = told["points"]["A"], told["beyond"]["points"]["A"]
+    assert before["velocity"] == pytest.approx(after["velocity"])
+    assert [abs(before["velocity"][1]), before["acceleration"][1], after["acceleration"][1]] == pytest.approx(
+        [319.276, -981.278, -5336.199], rel=1e-5)
+    assert any("accelerations jump" in note for note in gp.construct(gp.load(scene)).notes)
+    with pytest.raises(gp.SceneError, match="arcs that follow"):
+        parse(scene.read_text().replace('next = ["D"', 'next = ["C"'), "cam")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -29,7 +29,8 @@ class Contact(KinematicPair):
 
     `centres` are those of curvature of the two profiles there, points of their links; None where a profile is straight,
     along `direction`, of any length. A profile with its centre at the very point is a corner or the end of a pin.
-    `through` and `written` are as of a slide. It is `alone` where its links touch nowhere else
+    `through` and `written` are as of a slide. `beyond` is the contact on the arcs that follow there, where one of the
+    profiles goes on with another curvature: then accelerations jump. It is `alone` where its links touch nowhere else
     and are not geared.
     """
 
@@ -43,6 +44,7 @@ class Contact(KinematicPair):
     through: tuple[str, str] | None = None
     written: Written = field(default=None, compare=False)
     alone: bool = True
+    beyond: Contact | None = None
 
     @property
     def links(self) -> tuple[str, str]:
@@ -112,29 +114,40 @@ PROFILES = Kind("two centres, or a direction in the place of one", _profiles,
 
 
 def _read(row: Row) -> Contact | None:
-    """A contact whose parts fit each other."""
-    links, given = row["links"], row["centres"]
+    """A contact whose parts fit each other, before the point and where it is told beyond."""
+    found = _touching(row, "centres")
+    if not found or row.values.get("next") is None:
+        return found
+    beyond = _touching(row, "next")
+    if beyond and beyond.centres == found.centres and beyond.direction == found.direction:
+        return row.items["next"].fault("the arcs that follow are those before", "another centre, or no next")
+    return beyond and replace(found, beyond=beyond)
+
+
+def _touching(row: Row, key: str) -> Contact | None:
+    """The contact of the profiles that a key tells of."""
+    links, given = row["links"], row[key]
     straight = [one for one in given if not isinstance(one, str)]
     if links[0] == links[1]:
         return row.item.fault(f"link {links[0]} touches itself", "two different links")
     if len(straight) > 1:
-        return row.items["centres"].fault("both profiles are straight", "[[slides]] for two lines that slide")
+        return row.items[key].fault("both profiles are straight", "[[slides]] for two lines that slide")
     if not centres_on(row, *((given[k], link) for k, link in enumerate(links) if isinstance(given[k], str))):
         return None
     direction, through, written = straight[0] if straight else (None, None, None)
     one, other = (end if isinstance(end, str) else None for end in given)
     found = Contact(links, row["at"], (one, other), row["rolling"], direction, through, written)
-    return found if _fits(found, row) else None
+    return found if _fits(found, row, key) else None
 
 
-def _fits(contact: Contact, row: Row) -> bool:
+def _fits(contact: Contact, row: Row, key: str) -> bool:
     """Whether the point and the centres are on one normal, and the curvatures differ."""
     named = [point for point in contact.centres if point]
     if any(point not in row.names.placed for point in (*named, contact.at, *(contact.through or ()))):
         return True  # the point has its own fault
     points = {name: exactly(at) for name, at in row.names.placed.items()}
     normal = exactly(contact.normal(points))
-    item = row.items["centres"]
+    item = row.items[key]
     if not any(normal):
         one = "two corners" if points[contact.at] == points[named[0]] else "two profiles of the same curvature"
         item.fault(f"the centres {' and '.join(named)} coincide: {one}", "centres that lie apart")
@@ -162,6 +175,8 @@ FIELD = Field("contacts", "two links touch and slide: cam and follower, a pin in
     Field("centres", "the centres of curvature of the two profiles, points of the links on the normal; in the place of "
           "one the direction of a straight profile", PROFILES,
           'the centres of curvature, such as centres = ["C2", "C3"]'),
+    Field("next", "the same of the arcs that follow, where one of the profiles goes on there with another curvature",
+          PROFILES, default=None),
     Field("rolling", "whether they roll without slipping", FLAG, default=False),
 ), _read), remedy="one where two links touch", once=lambda contact: (
     (frozenset(contact.links), contact.at), "contact of links {} and {} at {}".format(*contact.links, contact.at))))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,7 @@ from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, Singu
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
 from graphplan.methods.controls import Control
-from graphplan.methods.kinds import FORCES, MOTION, ORDER, POLE, POLES, kind_of
+from graphplan.methods.kinds import FORCES, MOTION, ORDER, POLE, POLE_HEADING, POLES, kind_of
 from graphplan.solver import Rates, solve
 from graphplan.solver.instant_centres import relative
 
@@ -190,9 +191,20 @@ class Report:
     @cached_property
     def broken(self) -> str:
         """The first claim that a drawn step breaks, or control that does not hold, in words; nothing where all do."""
-        return self.drawing.broken or next((f"link {control.link}: the lines from {', '.join(control.points)} to the "
-                                            "ends of their orthogonal velocities do not meet in its pole"
-                                            for control in self.drawing.controls if self._missed(control)), "")
+        missed = next((control for control in self.drawing.controls if self._missed(control)), None)
+        control = missed and (f"link {missed.link}: the lines from {', '.join(missed.points)} to the ends of their "
+                              "orthogonal velocities do not meet in its pole")
+        return self.drawing.broken or control or self._moving
+
+    @property
+    def _moving(self) -> str:
+        """Links of which no pole is told, as if they rested on each other, and that move as the solver has them."""
+        told = {name for kind in (POLE, POLE_HEADING) for name in self.results.get(kind, ())}
+        for name in self.scene.find.poles if self.fault is None else ():
+            with suppress(SingularPose):  # so do fractions tell that they rest
+                if name not in told and relative(self.rates, *self.scene.link_pair(name)).moves:
+                    return f"links {name}: they move relative to each other, and have a pole"
+        return ""
 
     def _missed(self, control: Control) -> bool:
         """Whether a control does not hold in fractions; beside rounding nobody can tell."""

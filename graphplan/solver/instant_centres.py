@@ -24,6 +24,11 @@ class Relative(NamedTuple):
     turning: Any
 
     @property
+    def moves(self) -> bool:
+        """Whether it certainly moves."""
+        return any(map(_certain, (self.turning, *self.across)))
+
+    @property
     def centre(self) -> Pair:
         """The instant centre; fails where the turning may be nothing."""
         x, y = self.across

@@ -115,3 +115,12 @@ def test_links_that_rest_on_each_other_have_no_pole_of_their_own() -> None:
     found = report(parse(FOUR_BAR.replace("omega = 2", "omega = 0") % '["2 frame", "1 2"]', "at rest"), exact=True)
     assert data(found)["poles"] == {"2 frame": {"at": None}, "1 2": {"at": ["20", "30"]}}
     assert any("any point is a pole" in note for note in found.drawing.notes)
+
+
+def test_that_links_rest_on_each_other_is_checked() -> None:
+    """A pole that is left out as if two links rested on each other is found missing where the solver has them move."""
+    found = report(parse(FOUR_BAR % '["2 frame", "1 3"]', "four-bar"), exact=True)
+    without = replace(found, results={POLE: {"1 3": found.results[POLE]["1 3"]}})
+    assert found.agrees
+    assert not without.agrees
+    assert "links 2 frame" in str(without.disagreement)

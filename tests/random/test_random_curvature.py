@@ -2,36 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
+import gearings
+import linkages
 import pytest
-from linkages import linkage
 
 from graphplan.check.paths import path_truth
 from graphplan.errors import SingularPose
 from graphplan.kernel.numbers import Fractions
-from graphplan.mechanism.scene import parse
+from graphplan.mechanism.model import FRAME, Find, Scene
 from graphplan.methods.construct import construct
 from graphplan.methods.styles import OF_PATHS
 from graphplan.solver import solve
 
-LINKAGES, TOGETHER = 20, 5
+MECHANISMS, TOGETHER = 20, 5
+MADE = {"linkages": linkages.scenes, "gearings": gearings.scenes}
 
 
-@pytest.mark.parametrize("first", range(0, LINKAGES, TOGETHER))
-def test_centres_and_circles_are_constructed_exactly(first: int) -> None:
+@pytest.mark.parametrize("first", range(0, MECHANISMS, TOGETHER))
+@pytest.mark.parametrize("made", MADE.values(), ids=MADE)
+def test_centres_and_circles_are_constructed_exactly(made: Callable[[int], Iterator[Scene]], first: int) -> None:
     """Every centre of curvature, inflection pole and pole is the solver's as a fraction, by whichever way."""
     for seed in range(first, first + TOGETHER):
-        find = 'curvature = "all"\ninflection = "all"'
-        scene = parse(linkage(seed).text().replace('velocity = "all"\nacceleration = "all"', find), "random")
+        scene = next(made(seed))
         try:
             rates = solve(scene, exact=True)
         except SingularPose:
             continue
-        asked = scene.find
-        moving = tuple(name for name, (point, _) in asked.traced.items() if any(rates.velocity[point]))
-        turning = tuple(link for link in asked.inflection if rates.omega[link])
-        scene = replace(scene, find=replace(asked, curvature=moving, inflection=turning))
+        moving = tuple(f"{point} on {link}" for link in scene.moving for point in scene.links[link]
+                       if point not in scene.links.get(FRAME, ()) and any(rates.velocity[point]))
+        turning = tuple(link for link in scene.moving if rates.omega[link])
+        scene = replace(scene, loads=None, find=Find((), (), curvature=moving, inflection=turning))
         results = construct(scene, method=("", *OF_PATHS)[seed % 5]).read(Fractions())
-        assert results == path_truth(rates, results), f"linkage {seed}"
-        assert sum(map(len, results.values())) == len(moving) + 2 * len(turning), f"linkage {seed}"
+        assert results == path_truth(solve(scene, exact=True), results), f"seed {seed}"
+        assert sum(map(len, results.values())) == len(moving) + 2 * len(turning), f"seed {seed}"

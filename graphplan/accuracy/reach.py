@@ -221,8 +221,8 @@ def missed(drawing: Construction, poses: Reached) -> tuple[dict[int, Missed], Ar
             other = given.get(step.name) or given.get(step.index)
             value = domain.whole(step.op.rule(domain, *[values[arg] for arg in step.args],
                                               **({**step.params, **other} if other else step.params)))
-            compound = compounds.get(step.index)
-            if compound is not None and (sign := _sense(drawing, compound)):
+            compound = compounds.get(step.index)  # one that reads its own mark, as lines are drawn once, tells nothing
+            if compound is not None and step.index not in compound.step.args and (sign := _sense(drawing, compound)):
                 args = [values[arg] for arg in compound.step.args]
                 truth = domain.whole(compound.step.op.rule(domain, *args, **compound.step.params))
                 truth = tuple(sign * part for part in truth) if step.op.gives == LINE else truth

@@ -11,6 +11,7 @@ from graphplan.cycle.centrodes import branches, parted
 from graphplan.cycle.linkage import Array
 from graphplan.cycle.loop import whole_motion
 from graphplan.cycle.stationary import stationary
+from graphplan.cycle.travel import TURN
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Scene
@@ -18,7 +19,7 @@ from graphplan.phrases import said
 from graphplan.sheet.plates.display import Spot
 from graphplan.sheet.plates.traced_motion import Centrode, PointPath, StationaryCurve, TracedMotion
 
-FINE = 720  # spots of a path
+FINE = 720  # spots of a path, in each turn
 AWAY = 4.0  # of the mechanism's half extent: so far from its middle a centrode is drawn
 STILL = 1e-9  # of that: a pole that moves by less stays in its place
 
@@ -40,7 +41,8 @@ def traced(scene: Scene) -> TracedMotion | None:
         key = "curves" if wanted else "centrodes" if rolling else "positions" if count else "cubics"
         raise Refused(f"sheet.{key}", refused.why, "leave it out") from None
     low, high = (float(motion.path.travel[end]) for end in (0, -1))
-    fine, even = _between(low, high), np.linspace(low, high, count, endpoint=not motion.whole)
+    turns = 1 if scene.drives[0].slides else max(1, round((high - low) / TURN))
+    fine, even = _between(low, high, turns), np.linspace(low, high, count, endpoint=not motion.whole)
     turn = motion.turn(np.concatenate([fine, even]))
     stops = motion.path.lower is not None, motion.path.upper is not None
     paths = [path for name in wanted for path in _paths(name, turn.points[name][: fine.size], stops)]
@@ -51,9 +53,9 @@ def traced(scene: Scene) -> TracedMotion | None:
     return TracedMotion(tuple(paths), positions, (*centrodes, *cubics))
 
 
-def _between(low: float, high: float) -> Array:
+def _between(low: float, high: float, turns: int) -> Array:
     """Travels from end to end, nearer to each other at the ends: there a pose changes with the root of the travel."""
-    part = (1 - np.cos(np.linspace(0, np.pi, FINE))) / 2
+    part = (1 - np.cos(np.linspace(0, np.pi, FINE * turns))) / 2
     return np.clip(low + (high - low) * part, low, high)
 
 

@@ -15,6 +15,7 @@ from graphplan.cycle import follow
 from graphplan.cycle.traced import traced
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.replaced import guides
 from graphplan.mechanism.scene import packaged
 from graphplan.sheet.plates.traced_motion import TracedMotion
 
@@ -36,7 +37,7 @@ def complexes(motion: TracedMotion) -> dict[str, np.ndarray]:
 
 def riding(scene: Scene) -> set[str]:
     """The points of guides that mark the place under a sliding point: they go with it."""
-    return {point for slide in scene.slides for point in scene.links.get(slide.along, ())
+    return {point for slide in guides(scene).values() for point in scene.links.get(slide.along, ())
             if scene.points[point] == scene.points[slide.at] and len(scene.links_of[point]) == 1}
 
 

@@ -18,6 +18,7 @@ from graphplan.cycle.continuation import Limit
 from graphplan.cycle.groups import Group
 from graphplan.cycle.higher import share
 from graphplan.cycle.linkage import Linkage, grounded
+from graphplan.cycle.loop import range_of_motion
 from graphplan.cycle.travel import TURN, check_drives, paces, travel_unit
 from graphplan.cycle.turn import RangeOfMotion, stopped, under
 from graphplan.errors import Refused
@@ -88,7 +89,8 @@ def rolling(scene: Scene) -> Iterator[list[str]]:
 
 def script() -> str:
     """What moves it: the class `Motion`, all else it needs being its own."""
-    texts = (files(__package__).joinpath(f"{name}.js").read_text("utf-8") for name in ("linkage", "opinion", "motion"))
+    texts = (files(__package__).joinpath(f"{name}.js").read_text("utf-8")
+             for name in ("linkage", "opinion", "toml", "motion"))
     return "\n".join(['const Motion = (() => {\n"use strict";', *texts, "return Motion;\n})();\n"])
 
 
@@ -148,7 +150,8 @@ def _followed(scene: Scene) -> Data:
     drives = [{"slides": drive.slides, "pace": pace, "rate": float(drive.rate), "change": float(drive.change),
                "slide": scene.driven_slide(drive).name if drive.slides else ""}
               for drive, pace in zip(scene.drives, rates, strict=True)]
-    return {"still": why, "drives": drives, "unit": unit, "span": [*ends], "limits": limits}
+    turns = 1 if why or not scene.gears else max(1, round(range_of_motion(scene).path.travel[-1] / TURN))
+    return {"still": why, "drives": drives, "unit": unit, "span": [*ends], "limits": limits, "turns": turns}
 
 
 def _limit(limit: Limit | None) -> Data | None:

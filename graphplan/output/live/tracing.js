@@ -61,19 +61,20 @@ class Tracing {
     Object.assign(this, {pins, found: null, drawn: null});
   }
 
-  // walks once around, or from limit to limit, a little at a time
+  // walks once around, with gears until all is back, or from limit to limit, a little at a time
   walk() {
-    const {page} = this, {motion} = page, [from, to] = page.moving.ends, other = motion.copy();
+    const {page} = this, {motion} = page, [from, end] = page.moving.ends, other = motion.copy();
+    const turns = page.moving.round ? motion.data.linkage.turns : 1, to = from + turns * (end - from), poses = turns * POSES;
     const found = this.found = [];
     const some = () => {
       if (found !== this.found) return;
-      for (let i = 0; i < TOGETHER && found.length <= POSES; i++) {
-        other.travel = from + (to - from) * found.length / POSES;
+      for (let i = 0; i < TOGETHER && found.length <= poses; i++) {
+        other.travel = from + (to - from) * found.length / poses;
         const values = other.program === page.program ? other.values() : null;
         found.push({points: other.points(), values, knot: other.knot});
       }
       this.drawn = null;
-      if (found.length <= POSES) this.walking = setTimeout(some);
+      if (found.length <= poses) this.walking = setTimeout(some);
       this.draw();
     };
     some();

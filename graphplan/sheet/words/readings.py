@@ -92,7 +92,8 @@ class Readings:
         if (long := self.lengths.mm(start, end)) < NOTHING:
             return None
         length, read = self._vector(units.LENGTH, Measure(long, (start, end)), reading.kind.group)
-        computed = math.dist(self.values[reading.kind][reading.of], self.drawing.values[start][:2])
+        (x, y), (u, v) = self.values[reading.kind][reading.of], self.drawing.values[start][:2]
+        computed = size(x - u, y - v)
         symbol = unit(units.LENGTH.unit(self.drawing.scene.units))
         told = said("{0}: {1} = {2}; computed {3}", FROM[reading.kind](reading.of), length.told,
                     joined((digits(read), symbol), " "), digits(computed))

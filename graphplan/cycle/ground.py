@@ -49,8 +49,10 @@ class Ground:
         return Placed(origin, base, planar(1.0))
 
     def _still(self) -> list[str]:
-        """The points of the frame and of no link, each after those that place it."""
-        still = [name for name, links in self.scene.links_of.items() if FRAME in links or not links]
+        """The points of the frame and of no link, each after those that place it; contacts touch where they touch."""
+        touching = {contact.at for contact in self.scene.contacts}
+        still = [name for name, links in self.scene.links_of.items()
+                 if FRAME in links or not (links or name in touching)]
         found: list[str] = []
         while left := [name for name in still if name not in found]:
             ready = [name for name in left if {*self._placers(name, still)} <= {*found}]

@@ -207,6 +207,8 @@ class Relations:
         order = self._on_paper.order
         for name, place in self.places.items():
             links = self.scene.links_of[name]
+            if not links and name not in self._ground.pins:
+                continue
             carrier = min(links, key=order.__getitem__) if links else FRAME
             at = self._ground.pins[name] if carrier == FRAME else self.placed[carrier].at(place)
             found[name] = at.re, at.im

@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.model import FRAME, Contact, Scene
+from graphplan.mechanism.replaced import guides
 
-STAGES, A_RADIAN, CORRECTIONS = 20, 40, 4  # stages of any drag, and for each radian of travel or length of the linkage
+STAGES, A_RADIAN, CORRECTIONS = 20, 40, 6  # stages of any drag, and for each radian of travel or length of the linkage
 
 
 class DraggedLinkage:
@@ -31,7 +32,26 @@ class DraggedLinkage:
         found = self.led(pins, travels)
         if found is None:
             return None
-        return {name: found[1](name) for name in self.places}
+        now, point = found
+        places = {name: point(name) for name in self.places}
+        for contact in self.scene.contacts:
+            if not self.scene.links_of[contact.at]:
+                places[contact.at] = self._touching(contact, now, places)
+        return places
+
+    def _touching(self, contact: Contact, now: Any, places: Mapping[str, complex]) -> complex:
+        """Where two profiles touch."""
+        one, other = contact.centres
+        if one and other:
+            return places[one] + self._share(contact) * (places[other] - places[one])
+        guide = guides(self.scene)[contact.name]
+        turn = 0.0 if guide.along == FRAME else now[3 * self.links[guide.along] + 2]
+        return places[guide.at] + (self.places[contact.at] - self.places[guide.at]) * cmath.exp(1j * turn)
+
+    def _share(self, contact: Contact) -> float:
+        """At which part of the way from centre to centre two arcs touch."""
+        at, one, other = (self.places[name or ""] for name in (contact.at, *contact.centres))
+        return ((at - one) / (other - one)).real
 
     def guides(self, pins: Mapping[str, complex], travels: Sequence[float]) -> dict[str, complex]:
         """Where the guides point that ride on links, in a pose that can be reached."""
@@ -44,6 +64,7 @@ class DraggedLinkage:
     def led(self, pins: Mapping[str, complex], travels: Sequence[float]) -> tuple[Any, Any] | None:
         """The poses of the links, and where any point is."""
         now = np.zeros(3 * len(self.links))
+        self.turned = dict[str, float]()  # how far lines of centres have turned in all
         sign = 0.0
         far = max((abs(t) / (self.size if drive.slides else 1.0) for t, drive in zip(travels, self.scene.drives,
                                                                                      strict=True)), default=0.0)
@@ -105,6 +126,42 @@ class DraggedLinkage:
             gap = (p - rest) * ray.conjugate()
             rows.append((gap.real - travel, ((dp - dr) * ray.conjugate() - 1j * gap * da).real))
 
+        def geared(name: str, links: Sequence[str], centres: Sequence[Any], factors: Sequence[float]) -> None:
+            (b, db), (c, dc) = (self._on(now, at, *end) for end in zip(links, centres, strict=True))
+            line, last = (c - b) / (self.places[centres[1]] - self.places[centres[0]]), self.turned.get(name, 0.0)
+            self.turned[name] = last + cmath.phase(line * cmath.exp(-1j * last))
+            ends = *map(angle, links), (self.turned[name], ((dc - db) / (c - b)).imag)
+            weights = *factors, -sum(factors)
+            whole = self.size / max(map(abs, weights))
+            rows.append((whole * sum(w * a for w, (a, _) in zip(weights, ends, strict=True)),
+                         whole * sum(w * da for w, (_, da) in zip(weights, ends, strict=True))))
+
+        def rolling(guide: Any, lever: float) -> None:
+            along(guide, 0.0, 1.0)
+            (gone, rate), (a, da), (b, db) = rows.pop(), angle(guide.link), angle(guide.along)
+            rows.append((gone + lever * (a - b), rate + lever * (da - db)))
+
+        straight = guides(self.scene)
+        for gear in self.scene.gears:
+            if gear.name in straight:
+                rolling(straight[gear.name], float(gear.radius))
+            else:
+                geared(gear.name, gear.links, gear.centres, [*map(float, gear.factors)])
+        for contact in self.scene.contacts:
+            if contact.name in straight:
+                guide = straight[contact.name]
+                along(guide, 0.0, 1j)
+                ray = complex(*map(float, guide.direction))
+                arm = (self.places[contact.at] - self.places[guide.at]) / (ray / abs(ray))
+                if contact.rolling:
+                    rolling(guide, -arm.imag)
+                continue
+            (b, db), (c, dc) = (self._on(now, at, *end) for end in zip(contact.links, contact.centres, strict=True))
+            given = abs(self.places[contact.centres[1] or ""] - self.places[contact.centres[0] or ""])
+            rows.append((abs(c - b) - given, ((dc - db) * (c - b).conjugate()).real / abs(c - b)))
+            if contact.rolling:
+                part = self._share(contact)
+                geared(contact.name, contact.links, contact.centres, (part, 1 - part))
         for slide in self.scene.slides:
             (a, da), (b, db) = angle(slide.link), angle(slide.along)
             rows.append((self.size * (a - b), self.size * (da - db)))

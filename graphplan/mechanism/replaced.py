@@ -109,7 +109,10 @@ def replaced(scene: Scene) -> Scene:
 
 
 def beyond(scene: Scene) -> Scene | None:
-    """The scene just beyond the points where profiles go on with another curvature; None where none does."""
+    """The scene just beyond the points where profiles go on with another curvature; None where none does, and at
+    another travel, where others touch."""
+    if scene.assembly is not None:
+        return None
     written = tuple(replace(pair.beyond, alone=pair.alone) if isinstance(pair, Contact) and pair.beyond else pair
                     for pair in scene.written)
     return replace(scene, written=written) if written != scene.written else None

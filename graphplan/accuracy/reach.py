@@ -214,7 +214,8 @@ def missed(drawing: Construction, poses: Reached) -> tuple[dict[int, Missed], Ar
     Each is read from marks that are put right, where others before it fail.
     """
     drawn, given, domain = drawing.drawn, _given(drawing.drawn, poses), Arrays()
-    compounds = {compound.step.index: compound for compound in drawing.compounds}
+    compounds = {compound.step.index: compound for compound in drawing.compounds
+                 if max(compound.step.args) < compound.step.index}  # its form may do without a mark that comes later
     values, found = list[Any](), dict[int, Missed]()
     with np.errstate(all="ignore"):
         for step in drawn.steps:

@@ -30,6 +30,7 @@ from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNSURE, WRONG, Ellip
 from graphplan.marking.spelling import bare
 from graphplan.marking.tables.results import in_scene_units, scene_unit
 from graphplan.marking.traces import Number
+from graphplan.mechanism.units import HEADING
 from graphplan.methods.recorded import Reading
 from graphplan.phrases import Said, digits, said
 
@@ -233,6 +234,8 @@ def _read(matching: Matching, reading: Reading, marks: Sequence[Any]) -> float:
     """The standard deviation of reading one part of a number off its last mark; nothing of what is given."""
     if not marks:
         return 0.0
+    if reading.kind.dimension == HEADING:
+        return math.radians(matching.sheet.pencil.angle)
     home = matching.sheet.plan_of_step[matching.sheet.drawing.drawn.wanted[reading.marks[-1]]]
     length = READ * matching.sheet.pencil.point / matching.sheet.mm(home)
     shaken = [_difference(matching, reading, marks, shift) for shift in ((length, 0.0), (0.0, length))]
@@ -241,12 +244,14 @@ def _read(matching: Matching, reading: Reading, marks: Sequence[Any]) -> float:
 
 def _difference(matching: Matching, reading: Reading, marks: Sequence[Any], shift: tuple[float, float]) -> float:
     """How much a reading changes as its last mark is shifted."""
-    def value(last: tuple[float, float]) -> Any:
+    def value(last: tuple[float, ...]) -> Any:
         found = matching.sheet.drawing.value(reading, [*marks[:-1], last], Floats())
         return complex(*found) if isinstance(found, tuple) else found
 
-    x, y = marks[-1]
-    return float(abs(value((x + shift[0], y + shift[1])) - value((x, y))))
+    x, y, *rest = marks[-1]
+    line = rest and (x, y, rest[0] - x * shift[0] - y * shift[1])
+    shifted = line or (x + shift[0], y + shift[1])
+    return float(abs(value(shifted) - value(marks[-1])))
 
 
 def _judged(matching: Matching, number: Number, key: Key, own: Mapping[Key, Expected],

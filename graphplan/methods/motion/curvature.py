@@ -37,6 +37,7 @@ from graphplan.methods.motion.curve_stages import (
     centre_by_rates,
     centre_of,
     circle_of,
+pole_of,
 )
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.time_scale import apart
@@ -207,8 +208,9 @@ class Curves:
         """P where the rays cross, W_0 where the perpendiculars to them in W_1 and W_2 do."""
         with self.board.on(MECHANISM, (link,), partial(by_centres, link)):
             two = self.known[link]
-            rays = [self._ray(source) for source in two]
-            P = self.board.meet(*rays, name="P")
+            with self.board.on(stage=partial(pole_of, link)):
+                rays = [self._ray(source) for source in two]
+                P = self.board.meet(*rays, name="P")
             centres = [self._centre(source) for source in two]
             points = [self._on_the_circle(source, centre, P, f"W_{number}")
                       for number, (source, centre) in enumerate(zip(two, centres, strict=True), 1)]

@@ -10,6 +10,13 @@ from graphplan.phrases import said
 
 EULER = said("by Euler and Savary the way from a point to the pole is the mean proportional of its ways to the "
              "inflection circle and to its centre of curvature, which lie on one side of it")
+NORMALS = said("the normals of the paths of a link's points pass through its pole")
+LAWS = {
+    "Bobillier": said("the tangent of the centrodes makes with one ray the angle that the axis of collineation of two "
+                      "points makes with the other ray"),
+    "Hartmann": said("the ends of a point's velocity and of the part of the pole's own velocity along it lie on one "
+                     "line with the centre of curvature"),
+}
 RATES = said("the acceleration towards the pole is omega squared times the way to the inflection circle, as the "
              "velocity is omega times the way to the pole")
 ROLLING = said("the pole is where the wheel touches, and the inflection pole lies on the line of centres: the centre "
@@ -17,6 +24,11 @@ ROLLING = said("the pole is where the wheel touches, and the inflection pole lie
 MIRRORED = said("the pole and the inflection pole are opposite points of the inflection circle; the return circle is "
                 "its mirror image in the pole")
 NORMAL = said("the radius of curvature is the third proportional to the normal acceleration and the velocity")
+
+
+def pole_of(link: str, forms: Collection[str]) -> Stage:
+    """The pole of a link from the paths of two points."""
+    return Stage(said("Pole of {0}", link_named(link)), NORMALS)
 
 
 def by_centres(link: str, forms: Collection[str]) -> Stage:
@@ -43,10 +55,10 @@ def circle_of(link: str, forms: Collection[str]) -> Stage:
 
 def centre_of(point: str, forms: Collection[str]) -> Stage:
     """The centre of curvature of a point's path, by its link's circle or by known centres."""
-    by = next((form for form in forms if form in ("Bobillier", "Hartmann")), "")
-    title = (said("Centre of curvature of the path of {0}, after {1}", point, by) if by else
-             said("Centre of curvature of the path of {0}", point))
-    return Stage(title, EULER, (Equation("MP² = MW · MC".replace("M", point), ()),))
+    for form in LAWS.keys() & {*forms}:
+        return Stage(said("Centre of curvature of the path of {0}, after {1}", point, form), LAWS[form])
+    return Stage(said("Centre of curvature of the path of {0}", point), EULER,
+                 (Equation("MP² = MW · MC".replace("M", point), ()),))
 
 
 def centre_by_rates(point: str, forms: Collection[str]) -> Stage:

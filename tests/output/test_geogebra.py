@@ -33,7 +33,7 @@ from graphplan.sheet.plates.pens import BLUE
 from graphplan.sheet.plates.plate import Plates
 
 SCENES = [("rosenauer-basic", False), ("kinytskyi", False), ("jaanimets-10", False), ("walschaerts-loaded", False),
-          ("four-bar", True)]
+          ("four-bar", True), ("gear-linkage", False), ("roller-cam", False)]
 
 
 def coordinates(value: object) -> list[float]:

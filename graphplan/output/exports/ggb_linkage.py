@@ -77,7 +77,7 @@ class Linkage:
             yield f"{part} {k}", self.objects.numeric(f"{part}travel_{{{k + 1}}}".replace("travel", "drive"),
                                                       f"{part}({travel}°)")
         if f"travel {k}" in self.relations.asked:  # where it is counted how far links have turned in all
-            yield f"travel {k}", self.objects.numeric(f"turned_{{{k + 1}}}", f"{self._round(travel, k)} * pi / 180")
+            yield f"travel {k}", self.objects.numeric(f"turned_{{{k + 1}}}", f"({self._round(travel, k)})°")
 
     def _limits(self, k: int, drive: Drive) -> tuple[float, float]:
         """From where to where the slider goes, in degrees or scene lengths."""

@@ -109,6 +109,9 @@ class Placing:
         if links and body is self.ground:
             return self._driven(body, links[0], at, name)
         drawn = self._drawn(body)
+        if drawn and body is self.ground:
+            dx, dy = less(at, drawn[0][0])
+            return self.board.lay_off(drawn[0][1], dx=dx, dy=dy, name=name)
         if not drawn or body.heading is None:
             raise self._unknown(*body.lies)
         (p, P), (u, line) = drawn[0], body.heading

@@ -104,9 +104,10 @@ def force_truth(scene: Scene, results: Results, found: Reactions,
     slides, moments = ({name: both[k] for name, both in found.slides.items()} for k in (0, 1))
     told: dict[str, Any] = {
         kinds.REACTION: joints, kinds.SLIDE_REACTION: slides, kinds.SLIDE_MOMENT: moments, kinds.SLIDE_ARM: arms}
-    for pair, sizes in found.higher.items():
-        kind = kinds.GEAR_REACTION if isinstance(pair, Gear) else kinds.CONTACT_REACTION
-        told.setdefault(kind, {})[pair.name] = force(found.equations, pair, sizes)
+    solved = found.equations.scene
+    for kind, pairs_of in ((kinds.GEAR_REACTION, solved.gears), (kinds.CONTACT_REACTION, solved.contacts)):
+        told[kind] = {pair.name: force(found.equations, pair, found.higher[pair.name])
+                      for pair in pairs_of if pair.name in found.higher}
     named = asked(scene).named_balances
     for way in kinds.BY_PLANS, kinds.BY_LEVER, kinds.RUBBED:
         last = found if way != kinds.RUBBED else rough

@@ -14,8 +14,19 @@ from graphplan.check.compared import CLOSE, NOTHING, compared, drawn_sizes, each
 from graphplan.check.report import by_part, opinion
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction
-from graphplan.methods.kinds import ACCELERATION, FORCES, MOTION, VELOCITY, kind_of
+from graphplan.methods.kinds import (
+    ACCELERATION,
+    CONTACT_REACTION,
+    FORCES,
+    MOTION,
+    SLIDE_ARM,
+    SLIDE_MOMENT,
+    SLIDE_REACTION,
+    VELOCITY,
+    kind_of,
+)
 from graphplan.solver import poses, solve
 from graphplan.solver.bounds import Unproven
 
@@ -95,7 +106,7 @@ def _against(part: Round, drawing: Construction, ours: Results) -> dict[str, Any
             true = numbers[0].value if len(numbers) == 1 else numbers[0].value + 1j * numbers[1].value
             besides = _read_from(scene, truth, kind, name), sliding(scene, truth, kind, name)
             sizes = (np.full(n, least[group] / weight(drawing, kind)), *(number.size for number in numbers), *besides,
-                     _rolling(scene, motion, kind))
+                     _rolling(scene, motion, kind), _touching(scene, truth, kind, name))
             size = np.max(np.broadcast_arrays(*sizes), axis=0)
             apart[group] = np.maximum(apart[group], np.abs(value - true) / size)
     return apart
@@ -129,6 +140,22 @@ def _rolling(scene: Scene, motion: Any, kind: str) -> Any:
                 rate = np.abs(plain(motion.omega[link])) ** (1 if kind_of(kind).group == VELOCITY else 2)
                 (x, y), (u, v) = at, scene.points[centre]
                 sizes.append(rate if kind_of(kind).turning else rate * np.hypot(x - u, y - v))
+    return np.max(np.broadcast_arrays(*sizes), axis=0)
+
+
+def _touching(scene: Scene, truth: Results, kind: str, name: str) -> Any:
+    """The size of the moments that contacts' forces have about a slide's point, which cancel where they pass it, or of
+    the slide's arm by them; of other results nothing."""
+    sizes: list[Any] = [0.0]
+    if kind in (SLIDE_MOMENT, SLIDE_ARM):
+        whole = np.hypot(*(plain(part) for part in truth[SLIDE_REACTION][name]))
+        of = whole if kind == SLIDE_ARM else float(metre(scene.units))
+        slide = next(slide for slide in scene.slides if slide.name == name)
+        for contact in (one for one in scene.contacts if one.name in truth[CONTACT_REACTION]):
+            if not {*contact.links}.isdisjoint(slide.links):
+                (x, y), (u, v) = (np.asarray(scene.points[point], float) for point in (contact.at, slide.at))
+                force = np.hypot(*(plain(part) for part in truth[CONTACT_REACTION][contact.name]))
+                sizes.append(force * np.hypot(x - u, y - v) / of)
     return np.max(np.broadcast_arrays(*sizes), axis=0)
 
 

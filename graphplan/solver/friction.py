@@ -126,15 +126,17 @@ def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
                     yield fact
         elif isinstance(pair, Gear | Contact):
             along = first_held(last.equations, pair)
-            yield from leant(last.equations, pair, lean(pair, along, last.higher[pair][0]))
+            yield from leant(last.equations, pair, lean(pair, along, last.higher[pair.name][0]))
     for balance in asked(scene).balances:
         yield from balance.states(scene)
 
 
 def forces(found: Reactions) -> list[Pair]:
     """The forces in all pairs."""
+    scene = found.equations.scene
     return [*found.joints.values(), *(force for force, _ in found.slides.values()),
-            *(force(found.equations, pair, sizes) for pair, sizes in found.higher.items())]
+            *(force(found.equations, pair, found.higher[pair.name]) for pairs in (scene.gears, scene.contacts)
+              for pair in pairs if pair.name in found.higher)]
 
 
 def largest(found: Reactions) -> float:

@@ -17,7 +17,7 @@ from graphplan.mechanism.plane import plus, times, turned
 from graphplan.solver.equations import Equations
 
 NO_ARMS = (0, 0), (0, 0)
-Sizes = Mapping[Gear | Contact, Sequence[Any]]
+Sizes = Mapping[str, Sequence[Any]]
 
 
 def held_at(equations: Equations, fact: Statement) -> Rate:
@@ -48,8 +48,8 @@ def push(equations: Equations, gear: Gear, size: Any) -> Pair:
 def pushes(equations: Equations, sizes: Sizes) -> Iterator[Force]:
     """The radial forces on both wheels of all gears; they act along the line of centres, on which the first lies."""
     for gear in equations.scene.gears:
-        if gear.tangent and gear in sizes:
-            off = push(equations, gear, sizes[gear][0])
+        if gear.tangent and gear.name in sizes:
+            off = push(equations, gear, sizes[gear.name][0])
             for link, value in zip(gear.links, (off, times(-1, off)), strict=True):
                 yield Force(link, gear.centres[0], value)
 

@@ -6,19 +6,20 @@ makes conditions redundant they are solved by singular values. Numbers may know 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from graphplan.mechanism.elimination import transpose
-from graphplan.mechanism.model import Balance, Scene
+from graphplan.mechanism.model import Balance, Force, Scene
 from graphplan.mechanism.numerals import mapped
 from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
 from graphplan.solver.blocks import Block, blocks
 from graphplan.solver.equations import Equations, Row, held, moved
+from graphplan.solver.higher_pairs import pushes
 
 TOGETHER = 24  # unknowns that one dense block has at most: over many poses small blocks cost no more than their sum
 
@@ -34,6 +35,9 @@ class Sized:
 
     def __init__(self, value: Any, size: Any = None):
         self.value, self.size = value, np.abs(value) if size is None else size
+
+    def __abs__(self) -> Sized:
+        return Sized(np.abs(self.value), self.size)
 
     def __neg__(self) -> Sized:
         return Sized(-self.value, self.size)
@@ -100,12 +104,19 @@ def solve(scene: Scene, n: int, sizes: bool = False) -> rates.Rates:
 
 def reactions(scene: Scene, motion: rates.Rates, n: int, sizes: bool = False) -> statics.Reactions:
     """The reactions and balances of a scene with loads in n poses, from its rates there, as arrays as those are."""
-    equations = held(scene)
-    right = [-value for value in statics.resultants(equations, statics.acting(scene, motion))]
+    equations = replace(held(scene), root=np.sqrt)
     scales = [1.0 if isinstance(fact, Along) else 1 / _reach(equations) for fact in equations.facts]
-    found = [block.transposed for block in reversed(blocks(equations.rows, equations.width, TOGETHER))]
-    values = _solved(transpose(equations.rows, equations.width), right, n, scales, sizes, found)
-    return statics.read(equations, values, statics.repeating(equations), motion)
+    blocked = [block.transposed for block in reversed(blocks(equations.rows, equations.width, TOGETHER))]
+    rows = transpose(equations.rows, equations.width)
+
+    def solve(more: Iterable[Force] = ()) -> statics.Reactions:
+        right = [-value for value in statics.resultants(equations, (*statics.acting(scene, motion), *more))]
+        values = _solved(rows, right, n, scales, sizes, blocked)
+        return statics.read(equations, values, statics.repeating(equations), motion)
+
+    found = solve()
+    apart = tuple(pushes(equations, found.higher))
+    return solve(apart) if apart else found
 
 
 def _reach(equations: Equations) -> float:

@@ -45,14 +45,14 @@ class Reactions(Solution):
 
     `joints`: by point and link, the force on that link from the one that carries the pin, which the scene names first.
     `slides`: by name, the force on the sliding link from its guide, at the point `at`, and the moment about it.
-    `higher`: by gear or contact, its force as so many times the directions of what holds its links.
+    `higher`: by the name of a gear or contact, its force as so many times the directions of what holds its links.
     `balances`: a moment or a force for each balance of the scene. `rates`: the motion that all this keeps up.
     Pairs that special geometry leaves statically indeterminate are left out.
     """
 
     joints: dict[tuple[str, str], Pair]
     slides: dict[str, tuple[Pair, Number]]
-    higher: dict[Gear | Contact, tuple[Number, ...]]
+    higher: dict[str, tuple[Number, ...]]
     balances: tuple[Pair | Number, ...]
     rates: Rates
 
@@ -111,7 +111,7 @@ def read(equations: Equations, values: Iterable[Number], free: Container[int], r
     """
     scene, unknown = equations.scene, (None if i in free else value for i, value in enumerate(values))
     unit, slides, balances = metre(scene.units), dict[str, tuple[Pair, Number]](), list[Pair | Number]()
-    higher = dict[Gear | Contact, tuple[Number, ...]]()
+    higher = dict[str, tuple[Number, ...]]()
     linked = [(fact.at, fact.link) for fact in equations.facts if fact.way == "x"]
     joints = {joint: (next(unknown), next(unknown)) for joint in linked}
     for pair in scene.binding:
@@ -123,7 +123,7 @@ def read(equations: Equations, values: Iterable[Number], free: Container[int], r
             across = found["across"]
             slides[pair.name] = times(across, turned(pair.direction)), scaled(1 / unit, found.get("turn", 0 * across))
         elif isinstance(pair, Gear | Contact):
-            higher[pair] = tuple(found.values())
+            higher[pair.name] = tuple(found.values())
     for balance, value in zip(asked(scene).balances, unknown, strict=True):
         if value is not None:
             balances.append(scaled(1 / unit, value) if balance.direction is None else times(value, balance.direction))

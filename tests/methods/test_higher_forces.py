@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from graphplan.check.cycle import cycle
 from graphplan.check.trusted import report
 from graphplan.errors import SceneError
 from graphplan.mechanism.scene import parse
@@ -204,3 +205,12 @@ def test_faults(text: str, fault: str) -> None:
     with pytest.raises(SceneError) as error:
         parse(text, "bad")
     assert fault in [f"{found.where}: {found.what}; {found.instead}" for found in error.value.faults]
+
+
+@pytest.mark.parametrize("text", [SPUR.format(20, 12), PLANET, CAM.format(-100), RACK])
+def test_forces_go_around_the_cycle(text: str) -> None:
+    """In other poses, too, what is drawn is what the solver says of them."""
+    found = cycle(parse(text, "round"), 4)
+    assert not found.faults
+    assert not found.wrong
+    assert found.check["force"] < 1e-12

@@ -11,7 +11,7 @@ from gearings import Gearing, gearing
 from loads import loaded_scenes
 
 from graphplan.check.forces import force_truth
-from graphplan.errors import Refused, SingularPose
+from graphplan.errors import SingularPose
 from graphplan.kernel.numbers import Fractions
 from graphplan.methods import kinds
 from graphplan.methods.construct import construct
@@ -33,9 +33,11 @@ def test_forces_of_gears_and_contacts_are_constructed_exactly() -> None:
     told = set()
     for seed in range(GEARINGS):
         for scene in loaded_scenes(seed, 1 + seed % 2, inclined):
+            if any(gear.direction is None and not sum(gear.factors) for gear in scene.gears):
+                break  # a belt over equal wheels is the lever's
             try:
                 right, results = reactions(scene, exact=True), construct(scene, plan="polygons").read(Fractions())
-            except (SingularPose, Refused):  # a belt over equal wheels is the lever's
+            except SingularPose:
                 break
             truth = force_truth(scene, results, right)
             wrong = {(kind, name) for kind, named in results.items() if kind in truth

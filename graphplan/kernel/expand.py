@@ -344,6 +344,14 @@ class FormBoard(Verbs):
         (x, y), (a, b, c) = self._expander.value(P), self._expander.value(l)
         return P.step.panel == l.step.panel and self._nothing((a * x + b * y + c) / math.hypot(a, b), P, l)
 
+    def together(self, l: Mark, m: Mark) -> bool:
+        """Whether two lines of a plan fall together."""
+        (a, b, c), (u, v, w) = self._expander.value(l), self._expander.value(m)
+        way, reach = complex(-b, a) / math.hypot(a, b), max(self._expander.reach[mark.step.index] for mark in (l, m))
+        ends = (complex(-a * c, -b * c) / (a * a + b * b) + sign * reach * way for sign in (1, -1))
+        return l.step.panel == m.step.panel and all(
+            self._nothing((u * end.real + v * end.imag + w) / math.hypot(u, v), l, m) for end in ends)
+
     def in_line(self, P: Mark, Q: Mark, R: Mark) -> bool:
         """Whether R lies on the line of P and Q."""
         p, q, r = (complex(*self._expander.value(X)) for X in (P, Q, R))

@@ -151,6 +151,8 @@ def _trials(*ratios: float) -> Form:
            described="the locus of the end of {4}", forms={
                "the same point": lambda s, A, alpha, B, beta, C, turn:
                    alpha if s.one(A, C) else beta if s.one(B, C) else None,
+               "the same line": lambda s, A, alpha, B, beta, C, turn:
+                   alpha if s.in_line(A, B, C) and s.together(alpha, beta) else None,
                "auxiliary point": _auxiliary_point,
                "trial figure": _trials(0.35),
                Variant("trial figure", "on the other side"): _trials(-0.35),

@@ -23,9 +23,6 @@ from graphplan.methods.motion.network import Network
 from graphplan.methods.panels import MECHANISM, listed
 from graphplan.phrases import Said, said
 
-Hinge = str | Slide  # a joint by its point, or a slide
-CLOSING = {2: "close_on_two", 3: "close_on_three", 4: "close_on_four"}  # verbs, by how many joints they read
-
 
 @dataclass
 class Body:

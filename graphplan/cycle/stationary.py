@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from graphplan.cycle.centrodes import centrodes
 from graphplan.cycle.linkage import Array
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.mechanism.model import FRAME
@@ -32,10 +33,8 @@ def stationary(motion: RangeOfMotion, link: str) -> tuple[Array, Array] | None:
     step = STEP * whole
     travel = step * np.arange(-2, 3)
     links = motion.moved(travel % whole if motion.whole else travel)
-    one, ground = links[link], links[FRAME]
-    spin = one.spin - ground.spin
+    spin, poles = links[link].spin, centrodes(links, link, FRAME).fixed
     with np.errstate(all="ignore"):
-        poles = ground.carried_back(one.base + 1j * (one.velocity - ground.velocity_at(one.base)) / spin)
         wander = (FIRST @ poles) / step / spin[2]
         bent = ((SECOND @ poles) / step**2 - wander * (FIRST @ spin) / step) / spin[2] ** 2
         A, J, rays = -1j * wander, wander - 1j * bent, np.exp(1j * np.linspace(0, np.pi, RAYS, endpoint=False))

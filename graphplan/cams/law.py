@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import Any
 
 import numpy as np
@@ -56,10 +56,9 @@ class Stretch:
         found = self.piece.at(part, order)
         return found + float(self.lift) if order == 0 else found / math.radians(self.stage.angle) ** order
 
-    def exactly(self, angle: Fraction, order: int = 0) -> Fraction:
-        """The same by the angle in degrees, as a fraction: where the piece is rational."""
-        found = self.piece.at((angle - self.begins) / self.stage.angle, order)
-        return Fraction(found + self.lift if order == 0 else found / self.stage.angle**order)
+    def divided(self, parts: int) -> Array:
+        """Its angles from end to end, so many parts of it apart."""
+        return np.linspace(float(self.start), float(self.end), parts + 1)
 
 
 Value = Callable[[Array, Stretch], Array]
@@ -95,23 +94,12 @@ class Law:
     @cached_property
     def lifts(self) -> tuple[Fraction, ...]:
         """The lift at the end of each stage."""
-        found = [Fraction(0)]
-        for stage in self.stages:
-            found.append(found[-1] + stage.stroke)
-        return tuple(found[1:])
+        return tuple(accumulate(stage.stroke for stage in self.stages))
 
     @cached_property
     def bounds(self) -> tuple[Fraction, ...]:
         """The angles at which stages begin, and the end of the last."""
-        found = [Fraction(0)]
-        for stage in self.stages:
-            found.append(found[-1] + stage.angle)
-        return tuple(found)
-
-    def on(self, angle: Fraction) -> Stretch:
-        """The piece that an angle lies on; where two meet, the one that begins."""
-        angle %= 360
-        return next((one for one in reversed(self.stretches) if one.start <= angle), self.stretches[0])
+        return tuple(accumulate((stage.angle for stage in self.stages), initial=Fraction(0)))
 
     def at(self, angles: Any, order: int = 0) -> Any:
         """The lift or a derivative at angles in degrees, an array; where two pieces meet, of the one that begins."""
@@ -138,7 +126,7 @@ class Law:
 
     def largest(self, order: int) -> float:
         """About how large the derivative of an order is where it is largest."""
-        found = (abs(one.at(np.linspace(float(one.start), float(one.end), 9), order)).max() for one in self.stretches)
+        found = (abs(one.at(one.divided(8), order)).max() for one in self.stretches)
         return self.times * max(map(float, found))
 
     def _joints(self) -> Iterator[Jump]:

@@ -47,11 +47,6 @@ class Piece:
     powers: tuple[Fraction, ...]
     waves: tuple[Wave, ...] = ()
 
-    @property
-    def rational(self) -> bool:
-        """Whether fractions give fractions."""
-        return not self.waves
-
     def at(self, t: Any, order: int = 0) -> Any:
         """The lift, or its derivative of an order, at t: a float, an array, or a fraction where there are no waves."""
         piece = self

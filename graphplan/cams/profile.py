@@ -89,7 +89,7 @@ class Cam:
         parts = []
         for one in self.law.stretches:
             count = max(2, math.ceil(float(one.end - one.start) * FINE))
-            angles = np.linspace(float(one.start), float(one.end), count + 1)
+            angles = one.divided(count)
             parts.append(self.pair.turned(spot(self.touched(one, angles)), angles))
         return np.concatenate(parts)
 
@@ -100,8 +100,7 @@ class Cam:
         found, stretches = list[ArcOfProfile](), self.law.stretches
         for one, after in zip(stretches, (*stretches[1:], stretches[0]), strict=True):
             steps = max(1, math.ceil(float(one.end - one.start) / QUARTER))
-            ends = np.linspace(float(one.start), float(one.end), steps + 1)
-            for low, high in pairwise(map(float, ends)):
+            for low, high in pairwise(map(float, one.divided(steps))):
                 found += self._fitted(one, low, high, tolerance)
             found += self._corner(one, after)
         return found
@@ -147,8 +146,7 @@ class Cam:
     def reach(self) -> tuple[float, float]:
         """How far the contact wanders along a flat face: from the foot of the path or of the pivot."""
         touch = self.touch(np.linspace(0, 360, 1441))
-        along = (touch.point - (0 if not self.task.follower.oscillates else float(self.task.follower.distance))) \
-            / (1j * touch.normal)
+        along = (touch.point - float(self.task.follower.distance)) / (1j * touch.normal)
         return float(along.real.min()), float(along.real.max())
 
     @cached_property
@@ -240,12 +238,17 @@ def _enough(task: Task) -> str:
     return f"a base circle of {shown(math.ceil(least * 1000) / 1000)} or more, or a larger angle"
 
 
-def _hollow(cam: Cam, faults: Faults) -> None:
-    """Note where a flat face cannot follow: the profile would be hollow or pointed, or the face overtakes the cam."""
+def _dropping(cam: Cam, what: str, faults: Faults) -> None:
+    """Note where the velocity jumps down: only a point follows."""
     for jump in cam.law.jumps:
         if jump.order == HARD and jump.after < jump.before:
-            faults.add("law", f"at {shown(jump.angle)} degrees the velocity drops at once, which no flat face follows",
+            faults.add("law", f"at {shown(jump.angle)} degrees the velocity drops at once, which no {what} follows",
                        "a motion that comes to rest, or a point that touches")
+
+
+def _hollow(cam: Cam, faults: Faults) -> None:
+    """Note where a flat face cannot follow: the profile would be hollow or pointed, or the face overtakes the cam."""
+    _dropping(cam, "flat face", faults)
     angle, size = cam.narrowest
     least = float(cam.task.cam.least)
     if size <= 0 or size < least - JUST * cam.pair.base:
@@ -265,10 +268,8 @@ def _broad(cam: Cam) -> str:
 def _undercut(cam: Cam, faults: Faults) -> None:
     """Note where a roller is too large for the path of its centre."""
     follower, least = cam.task.follower, float(cam.task.cam.least)
-    for jump in cam.law.jumps if follower.contact != POINTED else ():
-        if jump.order == HARD and jump.after < jump.before:
-            faults.add("law", f"at {shown(jump.angle)} degrees the velocity drops at once, which no roller follows",
-                       "a motion that comes to rest, or a point that touches")
+    if follower.contact != POINTED:
+        _dropping(cam, "roller", faults)
     angle, size = cam.narrowest
     if size <= cam.roller:
         faults.add("follower.radius", f"at {shown(angle)} degrees the path of the roller's centre has the radius of "

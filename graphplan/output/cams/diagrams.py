@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.cams.base import region
+from graphplan.cams.base import lifts_of, region
 from graphplan.cams.follower import Rolled, Translating
 from graphplan.cams.law import HARD, SOFT, Stretch
 from graphplan.cams.profile import Cam
@@ -106,18 +106,18 @@ class Paper:
         high = room.height / len(shown)
         for k, one in enumerate(shown):
             top = room.top - k * high
-            yield from self._diagram(one, Rect(room.left, top - high + 2.0, room.right, top - BETWEEN), k)
+            yield from self._diagram(one, Rect(room.left, top - high + 2.0, room.right, top - BETWEEN))
         for bound in self.cam.law.bounds:
             x = room.left + float(bound) / 360 * room.width
             yield Polyline(DIVISION, "ruling", None, ((x, room.bottom + 1.0), (x, room.top - BETWEEN)))
             yield self.text((x, room.bottom - 3.0), digits(float(bound)), "middle")
         yield self.text((room.right + 4.0, room.bottom - 3.0), "φ, °")
 
-    def _diagram(self, one: Diagram, rect: Rect, number: int) -> Iterator[Item]:
+    def _diagram(self, one: Diagram, rect: Rect) -> Iterator[Item]:
         """One quantity: axes, its curve piece by piece, its extremes beside it."""
         law = self.cam.law
         parts = [(angles, np.asarray(one.values(angles, piece), float)) for piece in law.stretches
-                 for angles in [np.linspace(float(piece.start), float(piece.end), SAMPLES + 1)]]
+                 for angles in [piece.divided(SAMPLES)]]
         (top, most), (foot, depth) = law.extremum(one.values), law.extremum(lambda a, piece: -one.values(a, piece))
         low, high = min(0.0, -depth), max(0.0, most)
         still, hard = high - low < 1e-9, one.order == SOFT and any(jump.order == HARD for jump in law.jumps)
@@ -171,9 +171,8 @@ class Paper:
         """Of each piece of the law the follower's points A, and the ends of x laid off from them."""
         found = []
         for one in self.cam.law.stretches:
-            angles = np.linspace(float(one.start), float(one.end), SAMPLES + 1)
             pair: Any = self.cam.pair
-            A, A1, *_ = pair.path(lambda order, a=angles, one=one: self.cam.law.times * one.at(a, order))
+            A, A1, *_ = pair.path(lifts_of(self.cam.law, one, one.divided(SAMPLES)))
             found.append((one, A, A + 1j * pair.sense * A1))
         return found
 
@@ -250,7 +249,7 @@ class Paper:
                           and one.start <= angle <= one.end), None)
             if piece is None or size <= 0:
                 continue
-            A, A1, *_ = pair.path(lambda order, piece=piece, angle=angle: self.cam.law.times * piece.at(angle, order))
+            A, A1, *_ = pair.path(lifts_of(self.cam.law, piece, angle))
             start, tip = at(0j), at(complex(A + 1j * pair.sense * A1))
             long = math.dist(start, tip) or 1.0
             far = tip[0] + OVER * (tip[0] - start[0]) / long, tip[1] + OVER * (tip[1] - start[1]) / long
@@ -260,7 +259,7 @@ class Paper:
     def _curve_z(self, rect: Rect) -> Iterator[Item]:
         """The curve of s over z = s'', and its tangent of 45 degrees, which cuts the path in the least centre."""
         pieces = [(one, one.at(angles), one.at(angles, 2)) for one in self.cam.law.stretches
-                  for angles in [np.linspace(float(one.start), float(one.end), SAMPLES + 1)]]
+                  for angles in [one.divided(SAMPLES)]]
         base = self.cam.pair.base
         lowest = max(float((-(s + z)).max()) for _, s, z in pieces)
         spots = [complex(x, y) for _, s, z in pieces for x, y in zip(z, s, strict=True)] + [complex(0, -base), 0j]

@@ -5,16 +5,11 @@ Centres of gears are joints of a third link; profiles touch in points where they
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from random import Random
 
 import linkages
 from linkages import DIRECTIONS, FRAME, Linkage
-
-from graphplan.errors import SceneError
-from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene import parse
 
 
 @dataclass
@@ -78,18 +73,7 @@ class Gearing(Linkage):
 def gearing(seed: int) -> Gearing:
     """A mechanism of 2 to 7 moving links with one to three gears or contacts."""
     random = Random(seed)
-    while True:
-        found = _attempt(random)
-        if found is not None and _movable(found):
-            return found
-
-
-def _movable(found: Gearing) -> bool:
-    try:
-        parse(found.text(), "random")
-    except SceneError:
-        return False
-    return True
+    return linkages.movable(lambda: _attempt(random))
 
 
 def _attempt(random: Random) -> Gearing | None:
@@ -117,10 +101,3 @@ def _attempt(random: Random) -> Gearing | None:
     for _ in range(drives):
         linkages.drive(found, joined, moving)
     return found
-
-
-def scenes(seed: int, orders: int = 2) -> Iterator[Scene]:
-    """The scene of one seed, as it came and in further orders of writing."""
-    found = gearing(seed)
-    for number in range(orders):
-        yield parse(found.text(Random(number) if number else None), f"gearing {seed}")

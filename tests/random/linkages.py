@@ -6,9 +6,11 @@ small and whole, so that every pose is rational and points often coincide, lines
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from random import Random
+from typing import TypeVar
 
 from graphplan.errors import SceneError
 from graphplan.mechanism.model import Scene
@@ -47,23 +49,24 @@ class Linkage:
         return "\n".join(parts) + "\n"
 
 
+L = TypeVar("L", bound=Linkage)
+
+
 def linkage(seed: int) -> Linkage:
     """A linkage of 1 to 9 moving links that its drives determine, by the count and as a graph."""
     random = Random(seed)
     freedoms = random.choice((1, 1, 1, 2, 2, 3))
     links = random.choice([k for k in range(1, 10) if (3 * k - freedoms) % 2 == 0 and 3 * k - freedoms >= 2 * k])
+    return movable(lambda: _attempt(random, links, freedoms))
+
+
+def movable(attempt: Callable[[], L | None]) -> L:
+    """The first of the attempts that a scene can be made of."""
     while True:
-        found = _attempt(random, links, freedoms)
-        if found is not None and _movable(found):
-            return found
-
-
-def _movable(found: Linkage) -> bool:
-    try:
-        parse(found.text(), "random")
-    except SceneError:
-        return False
-    return True
+        if (found := attempt()) is not None:
+            with suppress(SceneError):
+                parse(found.text(), "random")
+                return found
 
 
 def _attempt(random: Random, links: int, freedoms: int) -> Linkage | None:
@@ -136,8 +139,8 @@ def drive(found: Linkage, pairs: list[tuple[str, str]], moving: list[str]) -> No
     found.drives.append(f'[[drive]]\nlink = "{one}"\nomega = {rate}\nalpha = {change}{relative}')
 
 
-def scenes(seed: int, orders: int = 3) -> Iterator[Scene]:
+def scenes(seed: int, orders: int = 3, made: Callable[[int], Linkage] = linkage) -> Iterator[Scene]:
     """The scene of one seed, as it came and in further orders of writing."""
-    found = linkage(seed)
+    found = made(seed)
     for number in range(orders):
         yield parse(found.text(Random(number) if number else None), f"random {seed}")

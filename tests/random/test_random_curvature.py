@@ -2,31 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 
-import gearings
-import linkages
 import pytest
+from gearings import gearing
+from linkages import Linkage, linkage, scenes
 
 from graphplan.check.paths import path_truth
 from graphplan.errors import SingularPose
 from graphplan.kernel.numbers import Fractions
-from graphplan.mechanism.model import FRAME, Find, Scene
+from graphplan.mechanism.model import FRAME, Find
 from graphplan.methods.construct import construct
 from graphplan.methods.styles import OF_PATHS
 from graphplan.solver import solve
 
 MECHANISMS, TOGETHER = 20, 5
-MADE = {"linkages": linkages.scenes, "gearings": gearings.scenes}
+MADE = {"linkages": linkage, "gearings": gearing}
 
 
 @pytest.mark.parametrize("first", range(0, MECHANISMS, TOGETHER))
 @pytest.mark.parametrize("made", MADE.values(), ids=MADE)
-def test_centres_and_circles_are_constructed_exactly(made: Callable[[int], Iterator[Scene]], first: int) -> None:
+def test_centres_and_circles_are_constructed_exactly(made: Callable[[int], Linkage], first: int) -> None:
     """Every centre of curvature, inflection pole and pole is the solver's as a fraction, by whichever way."""
     for seed in range(first, first + TOGETHER):
-        scene = next(made(seed))
+        scene = next(scenes(seed, 1, made))
         try:
             rates = solve(scene, exact=True)
         except SingularPose:

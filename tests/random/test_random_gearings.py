@@ -8,7 +8,8 @@ from __future__ import annotations
 import os
 
 import pytest
-from gearings import gearing, scenes
+from gearings import gearing
+from linkages import scenes
 
 from graphplan.errors import SingularPose
 from graphplan.kernel.numbers import Fractions
@@ -26,7 +27,7 @@ def test_gearings_are_constructed_exactly(first: int) -> None:
     whatever the order of writing."""
     for seed in range(first, first + TOGETHER):
         drawn = set()
-        for number, scene in enumerate(scenes(seed)):
+        for number, scene in enumerate(scenes(seed, 2, gearing)):
             try:
                 truth = solve(scene, exact=True)
             except SingularPose:

@@ -33,6 +33,7 @@ from graphplan.output.text import steps
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import pages
+from graphplan.sheet.plates import higher_pairs
 
 SAME = 1e-9  # of a line, beside its distance from the origin
 LONG_ENOUGH, WIDE_ENOUGH = 60.0, 35.0  # mm of A4: of the mechanism, and of each plan's panel either way
@@ -76,13 +77,15 @@ class DrawnScene:
 
     @property
     def task_on_a4(self) -> bool:
-        """Whether a student can draw on A4: the mechanism is long enough, and no plan is a mere strip."""
+        """Whether a student can draw on A4: the mechanism, wheels and all, is long enough, and no plan is a mere strip.
+        """
         try:
             composition = drafted(self.composition.plans.drawing, Pencil(), paper="A4").composition
         except Refused:
             return False
         page, view = task(composition)[0], composition.views[MECHANISM]
-        spots = np.array([view(composition.plans.place(point)) for point in self.scene.points])
+        places = [*map(composition.plans.place, self.scene.points), *higher_pairs.reach(self.scene)]
+        spots = np.array([view(place) for place in places])
         sides = [side for panel in page.panels.values() for side in (panel.width, panel.height)]
         return bool(np.ptp(spots, axis=0).max() >= LONG_ENOUGH - SLACK and min(sides) >= WIDE_ENOUGH)
 

@@ -55,7 +55,9 @@ def _pose(found: Report) -> dict[str, Any]:
         return {}
     travels = [float(travel) for travel in found.scene.assembly.travels]
     points = {name: [_number(part) for part in map(float, at)] for name, at in found.scene.points.items()}
-    return {"pose": {"travel": travels[0] if len(travels) == 1 else travels, "points": points}}
+    extreme = found.scene.assembly.extreme
+    told = {} if extreme is None else {"extreme": extreme.way, "link": extreme.link, "time_ratio": extreme.time_ratio}
+    return {"pose": {"travel": travels[0] if len(travels) == 1 else travels, **told, "points": points}}
 
 
 def _paths(found: Report) -> dict[str, Any]:

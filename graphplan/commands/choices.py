@@ -68,7 +68,9 @@ def add_travel(command: argparse.ArgumentParser) -> None:
     """The option that asks for another pose."""
     command.add_argument("--at", metavar="TRAVEL", help="construct the mechanism where its drive has gone so far from "
                          "the given pose, in degrees or in lengths of one that slides, and then its plans; of several "
-                         "drives the first one's, the others keep pace, or a list such as 60,-30")
+                         "drives the first one's, the others keep pace, or a list such as 60,-30; or outer or inner, "
+                         "an extreme position of the rocker or slider that its crank swings, of several such as 'outer "
+                         "3'")
 
 
 def add_language(command: argparse.ArgumentParser) -> None:
@@ -145,8 +147,10 @@ def given(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
     return replace(scene, loads=replace(scene.loads, rounds=options.rounds))
 
 
-def _travels(text: str) -> list[Fraction]:
-    """The travels of an option, of each drive or of the first alone."""
+def _travels(text: str) -> list[Fraction] | str:
+    """The travels of an option, of each drive or of the first alone, or the words for an extreme position."""
+    if text.strip()[:1].isalpha():
+        return text
     try:
         return [Fraction(part.strip()) for part in text.split(",")]
     except (ValueError, ZeroDivisionError):

@@ -8,6 +8,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+from graphplan.cycle.extreme import extreme
 from graphplan.cycle.travel import check_drives
 from graphplan.cycle.turn import follow, under
 from graphplan.errors import Refused, SingularPose
@@ -20,16 +21,18 @@ from graphplan.phrases import said
 Travel = Fraction | float | int
 
 
-def at(scene: Scene, travel: Travel | Sequence[Travel]) -> Scene:
+def at(scene: Scene, travel: Travel | Sequence[Travel] | str) -> Scene:
     """The scene as it is when its first drive has gone so far, in degrees or in lengths of one that slides.
 
-    The other drives keep pace, or a list says how far each goes. The pose is constructed from the given one. Fails with
-    `Refused` where nothing leads there, and with `SingularPose` where it is a limit.
+    The other drives keep pace, or a list says how far each goes. "outer" and "inner" are extreme positions of the link
+    that the first drive's crank swings, "outer 3" of one of several. The pose is constructed from the given one. Fails
+    with `Refused` where nothing leads there, and with `SingularPose` where it is a limit.
     """
     check_drives(scene)
     if scene.gears or scene.contacts:
         raise Refused(f"{scene.name}: the pose", said("no steps are known that find where gears and contacts go"),
                       "the pose as it is given")
+    turned, travel = extreme(scene, travel) if isinstance(travel, str) else (None, travel)
     travels = _travels(scene, travel)
     paced, first = _paced(scene, travels)
     found = follow(paced, 1, (float(first), float(first)))
@@ -47,7 +50,7 @@ def at(scene: Scene, travel: Travel | Sequence[Travel]) -> Scene:
             z = ends[1] - ends[0] if ends else complex(found.guides[one.name][0]) if one.name in found.guides else None
         return one.direction if z is None else (z.real, z.imag)
 
-    assembly = Assembly(scene, travels, moved_on(scene, travels, TO_A_FLOAT), under(scene))
+    assembly = Assembly(scene, travels, moved_on(scene, travels, TO_A_FLOAT), under(scene), turned)
     posed = scene.posed(points, direction)
     where = "the pose: constructed at another travel of its drive"
     return replace(posed, placements=_standing(scene), irrational=(*scene.irrational, where), assembly=assembly)

@@ -25,8 +25,8 @@ from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.plane import Number, Pair
 from graphplan.mechanism.units import Units
 
-__all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Find", "Force", "Friction", "Gear",
-           "Loads", "Mass", "Moment", "Motion", "Number", "Pair", "Placement", "Presentation", "Scene", "Slide",
+__all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Extreme", "Find", "Force", "Friction",
+           "Gear", "Loads", "Mass", "Moment", "Motion", "Number", "Pair", "Placement", "Presentation", "Scene", "Slide",
            "SlidingDrive", "TurningDrive", "Units", "Written"]
 
 
@@ -203,18 +203,37 @@ class Presentation:
 
 
 @dataclass(frozen=True)
+class Extreme:
+    """An extreme position, `outer` or `inner`, of a `link` that a `coupler` on a crank swings: they lie in one line.
+
+    The crank turns about its `pivot`; the coupler is on its `pin`, and the link on the coupler's other `joint`.
+    `time_ratio`: of the crank's turns from one extreme position to the other the larger over the smaller, if known.
+    """
+
+    way: str
+    link: str
+    coupler: str
+    pivot: str
+    pin: str
+    joint: str
+    time_ratio: float | None = None
+
+
+@dataclass(frozen=True)
 class Assembly:
     """What a pose is put together from: the links of a scene as they are `given`, moved on by the `travels` of its
     drives (degrees, or lengths of one that slides).
 
     `moves` says the same in the numbers of the given scene: the cosine and sine of a turning drive's travel, the vector
     of a sliding one's. `riding` are points that only mark the place under a sliding point, each with that point.
+    `extreme` is the extreme position that the pose is, where such was asked for.
     """
 
     given: Scene
     travels: tuple[Fraction, ...]
     moves: tuple[Pair, ...]
     riding: dict[str, str] = field(default_factory=dict)
+    extreme: Extreme | None = None
 
 
 @dataclass(frozen=True)

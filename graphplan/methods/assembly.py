@@ -19,7 +19,7 @@ from graphplan.kernel.loci import sides
 from graphplan.kernel.primitives import cross, dot
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.assembly import undone
-from graphplan.mechanism.model import FRAME, Assembly, Pair, Scene, Slide
+from graphplan.mechanism.model import FRAME, Assembly, Extreme, Pair, Scene, Slide
 from graphplan.mechanism.order import ordered_points
 from graphplan.mechanism.pairs.pair import Attitude
 from graphplan.mechanism.pairs.revolute import Revolute
@@ -28,7 +28,7 @@ from graphplan.mechanism.structure import structure
 from graphplan.methods.figures import alike, figure
 from graphplan.methods.panels import MECHANISM, listed
 from graphplan.methods.placing import Body, Placing
-from graphplan.phrases import said
+from graphplan.phrases import digits, said
 
 Hinge = str | Slide  # a joint by its point, or a slide
 CLOSING = {2: "close_on_two", 3: "close_on_three", 4: "close_on_four"}  # verbs, by how many joints they read
@@ -40,7 +40,9 @@ class Assembler(Placing):
     def __init__(self, board: Board, scene: Scene, assembly: Assembly):
         super().__init__(board, scene, assembly)
         self.located: set[str] = set()
-        waiting = [body for body in self.bodies.values() if body is not self.ground]
+        if assembly.extreme:
+            self._in_line(assembly.extreme)
+        waiting = [body for body in self.bodies.values() if not any(body is placed for placed in self.placed)]
         while waiting:
             found = self._next(waiting)
             waiting = [body for body in waiting if body not in found]
@@ -201,6 +203,47 @@ class Assembler(Placing):
                 case str(A), Slide(), Slide():
                     self._alike(one, A, inner, two, other)
 
+    def _in_line(self, extreme: Extreme) -> None:
+        """Place the crank, the coupler in one line with it, and the link that turns back there."""
+        O, A, B = extreme.pivot, extreme.pin, extreme.joint
+        coupler, swung = (self.bodies[self.net.body[link]] for link in (extreme.coupler, extreme.link))
+        hold = next(h for h in self._hinges(swung, self.placed) if h not in (A, B))
+        links = tuple(sorted((*coupler.lies, *swung.lies), key=by_name))
+        law = said("Crank {0}{1} and coupler {1}{2} lie in one line: {2} is as far from {0} as both are long together"
+                   if extreme.way == "outer" else
+                   "Crank {0}{1} and coupler {1}{2} lie in one line: {2} is as far from {0} as their lengths differ",
+                   O, A, B)
+        if extreme.time_ratio is not None:
+            law = said("{0}; the time ratio is {1}", law, digits(extreme.time_ratio, 5))
+        with self.board.on(MECHANISM, links, self._stage(law, links)):
+            if isinstance(hold, Slide):
+                self._slid(swung, hold, B)
+                base = self.board.parallel(self.lines[hold.name], self.mark(O))
+            else:
+                base = self.board.line(self.mark(O), self.mark(hold))
+            turns = self._arc(self.ground, O, A)
+            reach = self._reach(base, turns, coupler, extreme)
+            if isinstance(hold, Slide):
+                way = self._ahead(O, B, hold.direction, self.scene)
+                self.marks[B] = self.board.line_meets_circle(self.lines[hold.name], reach, way=way, name=B)
+            else:
+                side = "left" if self._turns(O, B, hold) > 0 else "right"
+                self.marks[B] = self.board.circles_meet(reach, self._arc(swung, hold, B), side=side, name=B)
+            o, a, b = (self.scene.points[name] for name in (O, A, B))
+            way = "on" if float(dot(less(a, o), less(b, o))) > 0 else "back"
+            ray = self.board.line(self.mark(O), self.marks[B])
+            self.marks[A] = self.board.line_meets_circle(ray, turns, way=way, name=A)
+        self._put([coupler, swung])
+
+    def _reach(self, base: Mark, turns: Mark, coupler: Body, extreme: Extreme) -> Mark:
+        """The circle about the pivot on which the joint lies: the coupler is set off from the crank on a line."""
+        O, A, B = extreme.pivot, extreme.pin, extreme.joint
+        dx, dy = less(self._figure(coupler, B), self._figure(coupler, A))
+        E = self.board.line_meets_circle(base, turns, way="on")
+        arc = self.board.circle(E, self.board.link_length(dx=dx, dy=dy, quantity=Quantity(f"{A}{B}", "length")))
+        F = self.board.line_meets_circle(base, arc, way="on" if extreme.way == "outer" else "back")
+        return self.board.circle(self.mark(O), self.board.opening(self.mark(O), F))
+
     def _arc(self, body: Body, centre: str, point: str) -> Mark:
         """The circle about a joint on which another point of its body lies."""
         dx, dy = less(self._figure(body, point), self._figure(body, centre))
@@ -246,7 +289,7 @@ class Assembler(Placing):
         a, b, c = (self.scene.points[name] for name in (A, B, C))
         return float(cross(less(c, a), less(b, a)))
 
-    def _ahead(self, A: str, B: str, u: Pair) -> str:
-        """How B lies from A along a direction in the given pose."""
-        a, b = self.given.points[A], self.given.points[B]
+    def _ahead(self, A: str, B: str, u: Pair, scene: Scene | None = None) -> str:
+        """How B lies from A along a direction, in the given pose or another."""
+        a, b = ((scene or self.given).points[name] for name in (A, B))
         return "on" if float(dot(u, less(b, a))) > 0 else "back"

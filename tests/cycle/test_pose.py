@@ -22,6 +22,24 @@ from graphplan.sheet.plates.display import Text
 DRIVEN = [name for name in packaged() if (scene := gp.load(name)).drives and not scene.motions
           and not (scene.gears or scene.contacts)]
 TRAVELS = 0, 17, 145, -33
+DEAD = gp.parse("""
+[points]
+O = [0, 0]
+A = [0, 25]
+B = { distances = { A = 60, C = 45 }, side = "left" }
+C = [60, 0]
+[links]
+1 = "O A"
+2 = "A B"
+3 = "B C"
+frame = "O C"
+[[drive]]
+link = "1"
+omega = 1
+[find]
+velocity = ["A", "B"]
+acceleration = ["A", "B"]
+""", "dead")
 
 
 def displaced(drawing: Construction) -> float:
@@ -105,3 +123,57 @@ def test_strict_uses_the_chord() -> None:
     """Without a protractor the crank is laid off by the chord under its angle."""
     drawing = gp.construct(gp.at(gp.load("four-bar"), 60), strict=True)
     assert {"protractor", "set squares"}.isdisjoint(step.op.instrument for step in drawing.drawn.steps)
+
+
+def test_crank_and_coupler_lie_in_one_line() -> None:
+    """In its extreme positions B is b + r and b - r from the crank's pivot, and the rocker stands (r, b, c, d = 25, 60,
+    45, 60)."""
+    expected = {"outer": (85, (73.333, 42.979), 72.765), "inner": (35, (23.333, 26.087), 144.569)}
+    for way, (far, at, angle) in expected.items():
+        found = report(gp.at(DEAD, way))
+        B = found.drawing.truth[next(step.index for step in found.drawing.program.steps if step.name == "B")]
+        assert math.dist(B, at) < 1e-3
+        assert abs(math.hypot(*B) - far) < 1e-12 * far
+        assert abs(math.degrees(math.atan2(B[1], B[0] - 60)) - angle) < 1e-3
+        assert abs(found.drawing.omega["3"]) < 1e-12
+        assert max(found.check.values()) < 1e-12
+        assert found.same
+
+
+@pytest.mark.parametrize(("name", "way"), [("slider-crank", "outer"), ("jaanimets-10", "inner"),
+                                           ("rosenauer-example-2", "outer 3"), ("inflection-circle", "outer")])
+def test_extreme_positions_are_where_the_cycle_turns_back(name: str, way: str) -> None:
+    """The joint that the coupler swings comes no further a hair before and after, and the cycle has the same points."""
+    scene = gp.load(name)
+    posed = gp.at(scene, way)
+    found, extreme = report(posed), posed.assembly.extreme
+    assert displaced(found.drawing) < 1e-12
+    assert max(found.check.values()) < 1e-9
+    travel = float(posed.assembly.travels[0])
+    before, here, after = (complex(*gp.at(scene, travel + step).points[extreme.joint]) for step in (-1e-3, 0, 1e-3))
+    assert abs(here - before) + abs(here - after) < 1e-8 * scene.extent
+    assert ((after - here) / (before - here)).real > 0.9
+
+
+def test_the_time_ratio_is_of_the_turns_between() -> None:
+    """Between the extreme positions a uniform crank turns through two angles; where the slider's line passes the pivot
+    they are alike."""
+    ends = [gp.at(DEAD, way).assembly for way in ("outer", "inner")]
+    forth = float(ends[0].travels[0] - ends[1].travels[0]) % 360
+    for end in ends:
+        assert end.extreme.time_ratio == pytest.approx(max(forth, 360 - forth) / min(forth, 360 - forth), rel=1e-12)
+    assert gp.at(gp.load("slider-crank"), "inner").assembly.extreme.time_ratio == pytest.approx(1, rel=1e-12)
+
+
+def test_what_has_no_extreme_position_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    """A word that is none, a link not swung, several that are, a crank that stops before, none: one line and exit 2."""
+    for name, way, why in (("four-bar", "utmost", "no position"), ("four-bar", "outer 2", "no extreme position"),
+                           ("rosenauer-example-2", "outer", "3, 10"),
+                           ("rosenauer-example-2", "inner 10", "comes to no position"),
+                           ("triad", "outer", "no link is swung")):
+        assert main(["solve", name, "--at", way]) == 2
+        assert why in capsys.readouterr().err
+    assert main(["solve", "four-bar", "--at", "outer"]) == 0
+    told = json.loads(capsys.readouterr().out)["pose"]
+    assert (told["extreme"], told["link"]) == ("outer", "3")
+    assert told["time_ratio"] > 1

@@ -155,7 +155,12 @@ def data(scene: Scene) -> Iterator[Said]:
     if scene.contacts:
         yield Contact.sentence(joined(map(_touching, scene.contacts), "; "))
     yield from _motion(scene)
-    if scene.assembly is not None:
+    if scene.assembly is not None and (extreme := scene.assembly.extreme):
+        yield said("Construct the outer extreme position of {0}, with crank and coupler in one line."
+                   if extreme.way == "outer" else
+                   "Construct the inner extreme position of {0}, with crank and coupler in one line.",
+                   link_named(extreme.link))
+    elif scene.assembly is not None:
         for drive, travel in zip(scene.drives, scene.assembly.travels, strict=True):
             yield _moved_on(drive, travel, scene.units.length)
     if scene.loads:

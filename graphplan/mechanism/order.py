@@ -11,14 +11,16 @@ from functools import partial
 
 from graphplan.errors import Key as Key
 from graphplan.errors import by_name as by_name
-from graphplan.mechanism.model import FRAME, Drive, Force, Loads, Moment, Scene, Slide
+from graphplan.mechanism.model import FRAME, Contact, Drive, Force, Gear, Loads, Moment, Scene, Slide
 
 
 def ordered(scene: Scene) -> Scene:
-    """The scene with its links, points, slides and loads in this order; its balances stay numbered as they are."""
+    """The scene with its links, points, pairs and loads in this order; its balances stay numbered as they are."""
     links = ordered_links(scene)
+    higher = (*sorted(scene.gears, key=_by_links), *sorted(scene.contacts, key=_by_links))
     return replace(scene, points={point: scene.points[point] for point in ordered_points(scene)}, links=links,
-                   written=(*ordered_slides(scene), *scene.drives), loads=scene.loads and _ordered_loads(scene.loads))
+                   written=(*ordered_slides(scene), *higher, *scene.drives),
+                   loads=scene.loads and _ordered_loads(scene.loads))
 
 
 def _ordered_loads(loads: Loads) -> Loads:
@@ -75,5 +77,5 @@ def turning_drives(scene: Scene) -> tuple[Drive, ...]:
     return tuple(drive for drive in ordered_drives(scene) if not drive.slides)
 
 
-def _by_links(pair: Slide | Drive) -> tuple[Key, ...]:
-    return tuple(map(by_name, pair.links))
+def _by_links(pair: Slide | Gear | Contact | Drive) -> tuple[Key, ...]:
+    return *map(by_name, pair.links), by_name("" if isinstance(pair, Drive) else pair.name)

@@ -71,7 +71,7 @@ def _still(point: object, item: Item, names: Names) -> bool:
 def _frame(name: object, item: Item, names: Names) -> bool:
     """Whether it is the frame of which something is asked; that is a fault."""
     if name == FRAME:
-        item.fault("the frame stands still", f"a moving {item.key.removesuffix('s')}")
+        item.fault("the frame stands still", "a moving link")
     return name == FRAME
 
 
@@ -87,12 +87,13 @@ def _pairs(names: Names) -> Iterator[str]:
 
 def _links(names: Names) -> tuple[str, ...]:
     """All links, the ground last, be it a link or not."""
-    return (*names.moving, FRAME)
+    return (*sorted(names.moving, key=by_name), FRAME)
 
 
 def _traced(names: Names) -> tuple[str, ...]:
     """The moving points on each of their links, such as M on 2."""
-    return tuple(f"{point} on {link}" for link in names.moving for point in names.links[link] if point in names.movable)
+    return tuple(f"{point} on {link}" for link in _links(names)[:-1]
+                 for point in sorted(names.links[link], key=by_name) if point in names.movable)
 
 
 def _untraced(name: object, item: Item, names: Names) -> bool:
@@ -115,7 +116,7 @@ def _turning(names: Names) -> tuple[str, ...]:
     still, pairs = {FRAME}, [pair.links for pair in names.pairs if isinstance(pair, Slide) and pair.turns_alike]
     while more := {link for links in pairs if still & {*links} for link in links} - still:
         still |= more
-    return tuple(link for link in names.moving if link not in still)
+    return tuple(link for link in _links(names) if link not in still)
 
 
 def _unturned(link: object, item: Item, names: Names) -> bool:

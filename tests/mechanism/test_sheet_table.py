@@ -32,6 +32,7 @@ k_a = 40
 k_F = 4
 curves = ["A", "M"]
 centrodes = ["2 frame", "3 2"]
+cubics = ["2"]
 positions = 12
 [sheet.multiples]
 N-plan = 2
@@ -49,7 +50,7 @@ def test_every_wish_is_read() -> None:
     assert parse(PRESS + WHOLE, "f.toml").sheet == Presentation(
         "A4 portrait", "gost", "Chair of Mechanisms", "TMM-01", "1939-05-01", "N. N.", "M. M.", "lv", Fraction(5, 2),
         Fraction(10), Fraction(40), Fraction(4), {"N-plan": Fraction(2), "force plan 2, 3": Fraction(1, 2)}, "drawn",
-        ("A", "M"), ("2 frame", "3 2"), 12,
+        ("A", "M"), ("2 frame", "3 2"), ("2",), 12,
     )  # fmt: skip
 
 

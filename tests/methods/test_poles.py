@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 from random import Random
 
 import pytest
@@ -16,7 +18,7 @@ from graphplan.check.report import Report
 from graphplan.check.trusted import report
 from graphplan.kernel.kinds import LINE
 from graphplan.mechanism.model import FRAME
-from graphplan.mechanism.scene import parse
+from graphplan.mechanism.scene import FOLDER, parse
 from graphplan.methods.kinds import POLE, POLE_HEADING
 
 FOUR_BAR = """
@@ -54,6 +56,19 @@ def test_all_poles_are_those_of_the_solver(name: str) -> None:
     chance.shuffle(links)
     chance.shuffle(pairs)
     assert poles(report(replace(scene, links=dict(links), written=tuple(pairs)), exact=True)) == poles(found)
+
+
+@pytest.mark.parametrize("name", ["instant-centres", "inflection-circle"])
+def test_the_order_of_links_changes_no_step(name: str) -> None:
+    """A scene with its links and their points written the other way round: the same names, by the same steps."""
+    text = Path(FOLDER, f"{name}.toml").read_text("utf-8")
+    links = re.search(r"(?<=\[links\]\n)(?:.+\n)+", text)[0].splitlines()
+    turned = "\n".join(re.sub(r'"(.*)"', lambda found: f'"{" ".join(reversed(found[1].split()))}"', line)
+                       for line in reversed(links))
+    one, other = (report(parse(written, name)) for written in (text, text.replace("\n".join(links), turned)))
+    assert [*one.scene.links] == [*reversed(other.scene.links)]
+    assert poles(one).keys() == poles(other).keys()
+    assert one.drawing.sentences() == other.drawing.sentences()
 
 
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "stephenson", "triad"])

@@ -27,6 +27,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, evaluate
 from graphplan.mechanism.model import FRAME, Scene, Slide
+from graphplan.mechanism.order import ordered
 from graphplan.mechanism.replaced import RollingGuide, rolling_guides
 from graphplan.methods import kinds
 from graphplan.methods.motion.acceleration import Normal
@@ -130,7 +131,7 @@ class Curves:
 
     def __init__(self, board: Board, pose: Pose, velocities: Callable[[], Velocity],
                  accelerations: Callable[[], Normal], method: str):
-        self.board, self.pose, self.scene = board, pose, pose.scene
+        self.board, self.pose, self.scene = board, pose, ordered(pose.scene)
         self.velocities, self.accelerations, self.method = velocities, accelerations, method
         self.ways: dict[Said, None] = {}
         self.special: list[Said] = []

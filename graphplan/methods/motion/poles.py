@@ -23,7 +23,7 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Stage
 from graphplan.mechanism.model import FRAME, Pair, Scene
 from graphplan.mechanism.numerals import is_exact
-from graphplan.mechanism.order import by_name, ordered_links, ordered_slides
+from graphplan.mechanism.order import ordered
 from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.gear import Gear
 from graphplan.mechanism.replaced import RollingGuide
@@ -76,9 +76,8 @@ class Poles:
     """The poles of one scene on one board, each drawn as it is asked for."""
 
     def __init__(self, board: Board, scene: Scene, pose: Pose, velocity: Velocity | None = None):
-        self.board, self.scene, self.pose, self._velocity = board, scene, pose, velocity
-        links = tuple(link for link in ordered_links(scene) if link != FRAME)
-        self.diagram = CircleDiagram(scene, (*links, FRAME))
+        self.board, self.scene, self.pose, self._velocity = board, ordered(scene), pose, velocity
+        self.diagram = CircleDiagram(self.scene, (*self.scene.moving, FRAME))
         self.seen = _Seen(board, scene)
         self.drawn: dict[Sides, DrawnPole] = {}
         self.lines: dict[tuple[Sides, PoleLine], Mark | None] = {}
@@ -95,20 +94,20 @@ class Poles:
         for joint in self.scene.revolutes:
             for links in combinations(joint.links, 2):
                 self._enter(links, DrawnPole(self.pose.points[joint.at]))
-        for gear in sorted(self.scene.gears, key=_by_links):
+        for gear in self.scene.gears:
             with self._on(gear.links, PITCH_POINT):
                 self._enter(gear.links, self._pitch_point(gear))
-        for contact in sorted(self.scene.contacts, key=_by_links):
+        for contact in self.scene.contacts:
             if contact.rolling:
                 self._enter(contact.links, DrawnPole(self.pose.points[contact.at]))
 
     def _lines(self) -> None:
         """What guides have at infinity, and the common normals of profiles that slide on each other."""
-        for slide in ordered_slides(self.scene):
+        for slide in self.scene.slides:
             with self._on(slide.links, ACROSS):
                 across = self.board.perpendicular(self.pose.guide(slide), self.pose.points[slide.at])
             self._enter(slide.links, DrawnPole(None, (across,)))
-        for contact in sorted(self.scene.contacts, key=_by_links):
+        for contact in self.scene.contacts:
             if not contact.rolling:
                 with self._on(contact.links, NORMAL):
                     normal = self._normal(contact)
@@ -343,10 +342,6 @@ class Poles:
     def _sine(self, k: Mark, l: Mark) -> float:
         """How well two lines cross."""
         return self.diagram.sine(self.seen[k], self.seen[l], dual=True)
-
-
-def _by_links(pair: Gear | Contact) -> tuple[Any, ...]:
-    return *map(by_name, pair.links), by_name(" ".join(filter(None, pair.centres)))
 
 
 class _Seen:

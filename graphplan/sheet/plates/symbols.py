@@ -136,8 +136,9 @@ def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
     """The corners of the convex hull, counter-clockwise from the leftmost."""
     import shapely
 
-    clockwise = shapely.normalize(shapely.MultiPoint(spots).convex_hull.simplify(1e-9)).exterior.coords
-    return tuple(reversed(clockwise[1:]))
+    rim = shapely.normalize(shapely.MultiPoint(spots).convex_hull).exterior.coords[:0:-1]
+    return tuple(b for a, b, c in zip((rim[-1], *rim), rim, (*rim[1:], rim[0]), strict=False)
+                 if turn(a, b, c) > 1e-9 * math.dist(a, c))
 
 
 def turn(a: Spot, b: Spot, c: Spot) -> float:

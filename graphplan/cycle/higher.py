@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain
-from typing import Any
+from typing import Any, ClassVar
 
 from graphplan.mechanism.model import FRAME, Contact, Gear, Scene
 from graphplan.mechanism.pairs.pair import ROLLING, TOUCHING, Along, Condition, KinematicPair, Statement
@@ -19,51 +19,44 @@ from graphplan.mechanism.plane import Pair, X, less, times, turned
 
 
 @dataclass(frozen=True)
-class Apart:
-    """The point `at` of `link` and the point `other` of `on` keep their distance."""
+class Higher:
+    """What a gear or a contact of this name keeps of the point `at` of `link`, relative to the link `on`."""
 
+    way: ClassVar[str] = ROLLING
+    name: str
     link: str
     on: str
     at: str
-    other: str
 
     @property
     def condition(self) -> Condition:
         """The statement by its name."""
-        return Condition(self.link, self.on, TOUCHING)
+        return Condition(self.link, self.on, self.way, self.name)
 
 
 @dataclass(frozen=True)
-class Racked:
-    """The point `at` of `link` moves along a direction fixed to `on` by as much as the link turns there by a lever."""
+class Apart(Higher):
+    """The point and the point `other` of the other link keep their distance."""
 
-    link: str
-    on: str
-    at: str
+    way = TOUCHING
+    other: str
+
+
+@dataclass(frozen=True)
+class Racked(Higher):
+    """The point moves along a direction fixed to the other link by as much as its link turns there by a lever."""
+
     direction: Pair
     lever: float
 
-    @property
-    def condition(self) -> Condition:
-        """The statement by its name."""
-        return Condition(self.link, self.on, ROLLING)
-
 
 @dataclass(frozen=True)
-class Geared:
-    """Two links turn on the line of the centres `at` and `other` so that the sum of the angles, by `factors`, is
+class Geared(Higher):
+    """Two links turn on the line of the centres, the point and `other`, so that the sum of the angles, by `factors`, is
     nothing."""
 
-    link: str
-    on: str
-    at: str
     other: str
     factors: tuple[float, float]
-
-    @property
-    def condition(self) -> Condition:
-        """The statement by its name."""
-        return Condition(self.link, self.on, ROLLING)
 
     @property
     def arm(self) -> str:
@@ -71,7 +64,6 @@ class Geared:
         return f"{self.link} {self.on} {self.at} {self.other}"
 
 
-Higher = Apart | Racked | Geared
 Bond = Statement | Higher
 
 
@@ -88,26 +80,26 @@ def stated(scene: Scene, pair: KinematicPair) -> Iterator[Bond]:
 def _gear(gear: Gear) -> Bond:
     """A pair of gears, or a gear on a rack: on its right, it rolls back along the line where it turns on."""
     if gear.direction is not None:
-        return Racked(*gear.links, gear.centres[0], gear.direction, float(gear.radius))
+        return Racked(gear.name, *gear.links, gear.centres[0], gear.direction, float(gear.radius))
     (link, on), (at, other), (k1, k2) = gear.links, gear.centres, gear.factors
-    return Geared(link, on, at, other, (float(k1), float(k2)))
+    return Geared(gear.name, link, on, at, other, (float(k1), float(k2)))
 
 
 def _contact(scene: Scene, contact: Contact) -> Iterator[Bond]:
     """A contact; where it rolls the radii are the distances of its point from the centres, along the normal."""
     link, on, centre = contact.curved
     if contact.direction is not None:
-        yield Along(link, on, centre, turned(contact.direction), TOUCHING)
+        yield Along(link, on, centre, turned(contact.direction), TOUCHING, name=contact.name)
         if contact.rolling:
             arm = less(scene.points[contact.at], scene.points[centre])
             (x, y), (u, v) = (map(float, pair) for pair in (contact.direction, arm))
-            yield Racked(link, on, centre, contact.direction, (y * u - x * v) / math.hypot(x, y))
+            yield Racked(contact.name, link, on, centre, contact.direction, (y * u - x * v) / math.hypot(x, y))
         return
     other = contact.centres[1] or ""
-    yield Apart(link, on, centre, other)
+    yield Apart(contact.name, link, on, centre, other)
     if contact.rolling:
         part = share(scene, contact)
-        yield Geared(link, on, centre, other, (part, 1.0 - part))
+        yield Geared(contact.name, link, on, centre, other, (part, 1.0 - part))
 
 
 def touching(scene: Scene, contact: Contact, points: Mapping[str, Any], turn: Any) -> Any:

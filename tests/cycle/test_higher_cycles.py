@@ -61,6 +61,17 @@ def planet(gear: str, M: complex = 54 + 22j) -> Scene:
     return gp.parse(PLANET.format(gear=gear, x=M.real, y=M.imag), "planet")
 
 
+def test_redundant_pairs_hold_nothing() -> None:
+    """An eccentric between two faces of a slider: one contact repeats the other, and the slider stays on its guide."""
+    faces = [higher.contact("1 2", at, '["B", [4, -3]]') for at in "KL"]
+    text = higher.text({"1": "A B", "2": "M", "frame": "A"}, higher.slide("2", "M", "[3, 4]"), *faces, DRIVE)
+    turn = follow(gp.parse(text.replace("[points]", "[points]\nL = [60, 80]"), "faces"), 24)
+    assert not turn.faults
+    away, apart = turn.points["M"] - (75 + 20j), turn.points["B"] - turn.points["M"]
+    assert (away / (3 + 4j)).imag == pytest.approx(0, abs=1e-9)
+    assert (apart / (3 + 4j)).real == pytest.approx(-2.2)
+
+
 @pytest.mark.parametrize(("gear", "ratio"), [
     ("links = ['frame', '2']\ncentres = ['O', 'A']\nteeth = [20, 30]", 1 + 20 / 30),
     ("links = ['2', 'frame']\ncentres = ['A', 'O']\nradii = [20, 70]\ninternal = true", 1 - 70 / 20),

@@ -147,7 +147,7 @@ class Quantity:
     slide: Slide | None = None
 
 
-def quantities(scene: Scene, names: Sequence[str] = ()) -> tuple[Quantity, ...]:
+def quantities(scene: Scene, names: Sequence[str]) -> tuple[Quantity, ...]:
     """What these names mean: links, slides, coordinates such as `B.x`; without names what the mechanism drives.
 
     Fails with `Refused` where a name means nothing, where there are too many, or where the first drive has no constant

@@ -192,7 +192,7 @@ class Expander:
     def _rank(self, rating: Rating) -> tuple[Any, ...]:
         return not (self.prefer and plain(rating.form) == self.prefer), *rating.rank
 
-    def _record(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str = "") -> Mark:
+    def _record(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str) -> Mark:
         """Record one step and give it its value."""
         mark, step = self.board.draw(op, args, why=why, **params), self.board.steps[-1]
         if mark.step.index == len(self.values):

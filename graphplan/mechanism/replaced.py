@@ -211,7 +211,7 @@ class _StandIns:
         drawn = exact or not is_exact(rail.direction, self.scene.points[base])
         self._roll(contact, point, square, base=base if drawn else "", rail=rail, length=length)
 
-    def _roll(self, pair: Higher, at: str, direction: Pair, through: tuple[str, str] | None = None, *, base: str = "",
+    def _roll(self, pair: Higher, at: str, direction: Pair, through: tuple[str, str] | None = None, *, base: str,
               ratio: Number | None = None, rail: Slide | None = None, length: Number | None = None) -> None:
         """A rolling guide; the point is one of the link that moves, of two such the first."""
         link, along = sorted(pair.links, key=_rank)

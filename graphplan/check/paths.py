@@ -6,9 +6,11 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from graphplan.errors import SingularPose
+from graphplan.mechanism.model import FRAME
 from graphplan.methods import kinds
 from graphplan.solver import Rates
 from graphplan.solver import curvature as solved
+from graphplan.solver.instant_centres import relative
 
 OF_POINTS: dict[str, Callable[[Rates, str, str], Any]] = {
     kinds.CENTRE: lambda rates, point, link: solved.centre(rates, point),
@@ -16,7 +18,8 @@ OF_POINTS: dict[str, Callable[[Rates, str, str], Any]] = {
     kinds.CUSP: solved.from_pole,
 }
 OF_LINKS: dict[str, Callable[[Rates, str], Any]] = {
-    kinds.INFLECTION: solved.inflection_pole, kinds.MOTION_POLE: solved.pole,
+    kinds.INFLECTION: solved.inflection_pole,
+    kinds.MOTION_POLE: lambda rates, link: relative(rates, link, FRAME).centre,
     kinds.TRANSLATION: lambda rates, link: rates.omega[link],
 }
 

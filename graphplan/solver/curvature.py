@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from graphplan.mechanism.model import FRAME
-from graphplan.mechanism.plane import Pair, dot, less, plus, times, turned
+from graphplan.mechanism.plane import Pair, dot, plus, times, turned
 from graphplan.solver.rates import Rates
 
 
@@ -46,12 +46,6 @@ def curvature(rates: Rates, point: str) -> Pair:
 def from_pole(rates: Rates, point: str, link: str) -> Pair:
     """The vector from the pole of a link's motion to its point; divides by zero where the link does not turn."""
     return over(turned(rates.velocity[point]), -rates.omega[link])
-
-
-def pole(rates: Rates, link: str) -> Pair:
-    """The point of a link's plane that has no velocity; divides by zero where the link does not turn."""
-    base = rates.equations.bases[link]
-    return less(rates.equations.scene.points[base], from_pole(rates, base, link))
 
 
 def inflection_pole(rates: Rates, link: str) -> Pair:

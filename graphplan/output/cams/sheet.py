@@ -22,12 +22,12 @@ from graphplan.sheet.frames.title import Page
 from graphplan.sheet.layout.layout import stacked
 from graphplan.sheet.layout.paper import Arrangement, lower_right, packed, sheet_size, words_page
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
-from graphplan.sheet.lettering.lettering import HEADING, SIZE, LetterSizes, letter_sizes, sentence_runs, wrap
+from graphplan.sheet.lettering.lettering import HEADING, SIZE, LetterSizes, letter_sizes, sentence_runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Text
 from graphplan.sheet.plates.view import least, view
 from graphplan.sheet.words.lengths import Lengths
-from graphplan.sheet.words.rows import Cell, Placed, TextRow, fill, lettered
+from graphplan.sheet.words.rows import Cell, Placed, TextRow, fill, hung, lettered
 from graphplan.words.tongue import Tongue, tongue
 
 DOCUMENT = said("Cam sheet")
@@ -40,7 +40,7 @@ PAPERS = ("A3", "A2", "A1")
 COLUMN, GAP, CAPTION, AROUND, OUTSIDE = 96.0, 4.0, 7.0, 3.0, 9.0  # mm: see _Sheet
 PLAN_WIDE, PLAN_HIGH = 0.6, 0.64  # of the room beside the words: the plan; above the curve x(s)
 FEW = 2  # steps that are told rather than counted
-INDENT, LEAD = 4.0, 3.0  # mm: of a step's number, and over a heading
+INDENT, LEAD = 8.0, 3.0  # mm: of what hangs from a step's number, and over a heading
 
 
 def sheets(drawing: CamDrawing, check: dict[str, float], paper: str | None = None) -> list[Sheet]:
@@ -198,11 +198,7 @@ class _Sheet:
 
     def _paragraph(self, words: str, number: str = "", step: int | None = None) -> Iterator[TextRow]:
         """Words in lines, hanging from a number."""
-        indent = 2 * INDENT if number else 0.0
-        lines = wrap(sentence_runs(self.tongue(words), self._names), SIZE, COLUMN - indent)
-        for k, runs in enumerate(lines):
-            label = (Cell(indent - 1.6, sentence_runs(number), "end"),) if number and not k else ()
-            yield TextRow((*label, Cell(indent, runs)), step=step, keep=min(2, len(lines) - 1 - k))
+        return hung(sentence_runs(self.tongue(words), self._names), COLUMN, INDENT, number, step)
 
     @cached_property
     def _names(self) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, HEADING, SIZE, Runs, width
+from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, HEADING, SIZE, Runs, sentence_runs, width, wrap
 from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Text, moved
 from graphplan.sheet.plates.pens import BORDER, LETTERS, THIN
 
@@ -65,6 +65,15 @@ class TextRow:
         """How far the row reaches."""
         ends = (cell.x + width(cell.runs, self.size, cell.bold) * (1.0 - ANCHORS[cell.anchor]) for cell in self.cells)
         return max((*ends, *(box.right for box in self.boxes), self.tall if self.figure else 0.0), default=0.0)
+
+
+def hung(runs: Runs, wide: float, indent: float, number: str = "", step: int | None = None) -> Iterator[TextRow]:
+    """A paragraph in a column of a width: as it is, or with a number from which its lines hang, so far indented."""
+    hangs = indent if number else 0.0
+    lines = wrap(runs, SIZE, wide - hangs)
+    for i, line in enumerate(lines):
+        label = (Cell(hangs - 1.6, sentence_runs(number), "end"),) if number and i == 0 else ()
+        yield TextRow((*label, Cell(hangs, line)), step=step, keep=min(3, len(lines) - 1 - i))
 
 
 Placed = tuple[TextRow, float, float]

@@ -18,7 +18,7 @@ from graphplan.sheet.lettering.lettering import HEADING, SIZE, Runs, equation_ru
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.protocol import Entry, Passage, Protocol, lengths_of
 from graphplan.sheet.words.readings import Readings
-from graphplan.sheet.words.rows import Cell, TextRow
+from graphplan.sheet.words.rows import Cell, TextRow, hung
 from graphplan.sheet.words.tables import (
     ROUNDING,
     Deviations,
@@ -88,12 +88,8 @@ class Words:
         return self._hung(self._runs(text), wide, step, number)
 
     def _hung(self, runs: Runs, wide: float, step: int | None = None, number: str = "") -> Iterator[TextRow]:
-        indent = self.indent if number else 0.0
-        lines = wrap(runs, SIZE, wide - indent)
-        for i, runs in enumerate(lines):
-            label = (Cell(indent - 1.6, sentence_runs(number), "end"),) if number and i == 0 else ()
-            row = TextRow((*label, Cell(indent, runs)), step=step, keep=min(3, len(lines) - 1 - i))
-            yield self._numbered(row) if label else row
+        for i, row in enumerate(hung(runs, wide, self.indent, number, step)):
+            yield self._numbered(row) if number and i == 0 else row
 
     def _numbered(self, row: TextRow) -> TextRow:
         """The row in which a number stands."""

@@ -12,6 +12,7 @@ import pytest
 
 from graphplan.commands import SUBCOMMANDS, main
 from graphplan.mechanism.scene import packaged
+from graphplan.methods.styles import METHODS, OF_PATHS
 
 Complete = Callable[[str], set[str]]
 
@@ -85,7 +86,7 @@ def test_options_are_offered(complete: Complete) -> None:
 
 def test_choices_are_offered(complete: Complete) -> None:
     """After an option with choices these are offered, however it is written; so are those of an argument."""
-    assert complete("graphplan draw --method ") == {"auxiliary", "trial", "poles"}
+    assert complete("graphplan draw --method ") == {*METHODS, *OF_PATHS}
     assert complete("graphplan steps --prefer=acc") == {"accurate"}
     assert complete("graphplan schema s") == {"scene", "solve", "steps"}
 

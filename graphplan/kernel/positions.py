@@ -21,21 +21,23 @@ from graphplan.kernel.kinds import (
     primitive,
 )
 from graphplan.kernel.primitives import apart, cross, dot, size
+from graphplan.phrases import Said
 
 
 class Angle(str):
     """An angle from the x-axis, spoken in degrees: the direction of a vector (x, y)."""
 
+    words: Said
     x: Any
     y: Any
 
-    def __new__(cls, degrees: str, x: Any, y: Any) -> Self:
-        self = super().__new__(cls, degrees)
-        self.x, self.y = x, y
+    def __new__(cls, words: Said, x: Any, y: Any) -> Self:
+        self = super().__new__(cls, words)
+        self.words, self.x, self.y = words, x, y
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Angle, (str(self), self.x, self.y)
+        return Angle, (self.words, self.x, self.y)
 
 
 @primitive((), OPENING, SCALE, "Open the compasses to the length of the link: {out}.", claims=(("spans",),),

@@ -155,7 +155,7 @@ def slide_named(slide: Slide) -> Said:
 def reactions_named(scene: Scene) -> dict[str, Said]:
     """In words, by their names in results, the force on every link of every joint, every slide, gear and contact."""
     forces = (JointForce(point, link) for point in scene.joints for link in scene.links_of[point])
-    higher = {pair.name: listed(pair.links) for pairs in (scene.gears, scene.contacts) for pair in pairs}
+    higher = {pair.name: both(pair.links) for pairs in (scene.gears, scene.contacts) for pair in pairs}
     return {force.name: force.words for force in forces} | higher | {s.name: slide_named(s) for s in scene.slides}
 
 

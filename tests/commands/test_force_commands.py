@@ -180,7 +180,8 @@ def test_balance_without_work_is_singular(monkeypatch: pytest.MonkeyPatch, capsy
 def test_unknown_plan_is_refused(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     """A plan that does not exist is refused with exit status 2."""
     assert ran(["solve", "--plan", "levers"], REST, monkeypatch) == 2
-    assert "there is no such plan; one of orthogonal, polar, triangles, lever, polygons, both" in capsys.readouterr().err
+    known = "orthogonal, polar, triangles, lever, polygons, both"
+    assert f"there is no such plan; one of {known}" in capsys.readouterr().err
 
 
 def test_check_shows_three_opinions(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

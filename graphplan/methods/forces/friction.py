@@ -24,7 +24,7 @@ from graphplan.methods.forces.free_bodies import DrawnForces, Span, reaction_on
 from graphplan.methods.forces.higher_pairs import TouchingGuide, line_of_pressure, on_first, posed_for, toothed
 from graphplan.methods.forces.loading import Loading
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import MECHANISM, link_named, listed, slide_named
+from graphplan.methods.panels import MECHANISM, both, link_named, slide_named
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
 
@@ -120,7 +120,7 @@ class Rubbed:
     def _leaning(self, slide: Slide, coefficient: Number) -> Mark:
         """The guide of a slide, or the tangent of a contact, turned by the friction angle."""
         pose = self.posed
-        why = (said("the friction of the contact {0}", listed(slide.links)) if isinstance(slide, TouchingGuide)
+        why = (said("the friction of the contact {0}", both(slide.links)) if isinstance(slide, TouchingGuide)
                else said("the friction of the slide {0}", slide_named(slide)))
         with self.board.on(MECHANISM, (slide.link, slide.along), stages.guide(why)):
             slip = self.velocity.slip(slide.along, slide.link, slide.at)

@@ -41,7 +41,7 @@ from graphplan.methods.motion.alternatives import EQUAL, growth, ways
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import link_named, listed, slide_named
+from graphplan.methods.panels import both, link_named, slide_named
 from graphplan.methods.styles import Style
 from graphplan.phrases import Phrase, Said, phrase, said
 
@@ -136,7 +136,7 @@ class Loaded(Draughtsman):
                 return
             if (head[0] - tail[0]) * way[0] + (head[1] - tail[1]) * way[1] < -SHORT * self.scene.extent**2:
                 yield said("the contact of {0} can only push, and its force pulls: something else must press them "
-                           "together, such as a spring", listed(contact.links))
+                           "together, such as a spring", both(contact.links))
 
     def _rounds(self, velocity: Velocity, loading: Loading, forces: DrawnForces) -> None:
         """Rounds of friction, as many as are asked for, or until the forces stand."""

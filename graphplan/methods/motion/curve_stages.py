@@ -56,7 +56,7 @@ def circle_of(link: str, forms: Collection[str]) -> Stage:
 def centre_of(point: str, forms: Collection[str]) -> Stage:
     """The centre of curvature of a point's path, by its link's circle or by known centres."""
     for form in LAWS.keys() & {*forms}:
-        return Stage(said("Centre of curvature of the path of {0}, after {1}", point, form), LAWS[form])
+        return Stage(said("Centre of curvature of the path of {0}, after {1}", point, said(form)), LAWS[form])
     return Stage(said("Centre of curvature of the path of {0}", point), EULER,
                  (Equation("MP² = MW · MC".replace("M", point), ()),))
 

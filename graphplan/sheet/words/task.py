@@ -25,7 +25,7 @@ from graphplan.methods.kinds import (
     TRANSLATION,
     kind_of,
 )
-from graphplan.methods.panels import JointForce, link_named, listed, pole_letter, slide_named
+from graphplan.methods.panels import JointForce, both, link_named, listed, pole_letter, slide_named
 from graphplan.phrases import Said, arranged, coordinates, digits, joined, phrase, said, unit
 from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.composition import Composition
@@ -225,7 +225,7 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
     slides = {(slide.link, slide.along): slide for slide in scene.slides}
     for friction in loads.frictions:
         where = (slide_named(slides[friction.slide]) if friction.slide
-                 else listed(friction.links) if friction.links else said("at {0}", friction.at))
+                 else both(friction.links) if friction.links else said("at {0}", friction.at))
         radius = [] if friction.links else [_with_unit("r", friction.radius, units.length)]
         yield said("Friction {0}: {1}.", where, joined((arranged("mu = {0}", _figure(friction.coefficient)), *radius)))
 
@@ -248,7 +248,7 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
     forces = values.get(REACTION, ())
     joints = [p for p in scene.joints if any(JointForce(p, link).name in forces for link in scene.links_of[p])]
     told = [*joints, *(slides[name] for name in values.get(SLIDE_REACTION, ()))]
-    told += [listed(pair.links) for kind, pairs in ((GEAR_REACTION, scene.gears), (CONTACT_REACTION, scene.contacts))
+    told += [both(pair.links) for kind, pairs in ((GEAR_REACTION, scene.gears), (CONTACT_REACTION, scene.contacts))
              for pair in pairs if pair.name in values.get(kind, {})]
     if told:
         yield said("Reactions: {0}.", joined(told))

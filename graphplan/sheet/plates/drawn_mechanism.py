@@ -223,6 +223,16 @@ class DrawnMechanism:
             else:
                 side = -1.0 if turn(at, off(at, along, 1.0), self.spots[contact.curved[2]]) > 0 else 1.0
                 yield Figure(tuple(higher_pairs.rail(at, along, side)), names or (contact.at,))
+        if contact.beyond:
+            yield from self._beyond(contact.beyond, set(contact.centres))
+
+    def _beyond(self, contact: Contact, known: set[str | None]) -> Iterator[Figure]:
+        """The thin circle of an arc that follows where two arcs of a profile meet."""
+        for link, centre in zip(contact.links, contact.centres, strict=True):
+            if centre and centre not in known and link in self._shown_links:
+                radius = higher_pairs.disc(self.scene, contact, centre) * self.view.scale
+                items = higher_pairs.circle(pens.PRODUCED, self.spots[centre], radius) if radius else ()
+                yield Figure(tuple(items), (centre,), "" if link == FRAME else link)
 
     def _nearest(self, link: str, at: Spot) -> Spot | None:
         """The place of a link's point that is nearest to a spot; none of the frame's."""

@@ -125,8 +125,8 @@ def disc(scene: Scene, contact: Contact, centre: str) -> float:
 def reach(scene: Scene) -> Iterator[Spot]:
     """How far pitch circles and discs go, in the scene's lengths: the corners of the squares about them."""
     circles = [(centre, radius) for _, centre, radius in wheels(scene)]
-    circles += [(centre, disc(scene, contact, centre)) for contact in scene.contacts
-                for centre in filter(None, contact.centres)]
+    circles += [(centre, disc(scene, one, centre)) for contact in scene.contacts for one in (contact, contact.beyond)
+                if one for centre in filter(None, one.centres)]
     for centre, radius in circles:
         x, y = map(float, scene.points[centre])
         yield from ((x - radius, y - radius), (x + radius, y + radius))

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from higher import ARM_DRIVE, DRIVE, TEXTS, contact, gear, scenes, slide, text
+from higher import ARC_CAM, ARM_DRIVE, DRIVE, TEXTS, gear, scenes, slide, text
 
 import graphplan as gp
 from graphplan.check.poses import Round, gaps, sound
@@ -174,25 +174,7 @@ def test_where_two_arcs_meet_the_acceleration_jumps(capsys: pytest.CaptureFixtur
     """Ozols, fig. 5-33: at the point where the arc about C is followed by one about D velocities agree, accelerations
     do not: both are printed, and the construction says which it draws."""
     scene = tmp_path / "cam.toml"
-    scene.write_text("""
-[points]
-O = [0, 0]
-C = { from = "O", distance = 30, angle = 28.64788975654116 }
-A = { distances = { C = 45 }, on = { through = [10, 0], direction = [0, 1] }, pick = "right" }
-D = { on = "A C", distance = 30 }
-K = { on = "A C", distance = 10 }
-[links]
-1 = "O C D"
-2 = "A"
-frame = "O"
-""" + contact("1 2", "K", '["C", "A"]', 'next = ["D", "A"]') + slide("2", "A", "[0, 1]") + """
-[[drive]]
-link = "1"
-omega = 10
-[find]
-velocity = ["A"]
-acceleration = ["A"]
-""")
+    scene.write_text(f'{ARC_CAM}[find]\nvelocity = ["A"]\nacceleration = ["A"]\n')
     assert main(["solve", str(scene)]) == 0
     told = json.loads(capsys.readouterr().out)
     before, after = told["points"]["A"], told["beyond"]["points"]["A"]

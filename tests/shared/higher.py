@@ -65,6 +65,23 @@ TEXTS = {
 }
 
 
+ARC_CAM = """[points]
+O = [0, 0]
+C = { from = "O", distance = 30, angle = 28.64788975654116 }
+A = { distances = { C = 45 }, on = { through = [10, 0], direction = [0, 1] }, pick = "right" }
+D = { on = "A C", distance = 30 }
+K = { on = "A C", distance = 10 }
+[links]
+1 = "O C D"
+2 = "A"
+frame = "O"
+[[drive]]
+link = "1"
+omega = 10
+""" + contact("1 2", "K", '["C", "A"]', 'next = ["D", "A"]') + slide("2", "A", "[0, 1]")
+"""Ozols 1974, fig. 5-33: at K the arc about C is followed by one about D."""
+
+
 def scenes() -> dict[str, Scene]:
     """The scenes by their names."""
     return {name: parse(text, name) for name, text in TEXTS.items()}

@@ -15,7 +15,8 @@ import pytest
 from graphplan import analytic
 from graphplan.check.arithmetics import FLOATS, bounded_rates, enclosed, enclosures
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene import parse
+from graphplan.mechanism.replaced import beyond
+from graphplan.mechanism.scene import load, parse
 from graphplan.solver import poses
 
 SCENES = higher.scenes()
@@ -198,62 +199,15 @@ def test_parallel_profiles_touch_alike() -> None:
 
 # --- textbook values -------------------------------------------------------------------------------------------------
 
-CAM = """[points]
-O = [0, 0]
-C1 = {{ from = "O", distance = 30, angle = 28.647889756541161 }}
-C2 = {{ on = "A C1", distance = 30 }}
-A = {{ distances = {{ C1 = 45 }}, on = {{ through = [10, 0], direction = [0, 1] }}, pick = "right" }}
-K = {{ on = "A C1", distance = 10 }}
-[links]
-1 = "O C1 C2"
-2 = "A"
-frame = "O"
-[[slides]]
-link = "2"
-along = "frame"
-at = "A"
-direction = [0, 1]
-[[contacts]]
-links = ["1", "2"]
-at = "K"
-centres = ["{}", "A"]
-[[drive]]
-link = "1"
-omega = 10
-"""
-LINKAGE = """[points]
-O = [0, 0]
-C = [1.5, 0]
-A = { from = "O", distance = 0.25, angle = 70 }
-B = { distances = { A = 0.85, C = 0.95 }, side = "left" }
-[links]
-1 = "O A"
-2 = "B"
-3 = "C"
-4 = "A B"
-5 = "B C"
-frame = "O C"
-[[gears]]
-links = ["1", "2"]
-centres = ["A", "B"]
-radii = [0.35, 0.5]
-[[gears]]
-links = ["2", "3"]
-centres = ["B", "C"]
-radii = [0.5, 0.45]
-[[drive]]
-link = "1"
-omega = 1
-"""
-
 
 def test_the_textbooks_values() -> None:
     """Ozols's arc cam, whose acceleration jumps where its arcs meet (fig. 5-33), and his gear-linkage (fig. 7-16)."""
-    for arc, wanted in (("C1", -981.278), ("C2", -5336.199)):
-        found = analytic.solve(parse(CAM.format(arc), arc))
+    cam = parse(higher.ARC_CAM, "5-33")
+    for scene, wanted in ((cam, -981.278), (beyond(cam), -5336.199)):
+        found = analytic.solve(scene)
         assert float(found.velocity["A"][1]) == pytest.approx(319.276, abs=5e-4)
         assert float(found.acceleration["A"][1]) == pytest.approx(wanted, abs=5e-4)
-    assert analytic.solve(parse(LINKAGE, "7-16")).omega["3"] == pytest.approx(1.67189, abs=5e-6)
+    assert analytic.solve(load("gear-linkage")).omega["3"] == pytest.approx(1.67189, abs=5e-6)
 
 
 # --- the same in other numbers ---------------------------------------------------------------------------------------

@@ -194,7 +194,7 @@ class Curves:
     def _by_rolling(self, link: str, guide: RollingGuide) -> Circle:
         """P where the wheel touches, W_0 on the line of centres: its centre's third proportional, the centre itself on
         a straight rail; of a rail that rolls the point opposite the wheel's centre."""
-        with self.board.on(MECHANISM, (link,), partial(by_rolling, link)):
+        with self.board.on(MECHANISM, (link,), by_rolling(link)):
             P = self.point(guide.at)
             if guide.through:
                 B, C = sorted(guide.through, key=lambda centre: centre not in self.scene.links[link])
@@ -207,9 +207,9 @@ class Curves:
 
     def _by_centres(self, link: str) -> Circle:
         """P where the rays cross, W_0 where the perpendiculars to them in W_1 and W_2 do."""
-        with self.board.on(MECHANISM, (link,), partial(by_centres, link)):
+        with self.board.on(MECHANISM, (link,), by_centres(link)):
             two = self.known[link]
-            with self.board.on(stage=partial(pole_of, link)):
+            with self.board.on(stage=pole_of(link)):
                 rays = [self._ray(source) for source in two]
                 P = self.board.meet(*rays, name="P")
             centres = [self._centre(source) for source in two]
@@ -259,7 +259,7 @@ class Curves:
 
     def _by_rates(self, link: str, two: tuple[str, str]) -> Circle:
         """The same from the velocities and the accelerations of two points of the link."""
-        with self.board.on(MECHANISM, (link,), partial(by_rates, link)):
+        with self.board.on(MECHANISM, (link,), by_rates(link)):
             ends = [self._orthogonal(link, X) for X in two]
             rays = [self.board.side(self.point(X), end) for X, end in zip(two, ends, strict=True)]
             P = self.board.meet(*rays, name="P")
@@ -312,7 +312,7 @@ class Curves:
         read(kinds.MOTION_POLE, link, P)
         read(kinds.INFLECTION, link, P, W0)
         if P is not W0:
-            with self.board.on(MECHANISM, (link,), partial(circle_of, link)):
+            with self.board.on(MECHANISM, (link,), circle_of(link)):
                 R0 = self.board.transfer(W0, P, P, name="R_0")
                 for opposite in (W0, R0):
                     middle = self.board.midpoint(P, opposite)
@@ -327,7 +327,7 @@ class Curves:
             return kinds.STRAIGHT, ()
         told = link in self.known or link in self.wheels or link in self.scene.find.inflection
         circle = self.circle(link) if told else None
-        with self.board.on(MECHANISM, (link,), partial(centre_of if circle else centre_by_rates, point)):
+        with self.board.on(MECHANISM, (link,), partial(centre_of, point) if circle else centre_by_rates(point)):
             return self._by_circle(circle, point) if circle else self._by_normal(point, link)
 
     def _rank(self, link: str) -> int:

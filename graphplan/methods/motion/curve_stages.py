@@ -26,29 +26,29 @@ MIRRORED = said("the pole and the inflection pole are opposite points of the inf
 NORMAL = said("the radius of curvature is the third proportional to the normal acceleration and the velocity")
 
 
-def pole_of(link: str, forms: Collection[str]) -> Stage:
+def pole_of(link: str) -> Stage:
     """The pole of a link from the paths of two points."""
     return Stage(said("Pole of {0}", link_named(link)), NORMALS)
 
 
-def by_centres(link: str, forms: Collection[str]) -> Stage:
+def by_centres(link: str) -> Stage:
     """The inflection circle of a link from two points with known centres of curvature."""
     return Stage(said("Inflection circle of {0}", link_named(link)), EULER, (Equation("MP² = MW · MC", ()),))
 
 
-def by_rolling(link: str, forms: Collection[str]) -> Stage:
+def by_rolling(link: str) -> Stage:
     """The inflection circle of a wheel that rolls on another, or on a rail."""
     return Stage(said("Inflection circle of {0}, which rolls", link_named(link)), ROLLING,
                  (Equation("BP² = BW_0 · BC", ()),))
 
 
-def by_rates(link: str, forms: Collection[str]) -> Stage:
+def by_rates(link: str) -> Stage:
     """The inflection circle of a link from the velocities and accelerations of two points."""
     return Stage(said("Inflection circle of {0}, from velocities and accelerations", link_named(link)), RATES,
                  (Equation("a_n = ω² · MW, v = ω · MP", ()),))
 
 
-def circle_of(link: str, forms: Collection[str]) -> Stage:
+def circle_of(link: str) -> Stage:
     """The circles themselves."""
     return Stage(said("Inflection circle and return circle of {0}", link_named(link)), MIRRORED)
 
@@ -61,7 +61,7 @@ def centre_of(point: str, forms: Collection[str]) -> Stage:
                  (Equation("MP² = MW · MC".replace("M", point), ()),))
 
 
-def centre_by_rates(point: str, forms: Collection[str]) -> Stage:
+def centre_by_rates(point: str) -> Stage:
     """The centre of curvature of a point's path, by its velocity and its normal acceleration."""
     return Stage(said("Centre of curvature of the path of {0}, from its normal acceleration", point), NORMAL,
                  (Equation(f"ρ_{point} = v_{point}² / a^n_{point}", ()),))

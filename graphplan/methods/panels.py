@@ -176,8 +176,7 @@ def replacements(bars: Mapping[str, Contact]) -> Iterator[Said]:
 
 def redundancies(scene: Scene) -> Iterator[Said]:
     """What is said of the pairs that special geometry makes redundant, and of the reactions that it leaves untold."""
-    higher = {pair.name: both(pair.links) for pairs in (scene.gears, scene.contacts) for pair in pairs}
-    named = reactions_named(scene) | higher
+    named = reactions_named(scene)
     for name in scene.redundant_pairs:
         yield said("{0}: redundant, it repeats what the other pairs state; by special geometry the mechanism moves",
                    named[name])

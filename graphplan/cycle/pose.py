@@ -9,6 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.cycle.extreme import extreme
+from graphplan.cycle.geared import driven_by_gears
 from graphplan.cycle.travel import check_drives
 from graphplan.cycle.turn import follow, under
 from graphplan.errors import Refused, SingularPose
@@ -29,11 +30,9 @@ def at(scene: Scene, travel: Travel | Sequence[Travel] | str) -> Scene:
     with `Refused` where nothing leads there, and with `SingularPose` where it is a limit.
     """
     check_drives(scene)
-    if scene.gears or scene.contacts:
-        raise Refused(f"{scene.name}: the pose", said("no steps are known that find where gears and contacts go"),
-                      "the pose as it is given")
     turned, travel = extreme(scene, travel) if isinstance(travel, str) else (None, travel)
     travels = _travels(scene, travel)
+    given, gone = driven_by_gears(scene, travels)
     paced, first = _paced(scene, travels)
     found = follow(paced, 1, (float(first), float(first)))
     if 0 in found.faults:
@@ -50,7 +49,7 @@ def at(scene: Scene, travel: Travel | Sequence[Travel] | str) -> Scene:
             z = ends[1] - ends[0] if ends else complex(found.guides[one.name][0]) if one.name in found.guides else None
         return one.direction if z is None else (z.real, z.imag)
 
-    assembly = Assembly(scene, travels, moved_on(scene, travels, TO_A_FLOAT), under(scene), turned)
+    assembly = Assembly(given, gone, moved_on(given, gone, TO_A_FLOAT), under(scene), turned)
     posed = scene.posed(points, direction)
     where = "the pose: constructed at another travel of its drive"
     return replace(posed, placements=_standing(scene), irrational=(*scene.irrational, where), assembly=assembly)

@@ -222,7 +222,7 @@ class Extreme:
 @dataclass(frozen=True)
 class Assembly:
     """What a pose is put together from: the links of a scene as they are `given`, moved on by the `travels` of its
-    drives (degrees, or lengths of one that slides).
+    drives (degrees, or lengths of one that slides). Links that gears turn have drives there in the place of the gears.
 
     `moves` says the same in the numbers of the given scene: the cosine and sine of a turning drive's travel, the vector
     of a sliding one's. `riding` are points that only mark the place under a sliding point, each with that point.

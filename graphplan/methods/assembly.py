@@ -47,7 +47,7 @@ class Assembler(Placing):
             found = self._next(waiting)
             waiting = [body for body in waiting if body not in found]
         for name in ordered_points(scene):
-            if name not in self.assembly.riding:
+            if name in self.given.points and name not in self.assembly.riding:
                 self.mark(name)
 
     # ---- groups ------------------------------------------------------------------------------------------------------

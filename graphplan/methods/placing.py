@@ -104,7 +104,8 @@ class Placing:
                 (p, P), (q, Q) = found
                 return self._corner(P, Q, less(at, p), less(q, p), name)
         if links and body is self.ground:
-            return self._driven(body, links[0], at, name)
+            link = next((link for link in links if not self._at_root(body, link, at)), links[0])
+            return self._driven(body, link, at, name)
         drawn = self._drawn(body)
         if drawn and body is self.ground:
             dx, dy = less(at, drawn[0][0])
@@ -114,6 +115,11 @@ class Placing:
         (p, P), (u, line) = drawn[0], body.heading
         with self.board.on(MECHANISM, tuple(body.lies)):
             return self.board.set_off(line, P, **figure(less(at, p), u), name=name)
+
+    def _at_root(self, body: Body, link: str, at: Pair) -> bool:
+        """Whether a place is the very joint about which a link is driven."""
+        weld = self.net.welds[link]
+        return weld.slide is None and same_place(self._figure(body, weld.at), at)
 
     def _unknown(self, *links: str) -> Refused:
         """The error where no way is known to find where links are."""
@@ -127,6 +133,8 @@ class Placing:
         """The first mark of a link that is driven from the frame: a crank laid off, or a slider moved along."""
         weld = self.net.welds[link]
         law = (said("{0} lies at the angle that the drive gives its link, as far off as the link is long", name or link)
+               if weld.drive in self.scene.drives and weld.slide is None else
+               said("{0} lies at the angle that the ratio of the gears gives its link", name or link)
                if weld.slide is None else said("{0} has gone along its guide as far as its drive says", name or link))
         with self.board.on(MECHANISM, (link,), self._stage(law, (link,))):
             if weld.slide is None:
@@ -185,7 +193,7 @@ class Placing:
     def _fixed(self) -> None:
         """Mark the points that stand still, and where a guide of the frame passes none of them, one of it."""
         with self.board.on(MECHANISM):
-            fixed = [name for name in ordered_points(self.scene) if name not in self.assembly.riding
+            fixed = [name for name in ordered_points(self.given) if name not in self.assembly.riding
                      and (FRAME in (links := self.given.links_of[name]) or not links)]
             for name in fixed:
                 x, y = self.given.points[name]

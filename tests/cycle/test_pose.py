@@ -21,6 +21,7 @@ from graphplan.sheet.plates.display import Text
 
 DRIVEN = [name for name in packaged() if (scene := gp.load(name)).drives and not scene.motions
           and not (scene.gears or scene.contacts)]
+TRAINS = ["planetary", "biplanetary", "david", "cardan-circles", "geared-five-bar"]
 TRAVELS = 0, 17, 145, -33
 DEAD = gp.parse("""
 [points]
@@ -49,7 +50,7 @@ def displaced(drawing: Construction) -> float:
                if step.name in scene.points) / scene.extent
 
 
-@pytest.mark.parametrize("name", DRIVEN)
+@pytest.mark.parametrize("name", [*DRIVEN, *TRAINS])
 def test_points_are_where_the_cycle_has_them(name: str) -> None:
     """At several travels the constructed points are the followed ones, and all results are the solver's."""
     scene, reached = gp.load(name), 0
@@ -177,3 +178,16 @@ def test_what_has_no_extreme_position_is_refused(capsys: pytest.CaptureFixture[s
     told = json.loads(capsys.readouterr().out)["pose"]
     assert (told["extreme"], told["link"]) == ("outer", "3")
     assert told["time_ratio"] > 1
+
+
+def test_gears_turn_by_their_ratio(capsys: pytest.CaptureFixture[str]) -> None:
+    """A planet turns on its arm as the teeth say, and is laid off so; what no train alone turns is refused."""
+    posed, scene = gp.at(gp.load("cardan-circles"), 30), gp.load("cardan-circles")
+    A, M = (complex(*posed.points[name]) for name in "AM")
+    before = complex(*map(float, scene.points["M"])) - complex(*map(float, scene.points["A"]))
+    assert abs((M - A) / before - complex(math.cos(math.pi / 6), -math.sin(math.pi / 6))) < 1e-12
+    assert main(["steps", "cardan-circles", "--at", "30"]) == 0
+    assert "the ratio of the gears" in capsys.readouterr().out
+    for name in ("gear-linkage", "racks", "roller-cam"):
+        with pytest.raises(Refused, match="no steps are known"):
+            gp.at(gp.load(name), 10)

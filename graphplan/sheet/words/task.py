@@ -161,7 +161,7 @@ def data(scene: Scene) -> Iterator[Said]:
                    "Construct the inner extreme position of {0}, with crank and coupler in one line.",
                    link_named(extreme.link))
     elif scene.assembly is not None:
-        for drive, travel in zip(scene.drives, scene.assembly.travels, strict=True):
+        for drive, travel in zip(scene.drives, scene.assembly.travels, strict=False):
             yield _moved_on(drive, travel, scene.units.length)
     if scene.loads:
         yield from _loads(scene, scene.loads)

@@ -263,3 +263,11 @@ def test_a_letter_avoids_the_line_through_its_mark() -> None:
     (text,) = placed([Wish((Run("A"),), ((50, 50),))], [line], [(50, 50)], SQUARE)
     assert isinstance(text, Text)
     assert text.at[1] > 50 or text.at[1] + 1.8 < 50
+
+
+@given(st.floats(0, 2 * math.pi), st.tuples(st.floats(0, 400), st.floats(0, 300)))
+def test_a_point_on_a_side_is_no_corner(turned: float, at: tuple[float, float]) -> None:
+    """The hull of a triangle and the middle of one of its sides is the triangle, wherever it lies."""
+    cos, sin = math.cos(turned), math.sin(turned)
+    places = [(at[0] + cos * x - sin * y, at[1] + sin * x + cos * y) for x, y in ((-30, 0), (0, 0), (30, 0), (10, 25))]
+    assert {*symbols.hull(places)} == {places[0], *places[2:]}

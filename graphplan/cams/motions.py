@@ -17,6 +17,8 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.mechanism.elimination import Elimination
+
 ORDERS = 4  # lift, velocity, acceleration and jerk
 HALF = Fraction(1, 2)
 
@@ -130,18 +132,8 @@ def _periodic_rates(widths: Sequence[Fraction], rises: Sequence[Fraction]) -> li
 
 
 def _solved(rows: Sequence[dict[int, Fraction]], right: Sequence[Fraction]) -> list[Fraction]:
-    """The solution of a diagonally dominant system by elimination."""
-    table, values, count = [dict(row) for row in rows], list(right), len(rows)
-    for k in range(count):
-        for i in range(k + 1, count):
-            if table[i].get(k):
-                factor = table[i][k] / table[k][k]
-                for j, value in table[k].items():
-                    table[i][j] = table[i].get(j, Fraction(0)) - factor * value
-                values[i] -= factor * values[k]
-    for k in reversed(range(count)):
-        values[k] = (values[k] - sum(table[k].get(j, 0) * values[j] for j in range(k + 1, count))) / table[k][k]
-    return values
+    """The solution of a diagonally dominant system, which has one."""
+    return Elimination(rows, len(rows)).solve(right) or []
 
 
 def _whole(*powers: int, waves: Sequence[Wave] = ()) -> tuple[Piece, ...]:

@@ -9,6 +9,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from graphplan.errors import Refused
+from graphplan.mechanism.elimination import Elimination
 from graphplan.mechanism.model import FRAME, Gear, Number, Scene
 from graphplan.mechanism.numerals import is_exact
 from graphplan.mechanism.pairs.drives import TurningDrive
@@ -75,19 +76,8 @@ def _row(*terms: tuple[str, Number], turn: Number = 0) -> Row:
 
 
 def _determined(rows: list[Row]) -> Row:
-    """The turns that follow from the rows, by elimination."""
-    reduced: dict[str, Row] = {}
-    for row in rows:
-        for link, pivot in reduced.items():
-            row = _less(row, pivot, link)
-        link = next((name for name, factor in row.items() if name and factor), "")
-        if link:
-            row = {name: factor / row[link] for name, factor in row.items()}
-            reduced = {name: _less(pivot, row, link) for name, pivot in reduced.items()} | {link: row}
-    return {link: row[""] for link, row in reduced.items() if not any(row[name] for name in {*row} - {"", link})}
-
-
-def _less(row: Row, pivot: Row, link: str) -> Row:
-    """A row from which a link's turn is cleared by another row."""
-    factor = row.get(link, Fraction(0))
-    return {name: row.get(name, Fraction(0)) - factor * pivot.get(name, Fraction(0)) for name in {**row, **pivot}}
+    """The turns that follow from the rows, as far as these bind them."""
+    links = [*dict.fromkeys(name for row in rows for name in row if name)]
+    system = Elimination([{k: row[link] for k, link in enumerate(links) if link in row} for row in rows], len(links))
+    turns, free = system.solve([row[""] for row in rows]) or [], system.free
+    return {link: turn for k, (link, turn) in enumerate(zip(links, turns, strict=False)) if k not in free}

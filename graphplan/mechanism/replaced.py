@@ -16,7 +16,7 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.mechanism.model import FRAME, Contact, Gear, Number, Pair, Scene
-from graphplan.mechanism.numerals import exactly, is_exact, root
+from graphplan.mechanism.numerals import is_exact, root
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.pairs.pair import LINE, ROLLING, TOUCHING, TURNING
 from graphplan.mechanism.pairs.sliding import Slide
@@ -170,16 +170,16 @@ class _StandIns:
             self.pairs.append(EqualTurning(*gear.links, B, (1, 0), given=gear))
             return
         ratio, direction = one / (one + two), less(self._at(C), self._at(B))
-        point = self._named(gear, plus(self._at(B), times(Fraction(ratio), direction)))
+        point = self._named(gear, plus(self._at(B), times(_fraction(ratio), direction)))
         self._roll(gear, point, direction, (B, C), base=B, ratio=ratio)
 
     def _rack(self, gear: Gear, B: str) -> None:
         """The pitch point of a rack: the foot of the gear's centre on the pitch line, to the right of that."""
         rail, length = straight(gear), -gear.radius
         assert rail is not None
-        square = turned(exactly(rail.direction))
-        whole, _ = root(Fraction(dot(square, square)))
-        point = self._named(gear, plus(self._at(B), times(Fraction(length) / whole, square)))
+        square = turned(_fractions(rail.direction))
+        whole, _ = root(_fraction(dot(square, square)))
+        point = self._named(gear, plus(self._at(B), times(_fraction(length) / whole, square)))
         self._roll(gear, point, square, base=B, rail=rail, length=length)
 
     def contact(self, contact: Contact) -> None:
@@ -205,8 +205,8 @@ class _StandIns:
             share = dot(arm, direction) / dot(direction, direction)
             self._roll(contact, point, direction, (base, others[0]), base=base, ratio=share)
             return
-        square = turned(exactly(rail.direction))
-        long, exact = root(Fraction(dot(square, square)))
+        square = turned(_fractions(rail.direction))
+        long, exact = root(_fraction(dot(square, square)))
         length = dot(arm, square) / long
         drawn = exact or not is_exact(rail.direction, self.scene.points[base])
         self._roll(contact, point, square, base=base if drawn else "", rail=rail, length=length)
@@ -227,8 +227,7 @@ class _StandIns:
         return name
 
     def _at(self, point: str) -> tuple[Fraction, Fraction]:
-        """Where a point is, in fractions, so that what is in line with others is so exactly."""
-        return exactly(self.scene.points[point])
+        return _fractions(self.scene.points[point])
 
 
 def _order(pair: Higher) -> tuple[Any, ...]:
@@ -245,3 +244,13 @@ def _free(name: str, taken: Iterable[str]) -> str:
     while name in taken:
         name += "'"
     return name
+
+
+def _fractions(pair: Pair) -> tuple[Fraction, Fraction]:
+    """A point or vector in fractions, so that what is in line with others is so exactly."""
+    return _fraction(pair[0]), _fraction(pair[1])
+
+
+def _fraction(number: Number) -> Fraction:
+    """A number in fractions; of one with bounds the middle, as a stand-in's place is drawn from its centres."""
+    return number if isinstance(number, Fraction) else Fraction(float(number))

@@ -188,6 +188,7 @@ def test_gears_turn_by_their_ratio(capsys: pytest.CaptureFixture[str]) -> None:
     assert abs((M - A) / before - complex(math.cos(math.pi / 6), -math.sin(math.pi / 6))) < 1e-12
     assert main(["steps", "cardan-circles", "--at", "30"]) == 0
     assert "the ratio of the gears" in capsys.readouterr().out
+    assert report(gp.at(gp.load("geared-five-bar"), 30)).same  # read in enclosures, too
     for name in ("gear-linkage", "racks", "roller-cam"):
         with pytest.raises(Refused, match="no steps are known"):
             gp.at(gp.load(name), 10)

@@ -326,8 +326,8 @@ class Program:
         return step.op.described.format(*map(self.described, step.args))
 
     def given_vector(self, step: Step) -> bool:
-        """Whether a point is the end of a given vector: lettered, and laid off by its size from where a plan begins."""
-        return bool(step.name) and step.op.scaled and step.root is not None and self.steps[step.root].op.free
+        """Whether a point is the end of a given vector: of a quantity, and laid off by it from where a plan begins."""
+        return all((step.name, step.quantity, step.op.scaled, step.root is not None and self.steps[step.root].op.free))
 
     @cached_property
     def givens(self) -> int:

@@ -6,6 +6,7 @@ import math
 
 import pytest
 from higher import scenes
+from sheets import composition_of
 
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Polyline, Rect
@@ -31,6 +32,14 @@ def test_every_pitch_circle_and_profile_is_drawn_once(name: str) -> None:
     corners = [*reach(scene)]
     for arc in circles:
         assert (arc.centre[0] - arc.radius, arc.centre[1] - arc.radius) in [pytest.approx(one) for one in corners]
+
+
+@pytest.mark.parametrize("name", ["racks", "roller-cam", "wheel-on-rail", "geared-five-bar"])
+def test_a_pitch_point_is_no_vector(name: str) -> None:
+    """What is laid off from a centre to a pitch point or a point of contact has no head and no colour of vectors."""
+    plate = next(iter(composition_of(name, plan="polar").plates))
+    given = [drawn for drawn in plate.steps if plate.given_pen(drawn)]
+    assert not given
 
 
 @pytest.mark.parametrize("name", SCENES)

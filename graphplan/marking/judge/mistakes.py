@@ -128,7 +128,7 @@ def vector_of(program: Program, step: Step, plan_of_step: Sequence[str]) -> Vect
                     start = root
                 return Vector(words, other.why.put, start)
     equations = step.stage(()).equations if step.stage and step.name else ()
-    if equations:
+    if equations and equations[0].vectors:
         return Vector(STAGE_VECTOR, (equations[0].vectors[0].name,), step.root)
     return Vector(VECTOR, (), step.root)
 

@@ -13,7 +13,7 @@ from itertools import product
 
 from graphplan.commands.choices import add_paper, add_pencil, count, pencil
 from graphplan.commands.output import Messages, as_json, write
-from graphplan.methods.styles import MOTION_PLANS
+from graphplan.methods.styles import motion_plans
 
 HAND = 4096  # bytes for what one hand draws, as measured
 
@@ -38,7 +38,7 @@ def run(options: argparse.Namespace) -> int:
     afford("--hands", options.hands, "hands", HAND)
     scene, hand, messages = load(options.scene), pencil(options), Messages(options.quiet)
     found = []
-    for strict, plan in product((False, True), MOTION_PLANS):
+    for strict, plan in product((False, True), motion_plans(scene)):
         messages.progress(f"{plan} plans{', strict' if strict else ''}")
         drawn = forms(scene, hand, plan=plan, strict=strict, paper=options.paper, construct=construct)
         found.append(Comparison(scene, plan, strict, tuple(drawn), options.hands))

@@ -5,12 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from graphplan.errors import Refused
+from graphplan.mechanism.model import Scene
 
 METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}  # with the form that each prefers
 OF_PATHS = {"euler-savary": "Euler-Savary", "bobillier": "Bobillier", "hartmann": "Hartmann", "accelerations": ""}
 MOTION_PLANS = ("orthogonal", "polar", "triangles")
 PLANS = (*MOTION_PLANS, "lever", "polygons", "both")
 INERTIA = ("couple", "shifted", "points")
+
+
+def motion_plans(scene: Scene) -> tuple[str, ...]:
+    """The plans of motion that a scene may have: velocity triangles stand on the lines of centres of its gears."""
+    return MOTION_PLANS if scene.gears else MOTION_PLANS[:2]
 
 
 @dataclass(frozen=True)

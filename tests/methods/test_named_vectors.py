@@ -49,7 +49,9 @@ class Motion:
 
     def normal(self, K: str, X: str) -> complex:
         """The normal acceleration of K about X, points of one link."""
-        (k, _, one), (x, _, two) = self.place(K), self.place(X)
+        (k, v, one), (x, w, two) = self.place(K), self.place(X)
+        if not one & two:  # a bar that stands for a contact turns as its ends go
+            return abs((v - w) / (k - x)) ** 2 * (x - k)
         (link,) = one & two
         return float(self.rates.omega[link]) ** 2 * (x - k)
 

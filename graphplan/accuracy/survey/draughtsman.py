@@ -13,7 +13,7 @@ from graphplan.accuracy.pencil import Pencil
 from graphplan.accuracy.preference import forms
 from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart, front, grouped, median, stairs
 from graphplan.mechanism.model import Scene
-from graphplan.methods.styles import MOTION_PLANS
+from graphplan.methods.styles import MOTION_PLANS, motion_plans
 from graphplan.sheet.plates.pens import BLUE, GREY, INK, RED
 
 PAPER = "A1"
@@ -46,7 +46,7 @@ def drafts(scene: Scene, pencil: Pencil, long: bool = True) -> list[Draft]:
 
 def _drawn(scene: Scene, pencil: Pencil, long: bool) -> Iterator[Draft]:
     for tools in (SQUARES, STRICT):
-        for plan in MOTION_PLANS:
+        for plan in motion_plans(scene):
             if tools == STRICT and scene.loads is not None and not long:
                 yield Draft(scene.name, "every method", plan, tools, PAPER, None, None, why=LONG)
                 continue

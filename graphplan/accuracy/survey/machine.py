@@ -28,7 +28,7 @@ from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
-from graphplan.methods.styles import MOTION_PLANS
+from graphplan.methods.styles import MOTION_PLANS, motion_plans
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED
 
 MOTION, FORCES = "motion", "motion and forces"
@@ -102,7 +102,7 @@ def _drawn(arithmetic: Callable[[Construction], Run], drawn: Drawn, left_out: bo
 
 def forms(scene: Scene) -> Iterator[tuple[str, str, Drawn]]:
     """The programs to which all methods lead, on both kinds of plan, by the methods' names; or why there is none."""
-    for plan in MOTION_PLANS:
+    for plan in motion_plans(scene):
         for names, one in led_to(partial(construct, scene, plan=plan), lambda drawing: drawing.program):
             yield called(names), plan, one
 

@@ -32,7 +32,7 @@ def driven_by_gears(scene: Scene, travels: tuple[Fraction, ...]) -> tuple[Scene,
     more, led = _led(scene, turns)
     plain = not scene.contacts and all(_ratio(scene, gear) and {*gear.links} <= led for gear in scene.gears)
     if not plain or any(name and name not in turns for row in rows for name in row):
-        raise Refused(f"{scene.name}: the pose", said("no steps are known that find where gears and contacts go"),
+        raise Refused(f"{scene.name}: the pose", said("no steps are known that find where these gears or contacts go"),
                       "the pose as it is given")
     others = replace(scene, written=tuple(pair for pair in scene.written if pair not in scene.gears), redundant=(),
                      repeating=())

@@ -24,12 +24,15 @@ Spot = tuple[Any, Any]  # symbols, or numbers where nothing moves it
 class Ground:
     """The frame as compass rules read a link: its points where they are dragged, all else where it was given.
 
-    `free` are the pins that may be dragged. Points that give a guide of the frame its direction stay.
+    `free` are the pins that may be dragged. Points that give a guide of the frame its direction stay, and those
+    that hold the wheels of a pair apart: with them the wheels would be others.
     """
 
     def __init__(self, domain: Symbols, scene: Scene, view: View, places: Mapping[str, complex]):
         self.domain, self.scene, self.view, self.places = domain, scene, view, places
         self.fixed = {end for slide in scene.slides if slide.along == FRAME for end in slide.through or ()}
+        self.fixed |= {end for gear in scene.gears if {*gear.centres} <= {*scene.links.get(FRAME, ())}
+                       for end in gear.centres}
         self.free: list[str] = []
         self.pins: dict[str, Planar] = {}
         for name in self._still():

@@ -23,6 +23,12 @@ def ordered(scene: Scene) -> Scene:
                    loads=scene.loads and _ordered_loads(scene.loads))
 
 
+def lower(scene: Scene) -> Scene:
+    """The scene in this order without its higher pairs, where others stand for them."""
+    found = ordered(scene)
+    return replace(found, written=tuple(pair for pair in found.written if not isinstance(pair, Gear | Contact)))
+
+
 def _ordered_loads(loads: Loads) -> Loads:
     """The loads by their links, those of one link by their values and points."""
     def key(load: Force | Moment) -> tuple[Key, tuple[float, ...], Key]:

@@ -36,7 +36,9 @@ def travels(found: Relations, rng: Random) -> list[float]:
 
 
 def dragged(found: Relations, rng: Random) -> tuple[dict[str, complex], list[float]]:
-    """A pin somewhere near, and the drives anywhere."""
+    """A pin somewhere near, if one is free, and the drives anywhere."""
+    if not found.free:  # all its pins hold wheels apart
+        return {}, travels(found, rng)
     name = rng.choice(found.free)
     x, y = (float(part) for part in found.scene.points[name])
     far = FAR * found.scene.extent

@@ -8,7 +8,7 @@ from functools import cached_property
 from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Contact, Scene, Slide
-from graphplan.mechanism.order import ordered
+from graphplan.mechanism.order import lower
 from graphplan.methods import kinds
 from graphplan.methods.forces import stages as told
 from graphplan.methods.forces.force_plan import ForcePolygon
@@ -54,7 +54,7 @@ class ForceTransfer:
         self._moves: dict[tuple[tuple[str, ...], Way], list[StaticMove] | Refused] = {}
         done: list[str] = []
         untold: set[str] = set()
-        own = ordered(scene)
+        own = lower(scene)
         for links in groups(own):
             if _indeterminate(scene, links, untold):
                 untold.update(links)

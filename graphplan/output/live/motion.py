@@ -51,7 +51,7 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
         "under": under(scene), "shared": [[point, at, apart(point, at)] for point, at in drawings[0].shared.items()],
         "lined": [[one, other, said("guides {0} and {1} are drawn as one line, and turn apart here", one, other)]
                   for one, other in _lined(scene)],
-        "scene": _plain(tomllib.loads(scene.text)), "placed": [*_placed(scene)],
+        "scene": _plain(_anywhere(tomllib.loads(scene.text))), "placed": [*_placed(scene)],
         "lines": [balance.direction and [*map(float, balance.direction)] for balance in scene.loads.balances]
         if scene.loads else [], "same": SAME, "linkage": linkage, "programs": [program.data for program in programs],
         "rolling": [*rolling(scene)],
@@ -92,6 +92,12 @@ def script() -> str:
     texts = (files(__package__).joinpath(f"{name}.js").read_text("utf-8")
              for name in ("linkage", "opinion", "toml", "motion"))
     return "\n".join(['const Motion = (() => {\n"use strict";', *texts, "return Motion;\n})();\n"])
+
+
+def _anywhere(told: Data) -> Data:
+    """What a scene says that holds in other poses: which arc follows on a profile is told of its own pose alone."""
+    return told | ({"contacts": [{key: value for key, value in one.items() if key != "next"}
+                                 for one in told["contacts"]]} if "contacts" in told else {})
 
 
 def _plain(value: Any) -> Any:

@@ -24,7 +24,7 @@ from graphplan.words.tongue import Tongue
 Table = tuple[Said, Said, Sequence[Said], Iterator[tuple[str, Sequence[HtmlCell]]]]
 """The title of a table, its caption, the heads of its columns, and its rows, each with its class."""
 
-ANYTHING = {"point": "ABCDEFG", LINE: "abcdefg", "opening": "rs", "circle": "kl"}  # letters of operands, by kind
+ANYTHING = {"point": "ABCDEFGHIJ", LINE: "abcdefg", "opening": "rs", "circle": "kl"}  # letters of operands, by kind
 HANDS = INSTRUMENTS | {PENCIL: phrase("pencil")}
 
 

@@ -10,6 +10,7 @@ import pytest
 import graphplan as gp
 from graphplan.kernel.program import Step
 from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.replaced import replaced
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
 from graphplan.methods.forces.free_bodies import roman
@@ -31,13 +32,15 @@ class Motion:
     """The motion of a scene by the solver, read by the names that sentences use: B2 and B(2) are B of link 2."""
 
     def __init__(self, scene: Scene):
-        self.scene, self.rates = scene, gp.analytic.solve(scene)
+        self.scene, self.rates = replaced(scene), gp.analytic.solve(scene)
 
     def place(self, name: str) -> tuple[complex, complex, set[str]]:
         """Where a named point lies, its velocity, and its links."""
         found = re.fullmatch(r"(\w+)\((\w+)\)", name) or re.fullmatch(r"(\D+)(\d+)", name)
         if name in self.scene.points or not found:
             links = set(self.scene.links_of[name])
+            if name not in self.rates.velocity and (own := sorted(links & self.rates.omega.keys())):
+                return (*self.place(f"{name}({own[0]})")[:2], links)  # a pitch point
             return self._at(name), complex(*self.rates.velocity.get(name, (0.0, 0.0))), links
         at, link = self._at(found[1]), FRAME if found[2] == "0" else found[2]
         base = self.scene.links[link][0]
@@ -50,9 +53,9 @@ class Motion:
     def normal(self, K: str, X: str) -> complex:
         """The normal acceleration of K about X, points of one link."""
         (k, v, one), (x, w, two) = self.place(K), self.place(X)
-        if not one & two:  # a bar that stands for a contact turns as its ends go
+        if not one & two & self.rates.omega.keys():  # a bar that stands for a contact turns as its ends go
             return abs((v - w) / (k - x)) ** 2 * (x - k)
-        (link,) = one & two
+        (link,) = one & two & self.rates.omega.keys()
         return float(self.rates.omega[link]) ** 2 * (x - k)
 
     def coriolis(self, B: str, on: str) -> list[complex]:

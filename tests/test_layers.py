@@ -29,12 +29,13 @@ MAY = {
     "methods": {"errors", "phrases", "kernel", "mechanism"},
     "sheet": {"errors", "phrases", "words", "kernel", "mechanism", "methods"},
     "output": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "marking", "cycle",
-               "check", "accuracy", "cams"},
+               "check", "accuracy", "cams", "machine"},
     "marking": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "accuracy"},
     "importing": {"errors", "marking", "mechanism"},
     "cycle": {"errors", "phrases", "kernel", "mechanism", "methods", "sheet"},
     "cams": {"errors", "phrases", "kernel", "mechanism"},
-    "check": {"errors", "phrases", "kernel", "mechanism", "methods", "solver", "cycle", "cams"},
+    "machine": {"errors", "phrases", "kernel", "mechanism", "methods", "cycle"},
+    "check": {"errors", "phrases", "kernel", "mechanism", "methods", "solver", "cycle", "cams", "machine"},
     "accuracy": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "solver", "cycle", "check", "sheet"},
 }
 FRONT = {"__init__", "__main__", "commands"}
@@ -147,9 +148,9 @@ def reached(path: Path, below: Mapping[Path, set[Path]]) -> set[Path]:
     return found
 
 
-def test_there_are_fourteen_rooms() -> None:
-    """graphplan has fourteen folders of code."""
-    assert len({folder(path) for path in FILES if path.parent != PACKAGE}) <= 14
+def test_there_are_fifteen_rooms() -> None:
+    """graphplan has fifteen folders of code."""
+    assert len({folder(path) for path in FILES if path.parent != PACKAGE}) <= 15
 
 
 @pytest.mark.parametrize("path", FILES, ids=named)

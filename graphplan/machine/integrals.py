@@ -1,0 +1,195 @@
+"""Functions of travel as polynomials between their breaks: integrals, roots and extremes to rounding.
+
+A function is sampled at the nodes of Gauss and Legendre in panels between breaks, many nodes in one call; a panel is
+halved until the last terms of its Legendre series, or what they add to the integral, are rounding alone. From then on
+nothing is constructed any more: the series is integrated term by term and evaluated anywhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+import numpy.typing as npt
+
+from graphplan.errors import Refused
+
+Reals = npt.NDArray[np.float64]
+
+NODES = 16  # of a panel: a full turn of a linkage takes one to four dozen panels
+TOLERANCE = 1e-13  # of the largest value: terms of a series below it are rounding
+WIDEST = 8  # panels at least in the whole range, that no wave passes between the nodes
+MOST, DEEPEST = 4096, 64  # panels, and times that one is halved: what needs more has no limit somewhere
+TAIL = 3  # terms at the end of a series that tell how far it is from settled
+SOUGHT = 24  # places in a panel between which a sign is seen to change
+NOTHING = 1e-14  # of the largest value: has no sign
+HALVINGS = 60  # of an interval with a root: to the last digit
+
+
+@dataclass(frozen=True, eq=False)
+class Piecewise:
+    """A function of travel, or several of the same panels: series of Legendre polynomials between edges.
+
+    `edges` have the shape (p+1,), `terms` (..., p, n): where there are several functions, iterating gives each.
+    """
+
+    edges: Reals
+    terms: Reals
+
+    def __iter__(self) -> Iterator[Piecewise]:
+        return (replace(self, terms=terms) for terms in self.terms)
+
+    def __add__(self, other: Piecewise | float) -> Piecewise:
+        """The sum with another of the same panels, or with a constant."""
+        if isinstance(other, Piecewise):
+            more, own = sorted((self.terms, other.terms), key=lambda terms: -terms.shape[-1])
+            terms = more.copy()
+            terms[..., :own.shape[-1]] += own
+        else:
+            terms = self.terms.copy()
+            terms[..., 0] += other
+        return replace(self, terms=terms)
+
+    def __mul__(self, factor: float) -> Piecewise:
+        return replace(self, terms=self.terms * factor)
+
+    def at(self, travel: npt.ArrayLike, side: int = 1) -> Reals:
+        """The values at travels, shape (..., n); at an edge those from the right, or from the left with `side` -1."""
+        x = np.asarray(travel, dtype=float)
+        panel = np.searchsorted(self.edges, x, side="right" if side > 0 else "left") - 1
+        panel = np.clip(panel, 0, len(self.edges) - 2)
+        low, high = self.edges[panel], self.edges[panel + 1]
+        return _sums(self.terms[..., panel, :], (2 * x - low - high) / (high - low))
+
+    @property
+    def whole(self) -> Reals:
+        """The integral over the whole range, shape (...)."""
+        found: Reals = self.terms[..., 0] @ np.diff(self.edges)
+        return found
+
+    def integral(self) -> Piecewise:
+        """The integral from the first edge on, of the same panels."""
+        count, half = self.terms.shape[-1], np.diff(self.edges)[:, None] / 2
+        scaled = self.terms * half / (2 * np.arange(count) + 1)
+        terms = np.zeros((*self.terms.shape[:-1], count + 1))
+        terms[..., 1:] += scaled  # the integral of P_k is (P_k+1 - P_k-1)/(2k + 1)
+        terms[..., :-2] -= scaled[..., 1:]
+        terms[..., 0] += scaled[..., 0]  # and that of P_0 is P_1 + 1, from the left end of the panel
+        terms[..., 1:, 0] += np.cumsum(2 * scaled[..., 0], axis=-1)[..., :-1]
+        return replace(self, terms=terms)
+
+    def roots(self) -> Reals:
+        """The travels at which it changes its sign, those of jumps too, in their order; of one function."""
+        grid, panels = np.linspace(-1, 1, SOUGHT + 1), len(self.edges) - 1
+        low, high = self.edges[:-1, None], self.edges[1:, None]
+        places = ((low + high) / 2 + (high - low) / 2 * grid).ravel()
+        values = _sums(self.terms[:, None, :], grid[None, :]).ravel()
+        signs = np.where(np.abs(values) > NOTHING * np.abs(values).max(), np.sign(values), 0.0)
+        seen = np.flatnonzero(signs)
+        changed = signs[seen[:-1]] != signs[seen[1:]]
+        first, last = seen[:-1][changed], seen[1:][changed]
+        panel = np.repeat(np.arange(panels), SOUGHT + 1)
+        inside = (last == first + 1) & (panel[first] == panel[last])
+        found: Reals = places[np.minimum(first + 1, last)]  # where it jumps, or is nothing between the two
+        found[inside] = self._halved(panel[first[inside]], places[first[inside]], places[last[inside]])
+        return found
+
+    def _halved(self, panel: npt.NDArray[np.int_], low: Reals, high: Reals) -> Reals:
+        """The roots between travels in panels at which the signs differ."""
+        terms, left, right = self.terms[panel], self.edges[panel], self.edges[panel + 1]
+        before = _sums(terms, (2 * low - left - right) / (right - left)) > 0
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            same = (_sums(terms, (2 * middle - left - right) / (right - left)) > 0) == before
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        return low
+
+    def extremes(self, slope: Piecewise) -> tuple[tuple[float, float], tuple[float, float]]:
+        """The least and the largest value, each with its travel first; `slope` is its derivative."""
+        places = np.unique(np.concatenate([slope.roots(), self.edges]))
+        left, right = self.at(places, -1), self.at(places, 1)
+        least, most = np.minimum(left, right), np.maximum(left, right)
+        down, up = int(np.argmin(least)), int(np.argmax(most))
+        return (float(places[down]), float(least[down])), (float(places[up]), float(most[up]))
+
+
+def settled(function: Callable[[Reals], Reals], breaks: Sequence[float], size: npt.ArrayLike = 0.0) -> Piecewise:
+    """A function of travel as polynomials between breaks, to rounding of its largest value, or of `size`.
+
+    Reads a function of travels of shape (n,), which gives (n,) or, of several functions at once, (k, n); two or more
+    breaks that grow, between which it is smooth (corners that are not named cost panels and not accuracy); and, of a
+    function in which larger numbers cancel, how large these are, shape () or (k,).
+    Fails with `Refused` where the values have no limit, or are none.
+    """
+    waiting = _begun(breaks)
+    whole, kept, count = float(waiting[-1, 1] - waiting[0, 0]), list[tuple[Reals, Reals]](), 0
+    for _ in range(DEEPEST):
+        terms = _series(function, waiting)
+        if not kept:
+            limit = TOLERANCE * np.maximum(size, np.abs(terms).max(axis=(-2, -1)))[..., None]
+        tail, widths = np.abs(terms[..., -TAIL:]).max(axis=-1), (waiting[:, 1] - waiting[:, 0]) / whole
+        fine = ((tail <= limit) | (tail * widths <= limit / 16)).reshape(-1, len(waiting)).all(axis=0)
+        kept.append((waiting[fine], terms[..., fine, :]))
+        count, rough = count + len(waiting), waiting[~fine]
+        if not len(rough):
+            return _joined(kept)
+        if count > MOST:
+            break
+        waiting = _split(rough)
+    raise Refused(f"travel {rough[0].mean():.6g}", "the moments or inertias have no limit there",
+                  "a range without a limit position")
+
+
+def _begun(breaks: Sequence[float]) -> Reals:
+    """The first panels, shape (p, 2)."""
+    edges = np.unique(np.asarray(breaks, dtype=float))
+    parts = np.ceil(np.diff(edges) / (edges[-1] - edges[0]) * WIDEST - 1e-9).astype(int)
+    rows = [np.linspace(low, high, count + 1) for low, high, count in zip(edges, edges[1:], parts, strict=False)]
+    return np.concatenate([np.stack([row[:-1], row[1:]], axis=1) for row in rows])
+
+
+def _split(panels: Reals) -> Reals:
+    """Panels halved."""
+    middles = panels.mean(axis=1)
+    return np.concatenate([np.stack([panels[:, 0], middles], axis=1), np.stack([middles, panels[:, 1]], axis=1)])
+
+
+def _series(function: Callable[[Reals], Reals], panels: Reals) -> Reals:
+    """The terms of the function's series in panels, shape (..., p, n)."""
+    nodes, matrix = _gauss()
+    places = panels.mean(axis=1)[:, None] + (panels[:, 1] - panels[:, 0])[:, None] / 2 * nodes
+    values = np.asarray(function(places.ravel()), dtype=float)
+    if not np.isfinite(values).all():
+        bad = places.ravel()[~np.isfinite(values).reshape(-1, places.size).all(axis=0)][0]
+        raise Refused(f"travel {bad:.6g}", "the moments or inertias are unknown there", "a range that can be reached")
+    found: Reals = values.reshape(*values.shape[:-1], *places.shape) @ matrix
+    return found
+
+
+def _joined(kept: Sequence[tuple[Reals, Reals]]) -> Piecewise:
+    """The panels in the order of travel."""
+    panels = np.concatenate([panels for panels, _ in kept])
+    terms, order = np.concatenate([terms for _, terms in kept], axis=-2), np.argsort(panels[:, 0])
+    panels = panels[order]
+    return Piecewise(np.append(panels[:, 0], panels[-1, 1]), terms[..., order, :])
+
+
+@cache
+def _gauss() -> tuple[Reals, Reals]:
+    """The nodes of a panel, and what makes the terms of a series of the values there."""
+    from numpy.polynomial.legendre import leggauss, legvander
+
+    nodes, weights = leggauss(NODES)
+    matrix = weights[:, None] * legvander(nodes, NODES - 1) * (np.arange(NODES) + 0.5)
+    return nodes, matrix
+
+
+def _sums(terms: Reals, x: Reals) -> Reals:
+    """Series of Legendre polynomials, terms in the last axis, at x in [-1, 1], by Clenshaw's recurrence."""
+    after = following = np.zeros(np.broadcast_shapes(terms.shape[:-1], x.shape))
+    for k in range(terms.shape[-1] - 1, 0, -1):
+        after, following = terms[..., k] + (2 * k + 1) / (k + 1) * x * after - (k + 1) / (k + 2) * following, after
+    found: Reals = terms[..., 0] + x * after - following / 2
+    return found

@@ -11,7 +11,7 @@ from typing import Any
 from graphplan.cycle.extreme import extreme
 from graphplan.cycle.geared import driven_by_gears
 from graphplan.cycle.travel import check_drives
-from graphplan.cycle.turn import follow, under
+from graphplan.cycle.turn import Turn, follow, under
 from graphplan.errors import Refused, SingularPose
 from graphplan.mechanism.assembly import moved_on
 from graphplan.mechanism.model import FRAME, Assembly, Drive, Pair, Placement, Scene, Slide
@@ -40,19 +40,24 @@ def at(scene: Scene, travel: Travel | Sequence[Travel] | str) -> Scene:
         if all(math.isfinite(abs(z[0])) for z in found.points.values()):
             raise SingularPose(why, ())
         raise Refused(f"{scene.name}: the pose", why, said("a travel that the mechanism reaches"))
-    points: dict[str, Pair] = {name: (float(z[0].real), float(z[0].imag)) for name, z in found.points.items()}
+    assembly = Assembly(given, gone, moved_on(given, gone, TO_A_FLOAT), under(scene), turned)
+    posed = in_pose(scene, found, 0)
+    where = "the pose: constructed at another travel of its drive"
+    return replace(posed, placements=_standing(scene), irrational=(*scene.irrational, where), assembly=assembly)
+
+
+def in_pose(scene: Scene, turn: Turn, pose: int) -> Scene:
+    """The scene as it is given, in one pose of a turn: its points and the directions of its guides."""
+    points: dict[str, Pair] = {name: (float(z[pose].real), float(z[pose].imag)) for name, z in turn.points.items()}
 
     def direction(one: Any) -> Pair:
         z: complex | None = None
         if isinstance(one, Slide):
             ends = [complex(*points[end]) for end in one.through or ()]
-            z = ends[1] - ends[0] if ends else complex(found.guides[one.name][0]) if one.name in found.guides else None
+            z = ends[1] - ends[0] if ends else complex(turn.guides[one.name][pose]) if one.name in turn.guides else None
         return one.direction if z is None else (z.real, z.imag)
 
-    assembly = Assembly(given, gone, moved_on(given, gone, TO_A_FLOAT), under(scene), turned)
-    posed = scene.posed(points, direction)
-    where = "the pose: constructed at another travel of its drive"
-    return replace(posed, placements=_standing(scene), irrational=(*scene.irrational, where), assembly=assembly)
+    return scene.posed(points, direction)
 
 
 def _standing(scene: Scene) -> dict[str, Placement]:

@@ -14,7 +14,7 @@ from typing import Any
 from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze, needed_steps
-from graphplan.kernel.program import Mark, evaluate
+from graphplan.kernel.program import Board, Mark, evaluate
 from graphplan.mechanism.model import Find, Loads, Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction, ForceArrow
@@ -76,7 +76,7 @@ class Loaded(Draughtsman):
         if plan is None and self.loads.masses:
             plan = self.accelerations(velocity)
         self._forces(velocity, plan)
-        shown = self._arrows()
+        shown = force_arrows(self.board, self.marks, self.shown)
         drawn = super().finished(velocity, plan)
         drawn.phi, drawn.shown, drawn.rounds = self.phi, shown, self.rounds
         drawn.notes += self.notes
@@ -171,17 +171,18 @@ class Loaded(Draughtsman):
         for kind, of, marks in found:
             self.read(kind, of, *marks)
 
-    def _arrows(self) -> tuple[ForceArrow, ...]:
-        """The forces drawn as arrows: of those that what is asked for needs."""
-        needed = needed_steps(self.board, self.marks)
-        found = []
-        for force in dict.fromkeys(self.shown):
-            head = force.head if force.of is None else force.of
-            if force.tail is not force.head and {head.step.index, force.tail.step.index} <= needed:
-                start = len(self.marks)
-                self.marks += [force.tail, force.head]
-                found.append(ForceArrow(force.kind, force.label, (start, start + 1)))
-        return tuple(found)
+
+def force_arrows(board: Board, marks: list[Mark], shown: Iterable[Shown]) -> tuple[ForceArrow, ...]:
+    """The forces drawn as arrows, of those that the wanted marks need; their own marks become wanted, too."""
+    needed = needed_steps(board, marks)
+    found = []
+    for force in dict.fromkeys(shown):
+        head = force.head if force.of is None else force.of
+        if force.tail is not force.head and {head.step.index, force.tail.step.index} <= needed:
+            start = len(marks)
+            marks += [force.tail, force.head]
+            found.append(ForceArrow(force.kind, force.label, (start, start + 1)))
+    return tuple(found)
 
 
 def loaded_constructions(scene: Scene, method: str, style: Style) -> Iterator[Construction]:

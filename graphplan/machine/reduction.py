@@ -1,0 +1,233 @@
+"""Reduction to the first drive: the inertia and the moment that stand for all masses and loads, over the cycle.
+
+A mechanism with one freedom moves as one link would that has the reduced inertia, sum(m v^2 + I omega^2) with the
+velocities at a unit rate, and on which the reduced moment acts, which has the power of all loads: the moment of the
+forces about the pole of Zhukovsky's lever (Ozols 1974, 13-2 and 13-3; methods A1 to A3). Only ratios of velocities
+count: one construction with orthogonal velocities of any size, recorded in one pose, serves all. How the inertia
+changes comes of the accelerations at a constant unit rate: dI/dphi = 2 sum(m v.a + I omega alpha).
+
+Of a drive that slides it is a reduced mass and force. Travels count upwards in the sense in which the first drive
+moves, and a reduced moment is positive that way.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from graphplan.cycle.linkage import Array
+from graphplan.cycle.loop import whole_motion
+from graphplan.cycle.pose import in_pose
+from graphplan.cycle.travel import TURN, check_drives, told, travels
+from graphplan.cycle.turn import RangeOfMotion
+from graphplan.errors import Refused
+from graphplan.machine.lever_drawing import lever_drawing
+from graphplan.machine.unit_motion import ACCELERATIONS, VELOCITIES, Rates, UnitMotion, moving_points
+from graphplan.mechanism.model import FRAME, Find, Loads, Mass, Scene
+from graphplan.mechanism.units import KILOGRAMS, NEWTONS
+from graphplan.methods import kinds
+from graphplan.methods.construction import Construction
+from graphplan.phrases import said
+
+
+@dataclass(frozen=True, eq=False)
+class SpeedLoad:
+    """A load over a speed in n poses: it has the moment arm * law(rate * omega).
+
+    `rate` is the speed in question, in the unit of its table, for each rad/s (m/s) of the drive; `arm` the moment, in
+    N m (N), for each unit of what the `law` gives. Both are arrays of shape (n,).
+    """
+
+    name: str
+    arm: Array
+    rate: Array
+    law: Callable[[Array], Array] = field(repr=False)
+
+    def moment(self, omega: Any) -> Any:
+        """Its moment where the drive has this rate, in rad/s or m/s."""
+        return self.arm * self.law(self.rate * omega)
+
+
+@dataclass(frozen=True, eq=False)
+class Reduced:
+    """What a scene reduces to in n poses: arrays of shape (n,), in SI.
+
+    `travel` of the first drive, in radians or scene lengths; `inertia` in kg m^2 and `moment` in N m, of all loads that
+    do not depend on speed, positive in the sense of motion; of a sliding drive kg and N. `by` has each load's own
+    moment: F_1, F_2 .. and M_1 .. in the scene's order, and the weights by their links, as G_3. Those over a speed are
+    `speed_loads`, apart.
+    """
+
+    travel: Array
+    inertia: Array
+    moment: Array
+    by: dict[str, Array]
+    speed_loads: tuple[SpeedLoad, ...]
+    _accelerated: Callable[[], Array] = field(repr=False)
+
+    @cached_property
+    def slope(self) -> Array:
+        """How the inertia changes: dI/dphi in kg m^2, or by a metre of a sliding drive in kg/m."""
+        return self._accelerated()
+
+
+@dataclass(frozen=True)
+class Acting:
+    """A load on a link, in SI: a force at a point, as a complex number, or where there is none a moment."""
+
+    name: str
+    link: str
+    at: str
+    value: complex
+
+    def power(self, rates: Rates) -> Any:
+        """Its power for a unit of travel: of a force the moment about the pole of the lever that it has at the end of
+        the orthogonal velocity of its point, which is turned clockwise."""
+        if not self.at:
+            return self.value.real * rates.of(kinds.OMEGA, self.link)
+        orthogonal = -1j * rates.of(kinds.VELOCITY, self.at)
+        return (np.conj(orthogonal) * self.value).imag
+
+
+class Reduction:
+    """The reduced inertia and moment of a scene over its cycle, which is `closed` or goes between two `ends`.
+
+    `breaks` are the travels between which inertia and moment are smooth; `unit` and `sense` are those of
+    :class:`UnitMotion`.
+    """
+
+    def __init__(self, scene: Scene, motion: RangeOfMotion, ends: tuple[float, float], compiled: bool = False):
+        assert scene.loads is not None
+        self.scene, self.loads, self.ends = scene, scene.loads, ends
+        self.acting = [*acting(scene, self.loads)]
+        self.masses = {link: mass for link, mass in self.loads.masses.items()
+                       if link != FRAME and (mass.mass or mass.inertia)}
+        self.motion = UnitMotion(scene, motion, self._asked(), compiled)
+        self.sense, self.unit = self.motion.sense, self.motion.unit
+        self.closed = bool(self.motion.period)
+        self.breaks: tuple[float, ...] = ()
+
+    def _asked(self) -> Find:
+        """What is asked of the motion: the points of forces and masses, and the links of moments and inertias."""
+        points = moving_points(self.scene, (load.at for load in self.acting if load.at))
+        centres = moving_points(self.scene, (mass.centre for mass in self.masses.values() if mass.mass))
+        turning = {load.link for load in self.acting if not load.at}
+        turning |= {link for link, mass in self.masses.items() if mass.inertia}
+        links = tuple(link for link in self.scene.moving if link in turning)
+        return Find(tuple(dict.fromkeys((*points, *centres))), centres, (), links, ())
+
+    def at(self, travel: Any, side: int | None = None) -> Reduced:
+        """Inertia and moment at some travels, real numbers of shape (n,); of a closed cycle at any.
+
+        At a break it is the limit from one `side`, -1 or 1. Fails with `Refused` where a pose is not reached.
+        """
+        travel = np.atleast_1d(np.asarray(travel, dtype=float))
+        turn = self.motion.turn(travel)
+        rates = self.motion.rates(turn, VELOCITIES)
+        by = {load.name: load.power(rates) + np.zeros(travel.shape) for load in self.acting}
+        moment = sum(by.values(), np.zeros(travel.shape))
+        return Reduced(travel, self._summed(rates, rates, VELOCITIES) + np.zeros(travel.shape), moment, by, (),
+                       lambda: self._slope(rates, self.motion.rates(turn, ACCELERATIONS)) + np.zeros(travel.shape))
+
+    def _slope(self, velocities: Rates, accelerations: Rates) -> Any:
+        return 2 * self._summed(velocities, accelerations, ACCELERATIONS)
+
+    def _summed(self, velocities: Rates, others: Rates, of: tuple[kinds.ResultKind, ...]) -> Any:
+        """Over all masses m v.w + I omega epsilon, of velocities and other vectors and rates."""
+        total: Any = 0.0
+        unit = float(KILOGRAMS[self.scene.units.mass])
+        for link, mass in self.masses.items():
+            v, w = velocities.of(kinds.VELOCITY, mass.centre), others.of(of[0], mass.centre)
+            total = total + unit * float(mass.mass) * (np.conj(v) * w).real
+            if mass.inertia:
+                turning = velocities.of(kinds.OMEGA, link) * others.of(of[1], link)
+                total = total + unit * float(mass.inertia) * turning
+        return total
+
+    def drawing(self, travel: float = 0.0) -> Construction:
+        """The lever in the pose at a travel, drawn step by step; it balances with the opposite of the reduced moment.
+        """
+        turn = self.motion.turn(np.array([float(travel)]))
+        return lever_drawing(in_pose(self.motion.scene, turn, 0), self.loads)
+
+    def projections(self, travel: Any) -> dict[str, Array]:
+        """The moments of the weights by another form: each weight by the projection of the orthogonal velocity of its
+        centre of mass across it, which is horizontal (Ozols 1974, 13-3; method A3)."""
+        travel = np.atleast_1d(np.asarray(travel, dtype=float))
+        rates = self.motion.rates(self.motion.turn(travel), VELOCITIES)
+        gravity = complex(*map(float, self.loads.gravity))
+        across = 1j * gravity / abs(gravity) if gravity else 0j
+        unit = float(KILOGRAMS[self.scene.units.mass]) * abs(gravity)
+
+        def weighed(mass: Mass) -> Array:
+            orthogonal = 1j * rates.of(kinds.VELOCITY, mass.centre)
+            return unit * float(mass.mass) * (np.conj(across) * orthogonal).real + np.zeros(travel.shape)
+
+        return {f"G_{link}": weighed(mass) for link, mass in self.masses.items() if mass.mass and gravity}
+
+
+def reduction(scene: Scene, span: tuple[float, float] | None = None, *, compiled: bool = False) -> Reduction:
+    """The reduction of a scene's masses and loads to its first drive, over its cycle.
+
+    Without a `span` it is a full turn, or with gears as many turns as it takes until all is back; a span of travel, in
+    degrees or lengths of a drive that slides, counts in the sense in which the drive moves. `compiled`: positions and
+    plans by machine code. Fails with `Refused` where there is nothing to reduce, nothing drives the scene, or it does
+    not come so far.
+    """
+    check_drives(scene)
+    loads = scene.loads
+    if loads is None or not (loads.masses or loads.forces or loads.moments):
+        raise Refused("reduction", said("the scene has neither masses nor loads"),
+                      "give it [masses], [[forces]] or [[moments]]")
+    sense = -1 if scene.drives[0].rate < 0 else 1
+    if span is None:
+        motion = _whole(scene)
+        return Reduction(scene, motion, (0.0, float(motion.path.travel[-1])), compiled)
+    low, high = sorted(float(end) for end in travels(scene, 2, span))
+    if low == high:
+        raise Refused("the cycle", said("the span has no length"), "two different travels")
+    lower, upper = sorted((sense * low, sense * high))
+    motion = RangeOfMotion(scene, min(0.0, lower), max(0.0, upper), closed=False)
+    _reached(scene, motion, lower, upper)
+    return Reduction(scene, motion, (low, high), compiled)
+
+
+def _whole(scene: Scene) -> RangeOfMotion:
+    """The motion all the way round; fails with `Refused` where there is no such."""
+    if scene.drives[0].slides:
+        raise Refused("the cycle", said("the first drive slides, and no turn closes its travel"), "a span of lengths")
+    motion = whole_motion(scene)
+    if not motion.whole:
+        _reached(scene, motion, 0.0, math.inf)
+        turns = f"{motion.path.travel[-1] / TURN:.0f}"
+        raise Refused("the cycle", said("links are not back after turns of the drive: {0}", turns),
+                      "a span of degrees")
+    return motion
+
+
+def _reached(scene: Scene, motion: RangeOfMotion, low: float, high: float) -> None:
+    """Fail with `Refused` where a limit lies between the given pose and one of these travels, and say where it is."""
+    for limit, beyond in ((motion.path.lower, -low), (motion.path.upper, high)):
+        if limit and beyond >= abs(limit.travel):
+            raise Refused("the cycle", said("the mechanism stops at a {0} at {1}", limit.kind,
+                                            told(scene, limit.travel, 10)), "a span that ends before")
+
+
+def acting(scene: Scene, loads: Loads) -> Iterator[Acting]:
+    """The loads on moving links, in newtons and metres, by their names."""
+    newton, kilogram = float(NEWTONS[scene.units.force]), float(KILOGRAMS[scene.units.mass])
+    for k, force in enumerate(loads.forces, 1):
+        if force.on != FRAME:
+            yield Acting(f"F_{k}", force.on, force.at, newton * complex(*map(float, force.value)))
+    for k, moment in enumerate(loads.moments, 1):
+        if moment.on != FRAME:
+            yield Acting(f"M_{k}", moment.on, "", complex(newton * float(moment.value)))
+    gravity = complex(*map(float, loads.gravity))
+    for link, mass in loads.masses.items():
+        if mass.mass and gravity and link != FRAME:
+            yield Acting(f"G_{link}", link, mass.centre, kilogram * float(mass.mass) * gravity)

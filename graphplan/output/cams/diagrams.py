@@ -18,24 +18,23 @@ from graphplan.cams.follower import Rolled, Translating
 from graphplan.cams.law import HARD, SOFT, Stretch
 from graphplan.cams.profile import Cam
 from graphplan.kernel.program import Panel
+from graphplan.output.graphs import AXIS, CURVES, DIVISION, Figures, Graph, scale_words
 from graphplan.phrases import Said, arranged, digits, phrase, said, unit
 from graphplan.sheet.layout.scales import round_up
-from graphplan.sheet.lettering.lettering import CAPS, LetterSizes, Run, Runs, sentence_runs
+from graphplan.sheet.lettering.lettering import CAPS, Run
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.clip import clipped
-from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Spot, Text
+from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import around
 from graphplan.sheet.plates.view import View, least, view
-from graphplan.words.tongue import Tongue
 
 LAW_PLAN = Panel("law", said("law"), said("Law of the follower over the turn of the cam"))
 CENTRE_PLAN = Panel("centre", said("cam centre"), said("Curve x(s): where the cam's centre lies"))
 CURVATURE_PLAN = Panel("centre", said("cam centre"), said("Curve z(s): the smallest base circle of a flat face"))
 
 RISING, RETURNING = phrase("{0}° of the rise"), phrase("{0}° of the return")
-AXIS, DIVISION, JUMP = Pen(0.18), Pen(0.13, "#c4c4c4"), Pen(0.18, pens.GREY, (1.2, 0.8))
-CURVES = Pen(0.35), Pen(0.35, pens.BLUE), Pen(0.35, pens.RED), Pen(0.35, pens.VIOLET), Pen(0.35, pens.GREEN)
+JUMP = Pen(0.18, pens.GREY, (1.2, 0.8))
 RISE, BACK, TANGENT = Pen(0.35), Pen(0.35, pens.INK, (2.0, 1.0)), Pen(0.25, pens.GREEN, (5.0, 1.0))
 BETWEEN, LEFT, RIGHT, FOOT = 5.5, 5.0, 16.0, 7.0  # mm: over a diagram, beside it, and under the last
 SAMPLES = 60  # of a curve on a piece of the law
@@ -79,23 +78,10 @@ def diagrams(cam: Cam) -> list[Diagram]:
 
 
 @dataclass(frozen=True)
-class Paper:
-    """What all figures are lettered by."""
+class Paper(Figures):
+    """The figures of a cam."""
 
     cam: Cam
-    letters: LetterSizes
-    tongue: Tongue
-
-    def text(self, at: Spot, words: str | Runs, anchor: str = "start", size: float = 0.0, pen: Pen = pens.LETTERS
-             ) -> Text:
-        """Lettering on its base line."""
-        runs = sentence_runs(self.tongue(words)) if isinstance(words, str) else words
-        return Text(pen, "letters", None, at, runs, size or self.letters.text, anchor)
-
-    def marked(self, at: Spot, words: str, off: Spot = (1.2, 0.8)) -> Iterator[Item]:
-        """A point with its letter."""
-        yield Circle(pens.DOT, "plates", None, at, 0.6)
-        yield self.text((at[0] + off[0], at[1] + off[1]), words, "start" if off[0] > 0 else "end", self.letters.mark)
 
     # ---- over the turn ---------------------------------------------------------------------------------------------
 
@@ -123,28 +109,21 @@ class Paper:
         still, hard = high - low < 1e-9, one.order == SOFT and any(jump.order == HARD for jump in law.jumps)
         if still or hard:
             low, high = -max(high, -low, float(still)), max(high, -low, float(still))
-        mu = float(round_up((high - low) / rect.height))
-        x0, y0 = rect.left, rect.bottom - low / mu
-
-        def at(angle: float, value: float) -> Spot:
-            return x0 + angle / 360 * rect.width, y0 + value / mu
-
-        yield Arrow(AXIS, "ruling", None, at(0, 0), (rect.right + 5.0, y0), 2.2)
+        graph = Graph.fitted(rect, (0.0, 360.0), (low, high))
+        at = graph.at
+        yield from self.abscissa(graph)
         yield Polyline(AXIS, "ruling", None, (at(0, low), at(0, high)))
         for angles, part in parts:
-            yield Polyline(one.pen, "links", None, tuple(at(a, v) for a, v in zip(angles, part, strict=True)))
+            yield Polyline(one.pen, "links", None, tuple(graph.spots(angles, part)))
         for (angles, before), (_, after) in pairwise([*parts, parts[0]]):
             if abs(after[0] - before[-1]) > 1e-9 * (high - low):
                 x = float(angles[-1])
                 yield Polyline(JUMP, "ruling", None, (at(x, float(before[-1])), at(x, float(after[0]))))
         if hard:
             yield from self._infinite(at, high)
-        letter, scale = one.letter, digits(mu)
-        told = "{0} = 0" if still else "{0}, {1}   (k_{0} = {2} {3})"
-        head = arranged(told, letter, unit(one.measure), scale, unit(f"{one.measure}/mm"))
-        names = (letter, f"k_{letter}")
-        yield Text(pens.LETTERS, "letters", None, (x0, rect.top + 1.6), sentence_runs(self.tongue(head), names),
-                   self.letters.text)
+        told = "{0} = 0" if still else "{0}, {1}   ({2})"
+        scale = scale_words(one.letter, graph.k_y, one.measure)
+        yield self.headed(graph, arranged(told, one.letter, unit(one.measure), scale), (one.letter, f"k_{one.letter}"))
         for angle, value in ((top, most), (foot, -depth)):
             if abs(value) > 1e-9 * (high - low):
                 x, y = at(angle, value)
@@ -282,5 +261,5 @@ class Paper:
 
     def _scaled(self, window: View, rect: Rect) -> Item:
         """The scale of a figure, in its corner."""
-        told = arranged("k_s = {0} {1}", digits(1 / window.scale), unit(f"{self.cam.task.units.length}/mm"))
+        told = scale_words("s", 1 / window.scale, self.cam.task.units.length)
         return self.text((rect.left + 2.0, rect.bottom + 2.0), told)

@@ -3,31 +3,29 @@
 from __future__ import annotations
 
 import math
-from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
-from graphplan.cams.construction import CamDrawing
-from graphplan.kernel.incidence import incident
-from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
-from graphplan.kernel.program import Step
-from graphplan.sheet.lettering.lettering import CAPS, DEPTH, LetterSizes, name_runs, sentence_runs, width
+from graphplan.cams.construction import CAM_PLAN, CamDrawing
+from graphplan.kernel.kinds import POINT
+from graphplan.output.graphs import Figures
+from graphplan.output.panelled import Recorded
+from graphplan.output.step_ink import StepInk
+from graphplan.sheet.lettering.lettering import LetterSizes
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import around
 from graphplan.sheet.plates.view import View
+from graphplan.words.tongue import ENGLISH
 
-DOT, PIN = 0.35, 1.3  # mm: radii of marks, and of fixed pins
-BEYOND, STUB, STRIKE = 1.5, 3.0, 3.0  # mm: of lines beyond their marks, of a line with one mark, of an arc to each side
+PIN = 1.3  # mm: radius of fixed pins
 NEAR = 12.0  # mm from the cam's centre: a letter there would be on others
 FACE = 7.0  # mm of a flat face beyond its marks
 NUMBERED = 4.0  # mm from the follower to the number of its division
 STEM, HALF, TEETH = 14.0, 2.2, 6  # mm: of the follower beyond what touches, of its guide; strokes of hatching
 PROFILE, PITCH, ROLLER = Pen(0.7), pens.PATH, Pen(0.13, pens.GREY)
-CLEAR = Pen(0.0, pens.PAPER, fill=pens.PAPER)
 FIRST, BASE = Pen(0.5), Pen(0.25, pens.INK, (5.0, 1.0))
 
 
@@ -40,79 +38,20 @@ class CamPlan:
     letters: LetterSizes
 
     @cached_property
-    def spots(self) -> list[Any]:
-        """The places of all points on paper; of other marks nothing."""
-        return [self.view(value) if step.op.gives == POINT else None
-                for step, value in zip(self.drawing.program.steps, self.drawing.values, strict=True)]
-
-    @cached_property
-    def marks(self) -> dict[int, list[int]]:
-        """The points on each line and circle, by construction."""
-        found: dict[int, list[int]] = defaultdict(list)
-        for step in self.drawing.program.steps:
-            if step.op.gives == LINE:
-                found[step.index] += [step.args[place] for place in incident(step.op)]
-            elif step.op.gives == POINT:
-                steps = self.drawing.program.steps
-                for arg in step.args:
-                    if steps[arg].op.gives in (LINE, CIRCLE):
-                        found[arg].append(step.index)
-        return found
-
-    @cached_property
-    def whole(self) -> dict[int, Pen]:
-        """The circles that are drawn whole, by their steps."""
+    def ink(self) -> StepInk:
+        """What the steps draw: the circles that are rolled on are drawn whole, faces go beyond their marks."""
         rollers = [one.marks["roller"] for one in self.drawing.divisions if "roller" in one.marks]
-        return {**dict.fromkeys(self.drawing.common.values(), BASE), **dict.fromkeys(rollers, ROLLER)}
-
-    @cached_property
-    def faces(self) -> set[int]:
-        """The flat faces, by their steps."""
-        return {one.marks["face"] for one in self.drawing.divisions if "face" in one.marks}
+        whole = {**dict.fromkeys(self.drawing.common.values(), BASE), **dict.fromkeys(rollers, ROLLER)}
+        faces = {one.marks["face"]: FACE for one in self.drawing.divisions if "face" in one.marks}
+        recorded = Recorded(self.drawing.program, self.drawing.values)
+        return StepInk(recorded, {CAM_PLAN: self.view}, self.letters, whole=whole, beyond=faces)
 
     def items(self) -> Iterator[Item]:
         """All of it."""
-        for step in self.drawing.program.steps:
-            yield from self._step(step)
+        yield from self.ink.items(CAM_PLAN)
         yield from self._finished()
         yield from self._follower()
         yield from self._names()
-
-    # ---- steps -----------------------------------------------------------------------------------------------------
-
-    def _step(self, step: Step) -> Iterator[Item]:
-        if step.op.gives == POINT:
-            yield Circle(pens.DOT, "plates", step.index, self.spots[step.index], DOT)
-        elif step.op.gives == LINE:
-            yield self._line(step)
-        elif step.op.gives == CIRCLE:
-            yield from self._circle(step)
-
-    def _line(self, step: Step) -> Item:
-        """From its first mark to its last and a little beyond; a stub where it has one alone."""
-        a, b, _ = self.drawing.values[step.index]
-        size = math.hypot(a, b)
-        ux, uy = b / size, -a / size
-        found = sorted((self.spots[mark] for mark in self.marks[step.index]), key=lambda at: at[0] * ux + at[1] * uy)
-        first, last = found[0], found[-1]
-        long = math.dist(first, last)
-        low, high = (0.0, STUB) if long < DOT else (BEYOND, BEYOND)
-        pen = pens.PRODUCED if step.op.movement is Movement.RULED else pens.THIN
-        if step.index in self.faces:
-            low, high = FACE, FACE
-        ends = (first[0] - low * ux, first[1] - low * uy), (last[0] + high * ux, last[1] + high * uy)
-        return Polyline(pen, "plates", step.index, ends)
-
-    def _circle(self, step: Step) -> Iterator[Item]:
-        x, y, square = self.drawing.values[step.index]
-        centre, radius = self.view((x, y)), math.sqrt(square) * self.view.scale
-        if step.index in self.whole:
-            yield Circle(self.whole[step.index], "plates", step.index, centre, radius)
-            return
-        for mark in self.marks[step.index]:
-            spot = self.spots[mark]
-            at, wide = math.degrees(math.atan2(spot[1] - centre[1], spot[0] - centre[0])), math.degrees(STRIKE / radius)
-            yield Arc(pens.ARC, "plates", step.index, centre, radius, at - wide, at + wide)
 
     # ---- what is made ----------------------------------------------------------------------------------------------
 
@@ -179,7 +118,8 @@ class CamPlan:
 
     def _names(self) -> Iterator[Item]:
         """The numbers of the divisions outside, and the letters of one division and of what is drawn once."""
-        drawing, cam, size, O = self.drawing, self.drawing.cam, self.letters.text, self._spot(0j)
+        drawing, cam, O = self.drawing, self.drawing.cam, self._spot(0j)
+        paper = Figures(self.letters, ENGLISH)  # letters and numbers are the same in all tongues
         spots = [self._spot(z) for z in drawing.at("A")]
         far = drawing.cam.roller * self.view.scale
         for k, (x, y) in enumerate(spots):
@@ -187,16 +127,16 @@ class CamPlan:
                 continue  # there the follower stands
             long = math.dist((x, y), O) or 1.0
             part = 1 + (far + NUMBERED) / long
-            yield from self._text((O[0] + part * (x - O[0]), O[1] + part * (y - O[1])), str(k), size, middle=True)
-        yield from self._text((O[0] - 5.5, O[1] + 1.4), "O", self.letters.mark)
+            yield from paper.backed((O[0] + part * (x - O[0]), O[1] + part * (y - O[1])), str(k), middle=True)
+        yield from paper.backed((O[0] - 5.5, O[1] + 1.4), "O", self.letters.mark)
         shown = self._shown
         for name, (dx, dy) in {"A": (1.2, 1.0), "K": (1.0, -3.4), "P": (0.8, 1.0), "T": (0.8, 1.0),
                                "B": (2.0, 1.4), "S": (2.0, 0.0)}.items():
             step = next((step for step in drawing.program.steps if step.name == f"{name}_{shown}"), None)
             if step is not None:
-                x, y = self.spots[step.index]
+                x, y = self.ink.spots[step.index]
                 if math.dist((x, y), O) > NEAR:
-                    yield from self._text((x + dx, y + dy), step.name, self.letters.mark)
+                    yield from paper.backed((x + dx, y + dy), step.name, self.letters.mark)
 
     @property
     def _shown(self) -> int:
@@ -204,16 +144,6 @@ class CamPlan:
         cam, divisions = self.drawing.cam, self.drawing.divisions
         rates = cam.law.at([one.angle for one in divisions], 1)
         return max(range(len(divisions)), key=lambda k: float(rates[k]))
-
-    def _text(self, at: Spot, name: str, size: float, middle: bool = False) -> Iterator[Item]:
-        """A name that breaks the lines under it."""
-        runs = name_runs(name) if "_" in name else sentence_runs(name)
-        wide, high = width(runs, size), CAPS * size
-        if middle:
-            at = at[0] - wide / 2, at[1] - high / 2
-        low = DEPTH * size if "_" in name else 0.0
-        yield Polygon(CLEAR, "letters", None, Rect(at[0], at[1] - low, at[0] + wide, at[1] + high).corners)
-        yield Text(pens.LETTERS, "letters", None, at, runs, size)
 
 
 def extent(drawing: CamDrawing) -> Rect:

@@ -1,0 +1,307 @@
+"""A sheet of captioned panels and, in a column beside them, what is given, found and drawn, step by step.
+
+A kind of sheet says what it shows; paper, frame, captions, title block, and where words run on are the same for all:
+
+    class Balance(Panelled):
+        document = said("Balancing sheet")
+        ...
+        def divided(self, room): return dict(zip((FORCES, MOMENTS), beside(room, 1, 1)))
+        def figure(self, panel, rect): return self.ink.lettered(panel)
+
+    svg(pages(Balance, paper)[0])
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import accumulate, pairwise
+from typing import Any, NamedTuple
+
+from graphplan.errors import Refused
+from graphplan.kernel.program import Panel, Program, Step, plan_of
+from graphplan.mechanism.model import Scene
+from graphplan.phrases import Said, arranged, joined, said
+from graphplan.sheet.frames.frame import Frame, frame_of
+from graphplan.sheet.frames.title import Page, TitleBlock
+from graphplan.sheet.layout.layout import stacked
+from graphplan.sheet.layout.paper import Arrangement, lower_right, packed, sheet_size, words_page
+from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.lettering.lettering import HEADING, SIZE, LetterSizes, letter_sizes, sentence_runs, width, wrap
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Text
+from graphplan.sheet.words.lengths import Lengths
+from graphplan.sheet.words.rows import Cell, Placed, TextRow, fill, hung, lettered
+from graphplan.sheet.words.tables import rows as table_rows
+from graphplan.words.tongue import Tongue, tongue
+
+PAPERS = ("A3", "A2", "A1")
+COLUMN, GAP, CAPTION, AROUND, SIDE = 96.0, 4.0, 7.0, 3.0, 2.5  # mm: of words, beside them, of captions and panels
+FEW = 2  # steps that are told rather than counted
+INDENT, LEAD = 8.0, 3.0  # mm: of what hangs from a step's number, and over a heading
+
+Words = Said | str | Sequence[Sequence[Said | str]]  # a paragraph; or the rows of a table, its head first
+
+
+class Recorded(NamedTuple):
+    """A program with the values of its steps, and how long a mm of paper is on its plans."""
+
+    program: Program
+    values: Sequence[Any]
+    scales: Scales = Scales(1.0, 1.0, "mm", {})
+
+    @property
+    def plans(self) -> list[Panel]:
+        """The plan that each step lies on."""
+        found: list[Panel] = []
+        for step in self.program.steps:
+            found.append(plan_of(step, self.program.steps, found))
+        return found
+
+
+@dataclass(frozen=True)
+class Panelled(ABC):
+    """One kind of sheet on one paper."""
+
+    paper: str
+
+    # ---- what a kind of sheet says ---------------------------------------------------------------------------------
+
+    @property
+    @abstractmethod
+    def document(self) -> Said:
+        """What the title block calls it."""
+
+    @property
+    @abstractmethod
+    def scene(self) -> Scene:
+        """What title, frame, language and the convention of scales are read from, and what is kept in the file."""
+
+    @property
+    @abstractmethod
+    def told(self) -> Said:
+        """What a reader who cannot see the sheet is told."""
+
+    @property
+    @abstractmethod
+    def recorded(self) -> Recorded:
+        """The construction."""
+
+    @property
+    @abstractmethod
+    def scale(self) -> Said:
+        """The scale of which the title block speaks."""
+
+    @abstractmethod
+    def divided(self, room: Rect) -> Mapping[Panel, Rect]:
+        """The panels in what the words leave of the paper."""
+
+    @abstractmethod
+    def figure(self, panel: Panel, rect: Rect) -> Iterable[Item]:
+        """What is drawn on a panel, in the room under its caption."""
+
+    def given(self) -> Iterable[Words]:
+        """What is given."""
+        return ()
+
+    def found(self) -> Iterable[Words]:
+        """What is found."""
+        return ()
+
+    # ---- paper -----------------------------------------------------------------------------------------------------
+
+    @property
+    def tongue(self) -> Tongue:
+        return tongue(self.scene.sheet.language)
+
+    @property
+    def letters(self) -> LetterSizes:
+        return letter_sizes(self.paper)
+
+    @cached_property
+    def _frame(self) -> tuple[Frame, TitleBlock]:
+        """The frame and the title block."""
+        frame = frame_of(self.scene)
+        return frame, frame.block(self.scene, self.tongue)
+
+    @cached_property
+    def space(self) -> Rect:
+        """The paper inside the frame."""
+        return self._frame[0].space(*sheet_size(self.paper))
+
+    @property
+    def _pitch(self) -> float:
+        """How wide the column of words is with what is free beside it."""
+        return self.letters.times * COLUMN + 2 * GAP
+
+    @cached_property
+    def title(self) -> Rect:
+        """Where the title block stands: under the words."""
+        return lower_right(self.space, self._pitch, self._frame[1].on(self.paper))
+
+    @cached_property
+    def panels(self) -> Mapping[Panel, Rect]:
+        """The panels; they end above a title block that is wider than the words."""
+        room = replace(self.space, right=self.space.right - self._pitch)
+        wider = self.title.left < room.right - 0.1
+        return self.divided(replace(room, bottom=self.title.top) if wider else room)
+
+    def room(self, panel: Panel) -> Rect:
+        """The room of a panel under its caption."""
+        return self.panels[panel].inset(AROUND, AROUND, AROUND, AROUND + self.letters.times * CAPTION)
+
+    # ---- pages -----------------------------------------------------------------------------------------------------
+
+    def placed(self, rows: Sequence[TextRow]) -> list[Placed] | None:
+        """Words in their column; nothing where they do not fit."""
+        right, times = self.space.right - GAP, self.letters.times
+        column = Rect(right - times * COLUMN, self.title.top + GAP, right, self.space.top - GAP)
+        return fill([row.enlarged(times) for row in rows], [column])
+
+    @cached_property
+    def brief(self) -> list[TextRow]:
+        """What is given and found."""
+        return [*self._section(said("Given"), self.given()), *self._section(said("Found"), self.found())]
+
+    @cached_property
+    def steps(self) -> list[TextRow]:
+        """The construction in words."""
+        return [self._heading(said("Construction")), *self._steps()]
+
+    @cached_property
+    def _apart(self) -> tuple[Arrangement, list[list[Placed]]]:
+        """A page of words alone, and the steps page by page."""
+        page = words_page(self.paper, *self._frame)
+        return page, packed([row.enlarged(self.letters.times) for row in self.steps], page)
+
+    def whole(self) -> list[Sheet]:
+        """The sheet with all words on it."""
+        return [self._page([*self.brief, *self.steps], 1)]
+
+    def parted(self) -> list[Sheet]:
+        """The sheet with what is given and found, and the pages of steps that follow it."""
+        arrangement, pages = self._apart
+        first = self._page(self.brief, 1 + len(pages))
+        further = [replace(first, panels={}, items=tuple(stacked([
+            *self._framed(arrangement.title, {}, number, 1 + len(pages)), *lettered(placed)])))
+            for number, placed in enumerate(pages, 2)]
+        return [first, *further]
+
+    def _page(self, rows: Sequence[TextRow], count: int) -> Sheet:
+        """The first of so many pages, with these words, as one display list."""
+        wide, high = sheet_size(self.paper)
+        program, _, scales = self.recorded
+        items = [*self._framed(self.title, self.panels, 1, count)]
+        for panel in self.panels:
+            items += self.figure(panel, self.room(panel))
+        items += lettered(self.placed(rows) or [])
+        sentences = tuple(self.tongue(program.told(step.index)) for step in program.steps)
+        return Sheet(wide, high, self.space, {str(panel): rect for panel, rect in self.panels.items()},
+                     tuple(stacked(items)), self.scene.title, self.tongue(self.told), sentences, scales,
+                     self.tongue.code, self.scene.text, program.givens)
+
+    def _framed(self, title: Rect, panels: Mapping[Panel, Rect], number: int, of: int) -> Iterator[Item]:
+        """Frame, panels with their captions, and the title block, of one page of so many."""
+        frame, block = self._frame
+        yield from frame.items(self.paper, self.space, self.tongue)
+        for panel, rect in panels.items():
+            yield Outline(pens.BORDER, "paper", None, rect.corners, str(panel))
+            yield from self._caption(panel, rect)
+        page = Page(self.document, self.paper, self.tongue(self.scale), number, of)
+        yield from block.on(self.paper).items(title, page)
+
+    def _caption(self, panel: Panel, rect: Rect) -> Iterator[Item]:
+        """What a panel is, in letters of marks where that has room on a line, else in small ones."""
+        runs, large, room = sentence_runs(self.tongue(panel.heading)), self.letters.mark, rect.width - 2 * SIDE
+        size = large if width(runs, large, bold=True) <= room else self.letters.text
+        for k, line in enumerate(wrap(runs, size, room, bold=True)[:2]):
+            at = rect.left + SIDE, rect.top - 1.6 * large - 1.2 * k * size
+            yield Text(pens.LETTERS, "text", None, at, line, size, bold=True)
+
+    # ---- words -----------------------------------------------------------------------------------------------------
+
+    def _section(self, heading: Said, contents: Iterable[Words]) -> Iterator[TextRow]:
+        """A heading with what is under it, if anything is."""
+        rows = [row for words in contents for row in self._set(words)]
+        if rows:
+            yield self._heading(heading)
+            yield from rows
+
+    def _heading(self, words: Said, size: float = HEADING) -> TextRow:
+        return TextRow((Cell(0.0, sentence_runs(self.tongue(words)), bold=True),), size=size, gap=LEAD, keep=2)
+
+    def _set(self, words: Words, number: str = "", step: int | None = None) -> Iterator[TextRow]:
+        """A table, or words in lines that hang from a number."""
+        if isinstance(words, str):
+            yield from hung(sentence_runs(self.tongue(words), self._names), COLUMN, INDENT, number, step)
+        else:
+            yield from table_rows([[sentence_runs(self.tongue(cell), self._names) for cell in row] for row in words])
+
+    @cached_property
+    def _names(self) -> tuple[str, ...]:
+        """The names that words are set with."""
+        return tuple(step.name for step in self.recorded.program.steps if step.name)
+
+    def _steps(self) -> Iterator[TextRow]:
+        """Stage by stage what is done in it, each kind of step once, and which steps are the same elsewhere."""
+        program = self.recorded.program
+        for stage, steps in program.stages:
+            yield replace(self._heading(stage.title, SIZE), gap=LEAD / 2)
+            yield from self._set(arranged("{0:capital}.", stage.law))
+            shown, left = first_figure(steps)
+            for step in shown:
+                yield from self._set(self._spoken(step), str(program.number(step.index)), step.index)
+            if left:
+                numbers = program.number(left[0].index), program.number(left[-1].index)
+                yield from self._set(said("Steps {0} to {1}: the same at the other divisions.", *numbers))
+
+    @cached_property
+    def _lengths(self) -> Lengths:
+        """How long on paper what is drawn is."""
+        program, values, scales = self.recorded
+        return Lengths(program, values, self.recorded.plans.__getitem__, scales)
+
+    def _spoken(self, step: Step) -> Said:
+        """A step in words, with its length on paper."""
+        told = self.recorded.program.told(step.index)
+        return joined((told, *(arranged("{0}.", length.told) for length in self._lengths.of(step))), " ")
+
+
+def pages(kind: Callable[[str], Panelled], paper: str | None = None, papers: Sequence[str] = PAPERS) -> list[Sheet]:
+    """A sheet on the paper named, or on the smallest of some on which all its words have room.
+
+    Where they have none the steps stand on pages of their own. Fails with `Refused` where what is given and found has
+    none either.
+    """
+    tried = [kind(name) for name in ([paper] if paper else papers)]
+    for one in tried:
+        if one.placed([*one.brief, *one.steps]) is not None:
+            return one.whole()
+    for one in tried:
+        if one.placed(one.brief) is not None:
+            return one.parted()
+    raise Refused(f"paper {tried[-1].paper}", "what is given and found does not fit on it", "a larger one, or no name")
+
+
+def first_figure(steps: Sequence[Step]) -> tuple[Sequence[Step], Sequence[Step]]:
+    """The first steps of a stage, until all that is done in it has been done once, and the others."""
+    kinds = [(step.op, getattr(step.why, "key", "")) for step in steps]
+    again = next((kind for k, kind in enumerate(kinds) if kind in kinds[:k]), None)
+    end = max(kinds.index(kind) for kind in kinds) + 1
+    while again is not None and end < len(kinds) and kinds[end] != again:
+        end += 1
+    return (steps[:end], steps[end:]) if len(steps) - end > FEW else (steps, ())
+
+
+def beside(rect: Rect, *shares: float) -> list[Rect]:
+    """A rectangle divided from left to right in these shares."""
+    edges = [rect.left + rect.width * part / sum(shares) for part in accumulate(shares, initial=0.0)]
+    return [replace(rect, left=left, right=right) for left, right in pairwise(edges)]
+
+
+def under(rect: Rect, *shares: float) -> list[Rect]:
+    """A rectangle divided from the top down in these shares."""
+    edges = [rect.top - rect.height * part / sum(shares) for part in accumulate(shares, initial=0.0)]
+    return [replace(rect, top=top, bottom=low) for top, low in pairwise(edges)]

@@ -14,10 +14,11 @@ from graphplan import __version__
 from graphplan.commands.output import error, flush, hush
 from graphplan.errors import GraphplanError, Refused
 
-SUBCOMMANDS = ("new", "list", "import", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cam", "cost",
-               "handout", "live", "variants", "verify", "chart", "gallery", "schema", "completion")
+SUBCOMMANDS = ("new", "list", "import", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cam", "balance",
+               "cost", "handout", "live", "variants", "verify", "chart", "gallery", "schema", "completion")
 MODULES = {"list": "catalogue", "import": "import_"}  # whose own names Python has taken
-SCENELESS = ("new", "list", "import", "watch", "cam", "chart", "gallery", "schema", "completion")  # others take a scene
+# all others take a scene
+SCENELESS = ("new", "list", "import", "watch", "cam", "balance", "chart", "gallery", "schema", "completion")
 
 GARBAGE = 100_000  # new objects before any is looked through: a command lives briefly and leaves little
 

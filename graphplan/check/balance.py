@@ -1,0 +1,168 @@
+"""The mass centre over the cycle and what shakes the frame, each beside the solver's: the second opinion on balancing.
+
+The path is compared with the polygon of masses, velocity and acceleration of the mass centre with the solver's of all
+links, the shaking force and its moment with what the frame bears by the solver's reactions.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from graphplan.check.cycle import cycle
+from graphplan.cycle.loop import whole_motion
+from graphplan.errors import Disagreement, Refused
+from graphplan.machine.mass_centre import MassCentre, mass_centre
+from graphplan.machine.shaking import Shaking, shaking
+from graphplan.mechanism.model import FRAME, Balance, Drive, Find, Loads, Scene
+from graphplan.mechanism.plane import times
+from graphplan.mechanism.units import METRES, NEWTONS
+from graphplan.solver import poses, statics
+
+CLOSE = 1e-9  # of what is added up: so far opinions may be apart
+
+
+@dataclass(frozen=True)
+class MassMotion:
+    """The mass centre of a scene in n poses and what shakes its frame; complex arrays of shape (n,), nan where a pose
+    is not reached.
+
+    `travel` of the first drive is in radians or scene lengths, `path`, `velocity` and `acceleration` in scene units.
+    `check` says by how much the opinions differ, beside the largest of what they add up.
+    """
+
+    centre: MassCentre
+    travel: Any
+    closed: bool
+    points: Mapping[str, Any]
+    path: Any
+    velocity: Any
+    acceleration: Any
+    shaking: Shaking
+    faults: Mapping[int, str]
+    check: Mapping[str, float]
+
+
+def mass_motion(scene: Scene, positions: int) -> MassMotion:
+    """The mass centre in so many poses of the cycle, constructed and compared.
+
+    Fails with `Refused` where no link has a mass or the mechanism does not move, with `Disagreement` where opinions
+    differ by more than rounding.
+    """
+    centre = mass_centre(scene)
+    asked = Find(centre.points, centre.points, links=scene.moving)
+    found = cycle(replace(scene, find=asked, loads=None), positions, _span(scene, positions))
+    if len(found.faults) == positions:
+        raise Refused(f"{scene.name}: the cycle", next(iter(found.faults.values())), "another pose")
+    if found.wrong:
+        raise Disagreement(scene.name, "motion", f"otherwise in pose {found.wrong[0]}", "by the solver", math.nan)
+    still, results = np.zeros(positions, dtype=complex), found.results
+    rates = [{name: results[kind].get(name, still) for name in centre.points} for kind in ("velocity", "acceleration")]
+    alphas = {link: results["alpha"][link] for link in scene.moving}
+    points = {name: np.where(np.isnan(found.gaps["velocity"]), np.nan, z) for name, z in found.turn.points.items()}
+    path, velocity, acceleration = (centre.at(places) for places in (points, *rates))
+    shakes = shaking(centre, points, rates[1], alphas)
+    motion = MassMotion(centre, found.turn.travel, found.turn.closed, points, path, velocity, acceleration, shakes,
+                        found.faults, {})
+    check = _compared(motion, found.turn.guides)
+    for what, gap in check.items():
+        if not gap <= CLOSE:
+            raise Disagreement(scene.name, what, "otherwise", "by the solver", gap)
+    return replace(motion, check=check)
+
+
+def _span(scene: Scene, positions: int) -> tuple[float, float] | None:
+    """The span of travel that the mechanism goes through; none for a full turn that closes.
+
+    Between limits it keeps half a step off each: at the limit itself there are no velocities.
+    """
+    motion = whole_motion(scene)
+    low, high = (float(motion.path.travel[end]) for end in (0, -1))
+    step = (high - low) / positions
+    if motion.whole and math.isclose(high - low, 2 * math.pi) and not scene.drives[0].slides:
+        return None
+    ends = (low, high - step) if motion.whole else (low + step / 2, high - step / 2)
+    return ends if scene.drives[0].slides else (math.degrees(ends[0]), math.degrees(ends[1]))
+
+
+def _compared(motion: MassMotion, guides: Mapping[str, Any]) -> dict[str, float]:
+    """By how much the opinions differ, each beside the largest of what it adds up."""
+    centre, scene = motion.centre, motion.centre.scene
+    there = np.flatnonzero(np.isfinite(motion.path))
+    points, ways = ({name: z[there] for name, z in arrays.items()} for arrays in (motion.points, guides))
+    alone = _alone(scene)
+    posed = poses.posed(alone, points, ways)
+    rates = poses.solve(posed, there.size)
+    parts = {link: float(mass.mass / centre.mass) for link, mass in centre.masses.items()}
+    reach = max(abs(z - points[centre.base]).max() for z in points.values())
+    found = {"path": _gap(motion.path[there], [parts[link] * points[mass.centre] for link, mass
+                                               in centre.masses.items()], reach)}
+    for kind, ours, theirs in (("velocity", motion.velocity, rates.velocity),
+                               ("acceleration", motion.acceleration, rates.acceleration)):
+        terms = [parts[link] * _complex(theirs[mass.centre], there.size) for link, mass in centre.masses.items()]
+        found[kind] = _gap(ours[there], terms)
+    borne = _borne(alone, poses.reactions(posed, rates, there.size), points, motion.shaking.about, there.size)
+    if borne is not None:
+        found["shaking force"] = _gap(motion.shaking.force[there], [force for force, _ in borne])
+        found["shaking moment"] = _gap(motion.shaking.moment[there], [moment for _, moment in borne])
+    return found
+
+
+def _gap(ours: Any, terms: list[Any], size: float = 0.0) -> float:
+    """The largest difference from a sum, beside the largest of its terms, or a size that is larger."""
+    beside = max(size, *(float(abs(term).max()) for term in terms))
+    apart = float(abs(ours - sum(terms)).max())
+    return apart / beside if beside else apart
+
+
+def _alone(scene: Scene) -> Scene:
+    """The scene with its masses as the only loads, and a balance for each drive."""
+    def balance(drive: Drive) -> Balance:
+        if not drive.slides:
+            return Balance(drive.link)
+        slide = scene.driven_slide(drive)
+        return Balance(slide.link, slide.at, slide.direction)
+
+    loads = scene.loads
+    balances = loads.balances if loads and loads.balances else tuple(map(balance, scene.drives))
+    return replace(scene, loads=Loads((0, 0), loads.masses if loads else {}, (), (), balances))
+
+
+def _borne(scene: Scene, found: statics.Reactions, points: Mapping[str, Any], about: complex,
+           count: int) -> list[tuple[Any, Any]] | None:
+    """What the frame bears by the reactions of its pairs and the balances: the forces in N, each with its moment in
+    N m; none where reactions are statically indeterminate."""
+    newton, metre = float(NEWTONS[scene.units.force]), float(METRES[scene.units.length])
+
+    def borne(vector: Any, at: str, couple: Any = 0.0) -> tuple[Any, Any]:
+        force = newton * _complex(vector, count)
+        return force, metre * ((points[at] - about).conjugate() * force).imag + newton * couple
+
+    bearing: list[tuple[Any, Any]] = []
+    for joint in scene.revolutes:
+        for link in joint.links[1:] if FRAME in joint.links else ():
+            if (joint.at, link) not in found.joints:
+                return None
+            if FRAME in (link, joint.links[0]):
+                bearing.append(borne(times(1 if link == FRAME else -1, found.joints[joint.at, link]), joint.at))
+    for slide in (slide for slide in scene.slides if FRAME in slide.links):
+        if slide.name not in found.slides:
+            return None
+        force, couple = found.slides[slide.name]
+        sign = 1 if slide.link == FRAME else -1
+        bearing.append(borne(times(sign, force), slide.at, sign * couple))
+    if any(FRAME in pair.links for pair in (*scene.gears, *scene.contacts)):
+        return None
+    for balance, value in zip(statics.asked(scene).balances, found.balances, strict=True):
+        bearing.append(borne(times(-1, value), balance.at) if isinstance(value, tuple)
+                       else (np.zeros(count, dtype=complex), -newton * value))
+    return bearing
+
+
+def _complex(vector: Any, count: int) -> Any:
+    """A vector of numbers or arrays as one complex array."""
+    return np.broadcast_to(np.asarray(vector[0], dtype=float) + 1j * np.asarray(vector[1], dtype=float), (count,))

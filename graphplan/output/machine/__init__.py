@@ -1,0 +1,1 @@
+"""Sheets and numbers of the machine over its cycle, and of balancing."""

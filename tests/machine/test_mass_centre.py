@@ -1,0 +1,75 @@
+"""The mass centre by principal vectors, over the cycle, beside textbook values and the solver."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from linkages_with_masses import four_bar, slider_crank
+
+from graphplan.check.balance import mass_motion
+from graphplan.commands import main
+from graphplan.errors import Refused
+from graphplan.kernel.claims import broken
+from graphplan.machine.mass_centre import mass_centre
+from graphplan.mechanism.scene import load
+
+OFFSET = [(2, 0.06, 0.02), (3, 0.2, -0.03), (4, 0.12, 0.01)]
+STRAIGHT = [(m, s, 0) for m, s, _ in OFFSET]
+
+
+def test_principal_vectors_of_a_four_bar() -> None:
+    """Ozols (16.8), (16.9), in numbers: h = 0.0911111, 0.2222222, 0.0533333 m; S where the offsets lead it."""
+    found = mass_centre(four_bar(STRAIGHT))
+    lengths = [float(v.along) * long for v, long in zip(found.vectors, (0.1, 0.35, 0.3), strict=True)]
+    assert lengths == pytest.approx([0.0911111, 0.2222222, 0.0533333], abs=5e-8)
+    assert not any(vector.across for vector in found.vectors)
+    aside = mass_centre(four_bar(OFFSET))
+    assert aside.values[aside.program.wanted[0]] == pytest.approx((0.257904, 0.139965), abs=5e-7)
+
+
+@pytest.mark.parametrize("scene", [four_bar(OFFSET), slider_crank(OFFSET)], ids=["four-bar", "slider-crank"])
+def test_steps_keep_their_claims(scene: object) -> None:
+    """Each step of the construction is what it says, and each link's principal point is marked on it."""
+    found = mass_centre(scene)  # type: ignore[arg-type]
+    assert not [*broken(found.program, found.values)]
+    assert {step.name for step in found.program.steps} >= {"H_1", "H_2", "H_3", "S"}
+
+
+@pytest.mark.parametrize("scene", [four_bar(OFFSET), slider_crank(OFFSET)], ids=["four-bar", "slider-crank"])
+def test_opinions_agree_over_the_cycle(scene: object) -> None:
+    """Path, velocity, acceleration, shaking force and moment are those of the solver, to rounding."""
+    found = mass_motion(scene, 24)  # type: ignore[arg-type]
+    assert {*found.check} == {"path", "velocity", "acceleration", "shaking force", "shaking moment"}
+    assert max(found.check.values()) < 1e-13
+    m = float(found.centre.mass)
+    assert np.abs(found.shaking.force + m * found.acceleration).max() < 1e-12 * np.abs(found.shaking.force).max()
+
+
+@pytest.mark.parametrize("name", ["rosenauer-loaded", "class-four-loaded", "walschaerts-loaded", "triad-loaded",
+                                  "kinytskyi", "ozols-10-1", "ozols-10-2", "ozols-9-1"])
+def test_other_linkages(name: str) -> None:
+    """Linkages of several loops, with slides and cylinders, have a mass centre, constructed as the solver has it."""
+    assert max(mass_motion(load(name), 12).check.values()) < 1e-9
+
+
+def test_no_masses() -> None:
+    """Where nothing has a mass there is no mass centre."""
+    with pytest.raises(Refused, match="no moving link has a mass"):
+        mass_centre(load("four-bar"))
+
+
+def test_command(tmp_path: Path) -> None:
+    """`graphplan balance` writes the numbers as JSON and the table as text."""
+    task, out = tmp_path / "scene.toml", tmp_path / "out.json"
+    task.write_text(four_bar(OFFSET).text)
+    assert main(["balance", str(task), "-q", "--positions", "24", "-o", str(out)]) == 0
+    found = json.loads(out.read_text())
+    assert [row[0] for row in found["mass_centre"]["path"]] == pytest.approx([15.0 * k for k in range(24)])
+    assert found["mass_centre"]["path"][0][1:] == pytest.approx([0.257904, 0.139965], abs=5e-7)
+    assert {"shaking_force", "shaking_moment", "principal_vectors", "check"} <= {*found}
+    assert main(["balance", str(task), "-q", "--positions", "24", "-o", str(out.with_suffix(".csv"))]) == 0
+    assert len(out.with_suffix(".csv").read_text().splitlines()) == 25
+    assert main(["balance", "four-bar"]) == 2

@@ -1,0 +1,120 @@
+"""A machine as its first drive feels it: its inertia and the moment of its loads, as curves over the travel.
+
+What is constructed in many poses is taken as polynomials between the breaks of the loads: from then on nothing is
+constructed any more. A load over a speed keeps apart what hangs on the travel, its arm and the speed that it measures,
+and its law.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from graphplan.errors import Refused
+from graphplan.machine.integrals import Piecewise, Reals, settled
+from graphplan.machine.reduction import Reduction
+
+SAMPLES = 48  # places of the cycle that show how large moments and inertias are
+
+
+class SpeedLaw(NamedTuple):
+    """A load over a speed: its moment is arm * law(rate * omega), arm and rate changing with the travel."""
+
+    name: str
+    arm: Piecewise
+    rate: Piecewise
+    law: Callable[[Reals], Reals]
+
+
+@dataclass(frozen=True, eq=False)
+class Driven:
+    """A machine of one degree of freedom as its first drive feels it, in SI units.
+
+    `reduced` are inertia, its slope and the moment of all loads that hang on the travel alone, positive where they
+    drive; a machine that is `closed` is the same a turn later. `wheel` is the inertia of a flywheel, `closing` a
+    constant moment on the drive.
+    """
+
+    reduced: tuple[Piecewise, Piecewise, Piecewise]
+    closed: bool
+    laws: tuple[SpeedLaw, ...] = ()
+    wheel: float = 0.0
+    closing: float = 0.0
+
+    @property
+    def begin(self) -> float:
+        return float(self.reduced[0].edges[0])
+
+    @property
+    def period(self) -> float:
+        """The travel of a cycle, or of the whole span."""
+        return float(np.ptp(self.reduced[0].edges))
+
+    def inertia(self, travel: Reals) -> Reals:
+        return self.wheel + self.curve(self.reduced[0], travel)
+
+    def slope(self, travel: Reals, side: int = 1) -> Reals:
+        """The derivative of the inertia."""
+        return self.curve(self.reduced[1], travel, side)
+
+    def moment(self, travel: Reals, rate: Reals, side: int = 1) -> Reals:
+        """The moment of all loads, at a break that from the right, or from the left with `side` -1."""
+        found = self.closing + self.curve(self.reduced[2], travel, side)
+        for law in self.laws:
+            speed = self.curve(law.rate, travel, side) * rate
+            found = found + self.curve(law.arm, travel, side) * _known(law.law, speed)
+        return found
+
+    def curve(self, curve: Piecewise, travel: Reals, side: int = 1) -> Reals:
+        """A curve of the machine at any travels."""
+        if self.closed:
+            turns = np.floor if side > 0 else _below
+            travel = travel - self.period * turns((travel - self.begin) / self.period)
+        return curve.at(travel, side)
+
+    def edges(self, start: float, end: float) -> list[float]:
+        """The travels between which all is smooth, from one travel to another."""
+        inner = self.reduced[0].edges
+        first, last = (math.floor((x - self.begin) / self.period) if self.closed else 0 for x in (start, end))
+        found = np.unique([inner + turn * self.period for turn in range(first, last + 1)])
+        return [start, *(float(x) for x in found if start < x < end), end]
+
+
+def _below(turns: Reals) -> Reals:
+    return np.ceil(turns) - 1
+
+
+def driven(reduction: Reduction, *, factor: float = 1.0, changing: Collection[str] = (), wheel: float = 0.0,
+           closing: float = 0.0) -> Driven:
+    """The machine of a reduction, the loads that change `factor` times as large; a sliding drive's travel in metres.
+
+    Fails with `Refused` where a pose is not reached or has no velocities.
+    """
+    def rows(travel: Reals) -> Reals:
+        found = reduction.at(travel)
+        moment = sum((found.by[name] * (factor - 1) for name in changing if name in found.by), found.moment)
+        speeds = [curve for load in found.speed_loads for curve in (load.arm, load.rate)]
+        return np.array([found.inertia, found.slope, moment, *speeds])
+
+    first, last = reduction.ends
+    sample = reduction.at(np.linspace(first, last, SAMPLES + 2)[1:-1])
+    sizes = np.zeros(3 + 2 * len(sample.speed_loads))
+    sizes[1] = abs(sample.inertia).max()
+    sizes[2] = sum(abs(moment).max() for moment in sample.by.values()) * max(1.0, abs(factor))
+    edges = [first, *(float(x) for x in reduction.breaks if first < x < last), last]
+    curves = [replace(curve, edges=curve.edges * reduction.unit) for curve in settled(rows, edges, sizes)]
+    arms = zip(sample.speed_loads, curves[3::2], curves[4::2], strict=True)
+    laws = tuple(SpeedLaw(load.name, arm, rate, load.law) for load, arm, rate in arms)
+    return Driven((curves[0], curves[1], curves[2]), reduction.closed, laws, wheel, closing)
+
+
+def _known(law: Callable[[Reals], Reals], speed: Reals) -> Reals:
+    """The values of a law, nan where its table does not cover a speed: a search may pass by there."""
+    try:
+        return law(speed)
+    except Refused:
+        return np.array([np.nan if len(speed) == 1 else _known(law, one)[0] for one in speed[:, None]])

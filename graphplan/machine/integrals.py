@@ -107,12 +107,13 @@ class Piecewise:
         return low
 
     def extremes(self, slope: Piecewise) -> tuple[tuple[float, float], tuple[float, float]]:
-        """The least and the largest value, each with its travel first; `slope` is its derivative."""
+        """The least and the largest value, each with its travel, the first of equals; `slope` is the derivative."""
         places = np.unique(np.concatenate([slope.roots(), self.edges]))
         left, right = self.at(places, -1), self.at(places, 1)
         least, most = np.minimum(left, right), np.maximum(left, right)
-        down, up = int(np.argmin(least)), int(np.argmax(most))
-        return (float(places[down]), float(least[down])), (float(places[up]), float(most[up]))
+        close = NOTHING * max(most.max(), -least.min())
+        down, up = np.argmax(least <= least.min() + close), np.argmax(most >= most.max() - close)
+        return (float(places[down]), float(least.min())), (float(places[up]), float(most.max()))
 
 
 def settled(function: Callable[[Reals], Reals], breaks: Sequence[float], size: npt.ArrayLike = 0.0) -> Piecewise:

@@ -1,0 +1,113 @@
+"""The flywheel of a machine whose reduced inertia and moment are closed forms: Ozols' scotch yoke, in SI."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from graphplan.errors import Refused
+from graphplan.machine.energy import steady
+from graphplan.machine.flywheel_methods import methods, rectangles
+from graphplan.machine.wittenbauer import by_mean_energy, sized, turning
+
+TURN = 2 * math.pi
+SPEED, UNEVENNESS = 15.0, 1 / 30
+
+
+class Yoke:
+    """The scotch yoke of Ozols 1974, 13-6: I = 10 + 4 sin^2 phi, a resisting moment of 200 |sin phi|."""
+
+    closed, ends, breaks, unit = True, (0.0, TURN), (math.pi,), 1.0
+
+    def at(self, travel, side=None):
+        resisting = -200 * np.abs(np.sin(travel))
+        return SimpleNamespace(inertia=10 + 4 * np.sin(travel) ** 2, slope=4 * np.sin(2 * travel), moment=resisting,
+                               by={"F_1": resisting, "M_1": np.full(len(travel), 25.0)}, speed_loads=())
+
+
+@pytest.fixture(scope="module")
+def cycle():
+    return steady(Yoke(), SPEED)
+
+
+def test_closing_moment_and_energy(cycle):
+    """The closing moment is minus the mean of the rest, and the energy returns; its extremes are the closed form's."""
+    assert cycle.closing == pytest.approx(400 / math.pi - 25, rel=1e-12)
+    phi = np.array([0.3, 1.5, 3.0])
+    assert cycle.energy.at(phi) == pytest.approx(400 / math.pi * phi - 200 * (1 - np.cos(phi)), abs=1e-10)
+    assert cycle.energy.at(TURN) == pytest.approx(0, abs=1e-10)
+    (low, least), (high, most) = cycle.energy.extremes(cycle.rates[0])
+    assert (math.degrees(low) % 180, math.degrees(high) % 180) == pytest.approx((140.46, 39.54), abs=0.005)
+    assert most - least == pytest.approx(84.205, abs=5e-4)
+
+
+def test_loads_that_change_close_the_cycle():
+    """With closes = "load" the loads that change get a factor and the drive nothing; without such it is refused."""
+    scaled = steady(Yoke(), SPEED, "load", ["F_1"])
+    assert (scaled.closing, scaled.factor) == (0, pytest.approx(25 * TURN / 800))
+    assert scaled.energy.at(TURN) == pytest.approx(0, abs=1e-9)
+    with pytest.raises(Refused, match="no load changes"):
+        steady(Yoke(), SPEED, "load")
+
+
+def test_wittenbauer(cycle):
+    """Tangents of prescribed slope: intercepts, origin, travels and the flywheel; on a parallel axis the same."""
+    wheel = sized(cycle, UNEVENNESS)
+    assert wheel.inertia == pytest.approx(49.379, abs=5e-4)
+    assert (wheel.upper.cut, wheel.lower.cut) == pytest.approx((-1155.61, -1525.96), abs=0.005)
+    assert wheel.origin == pytest.approx(-6897.5, abs=0.05)
+    assert math.degrees(wheel.upper.travel) % 180 == pytest.approx(6.50, abs=0.005)
+    assert math.degrees(wheel.lower.travel) % 180 == pytest.approx(94.76, abs=0.005)
+    for at in (0.0, 10.0, -3.0):
+        assert wheel.intercept(at) / (UNEVENNESS * SPEED**2) - at == pytest.approx(wheel.inertia)
+    phi = np.linspace(0, TURN, 100001)
+    omega = np.sqrt(2 * (cycle.energy.at(phi) - wheel.origin) / (cycle.inertia.at(phi) + wheel.inertia))
+    assert (omega.max(), omega.min()) == pytest.approx((15.25, 14.75), abs=1e-8)
+
+
+def test_speeds_with_a_given_flywheel(cycle):
+    """With the flywheel that is found the unevenness is that asked for; without one, and by (15.7), the source's."""
+    wheel = sized(cycle, UNEVENNESS)
+    assert turning(cycle, wheel.inertia).unevenness == pytest.approx(UNEVENNESS, rel=1e-12)
+    own = turning(cycle, 0.0)
+    assert (own.omega_max + own.omega_min) / 2 == pytest.approx(SPEED, rel=1e-13)
+    printed = by_mean_energy(cycle, 0.0)
+    assert (printed.omega_max, printed.omega_min) == pytest.approx((16.470, 13.870), abs=5e-4)
+    assert printed.unevenness == pytest.approx(0.1714, abs=5e-5)
+    with pytest.raises(Refused, match=r"needs no flywheel.*0\.1716"):
+        sized(cycle, 0.18)
+
+
+def test_other_methods(cycle):
+    """Gutjahr with the right pairing finds Wittenbauer's flywheel, the area vectors a far smaller one."""
+    found = {method.name: method for method in methods(cycle, UNEVENNESS)}
+    assert found["gutjahr"].inertia == pytest.approx(sized(cycle, UNEVENNESS).inertia, rel=1e-12)
+    assert found["gutjahr"].stored == pytest.approx(445.35, abs=0.005)
+    assert found["area vectors"].inertia == pytest.approx(11.227, abs=5e-4)
+    assert sum(area.work for area in found["area vectors"].figures["areas"]) == pytest.approx(0, abs=1e-9)
+    assert found["power"].stored == pytest.approx(84.205, abs=5e-4)
+
+
+def test_work_and_idling():
+    """The mean power of work and idling, and the surplus, of the source's rectangles."""
+    assert rectangles(12, 2, 2, 6) == (4.5, 15)
+
+
+def test_a_motor_that_gives_way(cycle):
+    """A motor of constant moment stores the largest surplus; one that falls with the speed less."""
+    stiff, soft = (methods(cycle, UNEVENNESS, motor)[-1].stored for motor in (lambda w: 25.0, lambda w: 625 - 40 * w))
+    assert stiff == pytest.approx(84.205, abs=5e-4)
+    assert soft != pytest.approx(stiff)
+
+
+def test_cycles_that_do_not_close():
+    """A machine that does not come back is refused, and a weight that does work over the cycle."""
+    with pytest.raises(Refused, match="does not close"):
+        steady(SimpleNamespace(closed=False, ends=(0.0, 1.0), unit=1.0), SPEED)
+    falling = Yoke()
+    falling.at = lambda travel: SimpleNamespace(**{**vars(Yoke().at(travel)), "by": {"G_2": 1 + np.sin(travel)}})
+    with pytest.raises(Refused, match="G_2"):
+        steady(falling, SPEED)

@@ -16,6 +16,7 @@ from itertools import permutations
 from typing import Any
 
 from graphplan.mechanism.directions import Written
+from graphplan.mechanism.load_tables import LoadTable
 from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.drives import Drive, DrivenPoint, Motion, SlidingDrive, TurningDrive
 from graphplan.mechanism.pairs.gear import Gear
@@ -23,11 +24,12 @@ from graphplan.mechanism.pairs.pair import FRAME, Along, Condition, KinematicPai
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.plane import Number, Pair
+from graphplan.mechanism.running import Flywheel, Run
 from graphplan.mechanism.units import Units
 
-__all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Extreme", "Find", "Force", "Friction",
-           "Gear", "Loads", "Mass", "Moment", "Motion", "Number", "Pair", "Placement", "Presentation", "Scene", "Slide",
-           "SlidingDrive", "TurningDrive", "Units", "Written"]
+__all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Extreme", "Find", "Flywheel", "Force",
+           "Friction", "Gear", "LoadTable", "Loads", "Mass", "Moment", "Motion", "Number", "Pair", "Placement",
+           "Presentation", "Run", "Scene", "Slide", "SlidingDrive", "TurningDrive", "Units", "Written"]
 
 
 @dataclass(frozen=True)
@@ -75,19 +77,28 @@ class Mass:
 
 @dataclass(frozen=True)
 class Force:
-    """A given force on a link, at a point of it."""
+    """A given force on a link, at a point of it: `value` in this pose.
+
+    One that changes over the cycle has a `table` of its values along `direction`, of any length, which is fixed in the
+    plane, or turns with the two points that it goes `through`.
+    """
 
     on: str
     at: str
     value: Pair
+    table: LoadTable | None = None
+    direction: Pair | None = None
+    through: tuple[str, str] | None = None
 
 
 @dataclass(frozen=True)
 class Moment:
-    """A given couple on a link, in force * m, counter-clockwise positive."""
+    """A given couple on a link, in force * m, counter-clockwise positive: `value` in this pose, and the `table` of one
+    that changes over the cycle."""
 
     on: str
     value: Number
+    table: LoadTable | None = None
 
 
 @dataclass(frozen=True)
@@ -243,7 +254,8 @@ class Scene:
     `points` are coordinates (x, y); `links` lists the points of each link, `frame` among them where there is one.
     `written` are the pairs that are written as such, drives among them: joints are points that links share.
     `irrational` says, for each value that fractions cannot hold, where it stands in the scene and why. `loads` is None
-    where no forces are asked for. `sheet` is how its sheet should look. `text` is the scene as it was written, `vary`
+    where no forces are asked for. `flywheel` and `run` say what is asked of the machine over its cycle, if anything is.
+    `sheet` is how its sheet should look. `text` is the scene as it was written, `vary`
     the values that some of its numbers have in variants, by path.
     `assembly` is what its pose is constructed from, where that is not given.
     `redundant` are the conditions without which the mechanism moves just the same, by its special geometry, and
@@ -262,6 +274,8 @@ class Scene:
     find: Find
     irrational: tuple[str, ...] = ()
     loads: Loads | None = None
+    flywheel: Flywheel | None = None
+    run: Run | None = None
     sheet: Presentation = Presentation()
     text: str = field(default="", repr=False, compare=False)
     redundant: tuple[Condition, ...] = ()

@@ -7,6 +7,7 @@ import re
 import sys
 import tomllib
 from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from errno import EBADF
 from fractions import Fraction
@@ -23,12 +24,14 @@ from graphplan.mechanism.checks import (
 from graphplan.mechanism.directions import points_of
 from graphplan.mechanism.fields import Field, Names, Table
 from graphplan.mechanism.items import Faults, Item, perhaps, quoted
-from graphplan.mechanism.model import Contact, Find, Gear, Pair, Presentation, Scene, Slide
+from graphplan.mechanism.load_values import filled_in
+from graphplan.mechanism.model import FRAME, Balance, Contact, Find, Gear, Pair, Presentation, Scene, Slide
 from graphplan.mechanism.numerals import decimal, is_exact
 from graphplan.mechanism.pairs import fields
 from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.mechanism.placements import POINTS, needs, place
 from graphplan.mechanism.presentation import SHEET
+from graphplan.mechanism.scene_text import with_rows
 from graphplan.mechanism.values import TEXT, VECTOR
 from graphplan.mechanism.variation import VARY
 
@@ -55,11 +58,14 @@ SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and
     Field("balance", "the unknown that keeps the motion, one for each drive: a moment, or a force along a line",
           sections.BALANCE),
     Field("friction", "friction in a joint or in a slide", sections.FRICTION),
+    Field("flywheel", "how evenly the machine is to run over its cycle, for graphplan flywheel",
+          sections.FLYWHEEL),
+    Field("run", "how far the machine's true motion is followed, for graphplan motion", sections.RUN),
     Field("vary", "numbers that differ from student to student, by their paths, such as points.A.angle or "
           "drive.0.omega, for graphplan variants", VARY),
 ))
 ORDER = ("points", "links", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *sections.LOADS,
-         "sheet", "vary")
+         "flywheel", "run", "sheet", "vary")
 """In which sections are read: what others speak of comes first."""
 
 
@@ -105,16 +111,20 @@ def packaged() -> list[str]:
 
 
 def parse(text: str, name: str) -> Scene:
-    """The scene that a TOML text says; `name` stands in error lines."""
+    """The scene that a TOML text says; `name` stands in error lines, and files that it names are beside it.
+
+    Its own text has the rows of such files in their stead, so that it holds wherever it is taken.
+    """
     faults = Faults()
-    scene = _read(tables_of(text, name), name, faults)
+    folder = FOLDER if name in packaged() and not os.path.exists(name) else os.path.dirname(name)
+    scene, files = _read(tables_of(text, name), name, faults, folder)
     if len(faults):
         from graphplan.mechanism.slips import slips_in_vectors  # few scenes have faults
 
         for slip in slips_in_vectors(text):
             faults.add(*slip)
         raise SceneError(name, tuple(faults))
-    return replace(scene, text=text)
+    return replace(scene, text=with_rows(text, files) if files else text)
 
 
 def tables_of(text: str, name: str) -> dict[str, object]:
@@ -137,14 +147,19 @@ def tables_of(text: str, name: str) -> dict[str, object]:
     raise SceneError(name, (fault,))
 
 
-def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
-    """The whole scene; where something is faulty the scene is patched up, and only good for finding more faults."""
+def _read(tables: dict[str, object], name: str, faults: Faults,
+          folder: str) -> tuple[Scene, Mapping[str, Sequence[Pair]]]:
+    """The whole scene, and the rows of the files that it names in a folder.
+
+    Where something is faulty the scene is patched up, and only good for finding more faults.
+    """
     items = Item(tables, "", faults).fields(SCENE.keys, {}) or {}
     for field in SCENE.fields:
         if field.wanted and not (field.name in items and items[field.name].value):
             faults.add(field.name, f"the scene has no {field.name}", field.wanted)
     points = items.get("points", Item({}, "points", faults))
-    names = Names(dict.fromkeys(points.value) if isinstance(points.value, dict) else {}, tables=tables)
+    names = Names(dict.fromkeys(points.value) if isinstance(points.value, dict) else {}, tables=tables,
+                  folder=folder)
     kinds, read = {field.name: field.kind for field in SCENE.fields}, {}
     for key in ORDER:
         if key in items and (value := kinds[key].read(items[key], names)) is not None:
@@ -162,12 +177,25 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         title=read.get("title", ""), source=read.get("source", ""), name=name, units=names.units,
         points={point: names.placed.get(point, (Fraction(0), Fraction(0))) for point in names.points},
         placements=placements, links=names.links, written=names.pairs, motions=read.get("motion", {}),
-        find=read.get("find") or _asked(names), loads=sections.loads(read), sheet=read.get("sheet") or Presentation(),
-        vary=read.get("vary", {}))
+        find=read.get("find") or _asked(names), loads=sections.loads(read), flywheel=read.get("flywheel"),
+        run=read.get("run"), sheet=read.get("sheet") or Presentation(), vary=read.get("vary", {}))
+    scene = _kept_by_its_drive(scene)
     counting = _counting(scene)
     rounded = [f"points.{quoted(point)}: {placements[point].how} placement" for point in placements
                if point in names.placed and point in counting and not is_exact(names.placed[point])]
-    return _checked(replace(scene, irrational=(*rounded, *names.irrational)), names.placed, faults)
+    scene = _checked(replace(scene, irrational=(*rounded, *names.irrational)), names.placed, faults)
+    return (scene if len(faults) else filled_in(scene, faults)), names.files
+
+
+def _kept_by_its_drive(scene: Scene) -> Scene:
+    """The scene; where it asks for the machine over its cycle and for no balance, that is what its drive does."""
+    loads, drives = scene.loads, scene.drives
+    if not loads or loads.balances or len(drives) != 1 or drives[0].on != FRAME or not (scene.flywheel or scene.run):
+        return scene
+    slide = scene.driven_slide(drives[0]) if drives[0].slides else None
+    balance = (Balance(slide.link, slide.at, slide.direction, slide.written) if slide
+               else Balance(drives[0].link))
+    return replace(scene, loads=replace(loads, balances=(balance,)))
 
 
 def _told_apart(pairs: tuple[KinematicPair, ...]) -> tuple[KinematicPair, ...]:

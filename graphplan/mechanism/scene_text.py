@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from decimal import Context, Decimal
 from fractions import Fraction
 from typing import Any
@@ -54,6 +54,22 @@ def with_numbers(text: str, values: Mapping[str, Fraction]) -> str:
 def _key(part: str, places: Mapping[str, re.Match[str]]) -> str:
     """A key as it was written: a numeral may be one as well, as in [masses.2]."""
     return places[part][0] if part in places else part
+
+
+def with_rows(text: str, files: Mapping[str, Sequence[tuple[Any, Any]]]) -> str:
+    """The text with the rows of files in the place of their names: values = [[0, 0], [30, -1200]]."""
+    def rows(found: re.Match[str]) -> str:
+        name = tomllib.loads(f"file = {found[2]}")["file"]
+        if name not in files:
+            return found[0]
+        return f"{found[1]}values = [{', '.join(f'[{written(x)}, {written(y)}]' for x, y in files[name])}]"
+
+    def meant(tables: Tables) -> None:
+        for load in (load for table in ("forces", "moments") for load in tables.get(table, ())):
+            if load.get("file") in files:
+                load["values"] = [[*row] for row in files[load.pop("file")]]
+
+    return edited(text, lambda text: re.sub(rf"(?m)(^\s*|[{{,]\s*)file\s*=\s*({QUOTED})", rows, text), meant)
 
 
 def with_keys(text: str, table: str, keys: Mapping[str, str]) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from itertools import combinations, permutations
+from math import pi
 from typing import Any
 
 from graphplan.errors import by_name
@@ -12,11 +13,25 @@ from graphplan.mechanism import model
 from graphplan.mechanism.directions import GUIDE
 from graphplan.mechanism.fields import Either, Field, Kind, Named, Names, Row, Rows, Table, on_link
 from graphplan.mechanism.items import Item
-from graphplan.mechanism.model import FRAME, Contact, Gear, Pair, Slide
+from graphplan.mechanism.load_fields import DIRECTION, EITHER, TABLE, table
+from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Number, Pair, Slide
+from graphplan.mechanism.numerals import shown
 from graphplan.mechanism.pairs.gear import LOADS as LOADS
 from graphplan.mechanism.pairs.sliding import has_slide
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
-from graphplan.mechanism.values import AMOUNT, LINK, NAME, NUMBER, POINT, TWO_LINKS, VECTOR, asked, choice, moving
+from graphplan.mechanism.values import (
+    AMOUNT,
+    FLAG,
+    LINK,
+    NAME,
+    NUMBER,
+    POINT,
+    TWO_LINKS,
+    VECTOR,
+    asked,
+    choice,
+    moving,
+)
 
 # --- links ---------------------------------------------------------------------------------------------------------
 
@@ -175,15 +190,99 @@ MASSES = Named(Table("a mass", (
 ), lambda row: model.Mass(**row.values) if on_link(row, row.item.key) else None), LINK, _weighed)
 
 _LOADED = moving("a load on the frame moves nothing")
+_STILL: Pair = (Fraction(0), Fraction(0))
+
+
+def _force(row: Row) -> model.Force | None:
+    """A force; of one with a table the value is filled in once the whole scene is read."""
+    changing, found = "over" in row.items, table(row)
+    if not on_link(row, row["on"]) or (changing and found is None):
+        return None
+    if "direction" in row.items and not changing:
+        return row.items["direction"].fault("a constant force has its direction in its value", "value, or over")
+    if not changing:
+        return model.Force(row["on"], row["at"], row["value"])
+    if "direction" not in row.items:
+        return row.item.fault("direction is missing", "the direction of positive values, such as direction = [1, 0]")
+    vector, through, _ = row["direction"]
+    return model.Force(row["on"], row["at"], _STILL, found, vector, through)
+
+
+def _moment(row: Row) -> model.Moment | None:
+    """A moment; of one with a table the value is filled in once the whole scene is read."""
+    changing, found = "over" in row.items, table(row)
+    if changing and found is None:
+        return None
+    return model.Moment(row["on"], row.values.get("value", Fraction(0)), found)
+
+
 FORCES = Rows(Table("a force", (
     Field("on", "the loaded link", _LOADED, 'the loaded link, such as on = "2"'),
     Field("at", "a point of that link", POINT, 'a point of that link, such as at = "C"'),
-    Field("value", "the components of the force", VECTOR, "two components, such as value = [-150, 0]"),
-), lambda row: model.Force(**row.values) if on_link(row, row["on"]) else None))
+    Field("value", "the components of the force", VECTOR),
+    DIRECTION, *TABLE,
+), _force, either=EITHER, remedy="two components, such as value = [-150, 0], or over and a table"))
 MOMENTS = Rows(Table("a moment", (
     Field("on", "the loaded link", _LOADED, 'the loaded link, such as on = "3"'),
-    Field("value", "the moment in force * m, counter-clockwise positive", NUMBER, "a moment, such as value = 12.0"),
-), lambda row: model.Moment(**row.values)))
+    Field("value", "the moment in force * m, counter-clockwise positive", NUMBER),
+    *TABLE,
+), _moment, either=EITHER, remedy="a moment, such as value = 12.0, or over and a table"))
+
+
+# --- the machine over its cycle ------------------------------------------------------------------------------------
+
+
+def _speed(row: Row) -> Number | None:
+    """The speed of the first drive that a table gives, in rad/s or turns a minute; none where it gives none."""
+    first = next((pair for pair in row.names.pairs if isinstance(pair, Drive)), None)
+    if "rpm" not in row.items or first is None:
+        return row.values.get("speed")
+    if first.slides:
+        return row.items["rpm"].fault("the first drive slides", "speed, in length/s")
+    return float(row["rpm"] / 30 * Fraction(pi))
+
+
+def _flywheel(row: Row) -> model.Flywheel | None:
+    uneven = row.values.get("unevenness")
+    if uneven is not None and not 0 < uneven < 2:
+        return row.items["unevenness"].fault(f"an unevenness of {shown(uneven)}", "more than 0 and less than 2")
+    if ("unevenness" in row.items) == ("inertia" in row.items):
+        return row.item.fault("unevenness and inertia are both given" if uneven is not None else
+                              "unevenness is missing", "unevenness, or inertia where the unevenness is asked for")
+    speed = _speed(row)
+    if speed is None:
+        return None
+    if speed <= 0:
+        return row.item.fault(f"a mean speed of {shown(speed)}", "a speed above 0; which way it runs its drive says")
+    return model.Flywheel(speed, uneven, row.values.get("inertia"), row["closes"])
+
+
+FLYWHEEL = Table("a flywheel", (
+    Field("speed", "the mean speed of the first drive, in rad/s (in length/s where it slides)", NUMBER),
+    Field("rpm", "the same in turns a minute, instead of speed", NUMBER),
+    Field("unevenness", "(omega_max - omega_min) / mean, the mean being half their sum", NUMBER),
+    Field("inertia", "of a flywheel that is given, in mass * m^2, where the unevenness is asked for", AMOUNT),
+    Field("closes", "what closes the cycle: a constant moment on the drive, or a constant factor of the loads that "
+          "change", choice("drive", "load"), default="drive"),
+), _flywheel, either=("speed", "rpm"), remedy="either speed in rad/s or rpm")
+
+
+def _run(row: Row) -> model.Run | None:
+    if "speed" in row.items and "rpm" in row.items:
+        return row.item.fault("speed and rpm are both given", "either speed in rad/s or rpm")
+    if row.values.get("travel") == 0:
+        return row.items["travel"].fault("a travel of 0 goes nowhere", "degrees or lengths, such as travel = 720")
+    return model.Run(_speed(row), row.values.get("travel"), row["stops"])
+
+
+RUN = Table("a run", (
+    Field("speed", "the first drive's speed at its beginning, in rad/s (in length/s where it slides); without it that "
+          "of the drive", NUMBER),
+    Field("rpm", "the same in turns a minute, instead of speed", NUMBER),
+    Field("travel", "how far it is followed, in degrees of the first drive (in lengths where it slides); without it "
+          "one turn", NUMBER),
+    Field("stops", "true: followed until the machine comes to rest", FLAG, default=False),
+), _run)
 
 
 # --- balance and friction ------------------------------------------------------------------------------------------
@@ -260,6 +359,5 @@ def loads(read: Mapping[str, Any]) -> model.Loads | None:
     """The loads of a scene, from what is read of its tables; None where it has none of them."""
     if read.keys().isdisjoint(LOADS):
         return None
-    none: Pair = (Fraction(0), Fraction(0))
-    return model.Loads(read.get("gravity", none), read.get("masses", {}),
+    return model.Loads(read.get("gravity", _STILL), read.get("masses", {}),
                        *(read.get(table, ()) for table in ("forces", "moments", "balance", "friction")))

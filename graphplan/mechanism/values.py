@@ -115,7 +115,8 @@ def asked(noun: str, such: str, known: Callable[[Names], Collection[str]],
             return item.fault(f"{described(item.value)} where a list of {many} is wanted",
                               f'a list such as {such}, or "all"')
         parts, choice = [item.instead(value) for value in item.value], known(names)
-        found = [part.name_of(noun, choice) for part in parts if not wrong(part.value, item, names)]
+        found = [part.name_of(noun, choice) for part in parts
+                 if not (isinstance(part.value, str) and wrong(part.value, item, names))]
         return tuple(dict.fromkeys(name for name in found if name is not None))
 
     return Kind(f'list of {many}, or "all"', read,

@@ -1,0 +1,146 @@
+"""Load tables: forces and moments that change over the cycle, straight between the rows of a table.
+
+A table is over the travel of the first drive from the given pose (degrees, or lengths where it slides), over the
+position of a slide, once around, the outward stroke's rows first, or over a speed. Two rows at one place are a jump.
+At a jump, and at the end of a stroke, the load is that into which the motion goes on.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from graphplan.errors import Refused
+from graphplan.mechanism.plane import Number
+
+TRAVEL, SPEED, SPEED_OF = "travel", "speed", "speed of "
+ROUNDING = Fraction(1, 10**9)
+"""So much of a table's length a place may be off by rounding: beyond its ends, or beside a jump."""
+
+Rows = tuple[tuple[Number, Number], ...]
+
+
+@dataclass(frozen=True)
+class LoadTable:
+    """A load by its place: `over` is "travel", a slide such as "3 along frame", "speed" or "speed of 3 along frame".
+
+    `rows` are places and values; over a speed v there may be `powers` c_0, c_1, c_2 in their stead: the load is
+    c_0 + c_1 v + c_2 v |v|. A table over travel repeats after its `period`, if it has one: whole turns of the drive.
+    `where` is where the scene has it. Places are in the scene's lengths and degrees, speeds in rad/s and lengths/s.
+    """
+
+    over: str
+    rows: Rows = ()
+    powers: tuple[Number, ...] = ()
+    period: Number = 0
+    where: str = field(default="", compare=False)
+
+    @property
+    def slide(self) -> str:
+        """The slide over whose position or speed it is, by its name; none over the drive's."""
+        name = self.over.removeprefix(SPEED_OF)
+        return "" if name in (TRAVEL, SPEED) else name
+
+    @property
+    def over_speed(self) -> bool:
+        """Whether it is over a speed."""
+        return self.over == SPEED or self.over.startswith(SPEED_OF)
+
+    @property
+    def over_position(self) -> bool:
+        """Whether it is over a slide's position, so that its two strokes are told apart."""
+        return bool(self.slide) and not self.over_speed
+
+    @cached_property
+    def strokes(self) -> dict[int, Rows]:
+        """The rows by the sense in which the place changes, 1 or -1, each in the order of the motion."""
+        if not self.over_position:
+            return {1: self.rows, -1: self.rows[::-1]}
+        places = [place for place, _ in self.rows]
+        sense = 1 if next(p for p in places if p != places[0]) > places[0] else -1
+        turn = max(range(len(places)), key=lambda i: (sense * places[i], -i))
+        back = next(i for i in reversed(range(len(places))) if places[i] == places[turn])
+        return {sense: self.rows[: turn + 1], -sense: self.rows[back:]}
+
+    @property
+    def corners(self) -> tuple[Number, ...]:
+        """The places between which it is straight."""
+        return tuple(dict.fromkeys(place for place, _ in self.rows))
+
+    @property
+    def length(self) -> Number:
+        """From its lowest place to its highest."""
+        return max(self.corners) - min(self.corners)
+
+    def value(self, place: Number, sense: int = 1, after: bool = True) -> Number:
+        """The load at a place that changes in this sense, 1 or -1; at a jump that after it, or before it.
+
+        Fails with `Refused` where the table does not cover the place.
+        """
+        if self.powers:
+            square = place * place if place > 0 else -place * place
+            return sum((c * v for c, v in zip(self.powers, (Fraction(1), place, square), strict=False)), Fraction(0))
+        place, rows = self._home(place), self.strokes[sense]
+        ways, slack = [sense * p for p, _ in rows], self.length * ROUNDING
+        at = sense * place
+        if not ways[0] - slack <= at <= ways[-1] + slack:
+            raise self.uncovered(place)
+        found = bisect_right(ways, at + slack) if after else bisect_left(ways, at - slack)
+        if found in (0, len(rows)):
+            return rows[min(found, len(rows) - 1)][1]
+        (p, one), (q, other) = rows[found - 1 : found + 1]
+        part = min(max((place - p) / (q - p), 0 * place), 0 * place + 1)
+        return one + part * (other - one)
+
+    def at(self, places: Any, senses: Any = 1, after: bool = True) -> Any:
+        """The same at many places, an array of shape (n,) of floats; `senses` is 1 or -1, or an array of them.
+
+        Places that are nan have no load; fails with `Refused` where the table does not cover one.
+        """
+        import numpy as np
+
+        places = np.asarray(places, float)
+        if self.powers:
+            terms = 1.0 + 0 * places, places, places * np.abs(places)
+            return sum(float(c) * v for c, v in zip(self.powers, terms, strict=False))
+        home, senses = self._home(places), np.broadcast_to(np.asarray(senses, float), places.shape)
+        found = np.full(places.shape, np.nan)
+        for sense in self.strokes:
+            there = (senses * sense > 0) & np.isfinite(home)
+            found[there] = self._along(home[there], sense, after)
+        return found
+
+    def _along(self, places: Any, sense: int, after: bool) -> Any:
+        """The loads at places that change in one sense."""
+        import numpy as np
+
+        rows = np.array(self.strokes[sense], float)
+        ways, at, slack = sense * rows[:, 0], sense * places, float(self.length * ROUNDING)
+        outside = (at < ways[0] - slack) | (at > ways[-1] + slack)
+        if outside.any():
+            raise self.uncovered(float(places[outside][0]))
+        found = np.searchsorted(ways, at + slack, "right") if after else np.searchsorted(ways, at - slack, "left")
+        one, other = np.clip(found - 1, 0, len(rows) - 1), np.clip(found, 0, len(rows) - 1)
+        apart = ways[other] - ways[one]
+        part = np.clip((at - ways[one]) / np.where(apart > 0, apart, 1.0), 0.0, 1.0)
+        value = rows[one, 1] + part * (rows[other, 1] - rows[one, 1])
+        return np.where(found == 0, rows[0, 1], np.where(found == len(rows), rows[-1, 1], value))
+
+    def _home(self, places: Any) -> Any:
+        """Where places lie in the first period: within the table, if it covers whole turns."""
+        if not self.period:
+            return places
+        first, period = self.rows[0][0], self.period
+        if not isinstance(places, Fraction):
+            first, period = float(first), float(period)
+        turns = (places - first) // period
+        return places - turns * period
+
+    def uncovered(self, place: Number) -> Refused:
+        """The error that says that this place is not covered."""
+        low, high = (f"{float(end):.6g}" for end in (min(self.corners), max(self.corners)))
+        what = f"its table over {self.over} goes from {low} to {high}, and {float(place):.6g} is asked for"
+        return Refused(self.where, what, "rows as far as the motion goes")

@@ -1,0 +1,190 @@
+"""What loads that change are in the scene's own pose: each table read where the drive, or its slide, stands and moves.
+
+A load over a slide's position hangs on the stroke, so the velocities in the pose are needed, and at a dead point of the
+slide the accelerations: the stroke is that into which the drive leads. They are solved from what the pairs state, in
+fractions where the scene is rational.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from graphplan.errors import Refused
+from graphplan.mechanism.elimination import Elimination
+from graphplan.mechanism.items import Faults
+from graphplan.mechanism.load_tables import SPEED, LoadTable
+from graphplan.mechanism.model import Force, Moment, Scene, Slide
+from graphplan.mechanism.numerals import exactly, is_exact, root
+from graphplan.mechanism.pairs.pair import FRAME, Along, Rate, Side, Sides, Statement
+from graphplan.mechanism.plane import Pair, dot, less, times
+
+STANDING = 1e-9
+"""A slide is at a dead point where its speed is less than this part of what the drives make at the mechanism's reach.
+"""
+
+
+def guide_origin(scene: Scene, slide: Slide) -> str:
+    """The point from which a slide's position counts along its guide; none where that is the scene's origin.
+
+    The first of the points that give the guide, else, of a guide that rides on a link, the first of the link.
+    """
+    if slide.through:
+        return slide.through[0]
+    return "" if slide.along == FRAME else next(iter(scene.links[slide.along]), "")
+
+
+def filled_in(scene: Scene, faults: Faults) -> Scene:
+    """The scene with the values that its loads have in this pose; a fault where a table does not cover it."""
+    loads = scene.loads
+    every: tuple[Force | Moment, ...] = (*loads.forces, *loads.moments) if loads else ()
+    if loads is None or not any(load.table for load in every):
+        return scene
+    pose, irrational = OwnPose(scene), list(scene.irrational)
+
+    def value(load: Force | Moment) -> Any:
+        table = load.table
+        if table is None:
+            return load
+        try:
+            found, exact = pose.value(table)
+        except Refused as refused:
+            faults.add(refused.what, refused.why, refused.do)
+            return load
+        if isinstance(load, Force):
+            assert load.direction is not None
+            length, rational = _length(load.direction)
+            exact = exact and rational and is_exact(load.direction)
+            vector = times(found / length, exactly(load.direction))
+            filled: Any = replace(load, value=vector if exact else (float(vector[0]), float(vector[1])))
+        else:
+            filled = replace(load, value=found if exact else float(found))
+        if not exact:
+            irrational.append(f"{table.where}: its value in this pose")
+        return filled
+
+    forces, moments = tuple(map(value, loads.forces)), tuple(map(value, loads.moments))
+    return replace(scene, loads=replace(loads, forces=forces, moments=moments), irrational=tuple(irrational))
+
+
+def driven(scene: Scene) -> Scene:
+    """The scene with drives that move: where all stand still the first one as it speeds up, or forwards."""
+    if any(drive.rate for drive in scene.drives) or not scene.drives:
+        return scene
+    first, *others = scene.drives
+    return scene.with_drives((first.driven_at(Fraction(-1 if first.change < 0 else 1), Fraction(0)), *others))
+
+
+@dataclass(frozen=True)
+class OwnPose:
+    """A scene in its own pose, in fractions."""
+
+    scene: Scene
+
+    def value(self, table: LoadTable) -> tuple[Fraction, bool]:
+        """What a table says here, and whether that is exact."""
+        if table.over == SPEED:
+            first = self.scene.drives[0] if self.scene.drives else None
+            rate = first.rate if first else Fraction(0)
+            return Fraction(table.value(Fraction(rate))), isinstance(rate, Fraction)
+        if not table.slide:
+            return Fraction(table.value(Fraction(0), self.sense)), True
+        slide = next(slide for slide in self.scene.slides if slide.name == table.slide)
+        length, rational = _length(slide.direction)
+        if table.over_speed:
+            speed = self._rates(self.scene)[0].get(slide.name, Fraction(0))
+            return Fraction(table.value(speed / length)), rational and self.exact
+        origin = guide_origin(self.scene, slide)
+        ends = [exactly(self.scene.points[point]) for point in ((slide.at, origin) if origin else (slide.at,))]
+        away = less(*ends) if origin else ends[0]
+        place = Fraction(dot(away, exactly(slide.direction))) / length
+        exact = rational and is_exact(slide.direction, *(self.scene.points[p] for p in (slide.at, origin) if p))
+        return Fraction(table.value(place, self._stroke(slide, table))), exact
+
+    @property
+    def sense(self) -> int:
+        """The sense in which the first drive moves."""
+        moved = driven(self.scene).drives
+        return -1 if moved and moved[0].rate < 0 else 1
+
+    @property
+    def exact(self) -> bool:
+        """Whether its rates are told in fractions."""
+        rates = [drive.rates for drive in self.scene.drives]
+        return not self.scene.redundant and is_exact(*self.scene.points.values(), *rates)
+
+    def _stroke(self, slide: Slide, table: LoadTable) -> int:
+        """The sense in which a slide moves, or at a dead point begins to; that of the first rows where it never does.
+        """
+        velocities, accelerations = self._moving
+        speed, length = velocities.get(slide.name, Fraction(0)), _length(slide.direction)[0]
+        fast = max(abs(float(d.rate)) * (1 if d.slides else self.scene.extent) for d in driven(self.scene).drives)
+        there = speed if abs(speed) > STANDING * fast * float(length) else accelerations.get(slide.name, Fraction(0))
+        return (1 if there > 0 else -1) if there else next(iter(table.strokes))
+
+    @cached_property
+    def _moving(self) -> tuple[dict[str, Fraction], dict[str, Fraction]]:
+        """The rates of the slides while the drives move, at constant speeds."""
+        moved = driven(self.scene)
+        return self._rates(moved.with_drives(drive.driven_at(drive.rate, Fraction(0)) for drive in moved.drives))
+
+    def _rates(self, scene: Scene) -> tuple[dict[str, Fraction], dict[str, Fraction]]:
+        """Velocity and acceleration of each slide along its guide's direction, times its length; none where the pose is
+        singular."""
+        facts = [fact for pair in scene.pairs for fact in pair.states(scene)]
+        columns = {link: 3 * k for k, link in enumerate(scene.moving)}
+        solve = _solver([self._row(fact, columns) for fact in facts], 3 * len(columns), bool(scene.redundant))
+
+        def rates(right: list[Fraction]) -> dict[str, Rate] | None:
+            values = solve(right)
+            return None if values is None else {link: Rate(*values[k : k + 3]) for link, k in columns.items()}
+
+        along = {slide.name: Along(*slide.links, slide.at, exactly(slide.direction), "along") for slide in scene.slides}
+        first = rates([_prescribed(fact)[0] for fact in facts])
+        if first is None:
+            return {}, {}
+        second = rates([_prescribed(fact)[1] + Fraction(fact.left_over(self._sides(fact, first))) for fact in facts])
+        slips = {name: (self._sides(fact, first), self._sides(fact, second or first)) for name, fact in along.items()}
+        return ({name: Fraction(dot(along[name].direction, one.slip)) for name, (one, _) in slips.items()},
+                {name: Fraction(dot(along[name].direction, less(other.slip, one.surplus)))
+                 for name, (one, other) in slips.items() if second})
+
+    def _row(self, fact: Statement, columns: Mapping[str, int]) -> dict[int, Fraction]:
+        """How much each rate of the links counts in a statement."""
+        sides = self._sides(fact, {})
+        weights = fact.weights((sides.link.arm, sides.on.arm), lambda square: root(Fraction(square))[0])
+        return {columns[link] + k: Fraction(weight) for (link, _), rate in zip(fact.ends, weights, strict=True)
+                if link in columns for k, weight in enumerate(rate)}
+
+    def _sides(self, fact: Statement, rates: Mapping[str, Rate]) -> Sides:
+        """The two links of a statement, with these rates; a link's base is at the scene's origin."""
+        none = Fraction(0)
+        return Sides(*(Side(exactly(self.scene.points[point]) if point else (none, none),
+                            rates.get(link, Rate(none, none, none))) for link, point in fact.ends))
+
+
+def _solver(rows: Sequence[Mapping[int, Fraction]], width: int,
+            repeating: bool) -> Callable[[Sequence[Fraction]], Sequence[Fraction] | None]:
+    """What solves the rows for a right-hand side; where they repeat each other the shortest solution in floats."""
+    if not repeating:
+        system = Elimination(rows, width)
+        return lambda right: None if system.free else system.solve(right)
+    import numpy as np  # few scenes need it
+
+    matrix = np.array([[float(row.get(j, 0)) for j in range(width)] for row in rows])
+    return lambda right: [*map(Fraction, np.linalg.lstsq(matrix, np.array(right, float), rcond=None)[0].tolist())]
+
+
+def _length(direction: Pair) -> tuple[Fraction, bool]:
+    """The length of a direction, and whether it is exact."""
+    x, y = exactly(direction)
+    return root(x * x + y * y)
+
+
+def _prescribed(fact: Statement) -> tuple[Fraction, Fraction]:
+    """The velocity and the acceleration that a statement prescribes, times the length of its direction."""
+    length = _length(fact.direction)[0] if isinstance(fact, Along) and fact.way == "along" else 1
+    return length * Fraction(fact.rate), length * Fraction(fact.change)

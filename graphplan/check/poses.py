@@ -172,7 +172,7 @@ def sound(part: Round, drawing: Construction, results: Results, apart: Mapping[s
 
 def _sound(pose: Round, drawing: Construction, ours: Results, worst: float) -> bool:
     """Whether one pose is sound: beside the bounds that are proven there, or where none are, beside the condition."""
-    scene = _alone(pose.posed)
+    scene = alone(pose.posed)
     try:
         told = opinion(scene, FLOATS)
         truth = told.truth(ours)
@@ -187,7 +187,7 @@ def _sound(pose: Round, drawing: Construction, ours: Results, worst: float) -> b
                for named in numbers.values() for vector in named.values() for number in vector)
 
 
-def _alone(scene: Scene) -> Scene:
+def alone(scene: Scene) -> Scene:
     """A scene in one pose, its floats taken as they are."""
     slides = (replace(slide, written=None) for slide in scene.slides)
     drives = (drive.driven_at(*drive.rates) for drive in scene.drives)

@@ -13,7 +13,7 @@ moves, and a reduced moment is positive that way.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -26,31 +26,15 @@ from graphplan.cycle.pose import in_pose
 from graphplan.cycle.travel import TURN, check_drives, told, travels
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import Refused
+from graphplan.machine.breaks import breaks, common_period
 from graphplan.machine.lever_drawing import lever_drawing
+from graphplan.machine.reduced_loads import LoadValues, SpeedLoad, acting, loads_with
 from graphplan.machine.unit_motion import ACCELERATIONS, VELOCITIES, Rates, UnitMotion, moving_points
-from graphplan.mechanism.model import FRAME, Find, Loads, Mass, Scene
-from graphplan.mechanism.units import KILOGRAMS, NEWTONS
+from graphplan.mechanism.model import FRAME, Find, Mass, Scene
+from graphplan.mechanism.units import KILOGRAMS
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.phrases import said
-
-
-@dataclass(frozen=True, eq=False)
-class SpeedLoad:
-    """A load over a speed in n poses: it has the moment arm * law(rate * omega).
-
-    `rate` is the speed in question, in the unit of its table, for each rad/s (m/s) of the drive; `arm` the moment, in
-    N m (N), for each unit of what the `law` gives. Both are arrays of shape (n,).
-    """
-
-    name: str
-    arm: Array
-    rate: Array
-    law: Callable[[Array], Array] = field(repr=False)
-
-    def moment(self, omega: Any) -> Any:
-        """Its moment where the drive has this rate, in rad/s or m/s."""
-        return self.arm * self.law(self.rate * omega)
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,15 +43,15 @@ class Reduced:
 
     `travel` of the first drive, in radians or scene lengths; `inertia` in kg m^2 and `moment` in N m, of all loads that
     do not depend on speed, positive in the sense of motion; of a sliding drive kg and N. `by` has each load's own
-    moment: F_1, F_2 .. and M_1 .. in the scene's order, and the weights by their links, as G_3. Those over a speed are
-    `speed_loads`, apart.
+    moment: F_1, F_2 .. and M_1 .. in the scene's order, and the weights by their links, as G_3. Those `over_speed` come
+    apart.
     """
 
     travel: Array
     inertia: Array
     moment: Array
     by: dict[str, Array]
-    speed_loads: tuple[SpeedLoad, ...]
+    over_speed: tuple[SpeedLoad, ...]
     _accelerated: Callable[[], Array] = field(repr=False)
 
     @cached_property
@@ -75,23 +59,9 @@ class Reduced:
         """How the inertia changes: dI/dphi in kg m^2, or by a metre of a sliding drive in kg/m."""
         return self._accelerated()
 
-
-@dataclass(frozen=True)
-class Acting:
-    """A load on a link, in SI: a force at a point, as a complex number, or where there is none a moment."""
-
-    name: str
-    link: str
-    at: str
-    value: complex
-
-    def power(self, rates: Rates) -> Any:
-        """Its power for a unit of travel: of a force the moment about the pole of the lever that it has at the end of
-        the orthogonal velocity of its point, which is turned clockwise."""
-        if not self.at:
-            return self.value.real * rates.of(kinds.OMEGA, self.link)
-        orthogonal = -1j * rates.of(kinds.VELOCITY, self.at)
-        return (np.conj(orthogonal) * self.value).imag
+    def speed_loads(self, omega: Any) -> dict[str, Array]:
+        """The moment of each load over a speed where the drive has this rate, in rad/s or m/s."""
+        return {load.name: load.moment(omega) for load in self.over_speed}
 
 
 class Reduction:
@@ -103,14 +73,18 @@ class Reduction:
 
     def __init__(self, scene: Scene, motion: RangeOfMotion, ends: tuple[float, float], compiled: bool = False):
         assert scene.loads is not None
-        self.scene, self.loads, self.ends = scene, scene.loads, ends
-        self.acting = [*acting(scene, self.loads)]
+        self.scene, self.loads = scene, scene.loads
+        self.acting = [*acting(scene, scene.loads)]
+        self.values = LoadValues(scene, self.acting)
         self.masses = {link: mass for link, mass in self.loads.masses.items()
                        if link != FRAME and (mass.mass or mass.inertia)}
         self.motion = UnitMotion(scene, motion, self._asked(), compiled)
         self.sense, self.unit = self.motion.sense, self.motion.unit
         self.closed = bool(self.motion.period)
-        self.breaks: tuple[float, ...] = ()
+        if self.closed:
+            ends = 0.0, common_period(self.motion.period, [load.table for load in self.acting if load.table])
+        self.ends = ends
+        self.breaks = breaks(self.values, self.motion, ends)
 
     def _asked(self) -> Find:
         """What is asked of the motion: the points of forces and masses, and the links of moments and inertias."""
@@ -119,20 +93,23 @@ class Reduction:
         turning = {load.link for load in self.acting if not load.at}
         turning |= {link for link, mass in self.masses.items() if mass.inertia}
         links = tuple(link for link in self.scene.moving if link in turning)
-        return Find(tuple(dict.fromkeys((*points, *centres))), centres, (), links, ())
+        return Find(tuple(dict.fromkeys((*points, *centres))), centres, (), links, tuple(self.values.slides))
 
-    def at(self, travel: Any, side: int | None = None) -> Reduced:
+    def at(self, travel: Any, side: int = 1) -> Reduced:
         """Inertia and moment at some travels, real numbers of shape (n,); of a closed cycle at any.
 
-        At a break it is the limit from one `side`, -1 or 1. Fails with `Refused` where a pose is not reached.
+        At a break it is the limit from one `side`, -1 or 1. Fails with `Refused` where a pose is not reached, or a
+        table does not cover it.
         """
         travel = np.atleast_1d(np.asarray(travel, dtype=float))
-        turn = self.motion.turn(travel)
-        rates = self.motion.rates(turn, VELOCITIES)
-        by = {load.name: load.power(rates) + np.zeros(travel.shape) for load in self.acting}
-        moment = sum(by.values(), np.zeros(travel.shape))
-        return Reduced(travel, self._summed(rates, rates, VELOCITIES) + np.zeros(travel.shape), moment, by, (),
-                       lambda: self._slope(rates, self.motion.rates(turn, ACCELERATIONS)) + np.zeros(travel.shape))
+        zero, turn = np.zeros(travel.shape), self.motion.turn(travel)
+        rates = self.motion.velocities(turn)
+        values = self.values.values(self.motion, turn, rates, travel, side)
+        by = {load.name: load.arm(rates, turn) * values.get(load.name, 1.0) + zero for load in self.acting
+              if not (load.table and load.table.over_speed)}
+        return Reduced(travel, self._summed(rates, rates, VELOCITIES) + zero, sum(by.values(), zero), by,
+                       tuple(self.values.over_speed(self.motion, turn, rates)),
+                       lambda: self._slope(rates, self.motion.accelerations(turn)) + zero)
 
     def _slope(self, velocities: Rates, accelerations: Rates) -> Any:
         return 2 * self._summed(velocities, accelerations, ACCELERATIONS)
@@ -153,13 +130,16 @@ class Reduction:
         """The lever in the pose at a travel, drawn step by step; it balances with the opposite of the reduced moment.
         """
         turn = self.motion.turn(np.array([float(travel)]))
-        return lever_drawing(in_pose(self.motion.scene, turn, 0), self.loads)
+        rates = self.motion.velocities(turn)
+        values = self.values.values(self.motion, turn, rates, np.array([float(travel)]), 1)
+        given = loads_with(self.loads, {name: float(value[0]) for name, value in values.items()}, turn)
+        return lever_drawing(in_pose(self.motion.scene, turn, 0), given)
 
     def projections(self, travel: Any) -> dict[str, Array]:
         """The moments of the weights by another form: each weight by the projection of the orthogonal velocity of its
         centre of mass across it, which is horizontal (Ozols 1974, 13-3; method A3)."""
         travel = np.atleast_1d(np.asarray(travel, dtype=float))
-        rates = self.motion.rates(self.motion.turn(travel), VELOCITIES)
+        rates = self.motion.velocities(self.motion.turn(travel))
         gravity = complex(*map(float, self.loads.gravity))
         across = 1j * gravity / abs(gravity) if gravity else 0j
         unit = float(KILOGRAMS[self.scene.units.mass]) * abs(gravity)
@@ -216,18 +196,3 @@ def _reached(scene: Scene, motion: RangeOfMotion, low: float, high: float) -> No
         if limit and beyond >= abs(limit.travel):
             raise Refused("the cycle", said("the mechanism stops at a {0} at {1}", limit.kind,
                                             told(scene, limit.travel, 10)), "a span that ends before")
-
-
-def acting(scene: Scene, loads: Loads) -> Iterator[Acting]:
-    """The loads on moving links, in newtons and metres, by their names."""
-    newton, kilogram = float(NEWTONS[scene.units.force]), float(KILOGRAMS[scene.units.mass])
-    for k, force in enumerate(loads.forces, 1):
-        if force.on != FRAME:
-            yield Acting(f"F_{k}", force.on, force.at, newton * complex(*map(float, force.value)))
-    for k, moment in enumerate(loads.moments, 1):
-        if moment.on != FRAME:
-            yield Acting(f"M_{k}", moment.on, "", complex(newton * float(moment.value)))
-    gravity = complex(*map(float, loads.gravity))
-    for link, mass in loads.masses.items():
-        if mass.mass and gravity and link != FRAME:
-            yield Acting(f"G_{link}", link, mass.centre, kilogram * float(mass.mass) * gravity)

@@ -47,7 +47,7 @@ class UnitMotion:
     """The scene's motion as far as `motion` goes, at a unit rate in the sense in which its first drive moves.
 
     `sense` is that sense, 1 or -1: travels here, in radians or scene lengths, count in it. `unit` is the size of a unit
-    of travel in SI: 1 of radians, the metres of a length where the drive slides. `period` is the travel after which all
+    of travel in SI: 1 of radians where the drive `turns`, else the `metres` of a length. `period` is the travel after which all
     is back, 0 where that is never. `find` is what is asked of the motion.
     """
 
@@ -57,7 +57,8 @@ class UnitMotion:
         self.sense = -1 if first.rate < 0 else 1
         self.period = float(motion.path.travel[-1]) if motion.whole else 0.0
         self.metres = float(METRES[scene.units.length])
-        self.unit = self.metres if first.slides else 1.0
+        self.turns = not first.slides
+        self.unit = 1.0 if self.turns else self.metres
         self.scene = replace(at_unit_rate(scene), loads=None, find=find)
         self._drawings: dict[object, Construction | None] = {}
 
@@ -73,7 +74,19 @@ class UnitMotion:
             raise Refused("the cycle", why, "a span of travels that the mechanism reaches")
         return found
 
-    def rates(self, turn: Turn, wanted: tuple[kinds.ResultKind, ...]) -> Rates:
+    def told(self, travel: Array) -> Array:
+        """Travels as scenes tell them: in degrees, or in lengths."""
+        return np.degrees(travel) if self.turns else travel
+
+    def velocities(self, turn: Turn) -> Rates:
+        """The velocities in the poses of a turn."""
+        return self._rates(turn, VELOCITIES)
+
+    def accelerations(self, turn: Turn) -> Rates:
+        """The accelerations in the poses of a turn, at a constant rate of the drive."""
+        return self._rates(turn, ACCELERATIONS)
+
+    def _rates(self, turn: Turn, wanted: tuple[kinds.ResultKind, ...]) -> Rates:
         """The rates of some kinds in the poses of a turn."""
         n = len(turn.travel)
         found, left = dict[str, dict[str, Array]](), np.arange(n)

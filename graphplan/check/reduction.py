@@ -1,0 +1,183 @@
+"""A reduction beside the analytic solver: kinetic energy and power at a unit rate in every pose, from its rates alone.
+
+The reduced inertia is twice the kinetic energy, the reduced moment the power of the loads, and the inertia's slope
+twice the power of the inertia forces, taken against them, while the first drive goes at a constant rate of one and the
+others in pace. The solver finds the rates from its linear systems; tables are read where its slides stand and move. A
+number counts beside the size of what cancels in it.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from graphplan.check.compared import CLOSE
+from graphplan.check.poses import BLOCK, EPSILON, SAFETY, Round, alone
+from graphplan.cycle.turn import Turn
+from graphplan.errors import Disagreement, GraphplanError
+from graphplan.machine.reduction import Reduced, Reduction
+from graphplan.machine.unit_motion import at_unit_rate
+from graphplan.mechanism.load_tables import LoadTable
+from graphplan.mechanism.load_values import guide_origin
+from graphplan.mechanism.model import FRAME, Force, Loads
+from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
+from graphplan.solver import poses, solve
+from graphplan.solver.poses import Sized, sized
+
+Gaps = dict[str, Any]
+STANDING = 1e-9  # of what the drive makes at the mechanism's reach: a slide that is slower is at a dead point
+
+
+def gaps(reduction: Reduction, travel: Any, side: int = 1) -> Gaps:
+    """For inertia, moment and slope the difference from the solver beside the number's own size, in each pose."""
+    travel = np.atleast_1d(np.asarray(travel, dtype=float))
+    found: dict[str, list[Any]] = {}
+    for start in range(0, max(1, travel.size), BLOCK):
+        own = travel[start : start + BLOCK]
+        opinion = Opinion(reduction, own, side)
+        for what, gap in opinion.gaps(reduction.at(own, side)).items():
+            found.setdefault(what, []).append(gap)
+    return {what: np.concatenate(parts) for what, parts in found.items()}
+
+
+def checked(reduction: Reduction, travel: Any, side: int = 1) -> dict[str, float]:
+    """The largest difference from the solver in any of these poses, by what differs.
+
+    Fails with `Disagreement` where one is more than rounding, beside the condition of the solver's rates.
+    """
+    travel = np.atleast_1d(np.asarray(travel, dtype=float))
+    found = gaps(reduction, travel, side)
+    for what, gap in found.items():
+        for k in np.flatnonzero(~(gap <= CLOSE)):
+            opinion = Opinion(reduction, travel[k : k + 1], side)
+            if not gap[k] <= SAFETY * EPSILON * opinion.condition:
+                ours, truth = getattr(reduction.at(travel[k : k + 1], side), what)[0], opinion.truth[what].value[0]
+                where = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
+                raise Disagreement(where, f"reduced {what}", f"{ours:.15g}", f"{truth:.15g}", float(gap[k]))
+    return {what: float(np.max(gap, initial=0.0)) for what, gap in found.items()}
+
+
+def lever_gap(reduction: Reduction, travel: float = 0.0) -> float:
+    """How far the drawn lever is from the reduced moment in one pose, beside the largest of the loads' own moments.
+
+    Fails with `Disagreement` where that is more than rounding.
+    """
+    drawing, found = reduction.drawing(travel), reduction.at([travel])
+    (balance,) = drawing.balances
+    drive = reduction.motion.scene.drives[0]
+    if drive.slides:
+        x, y = map(float, drawing.scene.driven_slide(drive).direction)
+        balance = (complex(balance) * complex(x, -y)).real / abs(complex(x, y))
+    drawn = -reduction.sense * balance * float(NEWTONS[reduction.scene.units.force])
+    size = max((abs(float(part[0])) for part in found.by.values()), default=0.0)
+    gap = abs(drawn - float(found.moment[0])) / size if size else abs(drawn)
+    if gap > CLOSE:
+        raise Disagreement(reduction.scene.name, "lever", f"{drawn:.15g}", f"{found.moment[0]:.15g}", gap)
+    return float(gap)
+
+
+class Opinion:
+    """What the solver says of a reduction at some travels: its `truth`, as numbers that know what cancels in them."""
+
+    def __init__(self, reduction: Reduction, travel: Any, side: int):
+        self.scene, self.motion, self.side = reduction.scene, reduction.motion, side
+        self.travel, self.turn = travel, self.motion.turn(travel)
+        self.part = Round(at_unit_rate(self.scene), np.arange(travel.size), self.turn.points, self.turn.guides)
+        self.posed = self.part.posed
+        self.rates: Any = poses.solve(self.posed, travel.size, sizes=True)
+        self.metres, self.unit = float(METRES[self.scene.units.length]), self.motion.unit
+
+    @property
+    def _none(self) -> Sized:
+        """Nothing in every pose."""
+        return sized(np.zeros(self.travel.shape))
+
+    @property
+    def condition(self) -> float:
+        """The condition of the solver's rates in the first pose."""
+        try:
+            return solve(alone(self.part.some(0).posed)).condition
+        except GraphplanError:
+            return np.inf
+
+    @property
+    def truth(self) -> dict[str, Sized]:
+        """Inertia, moment and slope, in SI."""
+        twice = self._kinetic(self.rates.acceleration, self.rates.alpha)
+        return {"inertia": self._kinetic(self.rates.velocity, self.rates.omega), "moment": self._power(),
+                "slope": twice * (2 / self.unit)}
+
+    def gaps(self, found: Reduced) -> Gaps:
+        """The differences of what was found."""
+        told: Gaps = {}
+        for what, truth in self.truth.items():
+            apart, size = np.abs(getattr(found, what) - truth.value), truth.size
+            told[what] = np.divide(apart, size, out=np.where(apart > 0, np.inf, 0.0), where=size > 0)
+        return told
+
+    def _kinetic(self, vectors: Any, turnings: Any) -> Sized:
+        """The sum of m v.w + I omega epsilon over all masses, of velocities and others."""
+        assert self.scene.loads is not None
+        total, kilogram = self._none, float(KILOGRAMS[self.scene.units.mass])
+        for link, mass in self.scene.loads.masses.items():
+            if link != FRAME:
+                (vx, vy), (wx, wy) = self.rates.velocity[mass.centre], vectors[mass.centre]
+                moved = (sized(vx) * wx + sized(vy) * wy) * (self.metres / self.unit) ** 2
+                turned = sized(self.rates.omega[link]) * turnings[link] * (1 / self.unit) ** 2
+                total = total + (moved * float(mass.mass) + turned * float(mass.inertia)) * kilogram
+        return total
+
+    def _power(self) -> Sized:
+        """The power of all loads that do not change with a speed."""
+        loads: Loads | None = self.scene.loads
+        assert loads is not None
+        total, newton = self._none, float(NEWTONS[self.scene.units.force])
+        for force in loads.forces:
+            if force.on != FRAME and not (force.table and force.table.over_speed):
+                total = total + self._along(force.at, self._vector(force)) * newton
+        for moment in loads.moments:
+            if moment.on != FRAME and not (moment.table and moment.table.over_speed):
+                value = self._read(moment.table) if moment.table else float(moment.value)
+                total = total + sized(self.rates.omega[moment.on]) * value * (newton / self.unit)
+        for link, mass in loads.masses.items():
+            if link != FRAME:
+                weight = float(mass.mass) * float(KILOGRAMS[self.scene.units.mass])
+                total = total + self._along(mass.centre, (float(loads.gravity[0]), float(loads.gravity[1]))) * weight
+        return total
+
+    def _along(self, point: str, vector: tuple[Any, Any]) -> Sized:
+        """A vector times the velocity of a point."""
+        x, y = self.rates.velocity[point]
+        return (sized(x) * vector[0] + sized(y) * vector[1]) * (self.metres / self.unit)
+
+    def _vector(self, force: Force) -> tuple[Any, Any]:
+        """A force in every pose."""
+        if force.table is None:
+            return float(force.value[0]), float(force.value[1])
+        if force.through:
+            (ax, ay), (bx, by) = (self.posed.points[point] for point in force.through)
+            x, y = np.asarray(bx - ax, float), np.asarray(by - ay, float)
+        else:
+            assert force.direction is not None
+            x, y = np.asarray(force.direction, float)
+        value = self._read(force.table) / np.hypot(x, y)
+        return x * value, y * value
+
+    def _read(self, table: LoadTable) -> Any:
+        """What a table says in every pose."""
+        if not table.slide:
+            return table.at(self.motion.told(self.travel), 1, self.side > 0)
+        slide = next(slide for slide in self.posed.slides if slide.name == table.slide)
+        (x, y), (dx, dy) = self.posed.points[slide.at], slide.direction
+        if origin := guide_origin(self.scene, slide):
+            x, y = x - self.posed.points[origin][0], y - self.posed.points[origin][1]
+        length = np.hypot(np.asarray(dx, float), np.asarray(dy, float))
+
+        def along(vectors: Any) -> Any:
+            return (vectors[slide.name][0].value * dx + vectors[slide.name][1].value * dy) / length
+
+        speed, reach = along(self.rates.slide_velocity), self.scene.extent if self.motion.turns else 1.0
+        speed = np.where(np.abs(speed) > STANDING * reach, speed, self.side * along(self.rates.slide_acceleration))
+        zero = np.zeros(self.travel.shape)
+        return table.at((x * dx + y * dy) / length + zero, np.where(speed < 0, -1.0, 1.0) + zero, self.side > 0)

@@ -14,7 +14,6 @@ import numpy as np
 
 from graphplan.check.compared import CLOSE
 from graphplan.check.poses import BLOCK, EPSILON, SAFETY, Round, alone
-from graphplan.cycle.turn import Turn
 from graphplan.errors import Disagreement, GraphplanError
 from graphplan.machine.reduction import Reduced, Reduction
 from graphplan.machine.unit_motion import at_unit_rate
@@ -149,7 +148,8 @@ class Opinion:
     def _along(self, point: str, vector: tuple[Any, Any]) -> Sized:
         """A vector times the velocity of a point."""
         x, y = self.rates.velocity[point]
-        return (sized(x) * vector[0] + sized(y) * vector[1]) * (self.metres / self.unit)
+        power: Sized = sized(x) * vector[0] + sized(y) * vector[1]
+        return power * (self.metres / self.unit)
 
     def _vector(self, force: Force) -> tuple[Any, Any]:
         """A force in every pose."""

@@ -19,6 +19,7 @@ from graphplan.machine.unit_motion import Rates, UnitMotion
 from graphplan.mechanism.load_tables import SPEED, LoadTable
 from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.model import FRAME, Force, Loads, Moment, Scene, Slide
+from graphplan.mechanism.order import named_forces, named_moments
 from graphplan.mechanism.units import KILOGRAMS, NEWTONS
 from graphplan.methods import kinds
 
@@ -81,9 +82,9 @@ class Acting:
 def acting(scene: Scene, loads: Loads) -> Iterator[Acting]:
     """The loads on moving links, in newtons and metres, by their names."""
     newton, kilogram = float(NEWTONS[scene.units.force]), float(KILOGRAMS[scene.units.mass])
-    for k, force in enumerate(loads.forces, 1):
+    for name, force in named_forces(loads).items():
         if force.on != FRAME:
-            name, value = f"F_{k}", newton * complex(*map(float, force.value))
+            value = newton * complex(*map(float, force.value))
             if force.table is None:
                 yield Acting(name, force.on, force.at, value)
             elif force.through:
@@ -91,10 +92,10 @@ def acting(scene: Scene, loads: Loads) -> Iterator[Acting]:
             elif force.direction:
                 along = complex(*map(float, force.direction))
                 yield Acting(name, force.on, force.at, newton * along / abs(along), force.table)
-    for k, moment in enumerate(loads.moments, 1):
+    for name, moment in named_moments(loads).items():
         if moment.on != FRAME:
             value = complex(newton * (1.0 if moment.table else float(moment.value)))
-            yield Acting(f"M_{k}", moment.on, "", value, moment.table)
+            yield Acting(name, moment.on, "", value, moment.table)
     gravity = complex(*map(float, loads.gravity))
     for link, mass in loads.masses.items():
         if mass.mass and gravity and link != FRAME:
@@ -104,18 +105,18 @@ def acting(scene: Scene, loads: Loads) -> Iterator[Acting]:
 def loads_with(loads: Loads, values: Mapping[str, float], turn: Turn) -> Loads:
     """The loads with these values of their tables, by name, in the one pose of a turn; without those over speeds."""
     forces, moments = list[Force](), list[Moment]()
-    for k, force in enumerate(loads.forces, 1):
-        if force.table and f"F_{k}" in values:
+    for name, force in named_forces(loads).items():
+        if force.table and name in values:
             along = complex(*map(float, force.direction or (0, 0)))
             if force.through:
                 along = complex((turn.points[force.through[1]] - turn.points[force.through[0]])[0])
-            vector = values[f"F_{k}"] * along / abs(along)
+            vector = values[name] * along / abs(along)
             forces.append(Force(force.on, force.at, (vector.real, vector.imag)))
         elif not force.table:
             forces.append(force)
-    for k, moment in enumerate(loads.moments, 1):
-        if not moment.table or f"M_{k}" in values:
-            moments.append(Moment(moment.on, values.get(f"M_{k}", moment.value)))
+    for name, moment in named_moments(loads).items():
+        if not moment.table or name in values:
+            moments.append(Moment(moment.on, values.get(name, moment.value)))
     return replace(loads, forces=tuple(forces), moments=tuple(moments))
 
 

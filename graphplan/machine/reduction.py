@@ -43,7 +43,7 @@ class Reduced:
 
     `travel` of the first drive, in radians or scene lengths; `inertia` in kg m^2 and `moment` in N m, of all loads that
     do not depend on speed, positive in the sense of motion; of a sliding drive kg and N. `by` has each load's own
-    moment: F_1, F_2 .. and M_1 .. in the scene's order, and the weights by their links, as G_3. Those `over_speed` come
+    moment by its letter on sheets: forces P_3 and P_3', moments M_4, weights G_3. Those over a speed are `speed_loads`,
     apart.
     """
 
@@ -51,17 +51,13 @@ class Reduced:
     inertia: Array
     moment: Array
     by: dict[str, Array]
-    over_speed: tuple[SpeedLoad, ...]
+    speed_loads: tuple[SpeedLoad, ...]
     _accelerated: Callable[[], Array] = field(repr=False)
 
     @cached_property
     def slope(self) -> Array:
         """How the inertia changes: dI/dphi in kg m^2, or by a metre of a sliding drive in kg/m."""
         return self._accelerated()
-
-    def speed_loads(self, omega: Any) -> dict[str, Array]:
-        """The moment of each load over a speed where the drive has this rate, in rad/s or m/s."""
-        return {load.name: load.moment(omega) for load in self.over_speed}
 
 
 class Reduction:
@@ -85,6 +81,11 @@ class Reduction:
             ends = 0.0, common_period(self.motion.period, [load.table for load in self.acting if load.table])
         self.ends = ends
         self.breaks = breaks(self.values, self.motion, ends)
+
+    @property
+    def changing(self) -> tuple[str, ...]:
+        """The names of the loads that change over the cycle."""
+        return tuple(load.name for load in self.acting if load.table)
 
     def _asked(self) -> Find:
         """What is asked of the motion: the points of forces and masses, and the links of moments and inertias."""

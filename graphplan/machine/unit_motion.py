@@ -47,8 +47,8 @@ class UnitMotion:
     """The scene's motion as far as `motion` goes, at a unit rate in the sense in which its first drive moves.
 
     `sense` is that sense, 1 or -1: travels here, in radians or scene lengths, count in it. `unit` is the size of a unit
-    of travel in SI: 1 of radians where the drive `turns`, else the `metres` of a length. `period` is the travel after which all
-    is back, 0 where that is never. `find` is what is asked of the motion.
+    of travel in SI: 1 of radians where the drive `turns`, else the `metres` of a length. `period` is the travel after
+    which all is back, 0 where that is never. `find` is what is asked of the motion.
     """
 
     def __init__(self, scene: Scene, motion: RangeOfMotion, find: Find, compiled: bool = False):

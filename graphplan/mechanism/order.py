@@ -48,6 +48,13 @@ def named_forces(loads: Loads) -> dict[str, Force]:
     return {f"P_{force.on}" + "'" * links[:i].count(force.on): force for i, force in enumerate(forces)}
 
 
+def named_moments(loads: Loads) -> dict[str, Moment]:
+    """The given moments by their letters: M_2 and M_2' on link 2."""
+    moments = _ordered_loads(loads).moments
+    links = [moment.on for moment in moments]
+    return {f"M_{moment.on}" + "'" * links[:i].count(moment.on): moment for i, moment in enumerate(moments)}
+
+
 def ordered_links(scene: Scene) -> dict[str, tuple[str, ...]]:
     """Each link with its points."""
     links = sorted(scene.links, key=lambda link: (link == FRAME, by_name(link)))

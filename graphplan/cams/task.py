@@ -6,23 +6,20 @@ Lengths are in the task's unit, angles in degrees. Lifts of an oscillating follo
 from __future__ import annotations
 
 import math
-import os
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
 from graphplan.cams.law import Law, Stage
 from graphplan.cams.motions import DWELL, MOTIONS, TABLE, spline
-from graphplan.errors import Fault, SceneError
-from graphplan.mechanism import sections
 from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
 from graphplan.mechanism.items import Faults, Item, Vector, described
 from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.numerals import shown
-from graphplan.mechanism.presentation import SHEET
-from graphplan.mechanism.scene import source_text, tables_of
+from graphplan.mechanism.tasks import read_task, task_table, task_text
 from graphplan.mechanism.units import Units
-from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER, TEXT, choice
+from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER, choice
 
 TRANSLATING, OSCILLATING = "translating", "oscillating"
 POINTED, ROLLER, FLAT = "point", "roller", "flat"
@@ -227,21 +224,12 @@ CAM = Table("the cam", (
 ), _wheel, either=("omega", "rpm"), remedy="one of them, such as rpm = 300")
 
 
-def _only(table: Table, *names: str) -> Table:
-    """A table of a scene, of which a task has these keys alone."""
-    return table._replace(fields=tuple(field for field in table.fields if field.name in names))
-
-
-TASK = Table("a cam: the law of its follower, the follower, and what is given of the cam", (
-    Field("title", "what it is", TEXT),
-    Field("source", "where it comes from: author, title, year, figure", TEXT),
-    Field("units", "the unit of the task and of its results", _only(sections.UNITS, "length")),
+TASK = task_table(
+    "a cam: the law of its follower, the follower, and what is given of the cam", ("length",),
     Field("law", "the stages of one turn, in order", LAW, '[[law]] with angle = 120, motion = "sine", stroke = 25'),
     Field("follower", "the follower", FOLLOWER, '[follower] with moves = "translating" and contact = "roller"'),
     Field("cam", "the cam", CAM, "[cam] with rpm = 300 and base = 30"),
-    Field("sheet", "how the sheet should look; the command line has the last word", _only(
-        SHEET, "paper", "frame", "language", "convention", "owner", "number", "date", "drawn_by", "approved_by")),
-))
+)
 
 
 # ---- reading --------------------------------------------------------------------------------------------------------
@@ -249,30 +237,18 @@ TASK = Table("a cam: the law of its follower, the follower, and what is given of
 
 def load(source: str) -> Task:
     """The task in a file or on standard input (`-`); fails with `SceneError`, one line a fault."""
-    if source != "-" and not os.path.exists(source):
-        raise SceneError(source, (Fault("file", "no such file", "a task file, as graphplan cam --help has one"),))
-    return parse(source_text(source, source), source)
+    return parse(task_text(source, "cam"), source)
 
 
 def parse(text: str, name: str) -> Task:
     """The task that a TOML text says; `name` stands in error lines."""
-    faults = Faults()
-    item, names = Item(tables_of(text, name), "", faults), Names(())
-    items = item.fields(TASK.keys, {}) or {}
-    read = {}
-    for field in (TASK.fields[2], *TASK.fields):  # the sheet speaks of units
-        if field.name in items:
-            read[field.name] = field.kind.read(items[field.name], names)
-        elif field.wanted:
-            faults.add(field.name, f"the task has no {field.name}", field.wanted)
-        names.units = read.get("units") or names.units
-    if len(faults) == 0:
-        task = Task(read.get("title", ""), read.get("source", ""), name, names.units, read["law"], read["follower"],
+    def made(read: dict[str, Any], units: Units, faults: Faults) -> Task:
+        task = Task(read.get("title", ""), read.get("source", ""), name, units, read["law"], read["follower"],
                     read["cam"], read.get("sheet") or Presentation())
         _checked(task, faults)
-    if len(faults):
-        raise SceneError(name, tuple(faults))
-    return task
+        return task
+
+    return read_task(TASK, text, name, made)
 
 
 def _checked(task: Task, faults: Faults) -> None:

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
@@ -24,11 +25,10 @@ from typing import Any
 
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage
 from graphplan.machine.rotor import PLANES, Eccentric, Rotor, Vector, direction
-from graphplan.phrases import said
+from graphplan.phrases import Said, said
 
 END_VIEW = Panel("end view", said("end view"))
 MOMENTS = Panel("moment polygon", said("moment polygon"), said("Moment polygon: m·a·r"))
@@ -140,34 +140,24 @@ class RotorDrawing:
         return [self.at(name) for name in names]
 
 
-@dataclass(frozen=True)
-class Polygons(RotorDrawing):
-    """The polygons of a rotor, and what closes them."""
-
-    rotor: Rotor
-    masses: tuple[Eccentric, ...]
-    sums: Sums
-
-    @cached_property
-    def corrections(self) -> tuple[Correction, ...]:
-        """The corrections, measured on the closing sides."""
-        sides = [self._closing("F")]
-        if self.rotor.dynamic:
-            second = self._closing("M") / float(self.rotor.between)
-            sides = [sides[0] if any(self.sums.force) else -second, second]
-        needed = [side if any(unbalance) else 0j for side, unbalance in zip(sides, self.sums.planes, strict=True)]
-        return tuple(Correction(k, self.rotor.planes[k], abs(side), direction(side.real, side.imag))
-                     for k, side in enumerate(needed))
-
-    def _closing(self, letter: str) -> complex:
-        """The side that closes a polygon, from its last mark to its first."""
-        points = self.points(letter)
-        return points[0] - points[-1]
+def corrections(drawing: RotorDrawing, rotor: Rotor, found: Sums) -> tuple[Correction, ...]:
+    """The corrections, measured on the closing sides of the polygons."""
+    sides = [_closing(drawing.points("F"))]
+    if rotor.dynamic:
+        second = _closing(drawing.points("M")) / float(rotor.between)
+        sides = [sides[0] if any(found.force) else -second, second]
+    needed = [side if any(unbalance) else 0j for side, unbalance in zip(sides, found.planes, strict=True)]
+    return tuple(corrected(rotor, k, side) for k, side in enumerate(needed))
 
 
-def polygons(rotor: Rotor, masses: tuple[Eccentric, ...]) -> Polygons:
-    """The polygons that balance these masses in the rotor's planes."""
-    return _Recorder(rotor, masses).drawn
+def corrected(rotor: Rotor, index: int, side: complex) -> Correction:
+    """The correction in a plane that has this mass times radius vector."""
+    return Correction(index, rotor.planes[index], abs(side), direction(side.real, side.imag))
+
+
+def _closing(points: list[complex]) -> complex:
+    """The side that closes a polygon, from its last mark to its first."""
+    return points[0] - points[-1]
 
 
 def free_radius(rotor: Rotor, masses: tuple[Eccentric, ...]) -> Fraction:
@@ -176,23 +166,25 @@ def free_radius(rotor: Rotor, masses: tuple[Eccentric, ...]) -> Fraction:
     return max([*given, *(radius for radius in rotor.radii if radius)], default=Fraction(1))
 
 
-class _Recorder:
-    """Draws the polygons of one rotor on the board."""
+class PolygonRecorder:
+    """Draws the polygons of one rotor on a board; `marks` are those that are read or shown, by their names."""
 
-    def __init__(self, rotor: Rotor, masses: tuple[Eccentric, ...]):
-        self.rotor, self.masses, self.board = rotor, masses, Board()
+    def __init__(self, board: Board, rotor: Rotor, masses: tuple[Eccentric, ...]):
+        self.board, self.rotor, self.masses = board, rotor, masses
         self.sums, self.free = sums(rotor, masses), free_radius(rotor, masses)
         self.marks: dict[str, Mark] = {}
         self.turned = [(k, mass) for k, mass in enumerate(masses, 1) if any(mass.unbalance)]  # those off the axis
 
-    @property
-    def drawn(self) -> Polygons:
-        """The finished program."""
+    def given(self) -> None:
+        """The end view: the axis and the places of the masses."""
         with self.board.on(END_VIEW):
             self._keep("O", self.board.given(x=0, y=0, name="O"))
             for k, mass in self.turned:
                 x, y = (part / self._ratio(mass) for part in mass.unbalance)
                 self._keep(f"P_{k}", self.board.given(x=x, y=y, name=f"P_{k}"))
+
+    def draw(self) -> None:
+        """The polygons, and the places of the corrections."""
         if self.rotor.dynamic:
             law = said("m·a·r runs as the radius, against it where a mass is left of plane I; m_II·a·r_II closes")
             with self.board.on(MOMENTS, stage=Stage(said("Moment polygon"), law)):
@@ -201,12 +193,12 @@ class _Recorder:
             "centrifugal forces are as m·r; the correction closes")
         with self.board.on(FORCES, stage=Stage(said("Force polygon"), law)):
             self._forces()
-        law = said("their radii run as the closing sides")
-        with self.board.on(END_VIEW, stage=Stage(said("Correction masses"), law)):
+        with self.placing(said("their radii run as the closing sides")):
             self._corrections()
-        program = freeze(self.board, self.marks.values())
-        marks = dict(zip(self.marks, program.wanted, strict=True))
-        return Polygons(program, marks, self.rotor, self.masses, self.sums)
+
+    def placing(self, law: Said) -> AbstractContextManager[None]:
+        """The stage in which correction masses are placed."""
+        return self.board.on(END_VIEW, stage=Stage(said("Correction masses"), law))
 
     def _ratio(self, mass: Eccentric) -> Fraction:
         """How many times the radius vector, as it is drawn, is in the unbalance."""
@@ -254,10 +246,14 @@ class _Recorder:
 
     def _put(self, index: int, side: Mark, way: str, why: str = "") -> None:
         """A correction mass on the radius that is parallel to a side."""
-        board, O, name = self.board, self.marks["O"], f"P_{PLANES[index]}"
-        ray = board.parallel(side, O, why=why)
-        given = self.rotor.radii[index]
+        ray = self.board.parallel(side, self.marks["O"], why=why)
+        self.placed(index, ray, way)
+
+    def placed(self, index: int, ray: Mark, way: str = "on", prime: str = "") -> None:
+        """A correction mass on a radius."""
+        board, letter, given = self.board, PLANES[index], self.rotor.radii[index]
         told = said("its radius") if given else said("its radius is free")
-        reach = board.radius(length=given or self.free, quantity=Quantity(f"r_{PLANES[index]}", "length"), why=told)
-        circle = board.circle(O, reach)
+        reach = board.radius(length=given or self.free, quantity=Quantity(f"r_{letter}", "length"), why=told)
+        circle = board.circle(self.marks["O"], reach)
+        name = f"P_{letter}{prime}"
         self._keep(name, board.line_meets_circle(ray, circle, way=way, name=name))

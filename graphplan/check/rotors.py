@@ -1,0 +1,121 @@
+"""A rotor's second opinions: what its drawing gives against equilibrium in complex numbers, and what its bearings bear.
+
+Nothing of the polygons is used: two equations, of forces and of moments about the origin of the axis, are solved for
+the corrections; then the rotor with them must be without force and moment. Trials are made again: the unbalance that
+was found must give the amplitudes that were measured.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from graphplan.errors import BrokenClaim, Disagreement
+from graphplan.kernel.claims import broken
+from graphplan.machine.polygons import Correction
+from graphplan.machine.rotor import Eccentric, Rotor
+from graphplan.machine.rotor_balance import Answer, Balanced
+from graphplan.machine.trial import Marked, ThreeRuns, TrialWeights
+from graphplan.machine.trial_runs import Effect, angle_of
+
+Pair = tuple[tuple[Eccentric, ...], Answer]  # unbalances, and what balances them
+CLOSE = 1e-9  # of the size of what is compared
+
+
+def checked(found: Balanced) -> dict[str, float]:
+    """By how much the opinions differ, relative to the sizes of what they are made of.
+
+    Fails with `BrokenClaim` where a drawn step breaks a claim, and with `Disagreement` where opinions differ.
+    """
+    if fault := next(broken(found.drawing.program, found.drawing.values), ""):
+        raise BrokenClaim(found.task.name, fault)
+    pairs = [*zip(found.unbalances, found.answers, strict=True)]
+    gaps = {"corrections": max(_apart(found.task.rotor, *pair) for pair in pairs),
+            "residual_force": max(map(_force, pairs))}
+    if found.task.rotor.dynamic:
+        gaps["residual_moment"] = max(map(_moment, pairs))
+    if found.effects:
+        gaps["trials"] = max(_trial(one, -vector(mass)) for masses, _ in pairs
+                             for one, mass in zip(found.effects, masses, strict=True))
+    for what, size in gaps.items():
+        if not size <= CLOSE:
+            raise Disagreement(found.task.name, what.replace("_", " "), "otherwise", "by the second opinion", size)
+    return gaps
+
+
+def vector(one: Eccentric | Correction) -> complex:
+    """Mass times radius vector, from its size and angle."""
+    size = one.size if isinstance(one, Eccentric) else one.mass_radius
+    return cmath.rect(size, math.radians(one.angle))
+
+
+def place(one: Eccentric | Correction) -> float:
+    """Where along the axis it is."""
+    return float(one.at or 0)
+
+
+def _force(pair: Pair) -> float:
+    """The force that is left with the corrections, beside the sum of its parts."""
+    return _left([vector(one) for part in pair for one in part])
+
+
+def _moment(pair: Pair) -> float:
+    """The moment about the middle of all places that is left, beside the sum of its parts."""
+    everything = [one for part in pair for one in part]
+    middle = sum(map(place, everything)) / len(everything)
+    return _left([(place(one) - middle) * vector(one) for one in everything])
+
+
+def _left(parts: list[complex]) -> float:
+    """What is left of a sum, beside the sizes of its parts."""
+    return abs(sum(parts)) / (sum(map(abs, parts)) or 1.0)
+
+
+def equilibrium(rotor: Rotor, masses: Sequence[Eccentric]) -> list[complex]:
+    """The corrections, as vectors, that two equations of equilibrium give, or one of a rotor with one plane."""
+    forces, places = [*map(vector, masses)], [*map(place, masses)]
+    if not rotor.dynamic:
+        return [-sum(forces, 0j)]
+    rows = np.array([[1.0, 1.0], [*map(float, rotor.planes)]])
+    return [*map(complex, np.linalg.solve(rows, [-sum(forces, 0j), -np.dot(places, forces)]))]
+
+
+def _apart(rotor: Rotor, masses: Sequence[Eccentric], answer: Answer) -> float:
+    """How far the corrections are from equilibrium's, beside the largest unbalance and what the planes make of it."""
+    wanted = equilibrium(rotor, masses)
+    size = max(map(abs, [*wanted, *map(vector, masses)]), default=0.0) or 1.0
+    return max(abs(vector(one) - other) for one, other in zip(answer, wanted, strict=True)) / size
+
+
+def _trial(one: Effect, side: complex) -> float:
+    """By how much the trial would have given other numbers, beside the largest, if this is the correction."""
+    trial, size = one.trial, float(one.trial.mass_radius)
+    at = cmath.rect(size, math.radians(float(trial.angle)))
+    if isinstance(trial, ThreeRuns):
+        first, second, third = map(float, trial.amplitudes)
+        grows = one.amplitude / size
+        return max(abs(abs(at - side) * grows - second), abs(abs(-at - side) * grows - third),
+                   abs(abs(side) * grows - first)) / max(second, third)
+    if isinstance(trial, Marked):
+        before, after = (cmath.rect(float(run.amplitude), math.radians(float(run.angle)))
+                         for run in (trial.first, trial.second))
+        return abs(before + (after - before) / at * side) / (abs(before) + abs(after))
+    assert isinstance(trial, TrialWeights)
+    # least squares: what is left of the weights has no part that runs as the cosine or the sine
+    angles = np.radians([angle_of(trial, k) for k in range(len(trial.weights))])
+    rows = np.stack([np.ones(len(angles)), np.cos(angles), np.sin(angles)], 1)
+    _, x, y = np.linalg.lstsq(rows, np.array([*map(float, trial.weights)]), rcond=None)[0]
+    return abs(complex(x, y) * size - side) / (size * float(max(trial.weights)) or 1.0)
+
+
+def reactions(found: Balanced, answer: Answer = ()) -> list[complex]:
+    """What the bearings bear of the centrifugal forces, in N, turning with the rotor, with these corrections."""
+    rotor = found.task.rotor
+    parts: list[Eccentric | Correction] = [*found.masses, *answer]
+    forces, places = [vector(one) for one in parts], [place(one) for one in parts]
+    rows = np.array([[1.0, 1.0], [*map(float, rotor.bearings)]])
+    borne = np.linalg.solve(rows, [sum(forces, 0j), np.dot(places, forces)])
+    return [complex(one) * float(found.task.kg_m) * rotor.omega**2 for one in borne]

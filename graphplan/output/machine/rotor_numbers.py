@@ -1,0 +1,90 @@
+"""A balanced rotor as numbers: corrections, disbalances, what trials found, reactions, steps, and what is checked."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from graphplan.check.rotors import reactions
+from graphplan.machine.polygons import Correction
+from graphplan.machine.rotor import direction
+from graphplan.machine.rotor_balance import Answer, Balanced
+from graphplan.mechanism.units import KILOGRAMS
+
+HEADINGS = "what", "place", "mass_radius [kg m]", "angle [deg]"
+
+
+def numbers(found: Balanced, check: Mapping[str, float]) -> dict[str, Any]:
+    """All of it, plain data for JSON: kg, m and N, angles in degrees from 0 to 360; places along the axis as the task
+    has them. `answers` are there where trials leave a choice, of which `corrections` is the first."""
+    task, program, sums = found.task, found.drawing.program, found.sums
+    kg_m, metres = float(task.kg_m), float(task.metres)
+    data: dict[str, Any] = {
+        "title": task.title, "units": {"length": task.units.length, "mass_radius": "kg m", "moment": "kg m2"},
+        "corrections": _answer(found, found.corrections),
+        "state": sums.state.value,
+        "static_unbalance": sums.static * kg_m, "static_angle": direction(*sums.force),
+        "moment": sums.dynamic * kg_m * metres, "moment_angle": direction(*sums.moment),
+    }
+    if len(found.answers) > 1:
+        data["answers"] = [_answer(found, answer) for answer in found.answers]
+    if found.effects:
+        data["trials"] = [{"amplitude": one.amplitude, "ratio": one.ratio, "turned": list(one.turns)}
+                          | ({"fourth": list(one.fourth)} if one.fourth else {}) for one in found.effects]
+    if task.rotor.bearings:
+        data["reactions"] = {
+            "omega": task.rotor.omega, "bearings": [float(at) for at in task.rotor.bearings],
+            "before": [_borne(one) for one in reactions(found)],
+            "after": [_borne(one) for one in reactions(found, found.corrections)]}
+    return data | {
+        "notes": [str(note) for note in found.notes],
+        "steps": [{"step": program.number(step.index), "stage": str(stage.title),
+                   "sentence": str(program.told(step.index))} for stage, steps in program.stages for step in steps],
+        "check": dict(check)}
+
+
+def _answer(found: Balanced, answer: Answer) -> list[dict[str, Any]]:
+    """The corrections of one answer, with the masses or radii that follow."""
+    return [{"plane": _plain(one.at), "index": one.index, "mass_radius": one.mass_radius * float(found.task.kg_m),
+             "angle": one.angle, **_chosen(found, one)} for one in answer]
+
+
+def _plain(number: Any) -> float | int:
+    """A number as it is written, without a decimal point where it has none."""
+    return int(number) if number == int(number) else float(number)
+
+
+def _chosen(found: Balanced, one: Correction) -> dict[str, float]:
+    """Mass in kg and radius in m of a correction, where one of them is given."""
+    mass, radius = chosen(found, one)
+    units = {"mass": float(KILOGRAMS[found.task.units.mass]), "radius": float(found.task.metres)}
+    return {key: value * units[key] for key, value in (("mass", mass), ("radius", radius)) if value is not None}
+
+
+def chosen(found: Balanced, one: Correction) -> tuple[float | None, float | None]:
+    """Mass and radius of a correction, in the task's units; nothing where neither is given."""
+    radius, mass = found.task.rotor.radii[one.index], found.task.rotor.weights[one.index]
+    if radius is not None:
+        return one.mass_radius / float(radius), float(radius)
+    return (None, None) if mass is None else (float(mass), one.mass_radius / float(mass))
+
+
+def _borne(reaction: complex) -> dict[str, float]:
+    """A reaction that turns with the rotor, and its angle on it."""
+    return {"force": abs(reaction), "angle": math.degrees(math.atan2(reaction.imag, reaction.real)) % 360}
+
+
+def table(found: Balanced) -> str:
+    """Comma-separated text: a heading, then a line for each unbalance and each correction."""
+    kg_m = float(found.task.kg_m)
+    rows = [(f"unbalance {mass.name}", float(mass.at or 0), mass.size * kg_m, mass.angle) for mass in found.masses]
+    rows += [(f"correction {one.letter}", float(one.at), one.mass_radius * kg_m, one.angle)
+             for one in found.corrections]
+    lines = [",".join((_quoted(name), *(f"{number:.12g}" for number in rest))) for name, *rest in rows]
+    return "\n".join([",".join(HEADINGS), *lines, ""])
+
+
+def _quoted(name: str) -> str:
+    """A name as CSV wants it."""
+    return '"' + name.replace('"', '""') + '"' if {*name} & {*',"'} else name

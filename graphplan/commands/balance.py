@@ -16,7 +16,6 @@ import argparse
 
 from graphplan.commands.choices import count
 from graphplan.commands.output import as_json, kind, write
-from graphplan.errors import Refused
 
 ENDINGS = (".json", ".csv")
 POSITIONS = 72
@@ -35,7 +34,9 @@ def run(options: argparse.Namespace) -> int:
 
     text = source_text(options.scene, options.scene)
     if "rotor" in tables_of(text, options.scene):
-        return _rotor(options, text)
+        from graphplan.commands import balance_rotor
+
+        return balance_rotor.run(options, text)
     from graphplan.check.balance import mass_motion
     from graphplan.mechanism.scene import parse
     from graphplan.output.machine.balance_numbers import numbers, table
@@ -44,8 +45,3 @@ def run(options: argparse.Namespace) -> int:
     motion = mass_motion(parse(text, options.scene), options.positions or POSITIONS)
     write(table(motion) if ending == ".csv" else as_json(numbers(motion)), options.output)
     return 0
-
-
-def _rotor(options: argparse.Namespace, text: str) -> int:
-    """A rotor, balanced."""
-    raise Refused(f"{options.scene}: rotor", "rotors are not balanced yet", "a scene with masses")

@@ -9,32 +9,37 @@ examples:
   graphplan schema steps
   graphplan schema verify
   graphplan schema cam > cam.schema.json  of the tasks of graphplan cam
+  graphplan schema rotor                 of the rotors of graphplan balance
   graphplan schema keys > keys.md        the keys of a scene, as a table in Markdown
 """
 
 from __future__ import annotations
 
 import argparse
+from importlib import import_module
 
 from graphplan.commands.output import as_json, write
 
 RESULTS = ("solve", "steps", "verify")
+TASKS = {"cam": "graphplan.cams.task", "rotor": "graphplan.machine.rotor"}  # and where their tables are
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("of", metavar="OF", nargs="?", default="scene",
-                         choices=("scene", "cam", *RESULTS, "keys", "cam-keys"),
-                         help="scene (default), cam, solve, steps, or verify; keys or cam-keys for the table")
+                         choices=("scene", *TASKS, *RESULTS, "keys", *(f"{task}-keys" for task in TASKS)),
+                         help="scene (default), cam, rotor, solve, steps, or verify; keys, cam-keys or rotor-keys for "
+                         "the table")
 
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.commands.result_schemas import printed
     from graphplan.mechanism import schema
 
-    if options.of in ("cam", "cam-keys"):
-        from graphplan.cams.task import TASK
-
-        write(as_json(schema.titled("graphplan cam task", TASK), 2) if options.of == "cam" else schema.reference(TASK))
+    task = options.of.removesuffix("-keys")
+    if task in TASKS:
+        whole = import_module(TASKS[task]).TASK
+        keys = task != options.of
+        write(schema.reference(whole) if keys else as_json(schema.titled(f"graphplan {task} task", whole), 2))
     elif options.of == "keys":
         write(schema.reference())
     else:

@@ -46,23 +46,23 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from graphplan.commands.choices import add_language, add_paper, count
-from graphplan.commands.output import STANDARD, Messages, as_json, kind, paged, write, write_all
+from graphplan.commands.output import DOTS, STANDARD, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 from graphplan.mechanism.presentation import FRAMES
-from graphplan.output import back_end, loaded
+from graphplan.output import loaded
 
 if TYPE_CHECKING:
     from graphplan.cams.construction import CamDrawing
 
-ENDINGS = (".svg", ".pdf", ".png", ".dxf", ".json", ".toml")
-PROTOCOL = "-protocol"  # what the name of a page of words adds to that of the sheet
-DOTS, POSITIONS, TOLERANCE = 150, 360, 0.001
+DRAWN = ("svg", "pdf", "png", "tex")  # the sheet
+ENDINGS = (".svg", ".pdf", ".png", ".tex", ".dxf", ".json", ".toml")
+POSITIONS, TOLERANCE = 360, 0.001
 
 
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("task", metavar="TASK", help="a task file, or - for standard input")
-    add("-o", "--output", metavar="SHEET.svg", help="the file to write: .svg, .pdf or .png, the sheet; .dxf, the "
+    add("-o", "--output", metavar="SHEET.svg", help="the file to write: .svg, .pdf, .png or .tex, the sheet; .dxf, the "
         "profile; .json, the numbers; .toml, a scene; without it SVG on standard output")
     add("--dpi", type=count("--dpi", 20, 600), metavar="N", help=f"dots per inch of a .png ({DOTS})")
     add_paper(command, "the sheet; without it the task's, or the smallest that will do")
@@ -94,16 +94,10 @@ def run(options: argparse.Namespace) -> int:
     for note in cam.notes:
         messages.remark(f"{task.name}: {note}")
     tolerance = TOLERANCE if options.tolerance is None else options.tolerance
-    if ending in ("svg", "pdf", "png"):
+    if ending in DRAWN:
         from graphplan.output.cams.sheet import sheets
 
-        pages, write_out = sheets(drawing, check, task.sheet.paper or None), back_end(ending)
-        look = {"dpi": options.dpi or DOTS} if ending == "png" else {}
-        if ending == "pdf":
-            write(write_out(pages), options.output)
-        else:
-            names = paged(options.output, len(pages), PROTOCOL)
-            write_all([(name, write_out(page, **look)) for name, page in zip(names, pages, strict=False)])
+        write_sheets(sheets(drawing, check, task.sheet.paper or None), options.output, ending, options.dpi)
     else:
         write(_data(drawing, ending, options, tolerance, check), options.output)
     return 0
@@ -111,7 +105,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _asked(options: argparse.Namespace, ending: str) -> None:
     """Refuse options of another kind of output, and numbers that are none."""
-    only = {"dpi": ("png",), "paper": ("svg", "pdf", "png"), "frame": ("svg", "pdf", "png"), "at": ("toml",),
+    only = {"dpi": ("png",), "paper": DRAWN, "frame": DRAWN, "at": ("toml",),
             "positions": ("json",), "tolerance": ("json", "dxf")}
     for name, endings in only.items():
         if getattr(options, name) is not None and ending not in endings:

@@ -28,6 +28,11 @@ RED, PLAIN = "\x1b[31m", "\x1b[0m"
 WIDTH = 60  # of the line of progress, which is written over and over
 
 
+SHEETS = (".svg", ".pdf", ".png", ".dxf", ".tex")  # what sheets of diagrams are written as
+DOTS = 150  # per inch
+PROTOCOL = "-protocol"  # what the name of a page of words adds to that of the sheet
+
+
 def kind(path: str | None, endings: Sequence[str], what: str, option: str = "-o") -> str:
     """The ending of an output, of those that a command knows, in lower case; the first where its name has none.
 
@@ -121,6 +126,23 @@ def paged(path: str | None, count: int, more: str = "") -> list[str | None]:
     for name in numbered:
         kind(name, (ending.lower(),), "page")
     return [path, *numbered]
+
+
+def write_sheets(pages: Sequence[Any], path: str | None, ending: str, dpi: int | None = None) -> None:
+    """Write the pages of a sheet of diagrams, by its ending: the words that stand apart follow it as further pages, or
+    as files of their own."""
+    from graphplan.output import loaded
+
+    if ending == "pdf":
+        write(loaded("pdf", "pdf_png").pdf(pages), path)
+    elif ending == "dxf":
+        write(loaded("dxf", "dxf").dxf(pages), path)
+    else:
+        module, function = {"png": ("pdf_png", "png"), "tex": ("exports.ink_tikz", "sheet_tikz")}.get(
+            ending, (ending, ending))
+        write_out, look = getattr(loaded(ending, module), function), {"dpi": dpi or DOTS} if ending == "png" else {}
+        names = paged(path, len(pages), PROTOCOL)
+        write_all([(name, write_out(page, **look)) for name, page in zip(names, pages, strict=False)])
 
 
 def write_all(contents: Sequence[tuple[str | None, str | bytes]]) -> None:

@@ -43,6 +43,26 @@ def _renumbered(steps: Sequence[Step], wanted: Sequence[int], order: Sequence[in
     return Program(tuple(kept), tuple(place[index] for index in wanted))
 
 
+def put_together(programs: Sequence[Program]) -> tuple[Program, list[list[int]]]:
+    """One program of several, drawn one after the other, and the new places of the steps of each.
+
+    What is given in any comes first; letters that are taken get a prime. All marks are wanted that were.
+    """
+    order = sorted(((k, step.index) for k, program in enumerate(programs) for step in program.steps),
+                   key=lambda at: (at[1] >= programs[at[0]].givens, at))
+    place, steps, names = {at: position for position, at in enumerate(order)}, list[Step](), set[str]()
+    for k, index in order:
+        step = programs[k].steps[index]
+        name = step.name
+        while name and name in names:
+            name += "'"
+        names.add(name)
+        steps.append(step.but(index=len(steps), name=name, args=tuple([place[k, arg] for arg in step.args])))
+    places = [[place[k, step.index] for step in program.steps] for k, program in enumerate(programs)]
+    wanted = tuple(places[k][index] for k, program in enumerate(programs) for index in program.wanted)
+    return Program(tuple(steps), wanted), places
+
+
 def gathered(program: Program) -> tuple[Program, list[int]]:
     """The same steps, plan by plan as far as they allow, and the old place of each: the pencil wanders less."""
     drawn: dict[int, None] = {}

@@ -19,12 +19,13 @@ from ezdxf import units
 from graphplan.mechanism.presentation import SIZES
 from graphplan.mechanism.units import METRES
 from graphplan.output.cad.ink import FONTS, Ink
-from graphplan.output.cad.layers import NAME, VIEWPORTS, Layers
+from graphplan.output.cad.layers import NAME, VIEWPORTS, stage_layers, step_layers
 from graphplan.output.cad.mechanism import DIMENSIONED, POINTS, FullSize
 from graphplan.phrases import said
 from graphplan.sheet.plates.display import Rect, Sheet, Spot
 from graphplan.sheet.plates.pens import HATCH, LINK
 from graphplan.sheet.plates.plate import Plates
+from graphplan.words.tongue import tongue
 
 UNITS = {"mm": units.MM, "cm": units.CM, "m": units.M, "in": units.IN, "ft": units.FT}
 METRIC = {"mm", "cm", "m"}
@@ -33,8 +34,8 @@ GAP = 30.0  # mm between the mechanism and the sheet, and from page to page
 LOCKED, SHEET = 0x4000, said("Sheet")  # a viewport of which the scale stays; what a layout is
 
 
-def dxf(sheets: Sequence[Sheet], plates: Plates) -> bytes:
-    """The pages of a sheet, and the mechanism that is drawn on them, as a DXF document."""
+def dxf(sheets: Sequence[Sheet], plates: Plates | None = None) -> bytes:
+    """The pages of a sheet, and the mechanism that is drawn on them if it is told, as a DXF document."""
     with undated():
         text = io.StringIO()
         document = _Drawing(sheets, plates).document
@@ -59,25 +60,28 @@ def undated() -> Iterator[None]:
 class _Drawing:
     """The document while it is drawn; `mm` is a millimetre of paper in the units of the scene."""
 
-    def __init__(self, sheets: Sequence[Sheet], plates: Plates):
-        length, self.tongue = plates.scene.units.length, plates.plans.tongue
-        self.mm = float(METRES["mm"] / METRES[length])
+    def __init__(self, sheets: Sequence[Sheet], plates: Plates | None):
+        length = plates.scene.units.length if plates else "mm"
+        self.mm, self.told = float(METRES["mm"] / METRES[length]), tongue(sheets[0].language)(SHEET)
         self.document = ezdxf.new("R2010", units=UNITS[length])
         self.space = self.document.modelspace()
-        self.layers = Layers(plates)
-        mechanism = FullSize(plates, sheets[0].scales.k_s)
-        for items in (mechanism.items, *(sheet.items for sheet in sheets)):
+        self.layers = stage_layers(plates) if plates else step_layers(sheets[0])
+        mechanism = FullSize(plates, sheets[0].scales.k_s) if plates else None
+        for items in (mechanism.items if mechanism else (), *(sheet.items for sheet in sheets)):
             self.layers.count(items)
-        self.layers.counted[POINTS][LINK] = self.layers.counted[DIMENSIONED][HATCH] = 1
+        if mechanism:
+            self.layers.counted[POINTS][LINK] = self.layers.counted[DIMENSIONED][HATCH] = 1
         self._settings(sheets[0], length in METRIC)
-        mechanism.draw(self.space, self.layers, ".".translate(self.tongue.signs))
-        places = self._places(sheets, mechanism.box)
+        if mechanism and plates:
+            mechanism.draw(self.space, self.layers, ".".translate(plates.plans.tongue.signs))
+        box = mechanism.box if mechanism else Rect(0.0, 0.0, 0.0, 0.0)
+        places = self._places(sheets, box)
         for place, sheet in zip(places, sheets, strict=True):
             ink = Ink(self.space, self.layers, self.mm, place)
             for item in sheet.items:
                 ink.item(item)
         self._layouts(sheets, places)
-        self._views([mechanism.box, *(self._box(place, sheet) for place, sheet in zip(places, sheets, strict=True))])
+        self._views([box, *(self._box(place, sheet) for place, sheet in zip(places, sheets, strict=True))])
 
     def _places(self, sheets: Sequence[Sheet], box: Rect) -> list[Spot]:
         """The lower left corners of the pages, side by side and beside the mechanism."""
@@ -103,7 +107,7 @@ class _Drawing:
 
     def _layouts(self, sheets: Sequence[Sheet], places: Sequence[Spot]) -> None:
         """A layout for each page, of the size of its paper, on which model space is seen 1:1 where the page is."""
-        document, told = self.document, self.tongue(SHEET)
+        document, told = self.document, self.told
         document.layouts.rename("Layout1", f"{told} 1")
         for number, (sheet, place) in enumerate(zip(sheets, places, strict=True), 1):
             name, size = f"{told} {number}", (sheet.width, sheet.height)

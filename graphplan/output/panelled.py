@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate, pairwise
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel, Program, Step, plan_of
@@ -38,7 +38,7 @@ from graphplan.sheet.words.tables import rows as table_rows
 from graphplan.words.tongue import Tongue, tongue
 
 PAPERS = ("A3", "A2", "A1")
-COLUMN, GAP, CAPTION, AROUND, SIDE = 96.0, 4.0, 7.0, 3.0, 2.5  # mm: of words, beside them, of captions and panels
+COLUMN, GAP, CAPTION, SCALES, AROUND, SIDE = 96.0, 4.0, 7.0, 3.5, 3.0, 2.5  # mm: of words, captions and panels
 FEW = 2  # steps that are told rather than counted
 INDENT, LEAD = 8.0, 3.0  # mm: of what hangs from a step's number, and over a heading
 
@@ -66,6 +66,7 @@ class Panelled(ABC):
     """One kind of sheet on one paper."""
 
     paper: str
+    told_scales: ClassVar[bool] = False  # under captions
 
     # ---- what a kind of sheet says ---------------------------------------------------------------------------------
 
@@ -101,6 +102,14 @@ class Panelled(ABC):
     @abstractmethod
     def figure(self, panel: Panel, rect: Rect) -> Iterable[Item]:
         """What is drawn on a panel, in the room under its caption."""
+
+    def heading(self, panel: Panel) -> tuple[Said, Said | None]:
+        """What stands over a panel, and under that its scales where these are told there."""
+        return panel.heading, None
+
+    def repeats(self, panel: Panel) -> bool:
+        """Whether the stages that begin on a panel do the same again and again, so that one figure tells it all."""
+        return True
 
     def given(self) -> Iterable[Words]:
         """What is given."""
@@ -150,7 +159,8 @@ class Panelled(ABC):
 
     def room(self, panel: Panel) -> Rect:
         """The room of a panel under its caption."""
-        return self.panels[panel].inset(AROUND, AROUND, AROUND, AROUND + self.letters.times * CAPTION)
+        caption = CAPTION + (SCALES if self.told_scales else 0.0)
+        return self.panels[panel].inset(AROUND, AROUND, AROUND, AROUND + self.letters.times * caption)
 
     # ---- pages -----------------------------------------------------------------------------------------------------
 
@@ -213,12 +223,17 @@ class Panelled(ABC):
         yield from block.on(self.paper).items(title, page)
 
     def _caption(self, panel: Panel, rect: Rect) -> Iterator[Item]:
-        """What a panel is, in letters of marks where that has room on a line, else in small ones."""
-        runs, large, room = sentence_runs(self.tongue(panel.heading)), self.letters.mark, rect.width - 2 * SIDE
-        size = large if width(runs, large, bold=True) <= room else self.letters.text
-        for k, line in enumerate(wrap(runs, size, room, bold=True)[:2]):
-            at = rect.left + SIDE, rect.top - 1.6 * large - 1.2 * k * size
-            yield Text(pens.LETTERS, "text", None, at, line, size, bold=True)
+        """What a panel is, in letters of marks where that has room on a line, else in small ones; under it its scales.
+        """
+        large, small, room = self.letters.mark, self.letters.text, rect.width - 2 * SIDE
+        heading, scales = self.heading(panel)
+        runs, y = sentence_runs(self.tongue(heading)), rect.top - 1.6 * large
+        size = large if width(runs, large, bold=True) <= room else small
+        lines = [(line, size, True) for line in wrap(runs, size, room, bold=True)[:2]]
+        told = sentence_runs(self.tongue(scales)) if scales else ()
+        for line, high, bold in [*lines, *((line, small, False) for line in wrap(told, small, room)[:1])]:
+            yield Text(pens.LETTERS, "text", None, (rect.left + SIDE, y), line, high, bold=bold)
+            y -= 1.5 * small
 
     # ---- words -----------------------------------------------------------------------------------------------------
 
@@ -250,7 +265,7 @@ class Panelled(ABC):
         for stage, steps in program.stages:
             yield replace(self._heading(stage.title, SIZE), gap=LEAD / 2)
             yield from self._set(arranged("{0:capital}.", stage.law))
-            shown, left = first_figure(steps)
+            shown, left = first_figure(steps) if self.repeats(self.recorded.plans[steps[0].index]) else (steps, ())
             for step in shown:
                 yield from self._set(self._spoken(step), str(program.number(step.index)), step.index)
             if left:

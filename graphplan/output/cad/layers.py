@@ -6,14 +6,14 @@ A layer has the colour, weight and line type of the pen that draws most of it; w
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 from ezdxf.lldxf.const import VALID_DXF_LINEWEIGHTS
 
-from graphplan.sheet.plates.display import Item
+from graphplan.sheet.plates.display import Item, Sheet
 from graphplan.sheet.plates.pens import INK, Pen
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.words.protocol import Protocol
@@ -28,11 +28,39 @@ LINE_TYPES = {  # by how many dashes and gaps they have: names by which programs
 }  # fmt: skip
 
 
+def stage_layers(plates: Plates) -> Layers:
+    """The layers of a construction: one a step, by the stages."""
+    drawn, tongue = plates.plans.drawing.drawn, plates.plans.tongue
+    stages, of = Protocol(plates.plans).stages
+    found = []
+    for index in range(len(drawn)):
+        place = of.get(index)
+        if index < drawn.givens:
+            found.append(f"{GIVEN} given")
+        else:
+            title = "" if place is None else f" {tongue(stages[place].title)[:LONGEST].translate(FORBIDDEN)}"
+            stage = len(stages) if place is None else place
+            found.append(f"STAGE {stage + 1:02}{title} - STEP {drawn.number(index):03}")
+    told = plates.plans.sentences
+    return Layers(found, {found[index]: told[index] for index in range(drawn.givens, len(drawn))})
+
+
+def step_layers(sheet: Sheet) -> Layers:
+    """The layers of a sheet of which no more is known: one a step."""
+    names = [f"STEP {index + 1 - sheet.givens:03}" if index >= sheet.givens else f"{GIVEN} given"
+             for index in range(len(sheet.sentences))]
+    return Layers(names, dict(list(zip(names, sheet.sentences, strict=True))[sheet.givens :]))
+
+
 @dataclass
 class Layers:
-    """Which layer an item lies on, and how it looks there; what is drawn is told first."""
+    """Which layer an item lies on, and how it looks there; what is drawn is told first.
 
-    plates: Plates
+    `steps` are the layers of drawing steps, `sentences` what is said of them, by layer.
+    """
+
+    steps: Sequence[str]
+    sentences: Mapping[str, str]
     counted: dict[str, Counter[Pen]] = field(default_factory=lambda: defaultdict(Counter))
 
     def count(self, items: Iterable[Item]) -> None:
@@ -44,34 +72,12 @@ class Layers:
         """The layer of an item."""
         if item.step is None:
             return item.layer if item.layer.startswith(FULL_SIZE) else f"{SHEET} {item.layer}"
-        return self._steps[item.step]
-
-    @cached_property
-    def _steps(self) -> list[str]:
-        """The layers of the steps."""
-        drawn, tongue = self.plates.plans.drawing.drawn, self.plates.plans.tongue
-        stages, of = Protocol(self.plates.plans).stages
-        found = []
-        for index in range(len(drawn)):
-            place = of.get(index)
-            if index < drawn.givens:
-                found.append(f"{GIVEN} given")
-            else:
-                title = "" if place is None else f" {tongue(stages[place].title)[:LONGEST].translate(FORBIDDEN)}"
-                stage = len(stages) if place is None else place
-                found.append(f"STAGE {stage + 1:02}{title} - STEP {drawn.number(index):03}")
-        return found
+        return self.steps[item.step]
 
     @cached_property
     def pens(self) -> dict[str, Pen]:
         """The layers in the order of their names, each with the pen that draws most of it."""
         return {name: self.counted[name].most_common(1)[0][0] for name in sorted(self.counted)}
-
-    @cached_property
-    def sentences(self) -> Mapping[str, str]:
-        """What is said of the layers of steps."""
-        drawn, told = self.plates.plans.drawing.drawn, self.plates.plans.sentences
-        return {self._steps[index]: told[index] for index in range(drawn.givens, len(drawn))}
 
     @cached_property
     def line_types(self) -> dict[tuple[float, ...], str]:

@@ -237,10 +237,16 @@ def _windows(arrangement: Arrangement, extents: Mapping[str, Extent], needs: Map
              given: GivenScales) -> Composition:
     """The scales, round if they are not given, and the windows for one arrangement."""
     rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
+    scales, views = windows(rooms, extents, plans, given)
+    return Composition(arrangement, scales, views, needs, extents, plans)
+
+
+def windows(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans,
+            given: GivenScales = FREE) -> tuple[Scales, dict[str, View]]:
+    """The scales, round if they are not given, and the windows of plans in their rooms."""
     scales = _scales({panel: inside(rect) for panel, rect in rooms.items()}, extents, plans, given)
     boxes = {panel: plan_box(extent, inside(rooms[panel]), scales.of(panel)) for panel, extent in extents.items()}
-    views = {panel: view(box, rooms[panel], scales.of(panel)) for panel, box in boxes.items()}
-    return Composition(arrangement, scales, views, needs, extents, plans)
+    return scales, {panel: view(box, rooms[panel], scales.of(panel)) for panel, box in boxes.items()}
 
 
 def _scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans, given: GivenScales) -> Scales:

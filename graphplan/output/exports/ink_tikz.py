@@ -1,0 +1,87 @@
+r"""A sheet's display list in LaTeX that draws with TikZ: every stroke where it lies, in mm of paper.
+
+What is drawn of a step stands after a comment with its sentence. Constructions have a better file, which draws them by
+their steps: :mod:`graphplan.output.exports.tikz`; this one serves sheets of diagrams.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from graphplan.output.exports import latex
+from graphplan.output.exports.latex import lettering
+from graphplan.output.svg import parted, rounded
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
+from graphplan.sheet.plates.pens import Pen
+from graphplan.words.tongue import tongue
+
+PICTURE = r"[x=1mm, y=1mm, line cap=round, line join=round, every node/.style={anchor=base west, inner sep=0pt}]"
+SIDES = {"start": "", "middle": "anchor=base, ", "end": "anchor=base east, "}
+
+
+def sheet_tikz(sheet: Sheet) -> str:
+    """The sheet as a document that is as large as it is."""
+    say = tongue(sheet.language)
+    lines = [rf"\begin{{tikzpicture}}{PICTURE}", *_colours(sheet.items),
+             rf"\useasboundingbox (0,0) rectangle {_spot((sheet.width, sheet.height))};"]
+    for step, items in parted(sheet):
+        lines.append(f"% {step + 1 - sheet.givens}: {sheet.sentences[step]}" if isinstance(step, int) else f"% {step}")
+        lines += [line for item in items for line in _drawn(item)]
+    picture = latex.standalone([*lines, r"\end{tikzpicture}"], say.code, latex.PACKAGES)
+    return "\n".join([*latex.told([sheet.title, sheet.description], say, latex.PACKAGES, bare=False), *picture]) + "\n"
+
+
+def _drawn(item: Item) -> Iterator[str]:
+    """An item as commands."""
+    look = _look(item.pen)
+    match item:
+        case Polyline():
+            yield rf"\draw[{_look(item.pen.filled('none'))}] {_chain(item.spots)};"
+        case Polygon():
+            yield rf"\path[{look}] {_chain(item.spots)} -- cycle;"
+        case Circle():
+            yield rf"\path[{look}] {_spot(item.centre)} circle[radius={rounded(item.radius)}];"
+        case Arc():
+            yield (rf"\draw[{look}] {_spot(item.at(item.start))} arc[start angle={rounded(item.start)}, "
+                   rf"end angle={rounded(item.end)}, radius={rounded(item.radius)}];")
+        case Arrow():
+            for ends in item.shaft:
+                yield rf"\draw[{_look(item.pen.filled('none'))}] {_chain(ends)};"
+            for corners, fill in item.figures:
+                yield rf"\fill[{_colour(fill)}] {_chain(corners)} -- cycle;"
+        case Text():
+            size, anchor = latex.points(item.size), SIDES[item.anchor]
+            font = rf"font=\fontsize{{{size:g}}}{{{size:g}}}\selectfont"
+            yield (rf"\node[{anchor}text={_colour(item.pen.colour)}, {font}] at "
+                   rf"{_spot(item.at)} {{{lettering(item.runs, item.bold, words=True)}}};")
+        case _:
+            raise TypeError(f"no TikZ for {type(item).__name__}")
+
+
+def _look(pen: Pen) -> str:
+    """The options of what a pen draws."""
+    parts = [f"draw={_colour(pen.colour)}", f"line width={pen.width:g}mm"] if pen.width else ["draw=none"]
+    if pen.dash:
+        parts.append("dash pattern=" + " ".join(f"{'off' if k % 2 else 'on'} {part:g}mm"
+                                                for k, part in enumerate(pen.dash)))
+    return ", ".join([*parts, f"fill={_colour(pen.fill)}"] if pen.fill != "none" else parts)
+
+
+def _colour(colour: str) -> str:
+    """The name of a colour in the file."""
+    return latex.COLOURS.get(colour, f"graphplan{colour.removeprefix('#')}")
+
+
+def _colours(items: Iterable[Item]) -> Iterator[str]:
+    """The colours that the style of constructions does not know."""
+    found = {colour for item in items for colour in (item.pen.colour, item.pen.fill) if colour.startswith("#")}
+    for colour in sorted(found - latex.COLOURS.keys()):
+        yield rf"\definecolor{{{_colour(colour)}}}{{HTML}}{{{colour[1:].upper()}}}"
+
+
+def _chain(spots: Iterable[Spot]) -> str:
+    return " -- ".join(map(_spot, spots))
+
+
+def _spot(at: Spot) -> str:
+    return f"({rounded(at[0])},{rounded(at[1])})"

@@ -1,0 +1,146 @@
+"""Zhukovsky's levers over the cycle: the given pose large with its steps, the others small beside it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from graphplan.cycle.turn import Turn
+from graphplan.kernel.program import Panel
+from graphplan.machine.reduction import Reduction
+from graphplan.machine.unit_motion import UnitMotion, moving_points
+from graphplan.methods import kinds
+from graphplan.methods.construction import Construction
+from graphplan.output.graphs import Figures
+from graphplan.phrases import Said, joined, said
+from graphplan.sheet.layout.composition import windows
+from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.lettering.lettering import LetterSizes
+from graphplan.sheet.lettering.letters import pictured
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Spot
+from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.plans import Extent, Plans, around
+from graphplan.sheet.plates.plate import Plates
+from graphplan.sheet.plates.traced_motion import PointPath, TracedMotion
+from graphplan.sheet.plates.view import View, least, view
+from graphplan.words.tongue import Tongue
+
+LEVERS = Panel("levers", said("levers"), said("Orthogonal velocities in the other positions"))
+RAY, IMAGE = Pen(0.18, pens.BLUE), Pen(0.25)
+FREE, NUMBER = 1.0, 1.4  # mm about a small figure; of the height of letters, for its number
+
+
+@dataclass(frozen=True)
+class LeverFigures:
+    """The lever of a reduction in the given pose, and the velocities at `count` positions of its cycle."""
+
+    reduction: Reduction
+    count: int
+    tongue: Tongue
+    letters: LetterSizes
+
+    @cached_property
+    def travel(self) -> Any:
+        """The travels of the positions, from the given pose: shape (count,)."""
+        first, last = self.reduction.ends
+        return first + (last - first) * np.arange(self.count) / self.count
+
+    @cached_property
+    def turn(self) -> Turn:
+        """Where everything is at the positions."""
+        return self.reduction.motion.turn(self.travel)
+
+    @cached_property
+    def drawing(self) -> Construction:
+        """The lever of the given pose, step by step."""
+        return self.reduction.drawing(float(self.travel[0]))
+
+    @cached_property
+    def plans(self) -> Plans:
+        """The plans of the given pose; on that of the mechanism are its other positions, and the paths of points."""
+        places = {name: [(float(z.real), float(z.imag)) for z in np.atleast_1d(zs) + 0j]
+                  for name, zs in self.turn.points.items()}
+        positions = tuple({name: spots[k % len(spots)] for name, spots in places.items()} for k in range(self.count))
+        moving = [name for name in self.reduction.motion.scene.find.velocity if name in places]
+        paths = tuple(PointPath(name, (*places[name], places[name][0]), (False, False)) for name in moving)
+        return Plans(self.drawing, self.tongue, motion=TracedMotion(paths, positions))
+
+    def plates(self, rooms: Mapping[str, Rect]) -> tuple[Scales, Plates]:
+        """The scales and the plans of the given pose in these rooms."""
+        extents: dict[str, Extent] = {panel: self.plans.extent(panel) for panel in self.plans.panels}
+        scales, views = windows(rooms, extents, self.plans)
+        return scales, Plates(self.plans, views, self.letters)
+
+    def heading(self, panel: Panel, scales: Scales) -> tuple[Said, Said]:
+        """What a plan of the given pose shows, and its scales."""
+        shown = self.plans.kinds(panel)
+        return panel.caption(shown), joined(scales.said(panel, shown), ",  ")
+
+    def picture(self, plates: Plates, panel: Panel) -> list[Item]:
+        """A plan of the given pose with its letters."""
+        return pictured(plates[panel]).items
+
+    # ---- the other positions ---------------------------------------------------------------------------------------
+
+    @cached_property
+    def _points(self) -> tuple[str, ...]:
+        """The points of moving links that are no fixed ones."""
+        scene = self.reduction.scene
+        return moving_points(scene, (name for link in scene.moving for name in scene.links[link]))
+
+    @cached_property
+    def _ends(self) -> dict[str, Any]:
+        """The ends of the orthogonal velocities, by points: complex arrays of shape (count,), for a unit rate."""
+        own = self.reduction.motion
+        motion = UnitMotion(self.reduction.scene, own.motion, replace(own.scene.find, velocity=self._points))
+        rates = motion.rates(self.turn, (kinds.VELOCITY,))
+        return {name: 1j * own.sense * (rates.of(kinds.VELOCITY, name) + np.zeros(self.count))
+                for name in self._points}
+
+    @cached_property
+    def _images(self) -> list[list[str]]:
+        """The points of each link that has several of them."""
+        links = self.reduction.scene.links
+        found = [[name for name in links[link] if name in self._ends] for link in self.reduction.scene.moving]
+        return [names for names in found if len(names) > 1]
+
+    def small(self, rect: Rect) -> Iterator[Item]:
+        """The orthogonal velocities of all positions but the given one, each beside its number, at one scale."""
+        cells, number = _grid(rect, self.count - 1), NUMBER * self.letters.text
+        rooms = [cell.inset(FREE, FREE, FREE, FREE + number) for cell in cells]
+        boxes = [around([(0.0, 0.0), *self._spots(k)]) for k in range(1, self.count)]
+        scale = max(map(least, boxes, rooms)) or 1.0
+        paper = Figures(self.letters, self.tongue)
+        for k, (cell, room, box) in enumerate(zip(cells, rooms, boxes, strict=True), 1):
+            yield paper.text((cell.left + FREE, cell.top - number), str(k))
+            yield from self._plan(k, view(box, room, scale))
+
+    def _spots(self, k: int) -> list[Spot]:
+        """The ends of the velocities of a position."""
+        return [(float(z[k].real), float(z[k].imag)) for z in self._ends.values()]
+
+    def _plan(self, k: int, window: View) -> Iterator[Item]:
+        """The velocities of a position: rays from the pole, and the links' images."""
+        ends = dict(zip(self._ends, map(window, self._spots(k)), strict=True))
+        pole = window((0.0, 0.0))
+        for end in ends.values():
+            if math.dist(pole, end) > FREE / 4:
+                yield Polyline(RAY, "links", None, (pole, end))
+        for names in self._images:
+            yield Polyline(IMAGE, "links", None, tuple(ends[name] for name in names))
+        yield Circle(pens.ORIGIN, "links", None, pole, 0.4)
+
+
+def _grid(rect: Rect, count: int) -> list[Rect]:
+    """A rectangle in so many cells as square as can be, row by row from the upper left."""
+    columns = max(range(1, count + 1), key=lambda n: min(rect.width / n, rect.height / math.ceil(count / n)))
+    rows = math.ceil(count / columns)
+    wide, high = rect.width / columns, rect.height / rows
+    return [Rect(rect.left + k % columns * wide, rect.top - (k // columns + 1) * high,
+                 rect.left + (k % columns + 1) * wide, rect.top - k // columns * high) for k in range(count)]

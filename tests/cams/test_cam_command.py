@@ -93,7 +93,8 @@ def test_poses_are_solved(written: Callable[..., Path], capsys: pytest.CaptureFi
 
 
 @pytest.mark.parametrize(("options", "line"), [
-    (["-o", "made.gif"], "-o made.gif: no cam is written as .gif; a name in .svg, .pdf, .png, .tex, .dxf, .json, .toml"),
+    (["-o", "made.gif"],
+     "-o made.gif: no cam is written as .gif; a name in .svg, .pdf, .png, .tex, .dxf, .json, .toml"),
     (["--at", "30"], "--at 30.0: a .svg has no use for it; leave it out, or -o FILE.toml"),
     (["-o", "made.dxf", "--tolerance", "0"], "--tolerance: 0; give a length above 0, 1e-9 at least"),
 ])  # fmt: skip

@@ -99,7 +99,7 @@ class LeverFigures:
         """The ends of the orthogonal velocities, by points: complex arrays of shape (count,), for a unit rate."""
         own = self.reduction.motion
         motion = UnitMotion(self.reduction.scene, own.motion, replace(own.scene.find, velocity=self._points))
-        rates = motion.rates(self.turn, (kinds.VELOCITY,))
+        rates = motion.velocities(self.turn)
         return {name: 1j * own.sense * (rates.of(kinds.VELOCITY, name) + np.zeros(self.count))
                 for name in self._points}
 

@@ -7,7 +7,7 @@ links, the shaking force and its moment with what the frame bears by the solver'
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,6 +16,8 @@ import numpy as np
 from graphplan.check.cycle import cycle
 from graphplan.cycle.loop import whole_motion
 from graphplan.errors import Disagreement, Refused
+from graphplan.machine.counterweights import Counterweight, along_guide, balanced, full
+from graphplan.machine.engine import Engine, engine
 from graphplan.machine.mass_centre import MassCentre, mass_centre
 from graphplan.machine.shaking import Shaking, shaking
 from graphplan.mechanism.model import FRAME, Balance, Drive, Find, Loads, Scene
@@ -24,6 +26,7 @@ from graphplan.mechanism.units import METRES, NEWTONS
 from graphplan.solver import poses, statics
 
 CLOSE = 1e-9  # of what is added up: so far opinions may be apart
+FULL, GUIDED, SHARED, NONE = "full", "partial", "share", "none"
 
 
 @dataclass(frozen=True)
@@ -73,6 +76,83 @@ def mass_motion(scene: Scene, positions: int) -> MassMotion:
         if not gap <= CLOSE:
             raise Disagreement(scene.name, what, "otherwise", "by the solver", gap)
     return replace(motion, check=check)
+
+
+@dataclass(frozen=True)
+class Balancing:
+    """A scene before and after it is balanced: `way` says how, `weights` by which counterweights; `engine` if it is a
+    slider-crank. Without counterweights there is nothing `after`. `note` says why there are none."""
+
+    before: MassMotion
+    way: str
+    weights: tuple[Counterweight, ...]
+    after: MassMotion | None
+    engine: Engine | None
+    check: Mapping[str, float]
+    note: str = ""
+
+
+def balancing(scene: Scene, positions: int, way: str = "", keep: Sequence[str] = (),
+              radii: Mapping[str, float] | None = None, share: float = 0.5) -> Balancing:
+    """The mass centre over the cycle before and after counterweights are added, each opinion compared.
+
+    Reads how it is to be balanced: fully (the default where it can be), so that the mass centre moves along a guide
+    alone, by a share of what reciprocates, or not; the links that keep their masses, and radii of counterweights.
+    Fails as :func:`mass_motion` does, and with `Refused` where it cannot be balanced so.
+    """
+    before, found, note = mass_motion(scene, positions), engine(scene), ""
+    if keep or radii:
+        way = way or FULL
+    try:
+        weights = _weights(scene, way or FULL, keep, radii or {}, share, found)
+    except Refused as refused:
+        if way:
+            raise
+        weights, note = (), f"{refused.what}: {refused.why}"
+    way = way or (NONE if note else FULL)
+    after = mass_motion(balanced(scene, weights), positions) if weights else None
+    check = {**before.check, **_held(after or before, way), **(_by_orders(before, found) if found else {})}
+    for what, gap in check.items():
+        if not gap <= CLOSE:
+            raise Disagreement(scene.name, what, "otherwise", "by the solver", gap)
+    return Balancing(before, way, weights, after, found, check, note)
+
+
+def _weights(scene: Scene, way: str, keep: Sequence[str], radii: Mapping[str, float], share: float,
+             found: Engine | None) -> tuple[Counterweight, ...]:
+    """The counterweights of one way."""
+    if way == FULL:
+        return full(scene, keep, radii)
+    if way == GUIDED:
+        return along_guide(scene, keep, radii)
+    if way == SHARED:
+        if found is None:
+            raise Refused(f"{scene.name}: counterweights", "this is no slider-crank with its mass centres on the lines "
+                          "of its joints", "--counterweights full or partial")
+        return (found.share(scene, share, radii.get(found.crank)),)
+    return ()
+
+
+def _held(motion: MassMotion, way: str) -> dict[str, float]:
+    """How far the mass centre moves that counterweights hold, or across the guide, beside the reach of the links."""
+    if way not in (FULL, GUIDED):
+        return {}
+    path, scene = motion.path[np.isfinite(motion.path)], motion.centre.scene
+    if way == GUIDED:
+        guide = next(slide for slide in scene.slides if FRAME in slide.links)
+        ahead = complex(*map(float, guide.direction))
+        path = (path / ahead).imag * abs(ahead)
+    return {"counterweights": float(abs(path - path[0]).max()) / scene.extent}
+
+
+def _by_orders(motion: MassMotion, found: Engine) -> dict[str, float]:
+    """By how much all orders together differ from the shaking force, where the crank turns evenly."""
+    scene, there = motion.centre.scene, np.isfinite(motion.path)
+    if any(drive.change for drive in scene.drives) or not there.all():
+        return {}
+    crank = motion.points[found.pin(scene)] - motion.points[found.hinge]
+    force = found.force(np.angle(crank / found.ahead), found.orders) * found.ahead
+    return {"orders": _gap(force, [*motion.shaking.parts.values()])}
 
 
 def _span(scene: Scene, positions: int) -> tuple[float, float] | None:

@@ -15,10 +15,12 @@ from __future__ import annotations
 import argparse
 
 from graphplan.commands.choices import count
-from graphplan.commands.output import as_json, kind, write
+from graphplan.commands.output import Messages, as_json, kind, write
+from graphplan.errors import Refused
 
 ENDINGS = (".json", ".csv")
-POSITIONS = 72
+POSITIONS, SHARE = 72, 0.5
+WAYS = ("full", "partial", "share", "none")
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -27,6 +29,13 @@ def options(command: argparse.ArgumentParser) -> None:
         "input")
     add("-o", "--output", metavar="FILE", help=", ".join(ENDINGS) + "; without it JSON on standard output")
     add("--positions", type=count("--positions", 3), metavar="N", help=f"in how many poses of the cycle ({POSITIONS})")
+    add("--counterweights", choices=WAYS, default="", help="so that the mass centre stands still (full, the default "
+        "where it can be done); moves along the guide on the frame alone (partial); of a slider-crank on the crank "
+        "alone, for what rotates and a share of what reciprocates (share); or none")
+    add("--radius", action="append", default=[], metavar="LINK=LENGTH", help="how far from its pivot the counterweight "
+        "of a link stands; without it the length of the link")
+    add("--keep", action="append", default=[], metavar="LINK", help="a link that gets no counterweight")
+    add("--share", type=float, metavar="PART", help=f"of the reciprocating mass that is balanced ({SHARE:g})")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -37,11 +46,31 @@ def run(options: argparse.Namespace) -> int:
         from graphplan.commands import balance_rotor
 
         return balance_rotor.run(options, text)
-    from graphplan.check.balance import mass_motion
+    from graphplan.check.balance import balancing
     from graphplan.mechanism.scene import parse
     from graphplan.output.machine.balance_numbers import numbers, table
 
-    ending = kind(options.output, ENDINGS, "balance")
-    motion = mass_motion(parse(text, options.scene), options.positions or POSITIONS)
-    write(table(motion) if ending == ".csv" else as_json(numbers(motion)), options.output)
+    ending, messages = kind(options.output, ENDINGS, "balance"), Messages(options.quiet)
+    if options.share is not None and (options.counterweights != "share" or not 0 <= options.share <= 1):
+        raise Refused(f"--share {options.share:g}", "this is no part of the reciprocating mass", "give 0 to 1, with "
+                      "--counterweights share")
+    found = balancing(parse(text, options.scene, by_drive=True), options.positions or POSITIONS, options.counterweights,
+                      options.keep, _radii(options.radius), SHARE if options.share is None else options.share)
+    if found.note:
+        messages.remark(found.note)
+    write(table(found.before) if ending == ".csv" else as_json(numbers(found)), options.output)
     return 0
+
+
+def _radii(given: list[str]) -> dict[str, float]:
+    """The radii of an option, by link."""
+    found = {}
+    for text in given:
+        link, _, length = text.partition("=")
+        try:
+            found[link.strip()] = float(length)
+        except ValueError:
+            found[link.strip()] = -1.0
+        if not 0 < found[link.strip()] < float("inf"):
+            raise Refused(f"--radius {text}", "this is no link with a length above 0", "such as --radius 1=60")
+    return found

@@ -10,8 +10,9 @@ what keeps a slider's point on such a guide may be used.
 A link may be given a counterweight if it turns. Those hinged on the frame come first: their counterweights load no
 other link. A linkage can be balanced so if joints lead from every link to the frame.
 
-Source: Ozols 1974, 16-3, (16.10) to (16.12), table 16-1; R. S. Berkof and G. G. Lowen, A new method for completely force
-balancing simple linkages, 1969; F. R. Tepper and G. G. Lowen, General theorems concerning full force balancing, 1972.
+Source: Ozols 1974, 16-3, (16.10) to (16.12), table 16-1; R. S. Berkof and G. G. Lowen, A new method for completely
+force balancing simple linkages, 1969; F. R. Tepper and G. G. Lowen, General theorems concerning full force balancing of
+planar linkages by internal mass redistribution, 1972.
 """
 
 from __future__ import annotations
@@ -118,7 +119,8 @@ class _Balancing:
     def moving(self, weights: Mapping[str, float]) -> Form:
         """The first moment of all masses, and of counterweights with these masses as if in their pivots."""
         terms = [(float(mass.mass), self.form(link, mass.centre)) for link, mass in self.masses.items()]
-        terms += [(mass, self.form(link, self.pivot(link))) for link, mass in weights.items()]
+        terms += [(mass, self.form(link, self.pivot(link))) for link, mass in weights.items()
+                  if not self.grounded(link)]
         return _sum(terms)
 
     def pivot(self, link: str) -> str:

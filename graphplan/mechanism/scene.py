@@ -110,14 +110,15 @@ def packaged() -> list[str]:
     return sorted(name.removesuffix(".toml") for name in os.listdir(FOLDER) if name.endswith(".toml"))
 
 
-def parse(text: str, name: str) -> Scene:
+def parse(text: str, name: str, by_drive: bool = False) -> Scene:
     """The scene that a TOML text says; `name` stands in error lines, and files that it names are beside it.
 
+    Loads that no balance holds are a fault, unless they are held `by_drive`.
     Its own text has the rows of such files in their stead, so that it holds wherever it is taken.
     """
     faults = Faults()
     folder = FOLDER if name in packaged() and not os.path.exists(name) else os.path.dirname(name)
-    scene, files = _read(tables_of(text, name), name, faults, folder)
+    scene, files = _read(tables_of(text, name), name, faults, folder, by_drive)
     if len(faults):
         from graphplan.mechanism.slips import slips_in_vectors  # few scenes have faults
 
@@ -148,7 +149,7 @@ def tables_of(text: str, name: str) -> dict[str, object]:
 
 
 def _read(tables: dict[str, object], name: str, faults: Faults,
-          folder: str) -> tuple[Scene, Mapping[str, Sequence[Pair]]]:
+          folder: str, by_drive: bool) -> tuple[Scene, Mapping[str, Sequence[Pair]]]:
     """The whole scene, and the rows of the files that it names in a folder.
 
     Where something is faulty the scene is patched up, and only good for finding more faults.
@@ -179,7 +180,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         placements=placements, links=names.links, written=names.pairs, motions=read.get("motion", {}),
         find=read.get("find") or _asked(names), loads=sections.loads(read), flywheel=read.get("flywheel"),
         run=read.get("run"), sheet=read.get("sheet") or Presentation(), vary=read.get("vary", {}))
-    scene = _kept_by_its_drive(scene)
+    scene = _kept_by_its_drive(scene) if by_drive or scene.flywheel or scene.run else scene
     counting = _counting(scene)
     rounded = [f"points.{quoted(point)}: {placements[point].how} placement" for point in placements
                if point in names.placed and point in counting and not is_exact(names.placed[point])]
@@ -188,9 +189,9 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
 
 
 def _kept_by_its_drive(scene: Scene) -> Scene:
-    """The scene; where it asks for the machine over its cycle and for no balance, that is what its drive does."""
+    """The scene; where it has no balance, that is what its drive does."""
     loads, drives = scene.loads, scene.drives
-    if not loads or loads.balances or len(drives) != 1 or drives[0].on != FRAME or not (scene.flywheel or scene.run):
+    if not loads or loads.balances or len(drives) != 1 or drives[0].on != FRAME:
         return scene
     slide = scene.driven_slide(drives[0]) if drives[0].slides else None
     balance = (Balance(slide.link, slide.at, slide.direction, slide.written) if slide

@@ -8,31 +8,109 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.check.balance import MassMotion
+from graphplan.check.balance import Balancing, MassMotion
+from graphplan.machine.counterweights import Counterweight
+from graphplan.machine.engine import Engine
+from graphplan.machine.spanning import as_multiple
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.plane import less
+from graphplan.mechanism.units import KILOGRAMS, METRES
 
 HEADINGS = ("S.x", "S.y", "S.vx", "S.vy", "S.ax", "S.ay", "J.x [N]", "J.y [N]", "M [N*m]", "fault")
 
 
-def numbers(motion: MassMotion) -> dict[str, Any]:
-    """All of it, plain data for JSON: points and rates in scene lengths and s, forces in N, moments in N m, angles and
-    travels in degrees; null where a pose is not reached."""
-    centre, units = motion.centre, motion.centre.scene.units
-    about = motion.shaking.about
+VARIANTS = {  # table 16-1: between which parts of its length each link of a balanced four-bar has its mass centre
+    "a": ((0, 1), (1, math.inf), (1, math.inf)), "b": ((1, math.inf), (1, math.inf), (1, math.inf)),
+    "c": ((-math.inf, 0), (0, 1), (1, math.inf)), "d": ((-math.inf, 0), (-math.inf, 0), (0, 1)),
+    "e": ((-math.inf, 0), (-math.inf, 0), (-math.inf, 0))}
+
+
+def numbers(found: Balancing) -> dict[str, Any]:
+    """All of it, plain data for JSON: points and rates in scene lengths and s, masses in kg, moments of mass in kg m,
+    forces in N, moments in N m, angles and travels in degrees; null where a pose is not reached."""
+    motion = found.before
+    scene = motion.centre.scene
+    about, mass = motion.shaking.about, float(KILOGRAMS[scene.units.mass] * motion.centre.mass)
+    told = {
+        "title": scene.title,
+        "units": {"length": scene.units.length, "travel": scene.units.length if scene.drives[0].slides else "deg",
+                  "mass": "kg", "mass_radius": "kg m", "force": "N", "moment": "N m"},
+        "mass": mass, **over_cycle(motion),
+        "moment_about": [about.real, about.imag],
+        "principal_vectors": principal_vectors(motion), "links": links(motion),
+        "balancing": found.way, "counterweights": [weight_told(scene, weight) for weight in found.weights],
+    }
+    if found.note:
+        told["note"] = str(found.note)
+    if found.after is not None:
+        told["balanced"] = {**over_cycle(found.after), "principal_vectors": principal_vectors(found.after),
+                            "links": links(found.after), "variant": variant(found.after)}
+    if found.engine is not None:
+        told["engine"] = engine_told(found.engine)
+    told["faults"] = {str(pose): str(why) for pose, why in motion.faults.items()}
+    told["check"] = {what: float(gap) for what, gap in found.check.items()}
+    return told
+
+
+def over_cycle(motion: MassMotion) -> dict[str, Any]:
+    """What changes over the cycle."""
     return {
-        "title": centre.scene.title,
-        "units": {"length": units.length, "travel": units.length if centre.scene.drives[0].slides else "deg",
-                  "force": "N", "moment": "N m"},
-        "mass": float(centre.mass),
         "mass_centre": {"path": rows(motion, motion.path), "velocity": rows(motion, motion.velocity),
                         "acceleration": rows(motion, motion.acceleration)},
         "shaking_force": rows(motion, motion.shaking.force),
         "shaking_forces": {link: rows(motion, part) for link, part in motion.shaking.parts.items()},
-        "shaking_moment": rows(motion, motion.shaking.moment),
-        "moment_about": [about.real, about.imag],
-        "principal_vectors": principal_vectors(motion),
-        "faults": {str(pose): str(why) for pose, why in motion.faults.items()},
-        "check": {what: float(gap) for what, gap in motion.check.items()},
-    }
+        "shaking_moment": rows(motion, motion.shaking.moment)}
+
+
+def links(motion: MassMotion) -> dict[str, Any]:
+    """Of each link with a mass, where its centre is along the line of its joints, and how far on the left of that."""
+    scene, told = motion.centre.scene, {}
+    for link, mass in motion.centre.masses.items():
+        start, end = motion.centre.tree.line(link)
+        line = less(scene.points[end], scene.points[start])
+        told[link] = {"mass": float(KILOGRAMS[scene.units.mass] * mass.mass), "centre": mass.centre}
+        if start != end:
+            long = abs(complex(*line))
+            s, k = as_multiple(less(scene.points[mass.centre], scene.points[start]), line)
+            told[link] |= {"line": [start, end], "length": long, "s": float(s) * long, "offset": float(k) * long}
+    return told
+
+
+def variant(motion: MassMotion) -> str:
+    """Which variant of table 16-1 a balanced four-bar linkage is; nothing of other linkages."""
+    found = [link for link in links(motion).values() if "s" in link]
+    scene = motion.centre.scene
+    if len(found) != 3 or len(scene.moving) != 3 or scene.slides or scene.gears or scene.contacts:
+        return ""
+    parts = [link["s"] / link["length"] for link in found]
+    return next((name for name, spans in VARIANTS.items()
+                 if all(low < part < high for part, (low, high) in zip(parts, spans, strict=True))), "")
+
+
+def weight_told(scene: Scene, weight: Counterweight) -> dict[str, Any]:
+    """A counterweight: its moment of mass in kg m, which way it stands in the given pose, in degrees, radius and mass.
+    """
+    there = weight.place(scene)
+    return {"link": weight.link, "pivot": weight.pivot,
+            "mass_radius": abs(weight.moment) * float(KILOGRAMS[scene.units.mass] * METRES[scene.units.length]),
+            "angle": math.degrees(math.atan2(weight.moment.imag, weight.moment.real)), "radius": weight.radius,
+            "mass": weight.mass * float(KILOGRAMS[scene.units.mass]), "at": [there.real, there.imag]}
+
+
+def engine_told(engine: Engine) -> dict[str, Any]:
+    """The masses and orders of an engine, and what would balance them."""
+    first, second = engine.counter_rotating
+    phases = {k: engine.order(k) for k in engine.orders if k <= 4}
+    return {
+        "crank": engine.crank, "rod": engine.rod, "piston": engine.piston, "lambda": engine.ratio,
+        "offset": engine.offset, "rotating_mass": engine.rotating, "reciprocating_mass": engine.reciprocating,
+        "coefficients": {f"A_{k}": abs(engine.series[k]) * (1 if engine.series[k].real > 0 else -1)
+                         for k in phases if k > 1},
+        "centrifugal": engine.centrifugal,
+        "orders": [{"order": k, "cos": force.real, "sin": force.imag} for k, force in phases.items()],
+        "main_counterweight": {"mass_radius": engine.rotating * engine.radius},
+        "additional_counterweight": {"mass_radius": engine.reciprocating * engine.radius},
+        "counter_rotating": [{"speed": k, "mass_radius": float(moment)} for k, moment in (first, second)]}
 
 
 def principal_vectors(motion: MassMotion) -> dict[str, Any]:

@@ -34,7 +34,8 @@ class MassMotion:
     """The mass centre of a scene in n poses and what shakes its frame; complex arrays of shape (n,), nan where a pose
     is not reached.
 
-    `travel` of the first drive is in radians or scene lengths, `path`, `velocity` and `acceleration` in scene units.
+    `travel` of the first drive, in the sense in which it moves, is in radians or scene lengths, `path`, `velocity` and
+    `acceleration` are in scene units.
     `check` says by how much the opinions differ, beside the largest of what they add up.
     """
 
@@ -58,7 +59,8 @@ def mass_motion(scene: Scene, positions: int) -> MassMotion:
     """
     centre = mass_centre(scene)
     asked = Find(centre.points, centre.points, links=scene.moving)
-    found = cycle(replace(scene, find=asked, loads=None), positions, _span(scene, positions))
+    span, closed = _span(scene, positions)
+    found = cycle(replace(scene, find=asked, loads=None), positions, span)
     if len(found.faults) == positions:
         raise Refused(f"{scene.name}: the cycle", next(iter(found.faults.values())), "another pose")
     if found.wrong:
@@ -69,8 +71,8 @@ def mass_motion(scene: Scene, positions: int) -> MassMotion:
     points = {name: np.where(np.isnan(found.gaps["velocity"]), np.nan, z) for name, z in found.turn.points.items()}
     path, velocity, acceleration = (centre.at(places) for places in (points, *rates))
     shakes = shaking(centre, points, rates[1], alphas)
-    motion = MassMotion(centre, found.turn.travel, found.turn.closed, points, path, velocity, acceleration, shakes,
-                        found.faults, {})
+    motion = MassMotion(centre, sense(scene) * found.turn.travel, closed, points, path, velocity,
+                        acceleration, shakes, found.faults, {})
     check = _compared(motion, found.turn.guides)
     for what, gap in check.items():
         if not gap <= CLOSE:
@@ -155,18 +157,25 @@ def _by_orders(motion: MassMotion, found: Engine) -> dict[str, float]:
     return {"orders": _gap(force, [*motion.shaking.parts.values()])}
 
 
-def _span(scene: Scene, positions: int) -> tuple[float, float] | None:
-    """The span of travel that the mechanism goes through; none for a full turn that closes.
+def sense(scene: Scene) -> int:
+    """In which sense the first drive moves: 1, or -1 where it turns clockwise, or against its guide's direction."""
+    return -1 if scene.drives[0].rate < 0 else 1
+
+
+def _span(scene: Scene, positions: int) -> tuple[tuple[float, float], bool]:
+    """The span of travel that the mechanism goes through in the sense of its drive, and whether it closes.
 
     Between limits it keeps half a step off each: at the limit itself there are no velocities.
     """
     motion = whole_motion(scene)
     low, high = (float(motion.path.travel[end]) for end in (0, -1))
+    if not scene.drives[0].slides:
+        low, high = (round(math.degrees(end), 12) for end in (low, high))
     step = (high - low) / positions
-    if motion.whole and math.isclose(high - low, 2 * math.pi) and not scene.drives[0].slides:
-        return None
     ends = (low, high - step) if motion.whole else (low + step / 2, high - step / 2)
-    return ends if scene.drives[0].slides else (math.degrees(ends[0]), math.degrees(ends[1]))
+    if sense(scene) < 0:
+        ends = (-ends[0], -ends[1]) if motion.whole else ends[::-1]
+    return ends, motion.whole
 
 
 def _compared(motion: MassMotion, guides: Mapping[str, Any]) -> dict[str, float]:

@@ -151,4 +151,4 @@ def table(motion: MassMotion) -> str:
 
 def _travel(motion: MassMotion) -> Any:
     """The travel in degrees, or lengths of a drive that slides."""
-    return motion.travel if motion.centre.scene.drives[0].slides else np.degrees(motion.travel)
+    return motion.travel if motion.centre.scene.drives[0].slides else np.round(np.degrees(motion.travel), 12)

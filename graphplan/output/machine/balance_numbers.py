@@ -102,7 +102,7 @@ def engine_told(engine: Engine) -> dict[str, Any]:
     first, second = engine.counter_rotating
     phases = {k: engine.order(k) for k in engine.orders if k <= 4}
     return {
-        "crank": engine.crank, "rod": engine.rod, "piston": engine.piston, "lambda": engine.ratio,
+        "links": [engine.crank, engine.rod, engine.piston], "lambda": engine.ratio,
         "offset": engine.offset, "rotating_mass": engine.rotating, "reciprocating_mass": engine.reciprocating,
         "coefficients": {f"A_{k}": abs(engine.series[k]) * (1 if engine.series[k].real > 0 else -1)
                          for k in phases if k > 1},

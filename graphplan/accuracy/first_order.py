@@ -12,7 +12,7 @@ scatter less or more: the ratio, and the part of the hands that miss, tell how f
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -103,6 +103,12 @@ def _slipped(hand: Hand) -> tuple[Gradients, list[Any]]:
         return [domain.error(int(starts[step]) + i, size) for i, size in enumerate(hand.slips[step])]
 
     return domain, hand.draw(domain, errors)
+
+
+def deviation(hand: Hand, reading: Callable[[Sequence[Any]], Any]) -> float:
+    """The standard deviation of what is read off a program as the hand draws it; `reading` is linear in its values."""
+    domain, values = _slipped(hand)
+    return math.sqrt(float(np.sum(domain.partials(reading(values)) ** 2)))
 
 
 def control_errors(drawing: Construction, hand: Hand, scales: Scales) -> list[tuple[Control, float]]:

@@ -94,11 +94,15 @@ class Hand:
 def hand(drawing: Construction, unit: Callable[[str], float], pencil: Pencil) -> Hand:
     """The hand that draws a construction with this pencil; `unit` is the length of a millimetre on a plan, by name."""
     plan_of_step = Plans(drawing).plan_of_step
-    slips = [_slips(drawing, step, unit(plan_of_step[step.index]), pencil) for step in drawing.drawn.steps]
-    return Hand(drawing.drawn, drawing.values, slips)
+    return program_hand(drawing.drawn, drawing.values, lambda step: unit(plan_of_step[step.index]), pencil)
 
 
-def _slips(drawing: Construction, step: Step, unit: float, pencil: Pencil) -> Slips:
+def program_hand(program: Program, values: Sequence[Any], unit: Callable[[Step], float], pencil: Pencil) -> Hand:
+    """The hand that draws a program; `unit` is the length of a millimetre where a step is drawn."""
+    return Hand(program, values, [_slips(program, values, step, unit(step), pencil) for step in program.steps])
+
+
+def _slips(program: Program, values: Sequence[Any], step: Step, unit: float, pencil: Pencil) -> Slips:
     """The standard deviations of one step; `unit` is the plan's length of a millimetre."""
     point, edge = unit * pencil.point, unit * pencil.edge
     match step.op.gives, step.op.movement:
@@ -107,7 +111,7 @@ def _slips(drawing: Construction, step: Step, unit: float, pencil: Pencil) -> Sl
         case _, Movement.PICKED:
             return (point,)
         case kinds.LINE, _:
-            laid_at_two = len(places(drawing.drawn, drawing.values, step)) > 1
+            laid_at_two = len(places(program, values, step)) > 1
             return edge, edge if laid_at_two else pencil.slope
         case kinds.OPENING, _:
             return (unit * pencil.opening,)

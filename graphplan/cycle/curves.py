@@ -179,9 +179,9 @@ def diagram_scales(curve: Curve, places: Places) -> DiagramScales:
     them: the pole is then as near as it may be, and the largest ordinates are off the paper.
     """
     datum = float(curve.s[curve.known][0])
-    mu_t = _round_scale(float(curve.time[-1] - curve.time[0]) / LENGTH)
+    mu_t = round_scale(float(curve.time[-1] - curve.time[0]) / LENGTH)
     spans = sizes(curve, places[curve.known[places]])
-    mu, poles = {"s": _round_scale(spans["s"] / HEIGHT)}, dict[str, Fraction]()
+    mu, poles = {"s": round_scale(spans["s"] / HEIGHT)}, dict[str, Fraction]()
     for quantity, rate in pairwise(QUANTITIES):
         slope = mu[quantity] / mu_t
         least = min(max(spans[rate] / HEIGHT, float(slope) / FARTHEST), float(slope) / NEAREST)
@@ -207,11 +207,12 @@ def sizes(curve: Curve, places: Places) -> dict[str, float]:
 
 def _rate_scale(least: float, slope: Fraction) -> Fraction:
     """The first of three round scales whose pole stands on a half of a millimetre, else the first."""
-    candidates = [_round_scale(least)]
+    candidates = [round_scale(least)]
     while len(candidates) < 3:
-        candidates.append(_round_scale(float(candidates[-1]) * 1.01))
+        candidates.append(round_scale(float(candidates[-1]) * 1.01))
     return next((mu for mu in candidates if (2 * slope / mu).denominator == 1), candidates[0])
 
 
-def _round_scale(least: float) -> Fraction:
+def round_scale(least: float) -> Fraction:
+    """The smallest round scale that is not below `least`."""
     return round_up(least)

@@ -113,17 +113,17 @@ def _reduced(reduction: Reduction, speed: float) -> tuple[Piecewise, Piecewise, 
     """Inertia, its slope and the moments of the loads by name, all of the same panels."""
     first, last = reduction.ends
     inside = first + (last - first) * (np.arange(SAMPLES) + 0.5) / SAMPLES
-    names, rows = _rows(reduction, inside, speed)
+    names, rows = reduced_rows(reduction, inside, speed)
     sizes = np.abs(rows).max(axis=1)
     sizes[1] = max(sizes[1], sizes[0])
     sizes[2:] = np.abs(rows[2:]).sum(axis=0).max(initial=0.0)
     edges = [first, *(at for at in reduction.breaks if first < at < last), last]
-    inertia, slope, *moments = settled(lambda travel: _rows(reduction, travel, speed)[1], edges, sizes)
+    inertia, slope, *moments = settled(lambda travel: reduced_rows(reduction, travel, speed)[1], edges, sizes)
     return inertia, slope, dict(zip(names, moments, strict=True))
 
 
-def _rows(reduction: Reduction, travel: Reals, speed: float) -> tuple[list[str], Reals]:
-    """The names of the loads, and inertia, slope and the moments of the loads as rows."""
+def reduced_rows(reduction: Reduction, travel: Reals, speed: float) -> tuple[list[str], Reals]:
+    """The names of the loads; and inertia, slope and the moments of the loads at a mean speed, as rows."""
     reduced = reduction.at(travel)
     loads = {**reduced.by, **{load.name: load.moment(speed) for load in reduced.speed_loads}}
     return [*loads], np.array([reduced.inertia, reduced.slope, *loads.values()])

@@ -21,6 +21,7 @@ from graphplan.machine.integrals import Piecewise, Reals
 from graphplan.phrases import Said, said
 
 Speeds = Callable[[float], float]  # the moment of a motor at a speed
+NEGLECTS_NOTHING = said("neglects nothing")
 NOTHING = 1e-10  # of all areas: no area
 
 
@@ -116,7 +117,7 @@ def gutjahr(cycle: SteadyCycle, unevenness: float) -> Found:
         ends.append(curve.extremes(rate)[way > 0])
     (fast, most), (slow, lowest) = ends
     inertia = (most - lowest) / _divisor(cycle, unevenness) - least
-    return Found("gutjahr", inertia, most - lowest, said("neglects nothing"),
+    return Found("gutjahr", inertia, most - lowest, NEGLECTS_NOTHING,
                  {"omega_max_at": fast, "omega_min_at": slow, "least_inertia": least})
 
 

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from graphplan.errors import Refused
+from graphplan.kernel.claims import broken
 from graphplan.machine.energy import steady
+from graphplan.machine.flywheel_drawing import drawn
 from graphplan.machine.flywheel_methods import methods, rectangles
 from graphplan.machine.wittenbauer import by_mean_energy, sized, turning
 
@@ -111,3 +113,38 @@ def test_cycles_that_do_not_close():
     falling.at = lambda travel: SimpleNamespace(**{**vars(Yoke().at(travel)), "by": {"G_2": 1 + np.sin(travel)}})
     with pytest.raises(Refused, match="G_2"):
         steady(falling, SPEED)
+
+
+def test_drawn_construction(cycle):
+    """Every drawn step is what it claims to be; with more plans the drawn flywheel comes to that of the true curve."""
+    wheel, gaps = sized(cycle, UNEVENNESS), []
+    for positions in (12, 24, 48, 96):
+        drawing = drawn(cycle, wheel, positions)
+        assert not [*broken(drawing.program, drawing.values)]
+        gaps.append(abs(drawing.inertia / wheel.inertia - 1))
+    assert gaps == sorted(gaps, reverse=True)
+    assert gaps[1] < 5e-3
+    assert gaps[3] < 1e-4
+    assert drawing.mean == pytest.approx(-cycle.closing, rel=1e-3)
+    assert drawing.touching("upper") % 180 == pytest.approx(math.degrees(wheel.upper.travel), abs=0.05)
+
+
+def test_drawn_scales(cycle):
+    """Moments, energies and inertias stand where the scales have them, and k_E = H k_M k_phi."""
+    drawing = drawn(cycle, sized(cycle, UNEVENNESS))
+    moment, energy, inertia = (drawing.frames[name] for name in ("moment", "energy", "inertia"))
+    assert energy.y.unit == pytest.approx(drawing.pole * moment.y.unit * math.radians(moment.x.unit))
+    assert np.transpose(moment.at(drawing.travels, cycle.moment.at(np.radians(drawing.travels)))) == pytest.approx(
+        np.array(drawing.spots("moments")), abs=1e-6)
+    levels = energy.at(drawing.travels, cycle.energy.at(np.radians(drawing.travels)))[1]
+    assert np.array(drawing.spots("energies"))[:, 1] == pytest.approx(levels, abs=0.5)
+    assert np.array(drawing.spots("points"))[:, 0] == pytest.approx(
+        np.array(drawing.spots("inertias"))[:-1, 0])
+    assert inertia.x == drawing.frames["energy-mass"].x
+
+
+@pytest.mark.parametrize("positions", [11, 361])
+def test_too_few_or_many_plans(cycle, positions):
+    """A drawing through too few plans, or more than can be told apart, is refused."""
+    with pytest.raises(Refused, match="positions"):
+        drawn(cycle, sized(cycle, UNEVENNESS), positions)

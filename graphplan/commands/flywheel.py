@@ -1,0 +1,105 @@
+"""Find the flywheel with which a machine runs as evenly as is asked: Wittenbauer's diagram, drawn and in numbers.
+
+SCENE has masses, loads, and a table [flywheel] with the mean speed and the unevenness; options say otherwise. Over the
+cycle of the first drive all is reduced to it, a constant moment or a factor of the loads closes the cycle, and the
+tangents of the energy-mass diagram give the flywheel. Other methods are tabled beside it with what they neglect. JSON
+has kg m2, N m and J (kg and N of a drive that slides), travel in degrees (or lengths) in the sense of motion, from the
+given pose. With --inertia the flywheel is given, and the unevenness found.
+
+examples:
+  graphplan flywheel ozols-13-6
+  graphplan flywheel ozols-13-6 --unevenness 0.02 --positions 36 -o flywheel.json
+  graphplan flywheel ozols-13-6 --inertia 20 -o table.csv
+"""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from graphplan.commands.choices import add_language, add_paper, add_pencil, count, pencil
+from graphplan.commands.output import Messages, as_json, kind, write
+from graphplan.errors import Refused
+
+if TYPE_CHECKING:
+    from graphplan.machine.flywheel import FlywheelResult
+    from graphplan.mechanism.model import Scene
+
+ENDINGS = (".json", ".csv")
+POSITIONS, FEWEST, MOST = 24, 12, 360
+AMOUNTS = {"speed": "the mean speed of the first drive, in rad/s (or lengths/s)", "inertia": "of a flywheel that is "
+           "given, in mass * m2 (mass of a drive that slides)", "unevenness": "(omega_max - omega_min) / mean"}
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    add = command.add_argument
+    add("-o", "--output", metavar="FILE", help=f"{', '.join(ENDINGS)}; without it JSON on standard output")
+    for name, told in AMOUNTS.items():
+        add(f"--{name}", metavar="X", help=f"{told}; without it the scene's")
+    add("--closes", choices=("drive", "load"), help="what closes the cycle; without it the scene has a say")
+    add("--positions", type=count("--positions", FEWEST, MOST), metavar="N",
+        help=f"in how many plans it is drawn and tabled ({POSITIONS})")
+    add_pencil(command)
+    add_paper(command, "the sheet; without it the scene's, or the smallest that will do")
+    add_language(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    from graphplan.check.flywheel import checked
+    from graphplan.machine.flywheel import flywheel
+    from graphplan.mechanism.scene import load
+    from graphplan.output.machine.flywheel_numbers import numbers, table
+
+    ending, messages = kind(options.output, ENDINGS, "flywheel"), Messages(options.quiet)
+    scene = _asked(load(options.scene), options)
+    messages.progress("reduction and energy")
+    found = flywheel(scene, options.positions or POSITIONS)
+    messages.progress("second opinion")
+    result = replace(found, check=checked(found))
+    messages.progress("")
+    for note in result.notes:
+        messages.remark(f"{scene.name}: {note}")
+    error = _pencil_error(result, options)
+    write(table(result) if ending == ".csv" else as_json(numbers(result, error)), options.output)
+    return 0
+
+
+def _asked(scene: Scene, options: argparse.Namespace) -> Scene:
+    """The scene with its table as the options have it."""
+    from graphplan.mechanism.model import Flywheel
+
+    said = {name: _amount(name, text) for name in AMOUNTS if (text := getattr(options, name)) is not None}
+    if "inertia" in said and "unevenness" in said:
+        raise Refused("--inertia and --unevenness", "each follows from the other", "one of them")
+    if scene.flywheel is None and not ("speed" in said and len(said) > 1):
+        return scene
+    wish = scene.flywheel or Flywheel(said["speed"])
+    if "inertia" in said or "unevenness" in said:
+        wish = replace(wish, inertia=None, unevenness=None)
+    wish = replace(wish, **said, closes=options.closes or wish.closes)
+    return replace(scene, flywheel=wish)
+
+
+def _amount(name: str, text: str) -> Fraction:
+    """The number of an option, above nothing."""
+    try:
+        found = Fraction(text)
+    except (ValueError, ZeroDivisionError):
+        raise Refused(f"--{name} {text}", "this is no number", "such as 0.02") from None
+    most = 2 if name == "unevenness" else None
+    if found < 0 or (found == 0 and name != "inertia") or (most and found >= most):
+        raise Refused(f"--{name} {text}", "out of range", "more than 0 and less than 2" if most else "more than 0")
+    return found
+
+
+def _pencil_error(result: FlywheelResult, options: argparse.Namespace) -> float:
+    """The standard deviation of the drawn flywheel, or unevenness, by the pencil."""
+    from graphplan.accuracy.first_order import deviation
+    from graphplan.accuracy.hand import program_hand
+
+    drawing = result.drawing
+    hand = program_hand(drawing.program, drawing.values, lambda step: 1.0, pencil(options))
+    (m,), (n,) = drawing.marks["m"], drawing.marks["n"]
+    return drawing.per_mm(result.given) * deviation(hand, lambda values: values[m][1] - values[n][1])

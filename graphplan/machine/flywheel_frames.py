@@ -1,0 +1,172 @@
+"""Where the flywheel's diagrams lie, in mm of paper: what the plans give, round scales, and the frame of each diagram.
+
+The moment's diagram stands over that of the energy, with the travel as their common abscissa; the diagram of the
+inertia is turned, its ordinates over those of the energy-mass diagram, which has its energies from that beside it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from graphplan.cycle.curves import round_scale
+from graphplan.machine.energy import SteadyCycle
+from graphplan.machine.integrals import Reals
+from graphplan.machine.wittenbauer import Flywheel
+
+NEAREST, FARTHEST = 12.0, 45.0  # the pole from the axis, in mm
+GAP, HEAD = 20.0, 16.0  # between the columns and the rows of diagrams, in mm
+OFF = 1.3  # on the axis I = 0 the intercept may be so much longer than on a parallel, for that axis to be drawn
+CLOSE, JUMP = 1e-9, 1e-6  # of the largest: no more than rounding; a moment that jumps by more has a point on each side
+
+
+@dataclass(frozen=True)
+class Room:
+    """How large the diagrams may be, in mm: the common abscissa, the ordinates of moments, energies and inertias, and
+    the abscissa of the turned diagram."""
+
+    travel: float = 150.0
+    moment: float = 60.0
+    energy: float = 130.0
+    inertia: float = 60.0
+    turned: float = 75.0
+
+
+class AxisScale(NamedTuple):
+    """What one mm of an axis stands for, and the value in its origin."""
+
+    unit: float
+    datum: float = 0.0
+
+    def mm(self, value: Any) -> Any:
+        """Where values stand, in mm from the origin."""
+        return (np.asarray(value, dtype=float) - self.datum) / self.unit
+
+    def value(self, mm: Any) -> Any:
+        """What stands at so many mm."""
+        return self.datum + np.asarray(mm, dtype=float) * self.unit
+
+
+class Frame(NamedTuple):
+    """One diagram: its origin, the scales of what lies level and of what stands upright, and how far both go from the
+    origin, to the left and right and down and up, in mm."""
+
+    origin: tuple[float, float]
+    x: AxisScale
+    y: AxisScale
+    level: tuple[float, float]
+    upright: tuple[float, float]
+
+    def at(self, x: Any, y: Any) -> tuple[Any, Any]:
+        """Where values of both axes stand, in mm of the drawing."""
+        return self.origin[0] + self.x.mm(x), self.origin[1] + self.y.mm(y)
+
+
+@dataclass(frozen=True)
+class Plans:
+    """What the plans give: travels in radians or lengths of `unit` metres, the moments on either side of each, and the
+    inertias."""
+
+    travels: Reals
+    unit: float
+    left: Reals
+    right: Reals
+    inertias: Reals
+
+    @cached_property
+    def mean(self) -> float:
+        """The mean of the strips' moments, each the mean of its two ends."""
+        return float(self.strips @ np.diff(self.travels)) / float(self.travels[-1] - self.travels[0])
+
+    @cached_property
+    def strips(self) -> Reals:
+        """The mean moment of each strip."""
+        return (self.right[:-1] + self.left[1:]) / 2
+
+    @cached_property
+    def energies(self) -> Reals:
+        """The energy at each plan by the strips, where the mean closes the cycle."""
+        return np.append(0.0, np.cumsum((self.strips - self.mean) * np.diff(self.travels)) * self.unit)
+
+    def jumps(self, k: int) -> bool:
+        """Whether the moment jumps at a plan."""
+        size = max(float(np.abs(self.right).max()), float(np.abs(self.left).max()))
+        return bool(abs(self.right[k] - self.left[k]) > JUMP * size)
+
+
+def plans_of(cycle: SteadyCycle, positions: int) -> Plans:
+    """The plans at even travels, and where the moment jumps."""
+    first, last = cycle.ends
+    inner, moment = cycle.inertia.edges[1:-1], cycle.moment
+    jumped = np.abs(moment.at(inner) - moment.at(inner, -1))
+    jumps = inner[jumped > JUMP * np.abs(moment.at(inner)).max(initial=0.0)]
+    even = np.linspace(first, last, positions + 1)
+    apart = np.abs(jumps[:, None] - even).min(axis=1, initial=np.inf) > CLOSE * (last - first)
+    travels = np.sort(np.concatenate([even, jumps[apart]]))
+    for at in jumps[~apart]:
+        travels[np.argmin(np.abs(travels - at))] = at
+    left, right = moment.at(travels, -1), moment.at(travels)
+    left[0], right[-1] = left[-1], right[0]  # the cycle goes on as it began
+    return Plans(travels, cycle.unit, left, right, cycle.inertia.at(travels))
+
+
+class Layout(NamedTuple):
+    """The frames of the diagrams, the distance of the pole in mm, and the inertia at which the tangents are cut."""
+
+    frames: dict[str, Frame]
+    pole: float
+    axis: float
+
+
+def laid_out(cycle: SteadyCycle, wheel: Flywheel, plans: Plans, room: Room) -> Layout:
+    """The largest round scales for which there is room.
+
+    The distance of the pole follows from them. Of the tangents' intercepts those on the axis I = 0 are drawn if they
+    have room, else those on a parallel left of the curve.
+    """
+    turns = cycle.unit == 1.0
+    first, last = cycle.ends
+    per = math.radians(1) if turns else cycle.unit  # of a degree or a length: rad or m
+    k_phi, k_turned = (float(round_scale((last - first) / (per if turns else 1) / size))
+                       for size in (room.travel, room.turned))
+    axis, k_I = _parallel(plans, room)
+    spans = {at: _span(plans, wheel, at) for at in (0.0, axis)}
+    if np.ptp(spans[0.0]) <= OFF * np.ptp(spans[axis]) and plans.inertias.max() <= OFF * room.inertia * k_I:
+        axis = 0.0
+    k_E = float(round_scale(np.ptp(spans[axis]) / room.energy))
+    moments = np.array([0.0, plans.mean, *plans.left, *plans.right])
+    k_M = float(round_scale(max(np.ptp(moments) / room.moment, k_E / (FARTHEST * k_phi * per))))
+    if k_E < NEAREST * k_M * k_phi * per:
+        k_E = float(round_scale(NEAREST * k_M * k_phi * per))
+    begin = math.degrees(first) if turns else first
+    length, width = (last - first) / (per if turns else 1) / k_phi, float(plans.inertias.max() - axis) / k_I
+    low, high = spans[axis][0] / k_E, spans[axis][1] / k_E
+    M = Frame((0.0, 0.0), AxisScale(k_phi, begin), AxisScale(k_M), (0.0, length),
+              (float(moments.min()) / k_M, float(moments.max()) / k_M))
+    drop, beside = M.upright[0] - HEAD - high, length + GAP
+    E = Frame((0.0, drop), M.x, AxisScale(k_E), (0.0, length), (low, high))
+    I = Frame((beside, drop + high + HEAD), AxisScale(k_I, axis), AxisScale(k_turned, begin), (0.0, width),
+              (0.0, (last - first) / (per if turns else 1) / k_turned))
+    return Layout({"moment": M, "energy": E, "inertia": I,
+                    "energy-mass": Frame((beside, drop), I.x, E.y, (0.0, width), (low, high))},
+                   k_E / (k_M * k_phi * per), axis)
+
+
+def _parallel(plans: Plans, room: Room) -> tuple[float, float]:
+    """A round inertia a little less than the least, and the scale at which the others have room right of it."""
+    least, most = float(plans.inertias.min()), float(plans.inertias.max())
+    varies = most - least > CLOSE * most
+    k_I = float(round_scale((most - least if varies else most) / room.inertia))
+    step = 10 * k_I
+    return (math.floor(least / step) * step if varies else least), k_I
+
+
+def _span(plans: Plans, wheel: Flywheel, axis: float) -> tuple[float, float]:
+    """From where to where the energies go, with those at which the tangents cut a parallel."""
+    m, n = (one.cut + one.slope * axis for one in (wheel.upper, wheel.lower))
+    energies = plans.energies
+    return min(float(energies.min()), n), max(float(energies.max()), m)

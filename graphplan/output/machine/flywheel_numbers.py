@@ -1,0 +1,117 @@
+"""A flywheel as numbers: the machine reduced over its cycle, the wheel, other methods, and what a drawing gives."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from graphplan.machine.flywheel import FlywheelResult
+from graphplan.machine.flywheel_methods import NEGLECTS_NOTHING
+from graphplan.machine.wittenbauer import Flywheel, Touch
+
+HEADINGS = ("I [kg*m^2]", "M_r [N*m]", "M [N*m]", "E [J]", "omega [rad/s]")
+SLIDING = ("m [kg]", "F_r [N]", "F [N]", "E [J]", "v [m/s]")
+
+
+def numbers(result: FlywheelResult, pencil_error: float) -> dict[str, Any]:
+    """All of it, plain data for JSON: kg m^2, N m, J and rad/s, or kg, N, J and m/s of a drive that slides; travels in
+    degrees or lengths, in the sense of motion.
+
+    `pencil_error` is the standard deviation of the drawn flywheel, or of the drawn unevenness with one that is given.
+    """
+    cycle = result.cycle
+    (least_at, least), (most_at, most) = cycle.energy.extremes(cycle.rates[0])
+    pairs = {name: np.stack([result.told_travels, row + 0.0], 1).tolist() for name, row in result.plans.items()}
+    found: dict[str, Any] = {
+        "title": result.scene.title,
+        "units": {"travel": "deg" if result.turns else result.scene.units.length,
+                  "inertia": "kg m2" if result.turns else "kg", "moment": "N m" if result.turns else "N",
+                  "energy": "J", "speed": "rad/s" if result.turns else "m/s"},
+        "speed": cycle.speed, "unevenness": result.unevenness,
+        "reduced_inertia": pairs["inertia"], "reduced_moment": pairs["moment"],
+        "closing_moment": cycle.closing, "load_factor": cycle.factor,
+        "work": {name: cycle.work(name) for name in cycle.loads} | {"closing": cycle.closing * cycle.span * cycle.unit},
+        "energy": pairs["energy"], "omega": pairs["omega"],
+        "energy_extremes": {"least_at": _told(result, least_at), "most_at": _told(result, most_at),
+                            "range": most - least},
+        "flywheel": _wheel(result, pencil_error),
+        "without_flywheel": {"exact": _speeds(result, result.own),
+                             "by_mean_energy": _speeds(result, result.by_mean_energy)},
+        "methods": methods(result),
+        "drawing": _drawing(result),
+        "check": dict(result.check),
+    }
+    return found
+
+
+def table(result: FlywheelResult) -> str:
+    """Comma-separated text: a heading, then a line for each plan."""
+    lines = [",".join((f"travel [{'deg' if result.turns else result.scene.units.length}]",
+                       *(HEADINGS if result.turns else SLIDING)))]
+    columns = np.stack([result.told_travels, *result.plans.values()], 1) + 0.0
+    return "\n".join([*lines, *(",".join(map(repr, row)) for row in columns.tolist()), ""])
+
+
+def methods(result: FlywheelResult) -> dict[str, Any]:
+    """What each method finds, by its name: Wittenbauer's first."""
+    found: dict[str, Any] = {"wittenbauer": {"inertia": result.wheel.inertia, "stored": result.wheel.intercept(),
+                                             "neglects": str(NEGLECTS_NOTHING)}}
+    for method in result.methods:
+        figures = {key: _plain(result, key, value) for key, value in method.figures.items()}
+        found[method.name] = {"inertia": method.inertia, "stored": method.stored, "neglects": str(method.neglects),
+                              **figures}
+    return found
+
+
+def _wheel(result: FlywheelResult, pencil_error: float) -> dict[str, Any]:
+    """The wheel, the tangents of the energy-mass diagram, and what the drawing gives."""
+    wheel = result.wheel
+    return {
+        "inertia": wheel.inertia, **(_speeds(result, wheel) or {}),
+        "intercept": wheel.intercept(), "cuts": [wheel.upper.cut, wheel.lower.cut],
+        "slopes": [wheel.upper.slope, wheel.lower.slope],
+        "touching": [_touch(wheel.upper), _touch(wheel.lower)],
+        "origin": {"inertia": -wheel.inertia, "energy": wheel.origin},
+        "drawn": result.measured, "drawn_of": "unevenness" if result.given else "inertia",
+        "drawn_error": result.strip_error + 2 * pencil_error,
+    }
+
+
+def _touch(touch: Touch) -> list[float]:
+    return [touch.inertia, touch.energy]
+
+
+def _speeds(result: FlywheelResult, wheel: Flywheel | None) -> dict[str, float] | None:
+    """The speeds with a wheel; none where the machine does not come round."""
+    if wheel is None:
+        return None
+    return {"omega_max": wheel.omega_max, "omega_min": wheel.omega_min,
+            "omega_max_at": _told(result, wheel.upper.travel), "omega_min_at": _told(result, wheel.lower.travel),
+            "unevenness": wheel.unevenness}
+
+
+def _drawing(result: FlywheelResult) -> dict[str, Any]:
+    """How it is drawn: scales for one mm, the pole in mm, the axis on which the tangents are cut, and the steps."""
+    drawing = result.drawing
+    moment, energy, inertia = (drawing.frames[name] for name in ("moment", "energy", "inertia"))
+    return {"scales": {"travel": moment.x.unit, "moment": moment.y.unit, "energy": energy.y.unit,
+                       "inertia": inertia.x.unit},
+            "pole_distance": drawing.pole, "axis": drawing.axis, "closing_moment": -drawing.mean,
+            "omega_max_at": drawing.touching("upper"), "omega_min_at": drawing.touching("lower"),
+            "positions": result.positions, "steps": len(drawing.program) - drawing.program.givens}
+
+
+def _told(result: FlywheelResult, travel: float) -> float:
+    return float(result.told(travel)) + 0.0
+
+
+def _plain(result: FlywheelResult, key: str, value: Any) -> Any:
+    """A figure of a method, its travels as they are told."""
+    if key == "areas":
+        return [[_told(result, area.start), _told(result, area.end), area.work] for area in value]
+    if key.endswith("_at"):
+        first, last = result.cycle.ends
+        return _told(result, first + (value - first) % (last - first))
+    return [_told(result, at) for at in value] if isinstance(value, tuple) else value
+

@@ -126,11 +126,13 @@ def test_no_bound_of_a_packaged_scene_lies(name: str) -> None:
     assert lies(report(scene), scene) == []
 
 
-@pytest.mark.parametrize(("degeneracy", "way"), [(one, way) for one in DEGENERACIES for way in ("", *one.ways)],
+@pytest.mark.parametrize(("degeneracy", "way", "first"),
+                         [(one, way, k) for one in DEGENERACIES for k, way in enumerate(("", *one.ways))],
                          ids=lambda case: getattr(case, "name", case) or "chosen")
-def test_near_a_special_pose_every_number_is_right_to_its_bound(degeneracy: Degeneracy, way: str) -> None:
-    """Towards each special pose every way gives nine digits that are right, or is told that it cannot be drawn."""
-    for distance in DISTANCES:
+def test_near_a_special_pose_every_number_is_right_to_its_bound(degeneracy: Degeneracy, way: str, first: int) -> None:
+    """Towards each special pose every way gives nine digits that are right, or is told that it cannot be drawn; ways
+    take distances in turn."""
+    for distance in DISTANCES[first % 2 :: 2]:
         scene = degeneracy.at(distance)
         try:
             found = report(scene, **WAYS.get(way, {}))

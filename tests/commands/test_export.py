@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 from functools import cache
+from itertools import cycle
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -31,8 +32,7 @@ def on_sheet(scene: str) -> Drafted:
     return drafted(found.drawing, pencil(""), check=found.check)
 
 
-@pytest.mark.parametrize("scene", ["jaanimets-10", "rosenauer-basic"])
-@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize(("name", "scene"), list(zip(FORMATS, cycle(["jaanimets-10", "rosenauer-basic"]), strict=False)))
 def test_every_format(name: str, scene: str, tmp_path: Path) -> None:
     """Every format writes a file that begins as such files do, the same bytes twice."""
     if FORMATS[name].extra == "dxf":

@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 
 import pytest
-from command_line import run
+from command_line import heeds_ctrl_c, run
 
 from graphplan.commands import SUBCOMMANDS, main, output
 from graphplan.sheet.layout.scales import Scales
@@ -263,7 +263,7 @@ def test_ctrl_c_leaves_the_old_file(tmp_path: Path) -> None:
     path = tmp_path / "table.csv"
     path.write_text("old")
     words = [sys.executable, "-m", "graphplan", "cycle", "four-bar", "--positions", "1000000", "-o", str(path)]
-    process = subprocess.Popen(words, cwd=ROOT, stderr=subprocess.PIPE)
+    process = subprocess.Popen(words, cwd=ROOT, stderr=subprocess.PIPE, preexec_fn=heeds_ctrl_c)
     while process.poll() is None and worked(process.pid) < 1.0:
         time.sleep(0.05)
     process.send_signal(signal.SIGINT)

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from command_line import heeds_ctrl_c
 
 from graphplan.commands import main
 from graphplan.commands.new import template
@@ -26,7 +27,7 @@ class Watch:
 
     def __init__(self, scene: Path):
         self.process = subprocess.Popen([sys.executable, "-m", "graphplan", "watch", str(scene)], text=True,
-                                        stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, cwd=ROOT)
+                                        stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, cwd=ROOT, preexec_fn=heeds_ctrl_c)
         self.lines: queue.Queue[str] = queue.Queue()
         threading.Thread(target=self._listen, daemon=True).start()
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from functools import partial
+from functools import cache, partial
 from random import Random
 from typing import Any
 
@@ -22,14 +21,17 @@ FORMS = [(name, form) for name in COMPOUNDS for form in TABLE[name].forms]
 KEEPS = {"all but itself": frozenset(TABLE), "set squares": BY_SET_SQUARE, "strict": STRICT}
 
 
-def figures(name: str, place: Place, number: int) -> Iterator[tuple[Program, list[Any]]]:
-    """Figures that can be drawn."""
+@cache
+def tried(name: str, place: Place) -> list[tuple[Program, list[Any] | None]]:
+    """Figures with their values, as many as any test asks for."""
     r = Random(name)
-    for _ in range(number):
-        program = figure(name, r, place)
-        values = drawn(program, Floats())
-        if values is not None:
-            yield program, values
+    programs = [figure(name, r, place) for _ in range(25 if place is quarters else 120)]
+    return [(program, drawn(program, Floats())) for program in programs]
+
+
+def figures(name: str, place: Place, number: int) -> list[tuple[Program, list[Any]]]:
+    """Those of so many figures that can be drawn."""
+    return [(program, values) for program, values in tried(name, place)[:number] if values is not None]
 
 
 def same(kind: str, one: Any, two: Any, reach: float) -> bool:
@@ -50,21 +52,26 @@ def laid_out(program: Program, values: list[Any], name: str) -> tuple[Expander, 
     return expander, tuple(marks[arg] for arg in program.steps[-1].args)
 
 
+@cache
+def drawable(name: str) -> set[str]:
+    """The forms that can be drawn of some figure."""
+    found = set[str]()
+    for program, values in [*figures(name, quarters, 25), *figures(name, corners, 120)]:
+        expander, marks = laid_out(program, values, name)
+        found |= {one.rating.form for one in expander.attempts(TABLE[name], marks, program.steps[-1].params)}
+    return found
+
+
 @pytest.mark.parametrize(("name", "form"), FORMS)
 def test_form_draws_the_value(name: str, form: str) -> None:
-    """Asked for by name, a form gives the rule's value; it is the one that is drawn in some pose."""
-    chosen = 0
-    for place, number in ((quarters, 25), (corners, 120)):
-        for program, values in figures(name, place, number):
-            expander = Expander(program, values, frozenset(TABLE) - {name}, prefer=form)
-            expanded = expander.run()
-            out = program.wanted[0]
-            reach = 50 * size(program, values)
-            assert same(program.steps[out].op.gives, values[out], expander.values[expanded.wanted[0]], reach)
-            expander, marks = laid_out(program, values, name)
-            found = expander.attempts(TABLE[name], marks, program.steps[-1].params)
-            chosen += any(attempt.rating.form == form for attempt in found)
-    assert chosen
+    """Asked for by name, a form gives the rule's value; it is one of those that can be drawn in some pose."""
+    for program, values in [*figures(name, quarters, 25), *figures(name, corners, 120)]:
+        expander = Expander(program, values, frozenset(TABLE) - {name}, prefer=form)
+        expanded = expander.run()
+        out = program.wanted[0]
+        reach = 50 * size(program, values)
+        assert same(program.steps[out].op.gives, values[out], expander.values[expanded.wanted[0]], reach)
+    assert form in drawable(name)
 
 
 @pytest.mark.parametrize("name", COMPOUNDS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from random import Random
 from typing import Any
 
@@ -34,9 +35,14 @@ class Recorded:
         self.inputs = [given[name][axis].place for name in self.points for axis in "xy"]
         self.outputs = [self.tape.place(number) for number in values[-1]]
 
+    @cached_property
+    def written(self) -> Any:
+        """The function that is written out of the tape."""
+        return function(self.tape, self.inputs, tuple(self.outputs))
+
     def one(self, pose: list[float]) -> tuple[float, ...] | None:
         try:
-            found: tuple[float, ...] | None = function(self.tape, self.inputs, tuple(self.outputs))(*pose)
+            found: tuple[float, ...] | None = self.written(*pose)
         except (ZeroDivisionError, OverflowError):
             return None
         return found

@@ -73,10 +73,11 @@ def gap(one: Rates, other: Rates, size: float) -> float:
 
 @pytest.mark.parametrize(("machine", "k"), poses(MACHINES, (0, 1)) + poses(REDUNDANT, (0,)))
 def test_three_opinions_are_one(machine: Machine, k: int) -> None:
-    """Orthogonal and polar plans, the solver, and the machine itself a moment later, agree."""
+    """Orthogonal and polar plans, the solver, and the machine itself a moment later, agree; in the first pose, which is
+    drawn in other orders too, on one plan."""
     closure, (truth, condition) = posed(machine, k), solved(machine, k)
     assert gap(closure.rates(), truth, closure.size) < TAYLOR
-    for plan in ("orthogonal", "polar"):
+    for plan in ("orthogonal", "polar") if k else ("orthogonal",):
         ours = constructed(read(machine, closure.where), plan)
         assert {("acceleration", point) for point in set(closure.where) - {*machine.links["frame"]}} <= {*ours}
         assert gap(ours, truth, closure.size) < ROUNDING * condition

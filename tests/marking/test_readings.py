@@ -59,10 +59,10 @@ def test_a_single_vector_of_another_scale_is_wrong() -> None:
 
 def test_a_mistake_in_a_drawing_of_another_scale_is_found() -> None:
     """Velocities are half as long, and the one that is drawn last is 9 mm off."""
-    task, _ = composed("alt-eight-link")
+    task, _ = composed("stephenson")
     last = [step.name for step in task.drawn.steps if step.name.startswith("v_")][-1]
-    halved = drawn(lambda at, end: at + 0.5 * (end - at), scene="alt-eight-link")
-    spoiled = drawn(lambda at, end: at + 0.5 * (end - at), scene="alt-eight-link", spoiled=last)
+    halved = drawn(lambda at, end: at + 0.5 * (end - at), scene="stephenson")
+    spoiled = drawn(lambda at, end: at + 0.5 * (end - at), scene="stephenson", spoiled=last)
     assert not wrong(halved)
     assert wrong(spoiled) == [last]
     assert "k_v" in spoiled.reading

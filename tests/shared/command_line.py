@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import signal
+
 from graphplan.commands import main
 
 
@@ -11,3 +13,8 @@ def run(*arguments: str) -> int:
         return main(arguments)
     except SystemExit as end:
         return int(end.code or 0)
+
+
+def heeds_ctrl_c() -> None:
+    """In a process about to start: Ctrl-C interrupts it, though a shell's background jobs are to ignore it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -23,6 +23,7 @@ from graphplan.output import FORMATS, back_end
 BEGINS = {
     "ggb": b"PK", "jsxgraph": b"<!DOCTYPE html>", "json": b"{", "svg": b"<?xml", "pdf": b"%PDF", "png": b"\x89PNG",
 }
+BOTH = "jaanimets-10", "rosenauer-basic"
 
 
 @cache
@@ -32,7 +33,7 @@ def on_sheet(scene: str) -> Drafted:
     return drafted(found.drawing, pencil(""), check=found.check)
 
 
-@pytest.mark.parametrize(("name", "scene"), list(zip(FORMATS, cycle(["jaanimets-10", "rosenauer-basic"]), strict=False)))
+@pytest.mark.parametrize(("name", "scene"), list(zip(FORMATS, cycle(BOTH), strict=False)))
 def test_every_format(name: str, scene: str, tmp_path: Path) -> None:
     """Every format writes a file that begins as such files do, the same bytes twice."""
     if FORMATS[name].extra == "dxf":

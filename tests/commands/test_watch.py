@@ -27,7 +27,8 @@ class Watch:
 
     def __init__(self, scene: Path):
         self.process = subprocess.Popen([sys.executable, "-m", "graphplan", "watch", str(scene)], text=True,
-                                        stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, cwd=ROOT, preexec_fn=heeds_ctrl_c)
+                                        stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, cwd=ROOT,
+                                        preexec_fn=heeds_ctrl_c)
         self.lines: queue.Queue[str] = queue.Queue()
         threading.Thread(target=self._listen, daemon=True).start()
 

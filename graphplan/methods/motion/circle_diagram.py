@@ -16,6 +16,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -23,7 +24,9 @@ from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Scene
 
 Vector = tuple[Any, Any, Any]
+Unit = tuple[float, float, float]  # the same on the unit sphere
 Sides = tuple[str, str]  # the two links of a pole, in the order of the diagram
+Rests = frozenset[tuple[Sides, str]]  # lines through poles: of which side, and by which third link
 PENCIL = 1e-3  # how far off a point is that is given or marked, beside the mechanism
 EQUAL = 3.0  # errors within this factor count as equal: then the fewest lines win
 WILD = 1e3  # times a pencil's error: such a pole waits for better lines
@@ -35,6 +38,12 @@ def cross(u: Vector, v: Vector) -> Vector:
     found = u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
     most = max(found, key=abs)
     return (found[0] / most, found[1] / most, found[2] / most) if most else found
+
+
+def sine(u: Unit, v: Unit) -> float:
+    """The sine of the angle of two poles, or of two lines, on the unit sphere."""
+    (a, b, c), (d, e, f) = u, v
+    return math.hypot(b * f - c * e, c * d - a * f, a * e - b * d)
 
 
 class DrawnSide(NamedTuple):
@@ -66,19 +75,33 @@ class FoundPole:
     at: Vector
     error: float = PENCIL
     lines: tuple[PoleLine, ...] = ()
-    rests: frozenset[tuple[Sides, str]] = frozenset()
+    rests: Rests = frozenset()
     round: int = 0
+
+
+class KnownLine(NamedTuple):
+    """A line on which a missing pole lies, how far it may be off, and the lines that it rests on."""
+
+    line: PoleLine
+    at: Vector
+    unit: Unit
+    error: float
+    rests: Rests
 
 
 @dataclass
 class CircleDiagram:
-    """The poles of a scene as far as they are known; `lines` are those on which unknown ones are known to lie."""
+    """The poles of a scene as far as they are known; `lines` are those on which unknown ones are known to lie.
+
+    A pole that is found stays where it is, and so does a line through two: each is drawn once.
+    """
 
     scene: Scene
     links: tuple[str, ...]
     found: dict[Sides, FoundPole] = field(default_factory=dict)
     lines: dict[Sides, list[tuple[PoleLine, Vector]]] = field(default_factory=dict)
     rounds: int = 0
+    _through: dict[tuple[Sides, str], KnownLine | None] = field(default_factory=dict)
 
     def sides(self, one: str, two: str) -> Sides:
         """Two links in the order of the diagram."""
@@ -100,33 +123,43 @@ class CircleDiagram:
 
     def _best(self, sides: Sides) -> FoundPole | None:
         """The pole by the fewest lines of those that cross well."""
-        lines = list(self._lines(sides))
-        every: list[FoundPole] = []
-        for (one, k, e, before), (two, l, f, more) in combinations(lines, 2):
-            if (sine := self.sine(k, l, dual=True)) > ONE:
-                every.append(FoundPole(cross(k, l), (e + f + PENCIL) / sine, (one, two), before | more,
-                                       self.rounds + 1))
-        least = min((found.error for found in every), default=0.0)
-        return min((found for found in every if found.error <= EQUAL * least),
-                   key=lambda found: (len(found.rests), found.error), default=None)
+        crossing = [((one.error + two.error + PENCIL) / angle, one, two)
+                    for one, two in combinations(self._lines(sides), 2) if (angle := sine(one.unit, two.unit)) > ONE]
+        least = min((error for error, _, _ in crossing), default=0.0)
+        sharp = ((error, one, two, one.rests | two.rests) for error, one, two in crossing if error <= EQUAL * least)
+        best = min(sharp, key=lambda found: (len(found[3]), found[0]), default=None)
+        if best is None:
+            return None
+        error, one, two, rests = best
+        return FoundPole(cross(one.at, two.at), error, (one.line, two.line), rests, self.rounds + 1)
 
-    def _lines(self, sides: Sides) -> Iterator[tuple[PoleLine, Vector, float, frozenset[tuple[Sides, str]]]]:
-        """The lines on which a missing pole lies, each with its error and the lines that it rests on."""
-        one, two = sides
-        yield from ((line, vector, PENCIL, frozenset()) for line, vector in self.lines.get(sides, ()))
+    def _lines(self, sides: Sides) -> Iterator[KnownLine]:
+        """The lines on which a missing pole lies."""
+        for line, at in self.lines.get(sides, ()):
+            yield KnownLine(line, at, self._unit(at, dual=True), PENCIL, frozenset())
         for third in self.links:
-            if third not in sides:
-                P, Q = (self.found.get(self.sides(link, third)) for link in (one, two))
-                if P and Q and (sine := self.sine(P.at, Q.at)) > ONE:
-                    error = (P.error + Q.error + PENCIL) / sine
-                    yield PoleLine(third), cross(P.at, Q.at), error, P.rests | Q.rests | {(sides, third)}
+            if third not in sides and (found := self._by(sides, third)):
+                yield found
+
+    def _by(self, sides: Sides, third: str) -> KnownLine | None:
+        """The line through the poles of two links with a third, if they are known and lie apart."""
+        if (sides, third) not in self._through:
+            P, Q = (self.found.get(self.sides(link, third)) for link in sides)
+            if P is None or Q is None:
+                return None
+            known = None
+            if (angle := self.sine(P.at, Q.at)) > ONE:
+                at, error = cross(P.at, Q.at), (P.error + Q.error + PENCIL) / angle
+                rests = P.rests | Q.rests | {(sides, third)}
+                known = KnownLine(PoleLine(third), at, self._unit(at, dual=True), error, rests)
+            self._through[sides, third] = known
+        return self._through[sides, third]
 
     def sine(self, u: Vector, v: Vector, dual: bool = False) -> float:
         """The sine of the angle of two poles, or of two lines, on the unit sphere."""
-        (a, b, c), (d, e, f) = (self._unit(vector, dual) for vector in (u, v))
-        return math.hypot(b * f - c * e, c * d - a * f, a * e - b * d)
+        return sine(self._unit(u, dual), self._unit(v, dual))
 
-    def _unit(self, vector: Vector, dual: bool) -> Vector:
+    def _unit(self, vector: Vector, dual: bool) -> Unit:
         """A pole or a line about the mechanism's middle, in its size, as a unit vector of floats."""
         (x, y), size = self._middle, float(self.scene.extent)
         most = max(map(abs, vector)) or 1
@@ -138,7 +171,7 @@ class CircleDiagram:
         long = math.hypot(u, v, w) or 1.0
         return u / long, v / long, w / long
 
-    @property
+    @cached_property
     def _middle(self) -> tuple[float, float]:
         xs, ys = zip(*((float(x), float(y)) for x, y in self.scene.points.values()), strict=True)
         return (max(xs) + min(xs)) / 2, (max(ys) + min(ys)) / 2

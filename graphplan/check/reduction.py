@@ -9,6 +9,7 @@ number counts beside the size of what cancels in it.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,16 +17,20 @@ import numpy as np
 from graphplan.check.compared import CLOSE
 from graphplan.check.poses import BLOCK, EPSILON, SAFETY, Round, alone
 from graphplan.errors import Disagreement, GraphplanError
+from graphplan.machine.friction import M_F
+from graphplan.machine.reduced_loads import loads_with
 from graphplan.machine.reduction import Reduced, Reduction
 from graphplan.machine.unit_motion import at_unit_rate
 from graphplan.mechanism.load_tables import LoadTable
 from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.model import FRAME, Force, Loads
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
-from graphplan.solver import poses, solve
+from graphplan.solver import poses, solve, with_friction
+from graphplan.solver.friction import delivered
 from graphplan.solver.poses import Sized, sized
 
 Gaps = dict[str, Any]
+FRICTION = 1e-9  # of the balance: rounds of friction, drawn as many times in every pose, may leave so much
 STANDING = 1e-9  # of what the drive makes at the mechanism's reach: a slide that is slower is at a dead point
 
 
@@ -41,6 +46,12 @@ def gaps(reduction: Reduction, travel: Any, side: int = 1) -> Gaps:
     return {what: np.concatenate(parts) for what, parts in found.items()}
 
 
+def smooth(found: Reduced, what: str) -> Any:
+    """Inertia, moment or slope as it is without friction, which is compared by itself."""
+    value = getattr(found, what)
+    return value - found.by[M_F] if what == "moment" and M_F in found.by else value
+
+
 def checked(reduction: Reduction, travel: Any, side: int = 1) -> dict[str, float]:
     """The largest difference from the solver in any of these poses, by what differs.
 
@@ -51,7 +62,8 @@ def checked(reduction: Reduction, travel: Any, side: int = 1) -> dict[str, float
     for what, gap in found.items():
         for k in np.flatnonzero(~(gap <= CLOSE)):
             opinion = Opinion(reduction, travel[k : k + 1], side)
-            ours, truth = getattr(reduction.at(travel[k : k + 1], side), what)[0], opinion.truth[what].value[0]
+            ours = smooth(reduction.at(travel[k : k + 1], side), what)[0]
+            truth = opinion.truth[what].value[0]
             if abs(ours - truth) <= CLOSE * opinion.usual[what]:
                 gap[k] = 0.0  # beside what these masses and loads do elsewhere both are nothing
             elif not gap[k] <= SAFETY * EPSILON * opinion.condition:
@@ -73,10 +85,43 @@ def lever_gap(reduction: Reduction, travel: float = 0.0) -> float:
         balance = (complex(balance) * complex(x, -y)).real / abs(complex(x, y))
     drawn = -reduction.sense * balance * float(NEWTONS[reduction.scene.units.force])
     size = max((abs(float(part[0])) for part in found.by.values()), default=0.0)
-    gap = abs(drawn - float(found.moment[0])) / size if size else abs(drawn)
+    told = float(smooth(found, "moment")[0])
+    gap = abs(drawn - told) / size if size else abs(drawn)
     if gap > CLOSE:
-        raise Disagreement(reduction.scene.name, "lever", f"{drawn:.15g}", f"{found.moment[0]:.15g}", gap)
+        raise Disagreement(reduction.scene.name, "lever", f"{drawn:.15g}", f"{told:.15g}", gap)
     return float(gap)
+
+
+def friction_gap(reduction: Reduction, travel: Any) -> float:
+    """How far the moment of friction is from the solver's, whose reactions lean of themselves, in any of these poses;
+    beside what the drive gives and loses. Nothing where nothing rubs.
+
+    Fails with `Disagreement` where that is more than rounding.
+    """
+    rubbing = reduction.friction
+    if rubbing is None:
+        return 0.0
+    travel = np.atleast_1d(np.asarray(travel, dtype=float))
+    turn = reduction.motion.turn(travel)
+    rates = reduction.motion.velocities(turn)
+    found, values = rubbing.at(travel, turn, rates), rubbing.loads(travel, turn, rates)
+    worst = 0.0
+    for k in range(travel.size):
+        assert rubbing.scene.loads is not None
+        acting = loads_with(rubbing.scene.loads, {name: complex(z[k]) for name, z in values.items()})
+        given = replace(rubbing.scene, loads=acting)
+        own = Round(given, np.arange(travel.size), turn.points, turn.guides).some(k)
+        told = with_friction(alone(own.posed))
+        drive = rubbing.scene.drives[0]
+        work = float(delivered(told)) / abs(float(drive.rate)) * rubbing.power
+        size = max(abs(float(found.balance[k])), abs(work), -sum(float(loss[k]) for loss in found.losses.values()))
+        gap = abs(work - float(found.balance[k] - found.moment[k])) / size if size else 0.0
+        if gap > max(FRICTION, SAFETY * EPSILON * told.condition):
+            where = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
+            drawn = f"{float(found.balance[k] - found.moment[k]):.15g}"
+            raise Disagreement(where, "balance with friction", drawn, f"{work:.15g}", gap)
+        worst = max(worst, gap)
+    return worst
 
 
 class Opinion:
@@ -130,7 +175,7 @@ class Opinion:
         """The differences of what was found."""
         told: Gaps = {}
         for what, truth in self.truth.items():
-            apart, size = np.abs(getattr(found, what) - truth.value), truth.size
+            apart, size = np.abs(smooth(found, what) - truth.value), truth.size
             told[what] = np.divide(apart, size, out=np.where(apart > 0, np.inf, 0.0), where=size > 0)
         return told
 

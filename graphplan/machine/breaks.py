@@ -7,7 +7,7 @@ its dead points: found between samples of the motion by Newton's method, kept be
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from functools import partial
 
@@ -36,6 +36,11 @@ def breaks(loads: LoadValues, motion: UnitMotion, ends: tuple[float, float]) -> 
     for name, slide in loads.slides.items():
         over = [table for table in tables if table.slide == name]
         found += _passed(loads, motion, slide, over, ends)
+    return in_order(found, ends)
+
+
+def in_order(found: Iterable[float], ends: tuple[float, float]) -> tuple[float, ...]:
+    """Travels between two ends in order, those that are next to each other once."""
     low, high = ends
     close, kept = SAME * (high - low), [low]
     for travel in sorted(found):
@@ -56,11 +61,16 @@ def _written(table: LoadTable, motion: UnitMotion, ends: tuple[float, float]) ->
             yield first + turn * period
 
 
+def samples(motion: UnitMotion, ends: tuple[float, float]) -> Array:
+    """Travels between which a pair changes its sense once at most."""
+    turns = (ends[1] - ends[0]) / TURN if motion.turns else 1.0
+    return np.linspace(*ends, max(2, math.ceil(SAMPLES * turns)) + 1)
+
+
 def _passed(loads: LoadValues, motion: UnitMotion, slide: Slide, tables: list[LoadTable],
             ends: tuple[float, float]) -> list[float]:
     """Where a slide is at a dead point, or passes a place of tables over its position."""
-    turns = (ends[1] - ends[0]) / TURN if motion.turns else 1.0
-    travel = np.linspace(*ends, max(2, math.ceil(SAMPLES * turns)) + 1)
+    travel = samples(motion, ends)
 
     def place(travel: Array) -> tuple[Array, Array]:
         turn = motion.turn(travel)

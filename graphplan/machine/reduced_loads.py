@@ -71,12 +71,17 @@ class Acting:
         that it has at the end of the orthogonal velocity of its point, which is turned clockwise."""
         if not self.at:
             return self.value.real * rates.of(kinds.OMEGA, self.link)
-        force: Any = self.value
-        if self.through:
-            line = turn.points[self.through[1]] - turn.points[self.through[0]]
-            force = self.value * line / np.abs(line)
         orthogonal = -1j * rates.of(kinds.VELOCITY, self.at)
-        return (np.conj(orthogonal) * force).imag
+        return (np.conj(orthogonal) * self.unit(turn)).imag
+
+    def unit(self, turn: Turn) -> Any:
+        """A unit of it in the poses of a turn: of a force a vector, of a moment a real number."""
+        if not self.at:
+            return self.value.real
+        if not self.through:
+            return self.value
+        line = turn.points[self.through[1]] - turn.points[self.through[0]]
+        return self.value * line / np.abs(line)
 
 
 def acting(scene: Scene, loads: Loads) -> Iterator[Acting]:
@@ -102,21 +107,19 @@ def acting(scene: Scene, loads: Loads) -> Iterator[Acting]:
             yield Acting(f"G_{link}", link, mass.centre, kilogram * float(mass.mass) * gravity)
 
 
-def loads_with(loads: Loads, values: Mapping[str, float], turn: Turn) -> Loads:
-    """The loads with these values of their tables, by name, in the one pose of a turn; without those over speeds."""
+def loads_with(loads: Loads, values: Mapping[str, complex]) -> Loads:
+    """The loads with these values in the place of tables, by name, in the scene's units; tables that have none are left
+    out."""
     forces, moments = list[Force](), list[Moment]()
     for name, force in named_forces(loads).items():
         if force.table and name in values:
-            along = complex(*map(float, force.direction or (0, 0)))
-            if force.through:
-                along = complex((turn.points[force.through[1]] - turn.points[force.through[0]])[0])
-            vector = values[name] * along / abs(along)
+            vector = values[name]
             forces.append(Force(force.on, force.at, (vector.real, vector.imag)))
         elif not force.table:
             forces.append(force)
     for name, moment in named_moments(loads).items():
         if not moment.table or name in values:
-            moments.append(Moment(moment.on, values.get(name, moment.value)))
+            moments.append(Moment(moment.on, values[name].real if moment.table else moment.value))
     return replace(loads, forces=tuple(forces), moments=tuple(moments))
 
 
@@ -136,6 +139,11 @@ class LoadValues:
         return {load.name: self._value(load.table, motion, turn, rates, travel, side)
                 for load in self.tabled if load.table and not load.table.over_speed}
 
+    def in_units(self, values: Mapping[str, Array], turn: Turn) -> dict[str, Array]:
+        """Values of tables as the loads that they are, in the scene's units: vectors, and real numbers of moments."""
+        newton = float(NEWTONS[self.scene.units.force])
+        return {load.name: values[load.name] * load.unit(turn) / newton for load in self.tabled if load.name in values}
+
     def _value(self, table: LoadTable, motion: UnitMotion, turn: Turn, rates: Rates, travel: Array,
                side: int) -> Array:
         if not table.slide:
@@ -148,7 +156,7 @@ class LoadValues:
         zero = np.zeros(turn.travel.shape)
         for load in self.tabled:
             if load.table and load.table.over_speed:
-                rate: Any = motion.sense if load.table.over == SPEED else self.speed(
+                rate: Any = 1.0 if load.table.over == SPEED else self.speed(
                     self.slides[load.table.slide], turn, rates)
                 length = 1.0 if load.table.over == SPEED and motion.turns else motion.metres
                 yield SpeedLoad(load.name, load.arm(rates, turn) + zero, rate / length + zero, load.table)
@@ -157,13 +165,13 @@ class LoadValues:
         """Where a slide stands along its guide, in scene lengths."""
         origin = guide_origin(self.scene, slide)
         away = turn.points[slide.at] - (turn.points[origin] if origin else 0.0)
-        return (np.conj(self._along(slide, turn)) * away).real
+        return (np.conj(self.along(slide, turn)) * away).real
 
     def speed(self, slide: Slide, turn: Turn, rates: Rates, kind: str = kinds.SLIDE_VELOCITY) -> Array:
         """How fast a slide moves along its guide, in metres for a unit of travel; or how that changes."""
-        return (np.conj(self._along(slide, turn)) * rates.of(kind, slide.name)).real + np.zeros(turn.travel.shape)
+        return (np.conj(self.along(slide, turn)) * rates.of(kind, slide.name)).real + np.zeros(turn.travel.shape)
 
-    def _along(self, slide: Slide, turn: Turn) -> Any:
+    def along(self, slide: Slide, turn: Turn) -> Any:
         """The direction of a guide."""
         if slide.through:
             along: Any = turn.points[slide.through[1]] - turn.points[slide.through[0]]

@@ -26,7 +26,8 @@ from graphplan.cycle.pose import in_pose
 from graphplan.cycle.travel import TURN, check_drives, told, travels
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import Refused
-from graphplan.machine.breaks import breaks, common_period
+from graphplan.machine.breaks import breaks, common_period, in_order
+from graphplan.machine.friction import M_F, CycleLosses, FrictionOverCycle, cycle_losses
 from graphplan.machine.lever_drawing import lever_drawing
 from graphplan.machine.reduced_loads import LoadValues, SpeedLoad, acting, loads_with
 from graphplan.machine.unit_motion import ACCELERATIONS, VELOCITIES, Rates, UnitMotion, moving_points
@@ -43,8 +44,8 @@ class Reduced:
 
     `travel` of the first drive, in radians or scene lengths; `inertia` in kg m^2 and `moment` in N m, of all loads that
     do not depend on speed, positive in the sense of motion; of a sliding drive kg and N. `by` has each load's own
-    moment by its letter on sheets: forces P_3 and P_3', moments M_4, weights G_3. Those over a speed are `speed_loads`,
-    apart.
+    moment by its letter on sheets: forces P_3 and P_3', moments M_4, weights G_3, and M_F of friction. Those over a
+    speed are `speed_loads`, apart.
     """
 
     travel: Array
@@ -80,7 +81,10 @@ class Reduction:
         if self.closed:
             ends = 0.0, common_period(self.motion.period, [load.table for load in self.acting if load.table])
         self.ends = ends
-        self.breaks = breaks(self.values, self.motion, ends)
+        rubs = any(one.coefficient for one in scene.loads.frictions)
+        self.friction = FrictionOverCycle(scene, self.motion) if rubs else None
+        found = breaks(self.values, self.motion, ends)
+        self.breaks = in_order([*found, *self.friction.breaks(ends)], ends) if self.friction else found
 
     @property
     def changing(self) -> tuple[str, ...]:
@@ -108,6 +112,8 @@ class Reduction:
         values = self.values.values(self.motion, turn, rates, travel, side)
         by = {load.name: load.arm(rates, turn) * values.get(load.name, 1.0) + zero for load in self.acting
               if not (load.table and load.table.over_speed)}
+        if self.friction:
+            by[M_F] = self.friction.at(travel, turn, rates, side).moment
         return Reduced(travel, self._summed(rates, rates, VELOCITIES) + zero, sum(by.values(), zero), by,
                        tuple(self.values.over_speed(self.motion, turn, rates)),
                        lambda: self._slope(rates, self.motion.accelerations(turn)) + zero)
@@ -127,14 +133,24 @@ class Reduction:
                 total = total + unit * float(mass.inertia) * turning
         return total
 
+    def losses(self) -> CycleLosses:
+        """What friction takes over the cycle; fails with `Refused` where nothing rubs."""
+        if self.friction is None:
+            raise Refused("friction", said("the scene has none"), "[[friction]] in a joint or a slide")
+
+        def moments(travel: Array) -> dict[str, Array]:
+            return {name: moment for name, moment in self.at(travel).by.items() if name != M_F}
+
+        return cycle_losses(self.friction, moments, self.ends, self.breaks)
+
     def drawing(self, travel: float = 0.0) -> Construction:
         """The lever in the pose at a travel, drawn step by step; it balances with the opposite of the reduced moment.
         """
         turn = self.motion.turn(np.array([float(travel)]))
         rates = self.motion.velocities(turn)
         values = self.values.values(self.motion, turn, rates, np.array([float(travel)]), 1)
-        given = loads_with(self.loads, {name: float(value[0]) for name, value in values.items()}, turn)
-        return lever_drawing(in_pose(self.motion.scene, turn, 0), given)
+        given = {name: complex(value[0]) for name, value in self.values.in_units(values, turn).items()}
+        return lever_drawing(in_pose(self.motion.scene, turn, 0), loads_with(self.loads, given))
 
     def projections(self, travel: Any) -> dict[str, Array]:
         """The moments of the weights by another form: each weight by the projection of the orthogonal velocity of its

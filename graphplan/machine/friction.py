@@ -1,0 +1,281 @@
+"""Friction over the cycle: the reduced moment of friction, what each pair loses, and the efficiency.
+
+The reactions are those of kinetostatics, with the inertia forces at the mean speed of the first drive, which the drive
+itself balances. Force polygons with friction circles and leaning guides give the balance with friction; what it is more
+than that without is the reduced moment of friction, M_F. By the pairs it is sum(N)/omega with the reactions without
+friction, N = f R r |omega_rel| of a journal and f R |v_rel| of a slide or a contact: the textbook's form, which leaves
+out how friction changes the reactions (Ozols 1974, 13-3, 12-1 and 14-6; method A4).
+
+Kinytskyi's lambda mechanism, scene `kinytskyi`, by the crank's travel from the scene's pose: the moment M of the drive
+without friction and what is lost, N m. His own method, forces in three points and the power balance of the joints, is
+that by the pairs, where the links' own inertia is small against the driven masses; his curves are not printed with
+numbers. Towards the dwell, 190 to 290 degrees, M nearly vanishes and the efficiency with it, yet not quite: the stop is
+approximate, as he says; and the efficiency does not depend on how large the load is.
+
+    travel        0      30      60      90     120     150     180     240     330
+    M         5.729   5.328   0.000  -4.496  -6.307  -0.709   0.190   0.001   0.564
+    polygons  0.689   0.430   0.088   0.435   0.950   0.686   0.420   0.277   0.401
+    pairs     0.672   0.416   0.087   0.453   0.979   0.676   0.412   0.274   0.401
+    eta       0.893   0.925   0.004   0.903   0.849   0.032   0.312   0.003   0.584
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property, partial
+from typing import Any
+
+import numpy as np
+
+from graphplan.cycle.linkage import Array
+from graphplan.cycle.travel import told
+from graphplan.cycle.turn import Turn
+from graphplan.errors import Refused
+from graphplan.machine.breaks import samples, zeros
+from graphplan.machine.integrals import settled
+from graphplan.machine.reduced_loads import LoadValues, acting
+from graphplan.machine.unit_motion import Rates, UnitMotion, at_unit_rate
+from graphplan.mechanism.model import FRAME, Balance, Find, Force, Friction, Loads, Scene, Slide
+from graphplan.mechanism.plane import times
+from graphplan.mechanism.units import NEWTONS, weight
+from graphplan.methods import kinds
+from graphplan.methods.batch import Poses
+from graphplan.methods.construct import construct
+from graphplan.methods.construction import Construction
+from graphplan.methods.panels import JointForce
+from graphplan.phrases import said
+
+M_F = "M_F"
+STANDS = 1e-9  # of the balance: what one round of friction more may change
+ROUNDS = 6  # of friction: after four the forces of every pose stand, unless the mechanism is near to locking itself
+
+
+@dataclass(frozen=True, eq=False)
+class Rubbed:
+    """Friction in n poses: arrays of shape (n,), in N m of the first drive (in N of one that slides).
+
+    `balance` is what the drive must give without friction at its mean speed, positive in the sense of motion, `moment`
+    the reduced moment of friction, which is negative as it resists, and `losses` what the pairs take of it by their
+    reactions without friction, by the names of joints and links, such as `A 2` and `3 along frame`.
+    """
+
+    balance: Array
+    moment: Array
+    losses: dict[str, Array]
+
+    @property
+    def efficiency(self) -> Array:
+        """The efficiency in each pose: what the drive would have to give, by what it gives with friction, or where it
+        holds back the inverse; negative where the loads alone do not overcome the friction."""
+        smooth, rubbed = self.balance, self.balance - self.moment
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(smooth > 0, smooth / rubbed, rubbed / smooth)
+
+
+class FrictionOverCycle:
+    """The friction of a scene's pairs over its motion, by one recorded construction of its forces.
+
+    `speed` is the mean speed of the first drive, in rad/s or lengths/s; at rest there are no inertia forces.
+    """
+
+    def __init__(self, scene: Scene, motion: UnitMotion):
+        assert scene.loads is not None
+        self.motion, self.speed = motion, mean_speed(scene)
+        self.scene = held = kinetostatic(scene, self.speed)
+        assert held.loads is not None
+        self.values = LoadValues(held, [*acting(held, held.loads)])
+        self.frictions = [one for one in held.loads.frictions if one.coefficient and (one.radius or not one.at)]
+        self._rate, self._newton = abs(float(held.drives[0].rate)), float(NEWTONS[scene.units.force])
+        self.power = self._newton * motion.metres / motion.unit  # of force * length/s by the drive's rate
+
+    @property
+    def pairs(self) -> tuple[str, ...]:
+        """The names of the journals and slides that rub."""
+        return tuple(name for one in self.frictions for name in (
+            *(f"{one.at} {link}" for link, _ in self._journals(one)), *(slide.name for slide in self._slides(one))))
+
+    @cached_property
+    def drawing(self) -> Construction:
+        """The force polygons in the given pose, with rounds of friction."""
+        return construct(self.scene, plan="polygons")
+
+    @cached_property
+    def _further(self) -> Construction:
+        """The same with one round more: where that says otherwise the forces do not stand."""
+        assert self.scene.loads is not None
+        return construct(replace(self.scene, loads=replace(self.scene.loads, rounds=ROUNDS + 1)), plan="polygons")
+
+    def at(self, travel: Array, turn: Turn, rates: Rates, side: int = 1) -> Rubbed:
+        """The friction at some travels, whose poses and unit rates are known; fails with `Refused` where the mechanism
+        locks itself."""
+        acting = self.loads(travel, turn, rates, side)
+        found = self._evaluated(self.drawing, turn, acting)
+        plain, rubbed = (self._balance(found, way) for way in (kinds.BY_PLANS, kinds.RUBBED))
+        further = self._balance(self._evaluated(self._further, turn, acting), kinds.RUBBED)
+        size = np.maximum(np.abs(plain), np.abs(rubbed))
+        if locked := np.flatnonzero(~(np.abs(further - rubbed) <= STANDS * size)).tolist():
+            at = told(self.scene, float(travel[locked[0]]))
+            raise Refused("friction", said("the mechanism locks itself at a travel of {0}", at), "less friction")
+        return Rubbed(plain, plain - rubbed, dict(self._losses(found)))
+
+    def _evaluated(self, drawing: Construction, turn: Turn, acting: Mapping[str, Array]) -> Poses:
+        """All forces and rates of some poses."""
+        if acting:
+            raise Refused("friction", said("loads that change are not known to it"), "constant loads")
+        found = drawing.evaluate(turn.points, turn.guides)
+        if found.faults:
+            raise Refused("friction", next(iter(found.faults.values())), "less friction, or another span of travels")
+        return found
+
+    def loads(self, travel: Array, turn: Turn, rates: Rates, side: int = 1) -> dict[str, Array]:
+        """The loads that change, at the mean speed, by their letters and in the scene's units."""
+        values = self.values.values(self.motion, turn, rates, travel, side)
+        values |= {load.name: load.law(load.rate * self.speed * self.motion.unit)
+                   for load in self.values.over_speed(self.motion, turn, rates)}
+        return self.values.in_units(values, turn)
+
+    def _balance(self, found: Poses, way: str) -> Array:
+        """What the drive gives, positive in the sense of motion, in SI."""
+        loads = self.scene.loads
+        assert loads is not None
+        ((name, balance),) = loads.named_balances.items()
+        values = found.named(kinds.balance_kind(way, balance))
+        if name not in values:
+            raise Refused("friction", said("the balance of the first drive is not found by force polygons"),
+                          "a scene whose reactions are statically determinate")
+        value: Any = values[name]
+        if balance.direction is not None:
+            along = complex(*map(float, balance.direction))
+            value = (value * along.conjugate()).real / abs(along)
+        return np.asarray(self.motion.sense * self._newton * value)
+
+    def _losses(self, found: Poses) -> Iterator[tuple[str, Array]]:
+        """What each journal and slide takes of the moment, by its reaction without friction and its rate for a unit of
+        travel; contacts and gears are left to the polygons."""
+        unit = self.power / self._rate
+        for one in self.frictions:
+            for journal in self._journals(one):
+                circle = float(one.radius * one.coefficient)
+                force, turning = found.reactions[JointForce(one.at, journal[0]).name], self._turning(found, journal)
+                yield f"{one.at} {journal[0]}", -unit * circle * np.abs(force) * np.abs(turning)
+            for slide in self._slides(one):
+                slip, force = found.named(kinds.SLIDE_VELOCITY)[slide.name], found.reactions[slide.name]
+                yield slide.name, -unit * float(one.coefficient) * np.abs(force) * np.abs(slip)
+
+    def _journals(self, one: Friction) -> list[tuple[str, str]]:
+        """The links on the pin of a joint that rubs, each with the link that has the pin."""
+        pin, *others = self.scene.links_of[one.at] if one.at else ("",)
+        return [(link, pin) for link in others]
+
+    def _slides(self, one: Friction) -> list[Slide]:
+        """The slide that rubs, if it is one."""
+        return [slide for slide in self.scene.slides if {*slide.links} == {*one.links}]
+
+    def _turning(self, found: Poses, journal: tuple[str, str], kind: str = kinds.OMEGA) -> Any:
+        """How a link turns on that with the pin."""
+        one, other = (0.0 if link == FRAME else found.named(kind)[link] for link in journal)
+        return one - other
+
+    # ---- where it breaks ---------------------------------------------------------------------------------------------
+
+    def breaks(self, ends: tuple[float, float]) -> list[float]:
+        """The travels at which a journal or a slide that rubs stands still, or a slide's reaction is nothing."""
+        travel, found = samples(self.motion, ends), list[float]()
+        for of in [of for one in self.frictions for of in self._vanishing(one)]:
+            function = partial(self._of, of)
+            found += zeros(function, travel, function(travel)[0])
+        return found
+
+    def _of(self, of: Callable[[Poses, Turn], tuple[Any, Any]], travel: Array) -> tuple[Array, Array]:
+        """Something of the poses at some travels, and its slope."""
+        turn = self.motion.turn(travel)
+        found = self._evaluated(self.drawing, turn, self.loads(travel, turn, self.motion.velocities(turn)))
+        value, change = of(found, turn)
+        return value + np.zeros(travel.shape), change / self._rate + np.zeros(travel.shape)
+
+    def _vanishing(self, one: Friction) -> Iterator[Callable[[Poses, Turn], tuple[Any, Any]]]:
+        """What is zero where a pair stands still, or a slide is not pressed: the value and how it changes in time."""
+        yield from (partial(self._stands, journal) for journal in self._journals(one))
+        for slide in self._slides(one):
+            yield partial(self._slips, slide)
+            yield partial(self._presses, slide)
+
+    def _stands(self, journal: tuple[str, str], found: Poses, turn: Turn) -> tuple[Any, Any]:
+        return self._turning(found, journal), self._turning(found, journal, kinds.ALPHA)
+
+    def _slips(self, slide: Slide, found: Poses, turn: Turn) -> tuple[Any, Any]:
+        back = np.conj(self.values.along(slide, turn))
+        rates = (found.named(kind)[slide.name] for kind in (kinds.SLIDE_VELOCITY, kinds.SLIDE_ACCELERATION))
+        speed, change = ((back * rate).real for rate in rates)
+        return speed, change
+
+    def _presses(self, slide: Slide, found: Poses, turn: Turn) -> tuple[Any, Any]:
+        return (np.conj(self.values.along(slide, turn)) * found.reactions[slide.name]).imag, np.nan
+
+
+@dataclass(frozen=True)
+class CycleLosses:
+    """Friction over a cycle, in J: the work that is `lost`, as the polygons have it, and the `pairs`' shares by their
+    reactions without friction; the work `given` by all that drives, the drive and the loads whose works are positive.
+    """
+
+    lost: float
+    given: float
+    pairs: dict[str, float]
+
+    @property
+    def efficiency(self) -> float:
+        """The mean efficiency: how much of the work that is given does not go into friction (Ozols 1974, 14-1)."""
+        return 1 - self.lost / self.given if self.given else 0.0
+
+
+def cycle_losses(friction: FrictionOverCycle, moments: Callable[[Array], Mapping[str, Array]],
+                 ends: tuple[float, float], breaks: Sequence[float]) -> CycleLosses:
+    """The losses between two travels, where `moments` are those of the loads by name and all is smooth between breaks.
+    """
+    motion, names = friction.motion, list[str]()
+
+    def rows(travel: Array) -> Array:
+        turn = motion.turn(travel)
+        found = friction.at(travel, turn, motion.velocities(turn))
+        named = {"": found.balance - found.moment, M_F: found.moment, **moments(travel)}
+        names[:] = [*named, *found.losses]
+        return np.array([*named.values(), *found.losses.values()])
+
+    sizes = np.abs(rows(samples(motion, ends))).max(axis=1)
+    works = settled(rows, [ends[0], *breaks, ends[1]], np.maximum(sizes, sizes[0])).whole * motion.unit
+    done = dict(zip(names, map(float, works), strict=True))
+    pairs = {name: -done.pop(name) for name in friction.pairs}
+    lost = -done.pop(M_F)
+    return CycleLosses(lost, sum(max(0.0, work) for work in done.values()), pairs)
+
+
+def mean_speed(scene: Scene) -> float:
+    """The mean speed of the first drive: that which its flywheel is asked for, else its own; rad/s or lengths/s."""
+    return abs(float(scene.flywheel.speed if scene.flywheel else scene.drives[0].rate))
+
+
+def kinetostatic(scene: Scene, speed: float) -> Scene:
+    """The scene at a constant mean speed of its first drive, which balances it; at rest with weights alone, and in
+    motion only so that friction has a sense."""
+    moved, loads = at_unit_rate(scene), scene.loads
+    assert loads is not None
+    drive = moved.drives[0]
+    slide = moved.driven_slide(drive) if drive.slides else None
+    balance = Balance(drive.link, slide.at, slide.direction) if slide else Balance(drive.link)
+    if speed:
+        moved = moved.with_drives(one.driven_at(Fraction(one.rate) * Fraction(speed), 0) for one in moved.drives)
+    else:
+        loads = weights_alone(scene, loads)
+    rubbing = replace(loads, balances=(balance,), rounds=ROUNDS)
+    slides = tuple(slide.name for slide in scene.slides)
+    return replace(moved, loads=rubbing, find=Find((), (), None, scene.moving, slides))
+
+
+def weights_alone(scene: Scene, loads: Loads) -> Loads:
+    """The loads with weights as given forces, and no masses."""
+    weights = (Force(link, mass.centre, times(mass.mass * weight(scene.units), loads.gravity))
+               for link, mass in loads.masses.items() if link != FRAME and mass.mass)
+    return replace(loads, masses={}, forces=(*loads.forces, *weights))

@@ -15,8 +15,8 @@ from graphplan.commands.output import error, flush, hush
 from graphplan.errors import GraphplanError, Refused
 
 SUBCOMMANDS = ("new", "list", "import", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cam",
-               "flywheel", "balance", "cost", "handout", "live", "variants", "verify", "chart", "gallery", "schema",
-               "completion")
+               "flywheel", "motion", "balance", "cost", "handout", "live", "variants", "verify", "chart", "gallery",
+               "schema", "completion")
 MODULES = {"list": "catalogue", "import": "import_"}  # whose own names Python has taken
 # all others take a scene
 SCENELESS = ("new", "list", "import", "watch", "cam", "balance", "chart", "gallery", "schema", "completion")

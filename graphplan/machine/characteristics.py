@@ -33,14 +33,15 @@ class RunUp:
     turns: float
 
 
-def work(machine: Driven, omega: float) -> tuple[float, float]:
-    """The work of all loads over a cycle at a constant speed, and that of their sizes."""
+def work(machine: Driven, omega: Reals) -> tuple[Reals, Reals]:
+    """The work of all loads over a cycle at constant speeds, shape (k,), and that of their sizes."""
     nodes, weights = np.polynomial.legendre.leggauss(24)
     edges = machine.reduced[0].edges
     low, width = edges[:-1, None], np.diff(edges)[:, None]
     travel = (low + width * (nodes + 1) / 2).ravel()
-    moment, each = machine.moment(travel, np.full(travel.shape, omega)), (width / 2 * weights).ravel()
-    return float(moment @ each), float(abs(moment) @ each)
+    each = (width / 2 * weights).ravel()
+    moment = machine.moment(travel, omega[:, None]) + np.zeros((len(omega), 1))
+    return moment @ each, abs(moment) @ each
 
 
 def nominal(machine: Driven, near: float) -> float:
@@ -49,16 +50,16 @@ def nominal(machine: Driven, near: float) -> float:
     Fails with `Refused` where the characteristics do not intersect so.
     """
     speeds = near * 2.0 ** (np.arange(-OCTAVES * GRID, OCTAVES * GRID + 1) / GRID)
-    works = np.array([work(machine, float(speed))[0] for speed in speeds])
+    works = work(machine, speeds)[0]
     falling = np.flatnonzero((works[:-1] > 0) & (works[1:] <= 0))
     if not len(falling):
         raise Refused("the steady motion", "the characteristics of the loads do not intersect: at no speed do they "
                       "give over a cycle what they take", "a driver whose moment falls with the speed")
     k = min(falling, key=lambda k: abs(math.log(speeds[k] * speeds[k + 1] / near**2)))
     low, high = float(speeds[k]), float(speeds[k + 1])
-    for _ in range(60):
+    for _ in range(52):
         middle = (low + high) / 2
-        low, high = (middle, high) if work(machine, middle)[0] > 0 else (low, middle)
+        low, high = (middle, high) if work(machine, np.array([middle]))[0][0] > 0 else (low, middle)
     return (low + high) / 2
 
 
@@ -72,8 +73,8 @@ def steady(machine: Driven, speed: float) -> TrueMotion:
     if not speed > 0:
         raise Refused("the steady motion", "no speed is said", "--speed, or the omega of the first [[drive]]")
     if machine.laws:
-        return _limit_cycle(machine, nominal(machine, speed))
-    over, size = work(machine, speed)
+        return limit_cycle(machine, nominal(machine, speed))
+    over, size = (float(one[0]) for one in work(machine, np.array([speed])))
     if abs(over) > CLOSED * 1e3 * size:
         raise Refused("the steady motion", f"the loads give {over:.6g} J over a cycle, which does not close",
                       "[flywheel], whose closing moment closes it, or a driver's characteristic over the speed")
@@ -86,13 +87,13 @@ def _cycle(machine: Driven, energy: float) -> TrueMotion:
     omega = math.sqrt(2 * energy / float(machine.inertia(np.array([begin]))[0]))
     motion = moved(machine, omega, begin, begin + machine.period)
     if motion.stop is not None:
-        raise Refused("the steady motion", f"the machine comes to rest at {motion.stop.travel:.6g} rad of the cycle",
+        raise Refused("the steady motion", f"the machine comes to rest at {machine.told(motion.stop.travel)}",
                       "a larger speed, or a flywheel")
     return motion
 
 
-def _limit_cycle(machine: Driven, omega: float) -> TrueMotion:
-    """The cycle at whose end the energy is that of its beginning: by secants, first from the nominal speed."""
+def limit_cycle(machine: Driven, omega: float) -> TrueMotion:
+    """The cycle at whose end the energy is that of its beginning: by secants, from the nominal speed."""
     energy = float(machine.inertia(np.array([machine.begin]))[0]) * omega**2 / 2
     before = miss = 0.0
     for round_ in range(ROUNDS):

@@ -8,26 +8,36 @@ and its law.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.errors import Refused
+from graphplan.cycle.travel import travel_unit
 from graphplan.machine.integrals import Piecewise, Reals, settled
 from graphplan.machine.reduction import Reduction
+from graphplan.mechanism.load_tables import LoadTable
 
 SAMPLES = 48  # places of the cycle that show how large moments and inertias are
 
 
 class SpeedLaw(NamedTuple):
-    """A load over a speed: its moment is arm * law(rate * omega), arm and rate changing with the travel."""
+    """A load over a speed: its moment is arm * law(rate * omega), arm and rate changing with the travel.
+
+    The law knows speeds between two `ends`, and refuses others.
+    """
 
     name: str
     arm: Piecewise
     rate: Piecewise
     law: Callable[[Reals], Reals]
+    ends: tuple[float, float] = (-math.inf, math.inf)
+
+    def value(self, speed: Reals) -> Reals:
+        """The load at these speeds, nan at others than it knows: a search may pass by there."""
+        known = np.clip(speed, *self.ends)
+        return np.where(known == speed, self.law(known), np.nan)
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +46,8 @@ class Driven:
 
     `reduced` are inertia, its slope and the moment of all loads that hang on the travel alone, positive where they
     drive; a machine that is `closed` is the same a turn later. `wheel` is the inertia of a flywheel, `closing` a
-    constant moment on the drive.
+    constant moment on the drive. Travel is told in a `measure`, degrees or lengths of a drive that slides, of the SI
+    size `degree`; `pace` is that of the unit of speeds, 1 rad/s or such a length/s.
     """
 
     reduced: tuple[Piecewise, Piecewise, Piecewise]
@@ -44,6 +55,13 @@ class Driven:
     laws: tuple[SpeedLaw, ...] = ()
     wheel: float = 0.0
     closing: float = 0.0
+    degree: float = math.radians(1.0)
+    pace: float = 1.0
+    measure: str = "degrees"
+
+    def told(self, travel: float) -> str:
+        """A travel in words."""
+        return f"{travel / self.degree:.6g} {self.measure}"
 
     @property
     def begin(self) -> float:
@@ -66,7 +84,7 @@ class Driven:
         found = self.closing + self.curve(self.reduced[2], travel, side)
         for law in self.laws:
             speed = self.curve(law.rate, travel, side) * rate
-            found = found + self.curve(law.arm, travel, side) * _known(law.law, speed)
+            found = found + self.curve(law.arm, travel, side) * law.value(speed)
         return found
 
     def curve(self, curve: Piecewise, travel: Reals, side: int = 1) -> Reals:
@@ -88,33 +106,30 @@ def _below(turns: Reals) -> Reals:
     return np.ceil(turns) - 1
 
 
-def driven(reduction: Reduction, *, factor: float = 1.0, changing: Collection[str] = (), wheel: float = 0.0,
-           closing: float = 0.0) -> Driven:
-    """The machine of a reduction, the loads that change `factor` times as large; a sliding drive's travel in metres.
+def driven(reduction: Reduction, wheel: float = 0.0, closing: float = 0.0) -> Driven:
+    """The machine of a reduction, with a flywheel and a moment on the drive; a sliding drive's travel in metres.
 
     Fails with `Refused` where a pose is not reached or has no velocities.
     """
     def rows(travel: Reals) -> Reals:
         found = reduction.at(travel)
-        moment = sum((found.by[name] * (factor - 1) for name in changing if name in found.by), found.moment)
         speeds = [curve for load in found.speed_loads for curve in (load.arm, load.rate)]
-        return np.array([found.inertia, found.slope, moment, *speeds])
+        return np.array([found.inertia, found.slope, found.moment, *speeds])
 
+    unit, name = travel_unit(reduction.scene)
     first, last = reduction.ends
     sample = reduction.at(np.linspace(first, last, SAMPLES + 2)[1:-1])
     sizes = np.zeros(3 + 2 * len(sample.speed_loads))
     sizes[1] = abs(sample.inertia).max()
-    sizes[2] = sum(abs(moment).max() for moment in sample.by.values()) * max(1.0, abs(factor))
+    sizes[2] = sum(abs(moment).max() for moment in sample.by.values())
     edges = [first, *(float(x) for x in reduction.breaks if first < x < last), last]
     curves = [replace(curve, edges=curve.edges * reduction.unit) for curve in settled(rows, edges, sizes)]
     arms = zip(sample.speed_loads, curves[3::2], curves[4::2], strict=True)
-    laws = tuple(SpeedLaw(load.name, arm, rate, load.law) for load, arm, rate in arms)
-    return Driven((curves[0], curves[1], curves[2]), reduction.closed, laws, wheel, closing)
+    laws = tuple(SpeedLaw(load.name, arm, rate, load.law, _ends(load.table)) for load, arm, rate in arms)
+    return Driven((curves[0], curves[1], curves[2]), reduction.closed, laws, wheel, closing, reduction.unit * unit,
+                  reduction.unit, name)
 
 
-def _known(law: Callable[[Reals], Reals], speed: Reals) -> Reals:
-    """The values of a law, nan where its table does not cover a speed: a search may pass by there."""
-    try:
-        return law(speed)
-    except Refused:
-        return np.array([np.nan if len(speed) == 1 else _known(law, one)[0] for one in speed[:, None]])
+def _ends(table: LoadTable) -> tuple[float, float]:
+    """The speeds between which a table knows the load."""
+    return (-math.inf, math.inf) if table.powers else (float(min(table.corners)), float(max(table.corners)))

@@ -28,6 +28,7 @@ from graphplan.machine.integrals import Reals
 NARROWEST = 1e-13  # of the travel asked for: a stretch that must be narrower leads nowhere
 SEEN = 24  # places in a stretch between which a sign is seen to change
 HALVINGS = 52  # of an interval in which something changes its sign
+LEAVING = 1e-6  # of a speed: a table that ends so near it is left
 NOTHING = 1e-11  # of the largest moment: what is below it moves nothing from rest
 
 
@@ -85,8 +86,10 @@ class TrueMotion:
         for k in np.unique(held[inside]):
             here, one = inside & (held == k), self.stretches[k]
             place = one.place(x[here])
-            energy[here], time[here] = legval(place, one.energy), legval(place, one.time)
-        energy = np.where(abs(energy) < 1e-300, 0.0, np.maximum(energy, 0.0))
+            energy[here] = np.where((place == -1) & (one.power == 2), 0.0, legval(place, one.energy))
+            time[here] = legval(place, one.time)
+        time[x == self.start] = 0.0
+        energy = np.maximum(energy, 0.0)
         inertia = self.machine.inertia(x)
         omega = np.sqrt(2 * energy / inertia)
         moment = self.machine.moment(x, omega, side)
@@ -163,8 +166,8 @@ def _inside(machine: Driven, start: float, end: float) -> None:
     """Refuse a travel that leaves the span of a machine that does not turn."""
     last = machine.begin + machine.period
     if not machine.closed and not machine.begin <= start < end <= last * (1 + 1e-12):
-        raise Refused("the motion", f"from {start:.6g} to {end:.6g}: the machine reaches from {machine.begin:.6g} to "
-                      f"{last:.6g}", "a travel within")
+        raise Refused("the motion", f"it would go from {machine.told(start)} to {machine.told(end)}, and is known from "
+                      f"{machine.told(machine.begin)} to {machine.told(last)}", "a travel within (--travel)")
 
 
 def _starts(machine: Driven, start: float) -> None:
@@ -178,11 +181,12 @@ def _starts(machine: Driven, start: float) -> None:
 
 
 def _covered(machine: Driven, travel: float, energy: float) -> None:
-    """Let the tables over a speed refuse a motion that has left what they cover."""
+    """Let the tables over a speed refuse a motion that leaves what they cover."""
     at = np.array([travel])
     rate = np.sqrt(2 * energy / machine.inertia(at))
     for law in machine.laws:
-        law.law(machine.curve(law.rate, at) * rate)
+        for beyond in (1 - LEAVING, 1 + LEAVING):
+            law.law(machine.curve(law.rate, at) * rate * beyond)
 
 
 def _first(terms: Reals) -> float:

@@ -1,0 +1,249 @@
+"""A motion beside a second opinion: the equation of motion integrated over time, with the solver's energies and powers.
+
+I omega' + omega^2/2 dI/dphi = M is integrated by the pair of Dormand and Prince, of order five, with the work beside
+it; inertia, slope and moments are the solver's at the points of Chebyshev between the breaks. Neither the scheme nor
+the variable nor the numbers are those of the motion.
+
+Source of the pair: Dormand and Prince 1980, A family of embedded Runge-Kutta formulae.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from graphplan.check import reduction as solved
+from graphplan.errors import BrokenClaim, Disagreement
+from graphplan.kernel.claims import broken
+from graphplan.machine.integrals import Reals
+from graphplan.machine.motion_drawing import MotionDrawing
+from graphplan.machine.reduction import Reduction
+from graphplan.machine.runs import Run
+from graphplan.mechanism.load_tables import SPEED, LoadTable
+from graphplan.mechanism.model import FRAME, Force
+from graphplan.mechanism.units import NEWTONS
+
+CLOSE = 1e-8  # of the largest speed, the whole time and the largest energy: so far apart opinions may be
+STEP = 1e-12  # of the same: the error of a step
+POINTS, MOST = 24, 192  # of Chebyshev, between two breaks
+FINE = 1e-12  # of the largest value: how well they give it between
+NARROW = 1e-6  # of the cycle: breaks nearer to each other are one
+STEPS = 20_000  # that an opinion may take
+SPREAD = 13  # travels at which speeds and times are compared
+TURNS = 2.0  # cycles that are integrated anew
+
+STAGES = ((1 / 5,), (3 / 40, 9 / 40), (44 / 45, -56 / 15, 32 / 9),
+          (19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729),
+          (9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656),
+          (35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84))
+FOURTH = np.array((71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40))
+
+
+def checked(found: Run, drawing: MotionDrawing | None = None) -> dict[str, float]:
+    """The largest differences from the second opinion, relative: of the reduction, and of speed, time and energy.
+
+    Fails with `Disagreement` where the motion differs by more than `CLOSE`, or the reduction by more than rounding, and
+    with `BrokenClaim` where a drawn step is not what it should be.
+    """
+    if drawing is not None and (fault := next(broken(drawing.program, drawing.values), "")):
+        raise BrokenClaim(found.scene.name, fault)
+    motion, machine = found.motion, found.machine
+    last = min(motion.last, motion.start + TURNS * machine.period)
+    places = np.linspace(motion.start, last, SPREAD)
+    inside = places[1:-1] / found.reduction.unit
+    gaps = solved.checked(found.reduction, _home(found.reduction, inside))
+    opinion = _Opinion(found)
+    state = motion.at(places)
+    compared = places[1:] if motion.stop is None or last < motion.last else places[1:-1]
+    omegas, times, works = opinion.integrated(motion.start, float(state.omega[0]), compared)
+    count = len(compared) + 1
+    own, speed, time = state.energy[1:count], float(state.omega.max()), float(state.time[count - 1])
+    gaps["omega"] = float(abs(omegas - state.omega[1:count]).max()) / speed
+    gaps["time"] = float(abs(times - state.time[1:count]).max()) / time
+    gaps["energy"] = float(abs(works + state.energy[0] - own).max() / state.energy.max())
+    for what in ("omega", "time", "energy"):
+        if not gaps[what] <= CLOSE:
+            raise Disagreement(found.scene.name, f"{what} of the motion", "by the energy",
+                               "by the equation of motion", gaps[what])
+    return gaps
+
+
+def _home(found: Reduction, travel: Reals) -> Reals:
+    """Travels in the first cycle."""
+    first, last = found.ends
+    return first + np.mod(travel - first, last - first) if found.closed else travel
+
+
+class _Law(NamedTuple):
+    """A load over a speed, its arm and the speed that it measures being rows of the opinion's table."""
+
+    table: LoadTable
+    row: int
+
+
+@dataclass
+class _Piece:
+    """Values between two breaks: at the points of Chebyshev, by the barycentric formula anywhere."""
+
+    low: float
+    high: float
+    points: Reals
+    values: Reals
+
+    def at(self, travel: float) -> Reals:
+        away = (2 * travel - self.low - self.high) / (self.high - self.low) - self.points
+        if not away.all():
+            found: Reals = self.values[:, int(np.argmin(abs(away)))]
+            return found
+        count = len(self.points)
+        weights = (-1.0) ** np.arange(count) * np.sin(np.pi * (np.arange(count) + 0.5) / count) / away
+        summed: Reals = self.values @ weights / weights.sum()
+        return summed
+
+
+class _Opinion:
+    """The machine as the solver has it."""
+
+    def __init__(self, found: Run):
+        self.found, self.machine = found, found.machine
+        self.first, self.last = found.reduction.ends
+        least, wide = NARROW * (self.last - self.first), (self.last - self.first) / 8
+        breaks = [x for x, before in zip(found.reduction.breaks, (self.first, *found.reduction.breaks), strict=False)
+                  if x - before > least and self.last - x > least]
+        self.edges = [float(x) for a, b in pairwise([self.first, *breaks, self.last])
+                      for x in np.linspace(a, b, max(1, math.ceil((b - a) / wide)), endpoint=False)] + [self.last]
+        self.laws = [_Law(table, 3 + 2 * k) for k, (_, table) in enumerate(self._over_speeds())]
+        self.pieces: dict[int, _Piece] = {}
+
+    def _over_speeds(self) -> list[tuple[Any, LoadTable]]:
+        """The loads over speeds."""
+        loads = self.found.scene.loads
+        assert loads is not None
+        every: list[Any] = [*loads.forces, *loads.moments]
+        return [(load, load.table) for load in every if load.table and load.table.over_speed and load.on != FRAME]
+
+    # ---- what the solver says --------------------------------------------------------------------------------------
+
+    def _solved(self, travel: Reals) -> Reals:
+        """Inertia, slope and moment, and of each load over a speed its arm and that speed, as rows."""
+        opinion = solved.Opinion(self.found.reduction, travel, 1)
+        truth = opinion.truth
+        rows = [truth[what].value + 0 * travel for what in ("inertia", "slope", "moment")]
+        for load, table in self._over_speeds():
+            rows += [self._arm(opinion, load) + 0 * travel, self._speed(opinion, table) + 0 * travel]
+        return np.array(rows)
+
+    def _arm(self, opinion: solved.Opinion, load: Any) -> Any:
+        """The power of a unit of a load at a unit rate."""
+        newton = float(NEWTONS[self.found.scene.units.force])
+        if not isinstance(load, Force):
+            return opinion.rates.omega[load.on].value * newton / opinion.unit
+        x, y = load.direction or (0, 0)
+        if load.through:
+            (ax, ay), (bx, by) = (opinion.posed.points[name] for name in load.through)
+            x, y = bx - ax, by - ay
+        length = np.hypot(np.asarray(x, float), np.asarray(y, float))
+        vx, vy = (part.value for part in opinion.rates.velocity[load.at])
+        return (vx * x + vy * y) / length * newton * opinion.metres / opinion.unit
+
+    def _speed(self, opinion: solved.Opinion, table: LoadTable) -> Any:
+        """The speed that a table is over, at a unit rate."""
+        if table.over == SPEED:
+            return 1.0 / opinion.unit
+        slide = next(slide for slide in opinion.posed.slides if slide.name == table.slide)
+        (vx, vy), (x, y) = opinion.rates.slide_velocity[slide.name], slide.direction
+        return (vx.value * x + vy.value * y) / np.hypot(np.asarray(x, float), np.asarray(y, float)) / opinion.unit
+
+    def _piece(self, k: int) -> _Piece:
+        """The values between two edges, at as many points as it takes."""
+        if k not in self.pieces:
+            low, high = self.edges[k:k + 2]
+            count = POINTS
+            while True:
+                points = np.cos(np.pi * (np.arange(count) + 0.5) / count)
+                values = self._solved((low + high) / 2 + (high - low) / 2 * points)
+                terms = abs(np.cos(np.outer(np.arange(count), np.arccos(points))) @ values.T) * 2 / count
+                if (terms[-3:].max(axis=0) <= FINE * np.maximum(abs(values).max(axis=1), 1e-9)).all() or count >= MOST:
+                    break
+                count *= 2
+            self.pieces[k] = _Piece(low, high, points, values)
+        return self.pieces[k]
+
+    def moves(self, piece: _Piece, shift: float) -> Callable[[Reals], Reals]:
+        """How travel, speed and work change with time, between two edges."""
+        unit = self.found.reduction.unit
+
+        def rates(state: Reals) -> Reals:
+            travel, omega, _ = state
+            inertia, slope, moment, *_ = values = piece.at((travel - shift) / unit)
+            moment = moment + self.machine.closing
+            for law in self.laws:
+                moment += values[law.row] * float(law.table.at(np.array([values[law.row + 1] * omega]))[0])
+            return np.array([omega, (moment - slope * omega**2 / 2) / (inertia + self.machine.wheel), moment * omega])
+
+        return rates
+
+    # ---- integrated ------------------------------------------------------------------------------------------------
+
+    def integrated(self, start: float, omega: float, places: Reals) -> tuple[Reals, Reals, Reals]:
+        """Speed, time and work at places, from one travel on."""
+        unit, period = self.found.reduction.unit, (self.last - self.first) * self.found.reduction.unit
+        stops = np.union1d(places, [edge * unit + turn * period for edge in self.edges
+                                    for turn in range(math.ceil((places[-1] - start) / period) + 1)])
+        state, time, rows = np.array([start, omega, 0.0]), 0.0, []
+        size = np.array([places[-1] - start, max(omega, 1e-3), 1.0])
+        for there in stops[(stops > start) & (stops <= places[-1])]:
+            middle = (state[0] + there) / 2
+            turn = math.floor((middle / unit - self.first) / (self.last - self.first)) if self.machine.closed else 0
+            k = int(np.searchsorted(self.edges, (middle - turn * period) / unit)) - 1
+            state, spent, size = _onwards(self.moves(self._piece(k), turn * period), state, float(there), size)
+            time += spent
+            if there in places:
+                rows.append((state[1], time, state[2]))
+        omegas, times, works = np.array(rows).T
+        return omegas, times, works
+
+
+def _onwards(rates: Callable[[Reals], Reals], state: Reals, end: float, size: Reals) -> tuple[Reals, float, Reals]:
+    """The state at a travel, the time until then, and how large states have been."""
+    time, first = 0.0, rates(state)
+    step = 0.1 * (end - state[0]) / max(state[1], math.sqrt(abs(first[1]) * (end - state[0])))
+    for _ in range(STEPS):
+        size, left = np.maximum(size, abs(state)), end - state[0]
+        step = min(step, 1.1 * left / max(state[1], math.sqrt(abs(first[1]) * left)))  # no farther than is known
+        after, apart, last = _step(rates, state, first, step)
+        error = float((apart / size).max()) / STEP
+        if not error <= 1 or after[0] > end + left / 4:  # beyond the end the values lead nowhere
+            step *= max(0.2, 0.9 * error**-0.2) if 1 < error < math.inf else 0.5
+            continue
+        if after[0] >= end:
+            step = _until(rates, state, first, step, end)
+            return _step(rates, state, first, step)[0], time + step, size
+        state, first, time = after, last, time + step
+        step *= min(5.0, 0.9 * max(error, 1e-4) ** -0.2)
+    raise Disagreement("motion", "time", "that of the energy", f"more than {STEPS} steps", math.inf)
+
+
+def _until(rates: Callable[[Reals], Reals], state: Reals, first: Reals, step: float, end: float) -> float:
+    """The step that ends at a travel, by Newton's method."""
+    for _ in range(20):
+        after = _step(rates, state, first, step)[0]
+        change = (after[0] - end) / after[1]
+        step -= change
+        if abs(change) <= 1e-15 * step:
+            break
+    return step
+
+
+def _step(rates: Callable[[Reals], Reals], state: Reals, first: Reals, step: float) -> tuple[Reals, Reals, Reals]:
+    """The state a step on, the step's error, and the rates there."""
+    slopes = [first]
+    for row in STAGES:
+        slopes.append(rates(state + step * sum(a * k for a, k in zip(row, slopes, strict=True))))
+    after = state + step * sum(a * k for a, k in zip(STAGES[-1], slopes, strict=False))
+    return after, abs(step * (FOURTH @ np.array(slopes))), slopes[-1]

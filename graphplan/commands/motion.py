@@ -1,0 +1,62 @@
+"""The true motion of a machine: its speed over travel and time, from its reduced inertia and the loads of the scene.
+
+Without [flywheel] and [run] it starts with the speed of the first drive (omega = 0: from rest) and goes one turn under
+the scene's loads alone; with [flywheel] it is the steady cycle, with the wheel and with what closes the cycle. Options
+say otherwise. Where the energy is used up the machine stops, and nothing is known beyond. Travel counts from 0 upwards
+in the sense in which the drive moves, in degrees (lengths of a drive that slides).
+
+examples:
+  graphplan motion ozols-13-6 -o yoke.json                  the steady cycle with its flywheel
+  graphplan motion ozols-13-6 --speed 0 --travel 720        two turns from rest
+  graphplan motion scene.toml --steady --positions 72 -o cycle.csv
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+
+from graphplan.commands.choices import count
+from graphplan.commands.output import Messages, as_json, kind, write
+from graphplan.errors import Refused
+
+ENDINGS = (".json", ".csv")
+POSITIONS, STRIPS = 24, 96  # strips that can be drawn at most
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    add = command.add_argument
+    add("-o", "--output", metavar="FILE", help=", ".join(ENDINGS) + "; without it JSON on standard output")
+    add("--speed", type=float, metavar="W0", help="the first drive's speed at the beginning, in rad/s (length/s); 0: "
+        "from rest; with --steady its mean")
+    add("--travel", type=float, metavar="DEGREES", help="how far the motion is followed, in degrees (lengths of a "
+        "drive that slides); without it one turn")
+    add("--positions", type=count("--positions", 4, 7200), metavar="N",
+        help=f"in how many equal parts of the travel ({POSITIONS})")
+    add("--steady", action="store_true", help="the cycle that repeats itself")
+
+
+def run(options: argparse.Namespace) -> int:
+    from graphplan.check.motion import checked
+    from graphplan.machine.motion_drawing import drawn
+    from graphplan.machine.runs import run as motion_of
+    from graphplan.mechanism.scene import parse, source_text
+    from graphplan.output.machine import motion_numbers
+
+    ending = kind(options.output, ENDINGS, "motion")
+    for name in ("speed", "travel"):
+        if (value := getattr(options, name)) is not None and not math.isfinite(value):
+            raise Refused(f"--{name}", f"{value:g}", "give a number")
+    messages, positions = Messages(options.quiet), options.positions or POSITIONS
+    scene = parse(source_text(options.scene, options.scene), options.scene, by_drive=True)
+    found = motion_of(scene, options.speed, options.travel, options.steady)
+    drawing = drawn(found.motion, min(positions, STRIPS))
+    check = checked(found, drawing)
+    if (stop := found.motion.stop) is not None:
+        messages.remark(f"{found.scene.name}: the machine stops at {found.machine.told(stop.travel)}, after "
+                        f"{stop.time:.6g} s")
+    if ending == ".csv":
+        write(motion_numbers.text(found, positions), options.output)
+    else:
+        write(as_json(motion_numbers.numbers(found, drawing, check, positions)), options.output)
+    return 0

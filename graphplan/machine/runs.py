@@ -1,0 +1,131 @@
+"""The motion that a scene asks for: from which speed, how far, or the steady cycle; with the flywheel that it asks for.
+
+Without [flywheel] and [run] the machine starts with the speed that its first drive has, from rest where that is none,
+and goes one turn under its loads alone. With [flywheel] it is the steady cycle, with the wheel and with what closes the
+cycle. A run, or what is said otherwise, has the first say.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from graphplan.cycle.travel import TURN
+from graphplan.errors import Refused
+from graphplan.machine import energy, wittenbauer
+from graphplan.machine.characteristics import TURNS, RunUp, limit_cycle, nominal, run_up, steady
+from graphplan.machine.driven import Driven, driven
+from graphplan.machine.reduction import Reduction, reduction
+from graphplan.machine.true_motion import TrueMotion, moved
+from graphplan.mechanism.model import Loads, Scene
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """A motion of a scene's machine. `steady` is its steady cycle, if it has loads over a speed or is asked for it;
+    `nominal` the speed of its characteristics, in SI, and `run_up` how the motion comes near the steady cycle.
+    """
+
+    reduction: Reduction
+    machine: Driven
+    motion: TrueMotion
+    steady: TrueMotion | None = None
+    nominal: float | None = None
+    run_up: RunUp | None = None
+
+    @property
+    def scene(self) -> Scene:
+        return self.reduction.scene
+
+
+def run(scene: Scene, speed: float | None = None, travel: float | None = None, in_cycle: bool = False) -> Run:
+    """The motion of a scene: from a speed (rad/s or lengths/s) over a travel (degrees or lengths), or the steady cycle.
+
+    Fails with `Refused` where the machine does not start or get so far, its cycle does not close, or it is to stop and
+    does not.
+    """
+    asked = scene.run
+    speed = _told(speed, None if asked is None else asked.speed)
+    travel = _told(travel, None if asked is None else asked.travel)
+    found = _reduced(scene, travel)
+    in_cycle = in_cycle or (scene.flywheel is not None and asked is None and speed is None and travel is None)
+    found, machine = _with_wheel(scene, found)
+    own = abs(float(scene.drives[0].rate))
+    if in_cycle:
+        mean = float(scene.flywheel.speed) if scene.flywheel is not None else own if speed is None else speed
+        motion = steady(machine, abs(mean) * machine.pace)
+        return Run(found, machine, motion, motion, nominal(machine, motion.means.planimetric) if machine.laws else None)
+    first = own if speed is None else speed
+    if first < 0:
+        raise Refused("--speed", f"{first:g} is below 0", "a speed in the sense in which the drive moves, or 0")
+    stops = asked is not None and asked.stops
+    end = _end(machine, travel, stops)
+    motion = moved(machine, first * machine.pace, machine.begin, end)
+    if stops and motion.stop is None:
+        raise Refused("run: stops", f"the machine still moves after {machine.told(end)}", "a travel, or more load")
+    return _compared(Run(found, machine, motion), first)
+
+
+def _told(*values: object) -> float | None:
+    """The first number that is said."""
+    return next((float(value) for value in values if value is not None), None)  # type: ignore[arg-type]
+
+
+def _reduced(scene: Scene, travel: float | None) -> Reduction:
+    """The masses and loads of the scene, over a whole cycle where the travel is longer than a turn or not said."""
+    sliding = bool(scene.drives) and scene.drives[0].slides
+    if travel is not None and (sliding or travel < 360):
+        if travel <= 0:
+            raise Refused("--travel", f"{travel:g} leads nowhere", "degrees (lengths of a sliding drive) above 0")
+        return reduction(scene, (0.0, travel))
+    return reduction(scene)
+
+
+def _end(machine: Driven, travel: float | None, stops: bool) -> float:
+    """The travel at the end, in SI."""
+    if travel is not None:
+        return machine.begin + travel * machine.degree
+    if not machine.closed:
+        return machine.begin + machine.period
+    return machine.begin + (TURN * TURNS if stops else TURN)
+
+
+def _with_wheel(scene: Scene, found: Reduction) -> tuple[Reduction, Driven]:
+    """The machine with the flywheel that is asked for and what closes its cycle: a moment, or its loads scaled."""
+    wanted = scene.flywheel
+    if wanted is None:
+        return found, driven(found)
+    speed = abs(float(wanted.speed)) * found.unit
+    cycle = energy.steady(found, speed, wanted.closes, found.changing)
+    wheel = (wittenbauer.turning(cycle, float(wanted.inertia or 0)) if wanted.unevenness is None
+             else wittenbauer.sized(cycle, float(wanted.unevenness)))
+    if cycle.factor != 1:
+        found = reduction(replace(scene, loads=_scaled(scene.loads, cycle.factor)))
+    return found, driven(found, wheel.inertia, cycle.closing)
+
+
+def _scaled(loads: Loads | None, factor: float) -> Loads:
+    """Loads of which those that change are so many times as large."""
+    def scaled(load: Any) -> Any:
+        table = load.table
+        if table is None:
+            return load
+        rows = tuple((place, float(value) * factor) for place, value in table.rows)
+        powers = tuple(float(power) * factor for power in table.powers)
+        return replace(load, table=replace(table, rows=rows, powers=powers))
+
+    assert loads is not None
+    return replace(loads, forces=tuple(map(scaled, loads.forces)), moments=tuple(map(scaled, loads.moments)))
+
+
+def _compared(found: Run, speed: float) -> Run:
+    """The run with the steady cycle that its machine comes to, if characteristics lead to one."""
+    machine = found.machine
+    if not (machine.laws and machine.closed) or found.motion.stop is not None:
+        return found
+    try:
+        omega = nominal(machine, found.motion.extremes[1].omega)
+        cycle = limit_cycle(machine, omega)
+        return replace(found, steady=cycle, nominal=omega, run_up=run_up(machine, cycle, speed * machine.pace))
+    except Refused:
+        return found

@@ -1,0 +1,112 @@
+"""A motion as numbers: speed, time and acceleration over the travel, and what they come to."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from graphplan.machine.motion_drawing import MotionDrawing
+from graphplan.machine.runs import Run
+from graphplan.machine.strips import baranov, by_energy, times
+from graphplan.machine.true_motion import Place
+
+
+def numbers(found: Run, drawing: MotionDrawing | None, check: dict[str, float], positions: int) -> dict[str, Any]:
+    """All of it, plain data for JSON: travel in degrees and rates in rad/s, of a drive that slides in scene lengths;
+    moments in N m (forces in N), energies in J; null where the machine does not get."""
+    motion, machine = found.motion, found.machine
+    columns = table(found, positions)
+    data: dict[str, Any] = {"title": found.scene.title, "units": units(found)}
+    data |= {name: _listed(values) for name, values in columns.items()}
+    data |= {"stop": None if motion.stop is None else _place(found, motion.stop), "speeds": _speeds(found)}
+    data["steady"] = found.steady is motion
+    if machine.wheel:
+        data["flywheel"] = {"inertia": machine.wheel}
+    if machine.closing:
+        data["closing_moment"] = machine.closing
+    if found.nominal is not None:
+        data["nominal_omega"] = found.nominal / machine.pace
+    if found.run_up is not None:
+        data["run_up"] = {**_place(found, found.run_up.place), "turns": found.run_up.turns}
+    data["drawn"] = None if drawing is None else drawn(found, drawing)
+    data["strips"] = by_strips(found, positions)
+    return data | {"check": check}
+
+
+def units(found: Run) -> dict[str, str]:
+    """What the numbers are in."""
+    length, slides = found.scene.units.length, found.scene.drives[0].slides
+    return {"travel": length, "omega": f"{length}/s", "time": "s", "acceleration": f"{length}/s^2", "energy": "J",
+            "moment": "N", "inertia": "kg"} if slides else {
+            "travel": "deg", "omega": "rad/s", "time": "s", "acceleration": "rad/s^2", "energy": "J",
+            "moment": "N*m", "inertia": "kg*m^2"}
+
+
+def table(found: Run, positions: int) -> dict[str, Any]:
+    """Travel, speed, time, acceleration, energy, moment of all loads and inertia at the ends of so many parts."""
+    motion, machine = found.motion, found.machine
+    travel = np.linspace(motion.start, motion.end, positions + 1)
+    state = motion.at(travel)
+    lost = np.where(np.isnan(state.omega), np.nan, 0.0)
+    return {"travel": travel / machine.degree, "omega": state.omega / machine.pace, "time": state.time,
+            "acceleration": state.acceleration / machine.pace, "energy": state.energy,
+            "moment": machine.moment(travel, state.omega) + lost, "inertia": machine.inertia(travel) + lost}
+
+
+def text(found: Run, positions: int) -> str:
+    """The same as comma-separated text: a heading, then a line for each position."""
+    columns, told = table(found, positions), units(found)
+    lines = [",".join(f"{name} [{told[name]}]" for name in columns)]
+    for row in np.stack([*columns.values()], 1).tolist():
+        lines.append(",".join("" if math.isnan(number) else repr(number + 0.0) for number in row))
+    return "\n".join([*lines, ""])
+
+
+def drawn(found: Run, drawing: MotionDrawing) -> dict[str, Any]:
+    """What the drawing says at its divisions, and how far it is off at most, as parts of the largest value."""
+    machine = found.machine
+    return {"travel": _listed(drawing.travel / machine.degree), "energy": _listed(drawing.read("energy")),
+            "omega": _listed(drawing.read("omega") / machine.pace), "time": _listed(drawing.read("time")),
+            "error": drawing.errors}
+
+
+def by_strips(found: Run, positions: int) -> dict[str, Any]:
+    """What other forms come to at the end of as many strips, beside the true motion there."""
+    motion, machine = found.motion, found.machine
+    travel = np.linspace(motion.start, motion.end, positions + 1)
+    travel = travel[travel <= motion.last]
+    exact = motion.at(travel)
+    forms = {"true": exact.omega}
+    if len(travel) > 3:
+        forms |= {"euler": by_energy(machine, travel, float(exact.omega[0])),
+                  "baranov": baranov(machine, travel, float(exact.omega[0]))}
+    data = {name: {"omega": _number(omega[-1] / machine.pace), "time": _number(times(travel, omega)[-1])}
+            for name, omega in forms.items() if name != "true"}
+    return {"travel": float(travel[-1] / machine.degree),
+            "true": {"omega": _number(exact.omega[-1] / machine.pace), "time": _number(exact.time[-1])}, **data}
+
+
+def _speeds(found: Run) -> dict[str, Any]:
+    """The largest and the least speed, where they are, and the means."""
+    motion, pace = found.motion, found.machine.pace
+    least, most = motion.extremes
+    means = motion.means
+    return {"max": _place(found, most), "min": _place(found, least), "arithmetic_mean": means.arithmetic / pace,
+            "mean_over_travel": means.planimetric / pace, "mean_over_time": _number(means.true / pace),
+            "unevenness": means.unevenness}
+
+
+def _place(found: Run, place: Place) -> dict[str, float | None]:
+    """A travel with the speed and the time there."""
+    return {"travel": float(place.travel / found.machine.degree), "omega": float(place.omega / found.machine.pace),
+            "time": _number(place.time)}
+
+
+def _listed(values: Any) -> list[float | None]:
+    return [_number(value) for value in values]
+
+
+def _number(value: float) -> float | None:
+    return float(value) + 0.0 if math.isfinite(value) else None

@@ -1,0 +1,115 @@
+"""`graphplan motion` on scenes: what it prints agrees with Ozols and with its schema, or it says why nothing moves."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from graphplan.commands import main
+from graphplan.commands.result_schemas import printed
+from graphplan.mechanism.scene import source_text
+
+jsonschema = pytest.importorskip("jsonschema")
+
+YOKE = source_text("ozols-13-6", "ozols-13-6")
+DRIVEN = '[[moments]]\non = "1"\nvalue = {}\n[balance]'
+
+
+def yoke(tmp_path: Path, loads: str, omega: float = 0.0, more: str = "") -> str:
+    """Ozols' yoke from its dead point, with more loads, driven at a speed and without a flywheel."""
+    head, _, tail = YOKE.partition("[flywheel]")
+    text = head + tail[tail.index("[find]"):] + more
+    for old, new in (("angle = 60", "angle = 0"), ("[0.5, 0]", "[0.6, 0]"), ("[0.7, 0]", "[0.8, 0]"),
+                     ("omega = 15", f"omega = {omega}"), ("[balance]", loads)):
+        assert old in text
+        text = text.replace(old, new)
+    file = tmp_path / "yoke.toml"
+    file.write_text(text)
+    return str(file)
+
+
+def motion(tmp_path: Path, scene: str, *options: str) -> dict[str, Any]:
+    """What the command writes for a scene, as its schema has it."""
+    file = tmp_path / "motion.json"
+    assert main(["motion", scene, "-q", "-o", str(file), *options]) == 0
+    found: dict[str, Any] = json.loads(file.read_text())
+    jsonschema.validate(found, printed("motion"))
+    assert max(found["check"].values()) < 1e-9
+    return found
+
+
+def test_run_up(tmp_path: Path) -> None:
+    """The yoke under 400 N m from rest; the drawing is off by no more than it says, and less with more strips."""
+    scene = yoke(tmp_path, DRIVEN.format(400))
+    found = motion(tmp_path, scene, "--travel", "180", "--positions", "18")
+    assert found["travel"][::9] == pytest.approx([0, 90, 180])
+    assert found["omega"][::9] == pytest.approx([0, 7.8223, 13.0892], abs=5e-5)
+    assert found["time"][::9] == pytest.approx([0, 0.31914, 0.47720], abs=5e-6)
+    assert found["acceleration"][0] == pytest.approx(40)
+    assert found["stop"] is None
+    for what in ("energy", "omega", "time"):
+        gaps = [abs(one - other) for one, other in zip(found["drawn"][what], found[what], strict=True)]
+        assert max(gaps) == pytest.approx(found["drawn"]["error"][what] * max(found[what]), rel=1e-6)
+    finer = motion(tmp_path, scene, "--travel", "180", "--positions", "36")["drawn"]["error"]
+    assert finer["omega"] < 0.3 * found["drawn"]["error"]["omega"] < 1e-3
+    assert finer["time"] < 0.4 * found["drawn"]["error"]["time"] < 0.02
+
+
+def test_steady_cycle_with_its_flywheel(tmp_path: Path) -> None:
+    """With [flywheel] it is the steady cycle, as uneven as asked for, also where scaled loads close it."""
+    found = motion(tmp_path, "ozols-13-6")
+    assert found["steady"]
+    assert found["speeds"]["unevenness"] == pytest.approx(1 / 30, rel=1e-9)
+    assert found["speeds"]["arithmetic_mean"] == pytest.approx(15, rel=1e-9)
+    assert found["flywheel"]["inertia"] == pytest.approx(49.3794, abs=1e-4)
+    assert found["closing_moment"] == pytest.approx(400 / math.pi, rel=1e-9)
+    table = '[flywheel]\nspeed = 15\nunevenness = 0.03333333333333333\ncloses = "load"\n'
+    scaled = motion(tmp_path, yoke(tmp_path, DRIVEN.format(200), 15, table))
+    assert scaled["speeds"]["unevenness"] == pytest.approx(0.03333333333333333, rel=1e-9)
+    assert "closing_moment" not in scaled
+    file = tmp_path / "cycle.csv"
+    assert main(["motion", "ozols-13-6", "-o", str(file), "--positions", "6"]) == 0
+    rows = list(csv.reader(file.read_text().splitlines()))
+    assert rows[0][:3] == ["travel [deg]", "omega [rad/s]", "time [s]"]
+    assert [float(row[0]) for row in rows[1:]] == pytest.approx([0, 60, 120, 180, 240, 300, 360])
+
+
+def test_stopping(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Without a drive the yoke stops, and where is told; beyond nothing is known."""
+    file = tmp_path / "stop.json"
+    assert main(["motion", yoke(tmp_path, "[balance]", 8), "-o", str(file)]) == 0
+    found = json.loads(file.read_text())
+    stop = found["stop"]["travel"]
+    assert 200 * (1 - math.cos(math.radians(stop))) == pytest.approx(320, rel=1e-9)
+    assert [at for at, omega in zip(found["travel"], found["omega"], strict=True) if omega is None] == \
+        [at for at in found["travel"] if at > stop]
+    assert "the machine stops at" in capsys.readouterr().err
+
+
+def test_characteristic(tmp_path: Path) -> None:
+    """A motor over its speed runs the yoke up into a steady cycle, whose nominal speed it tells."""
+    motor = '[[moments]]\non = "1"\nover = "speed"\nvalues = [[0, 1000], [20, 0], [40, -1000]]\n[balance]'
+    scene = yoke(tmp_path, motor)
+    found = motion(tmp_path, scene)
+    assert found["nominal_omega"] == pytest.approx(20 - 400 / math.pi / 50, rel=1e-9)
+    assert 1 < found["run_up"]["turns"] < 5
+    cycle = motion(tmp_path, scene, "--steady", "--speed", "10", "--positions", "4")
+    assert cycle["omega"][0] == pytest.approx(cycle["omega"][-1], rel=1e-11)
+
+
+@pytest.mark.parametrize(("loads", "options", "why"), [
+    ("[balance]", [], "does not start"),
+    (DRIVEN.format(400), ["--speed", "-3"], "below 0"),
+    (DRIVEN.format(400), ["--travel", "0"], "leads nowhere"),
+    (DRIVEN.format(400), ["--steady", "--speed", "9"], "does not close"),
+    ('[[moments]]\non = "1"\nover = "speed"\nvalues = [[0, 1000], [5, 900]]\n[balance]', [], "from 0 to 5"),
+])
+def test_refusals(tmp_path: Path, capsys: pytest.CaptureFixture[str], loads: str, options: list[str], why: str) -> None:
+    """What does not move as is asked for is refused with the reason."""
+    assert main(["motion", yoke(tmp_path, loads), *options]) == 2
+    assert why in capsys.readouterr().err

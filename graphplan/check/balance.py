@@ -14,16 +14,19 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.cycle import cycle
+from graphplan.check.trusted import construct
 from graphplan.cycle.loop import whole_motion
 from graphplan.errors import Disagreement, Refused
+from graphplan.machine.added_dyads import Dyads, added_dyads
 from graphplan.machine.counterweights import Counterweight, along_guide, balanced, full
 from graphplan.machine.engine import Engine, engine
 from graphplan.machine.mass_centre import MassCentre, mass_centre
 from graphplan.machine.shaking import Shaking, shaking
 from graphplan.mechanism.model import FRAME, Balance, Drive, Find, Loads, Scene
 from graphplan.mechanism.plane import times
+from graphplan.mechanism.scene import parse
 from graphplan.mechanism.units import METRES, NEWTONS
-from graphplan.solver import poses, statics
+from graphplan.solver import poses, solve, statics
 
 CLOSE = 1e-9  # of what is added up: so far opinions may be apart
 FULL, GUIDED, SHARED, NONE = "full", "partial", "share", "none"
@@ -203,8 +206,8 @@ def _compared(motion: MassMotion, guides: Mapping[str, Any]) -> dict[str, float]
 
 def _gap(ours: Any, terms: list[Any], size: float = 0.0) -> float:
     """The largest difference from a sum, beside the largest of its terms, or a size that is larger."""
-    beside = max(size, *(float(abs(term).max()) for term in terms))
-    apart = float(abs(ours - sum(terms)).max())
+    beside = max(size, *(float(np.max(np.abs(term))) for term in terms))
+    apart = float(np.max(np.abs(ours - sum(terms))))
     return apart / beside if beside else apart
 
 
@@ -255,3 +258,25 @@ def _borne(scene: Scene, found: statics.Reactions, points: Mapping[str, Any], ab
 def _complex(vector: Any, count: int) -> Any:
     """A vector of numbers or arrays as one complex array."""
     return np.broadcast_to(np.asarray(vector[0], dtype=float) + 1j * np.asarray(vector[1], dtype=float), (count,))
+
+
+# ---- added dyads -----------------------------------------------------------------------------------------------------
+
+
+def checked_dyads(scene: Scene) -> tuple[Dyads, dict[str, float]]:
+    """The scene with the dyads that carry its mass centre, and by how much the plans of that differ from the solver's
+    velocity and acceleration of the mass centre of the scene without them.
+
+    Fails as :func:`added_dyads` and `construct` do, with `Disagreement` where they differ by more than rounding.
+    """
+    centre, rates = mass_centre(scene), solve(scene)
+    added = added_dyads(centre)
+    drawn = construct(parse(added.text, scene.name, by_drive=True))
+    parts = [(float(mass.mass / centre.mass), mass.centre) for mass in centre.masses.values()]
+    found = {kind: _gap(ours[added.point], [part * complex(*map(float, theirs[point])) for part, point in parts])
+             for kind, ours, theirs in (("velocity", drawn.velocity, rates.velocity),
+                                        ("acceleration", drawn.acceleration, rates.acceleration))}
+    for what, gap in found.items():
+        if not gap <= CLOSE:
+            raise Disagreement(scene.name, f"{what} of the mass centre", "by added dyads", "by the solver", gap)
+    return added, found

@@ -3,10 +3,12 @@
 SCENE has links with masses; a file with a table [rotor] is a rotor. Of a linkage the mass centre is constructed by
 principal vectors over the cycle, with its velocity and acceleration, and what its inertia does to the frame. JSON has
 the numbers, in kg m, N and N m, points in the scene's lengths, travel in degrees (lengths of a drive that slides); .csv
-the table over the cycle.
+the table over the cycle. A .toml is the scene with added dyads whose joint S moves as the mass centre does, for draw,
+solve and cycle.
 
 examples:
   graphplan balance ozols-16-1 --positions 72 -o engine.json
+  graphplan balance ozols-16-1 -o dyads.toml && graphplan draw dyads.toml -o dyads.svg
   graphplan balance rotor.toml -o rotor.svg
 """
 
@@ -18,7 +20,7 @@ from graphplan.commands.choices import count
 from graphplan.commands.output import Messages, as_json, kind, write
 from graphplan.errors import Refused
 
-ENDINGS = (".json", ".csv")
+ENDINGS = (".json", ".csv", ".toml")
 POSITIONS, SHARE = 72, 0.5
 WAYS = ("full", "partial", "share", "none")
 
@@ -50,12 +52,18 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.mechanism.scene import parse
     from graphplan.output.machine.balance_numbers import numbers, table
 
+    scene = parse(text, options.scene, by_drive=True)
     ending, messages = kind(options.output, ENDINGS, "balance"), Messages(options.quiet)
+    if ending == ".toml":
+        from graphplan.check.balance import checked_dyads
+
+        write(checked_dyads(scene)[0].text, options.output)
+        return 0
     if options.share is not None and (options.counterweights != "share" or not 0 <= options.share <= 1):
         raise Refused(f"--share {options.share:g}", "this is no part of the reciprocating mass", "give 0 to 1, with "
                       "--counterweights share")
-    found = balancing(parse(text, options.scene, by_drive=True), options.positions or POSITIONS, options.counterweights,
-                      options.keep, _radii(options.radius), SHARE if options.share is None else options.share)
+    found = balancing(scene, options.positions or POSITIONS, options.counterweights, options.keep,
+                      _radii(options.radius), SHARE if options.share is None else options.share)
     if found.note:
         messages.remark(found.note)
     write(table(found.before) if ending == ".csv" else as_json(numbers(found)), options.output)

@@ -16,9 +16,10 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.commands.choices import count
-from graphplan.commands.output import Messages, as_json, kind, write
+from graphplan.commands.choices import add_language, add_paper, count
+from graphplan.commands.output import DOTS, Messages, as_json, kind, write
 from graphplan.errors import Refused
+from graphplan.mechanism.presentation import FRAMES
 
 ENDINGS = (".json", ".csv", ".toml")
 POSITIONS, SHARE = 72, 0.5
@@ -29,7 +30,8 @@ def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("scene", metavar="SCENE", help="a scene with masses, a packaged one, a task with [rotor], or - for standard "
         "input")
-    add("-o", "--output", metavar="FILE", help=", ".join(ENDINGS) + "; without it JSON on standard output")
+    add("-o", "--output", metavar="FILE", help=".json, .csv, of a rotor also the sheet: .svg, .pdf, .png, .tex or "
+        ".dxf; without it JSON on standard output")
     add("--positions", type=count("--positions", 3), metavar="N", help=f"in how many poses of the cycle ({POSITIONS})")
     add("--counterweights", choices=WAYS, default="", help="so that the mass centre stands still (full, the default "
         "where it can be done); moves along the guide on the frame alone (partial); of a slider-crank on the crank "
@@ -38,6 +40,10 @@ def options(command: argparse.ArgumentParser) -> None:
         "of a link stands; without it the length of the link")
     add("--keep", action="append", default=[], metavar="LINK", help="a link that gets no counterweight")
     add("--share", type=float, metavar="PART", help=f"of the reciprocating mass that is balanced ({SHARE:g})")
+    add("--dpi", type=count("--dpi", 20, 600), metavar="N", help=f"dots per inch of a .png ({DOTS})")
+    add_paper(command, "the sheet; without it the task's, or the smallest that will do")
+    add("--frame", choices=FRAMES, help="frame and title block; without it the task's, or iso")
+    add_language(command)
 
 
 def run(options: argparse.Namespace) -> int:

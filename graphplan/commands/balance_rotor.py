@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 
-from graphplan.commands.output import Messages, as_json, kind, write
+from graphplan.commands.output import Messages, as_json, kind, write, write_sheets
+from graphplan.errors import Refused
 
-ENDINGS = (".json", ".csv")
+NUMBERS = ".json", ".csv"
+ENDINGS = (*NUMBERS, ".svg", ".pdf", ".png", ".tex", ".dxf")
 
 
 def run(options: argparse.Namespace, text: str) -> int:
@@ -17,9 +20,28 @@ def run(options: argparse.Namespace, text: str) -> int:
     from graphplan.output.machine.rotor_numbers import numbers, table
 
     ending = kind(options.output, ENDINGS, "rotor")
-    messages, found = Messages(options.quiet), balanced(parse(text, options.scene))
+    _asked(options, ending)
+    task = parse(text, options.scene)
+    said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
+    messages, found = Messages(options.quiet), balanced(replace(task, sheet=replace(task.sheet, **said)))
     check = checked(found)
     for note in found.notes:
         messages.remark(f"{options.scene}: {note}")
-    write(table(found) if ending == ".csv" else as_json(numbers(found, check)), options.output)
+    if ending in NUMBERS:
+        write(table(found) if ending == ".csv" else as_json(numbers(found, check)), options.output)
+        return 0
+    from graphplan.output.machine.rotor_sheet import sheets
+
+    write_sheets(sheets(found, check, found.task.sheet.paper or None), options.output, ending[1:], options.dpi)
     return 0
+
+
+def _asked(options: argparse.Namespace, ending: str) -> None:
+    """Refuse options of linkages, and those of another kind of output."""
+    for name in ("positions", "counterweights", "radius", "keep", "share"):
+        if getattr(options, name):
+            raise Refused(f"--{name}", "this is a rotor, which has no use for it", "leave it out")
+    for name, fits in (("dpi", ending == ".png"), ("paper", ending not in NUMBERS), ("frame", ending not in NUMBERS)):
+        if getattr(options, name) and not fits:
+            raise Refused(f"--{name} {getattr(options, name)}", f"a {ending} has no use for it",
+                          "leave it out, or -o FILE.png")

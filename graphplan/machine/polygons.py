@@ -186,7 +186,7 @@ class PolygonRecorder:
     def draw(self) -> None:
         """The polygons, and the places of the corrections."""
         if self.rotor.dynamic:
-            law = said("m·a·r runs as the radius, against it where a mass is left of plane I; m_II·a·r_II closes")
+            law = said("each m·a·r runs as the radius, left of plane I against it; m_II·a·r_II closes")
             with self.board.on(MOMENTS, stage=Stage(said("Moment polygon"), law)):
                 self._moments()
         law = said("centrifugal forces are as m·r; m_I·r_I closes") if self.rotor.dynamic else said(

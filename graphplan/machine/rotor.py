@@ -250,6 +250,8 @@ def parse(text: str, name: str) -> RotorTask:
         _fitting(rotor, trials, faults)
         trials = tuple(replace(trial, at=rotor.planes[k] if trial.at is None else trial.at)
                        for k, trial in enumerate(trials[:len(rotor.planes)]))
+        if trials and rotor.radii[0] is None and rotor.weights[0] is None:  # where the trial masses were put
+            rotor = replace(rotor, radii=tuple(trial.radius for trial in trials))
         if len(trials) == 2 and trials[0].at == trials[1].at:
             faults.add("trial", f"both trial masses were put at {shown(trials[0].at)}", "a place for each plane")
         return RotorTask(read.get("title", ""), read.get("source", ""), name, units, rotor, trials,

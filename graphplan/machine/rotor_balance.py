@@ -28,7 +28,7 @@ from graphplan.machine.polygons import (
     sums,
 )
 from graphplan.machine.rotor import PLANES, Eccentric, Rotor, RotorTask
-from graphplan.machine.trial import ThreeRuns
+from graphplan.machine.trial import ThreeRuns, TrialWeights
 from graphplan.machine.trial_runs import Effect, draw, effect, read
 from graphplan.phrases import Said, digits, said, unit
 
@@ -129,7 +129,9 @@ def _by_trials(task: RotorTask, effects: tuple[Effect, ...], masses: list[tuple[
     marks: dict[str, Mark] = {}
     for index, one in enumerate(effects):
         marks |= draw(board, one, index)
-    with recorder.placing(said("turned by alpha from the trial mass, A_1/A times as large")):
+    weighed = any(isinstance(one.trial, TrialWeights) for one in effects)
+    with recorder.placing(said("where the largest trial weight would hang") if weighed else
+                          said("turned by alpha from the trial mass, A_1/A times as large")):
         for index, one in enumerate(effects):
             for k, side in enumerate(one.balancing if one.ratio else ()):
                 recorder.placed(index, _ray(board, recorder.marks["O"], one, k, side), prime="'" * k)

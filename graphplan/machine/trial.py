@@ -22,11 +22,13 @@ class Vibration(NamedTuple):
 
 @dataclass(frozen=True)
 class Trial:
-    """A trial mass by mass times radius and angle, and where along the axis it was put."""
+    """A trial mass by mass times radius and angle, where along the axis it was put, and its radius where that is told.
+    """
 
     mass_radius: Fraction
     angle: Fraction
     at: Fraction | None
+    radius: Fraction | None
 
 
 @dataclass(frozen=True)
@@ -76,12 +78,17 @@ def _size(row: Row) -> Fraction:
     return found
 
 
+def _trial_mass(row: Row) -> tuple[Fraction, Fraction, Fraction | None, Fraction | None]:
+    """Mass times radius, angle, place and radius."""
+    return _size(row), row["angle"], row.values.get("at"), row.values.get("radius")
+
+
 def _three_runs(row: Row) -> ThreeRuns:
-    return ThreeRuns(_size(row), row["angle"], row.values.get("at"), row["amplitudes"], row.values.get("fourth"))
+    return ThreeRuns(*_trial_mass(row), row["amplitudes"], row.values.get("fourth"))
 
 
 def _marked(row: Row) -> Marked:
-    return Marked(_size(row), row["angle"], row.values.get("at"), row["first"], row["with_trial"])
+    return Marked(*_trial_mass(row), row["first"], row["with_trial"])
 
 
 _VIBRATION = Table("a vibration", (
@@ -119,5 +126,5 @@ TRIALS = Rows(Either((
         Field("angle", "where on the rotor the first hangs, in degrees; the others follow counter-clockwise", NUMBER,
               default=0),
         Field("at", "where along the axis they hang; without it in the planes, in their order", NUMBER),
-    ), lambda row: TrialWeights(row["radius"], row["angle"], row.values.get("at"), row["weights"])),
+    ), lambda row: TrialWeights(row["radius"], row["angle"], row.values.get("at"), row["radius"], row["weights"])),
 )), single=True)

@@ -57,7 +57,7 @@ class Effect:
 
 
 TRIAL_PLANS = tuple(Panel(f"trial {letter}", said("plan of trial {0}", letter),
-                          said("Trial in plane {0}: vibrations", letter)) for letter in PLANES)
+                          said("Trial in plane {0}", letter)) for letter in PLANES)
 
 
 # ---- numbers --------------------------------------------------------------------------------------------------------
@@ -143,7 +143,7 @@ def angle_of(trial: TrialWeights, k: int) -> float:
 
 
 def draw(board: Board, effect: Effect, index: int) -> dict[str, Mark]:
-    """The plan of one trial; its marks by their names and the number of the plane."""
+    """The plan of one trial; its marks by the number of the plane and their names, such as 0:C."""
     if isinstance(effect.trial, TrialWeights):
         title, law = said("Trial weights"), said("each in the direction in which it hangs; 2/n times their sum is p")
     elif isinstance(effect.trial, Marked):
@@ -152,7 +152,7 @@ def draw(board: Board, effect: Effect, index: int) -> dict[str, Mark]:
         title, law = said("Three runs"), said("A_2 = A_1 + A and A_3 = A_1 − A: a triangle with the median A")
     recorder = next(draws for kind, draws in DRAWN.items() if isinstance(effect.trial, kind))
     with board.on(TRIAL_PLANS[index], stage=Stage(title, law)):
-        return {f"{name}{index}": mark for name, mark in recorder(board, effect, TRIAL_PLANS[index]).items()}
+        return {f"{index}:{name}": mark for name, mark in recorder(board, effect, TRIAL_PLANS[index]).items()}
 
 
 def _drawn_runs(board: Board, effect: Effect, plan: Panel) -> dict[str, Mark]:
@@ -224,9 +224,9 @@ def read(drawing: RotorDrawing, effect: Effect, index: int) -> list[complex]:
     if not effect.ratio:
         return [0j]
     if isinstance(effect.trial, TrialWeights):
-        return [size * drawing.at(f"p{index}")]
-    C, D = (drawing.at(f"{name}{index}") for name in "CD")
-    ends = [drawing.at(f"{name}{index}") for name in "GH"[:len(effect.turns)]]
+        return [size * drawing.at(f"{index}:p")]
+    C, D = (drawing.at(f"{index}:{name}") for name in "CD")
+    ends = [drawing.at(f"{index}:{name}") for name in "GH"[:len(effect.turns)]]
     return [size * turned * (C - D) / (G - D) for G in ends]
 
 

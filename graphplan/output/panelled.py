@@ -23,7 +23,7 @@ from typing import Any, ClassVar, NamedTuple
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel, Program, Step, plan_of
 from graphplan.mechanism.model import Scene
-from graphplan.phrases import Said, arranged, joined, said
+from graphplan.phrases import Said, arranged, joined, phrase, said
 from graphplan.sheet.frames.frame import Frame, frame_of
 from graphplan.sheet.frames.title import Page, TitleBlock
 from graphplan.sheet.layout.layout import stacked
@@ -66,6 +66,7 @@ class Panelled(ABC):
     """One kind of sheet on one paper."""
 
     paper: str
+    again: ClassVar = phrase("Steps {0} to {1}: the same at the other divisions.")  # of steps that are not told
     told_scales: ClassVar[bool] = False  # under captions
 
     # ---- what a kind of sheet says ---------------------------------------------------------------------------------
@@ -270,7 +271,7 @@ class Panelled(ABC):
                 yield from self._set(self._spoken(step), str(program.number(step.index)), step.index)
             if left:
                 numbers = program.number(left[0].index), program.number(left[-1].index)
-                yield from self._set(said("Steps {0} to {1}: the same at the other divisions.", *numbers))
+                yield from self._set(self.again(*numbers))
 
     @cached_property
     def _lengths(self) -> Lengths:

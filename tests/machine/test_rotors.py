@@ -159,6 +159,35 @@ def test_bearings_bear_nothing_of_a_balanced_rotor() -> None:
     assert max(map(abs, reactions(rotor, rotor.corrections))) < 1e-9
 
 
+def test_sheets_show_the_views_and_what_balances(tmp_path: Path) -> None:
+    """A sheet has its views and polygons, or the plans of trials, each drawn step a group, whatever is asked of it."""
+    task, file = tmp_path / "rotor.toml", tmp_path / "rotor.svg"
+    weights = f"{ONE}radius = 150\nweights = [40, 46, 55, 58, 56, 48, 41, 38]\n"
+    for text, panels in ((THREE, ("side view", "end view", "moment polygon", "force polygon")),
+                         (f"{ONE}amplitudes = [3, 4, 3.5]\nmass_radius = 1\n", ("side view", "end view", "trial I")),
+                         (weights, ("side view", "end view", "trial I", "trial weights")),
+                         (masses("mass = 0, radius = 1, angle = 0, at = 0"), ("moment polygon", "force polygon"))):
+        task.write_text(text)
+        assert main(["balance", str(task), "-q", "-o", str(file)]) == 0
+        svg = file.read_text()
+        assert all(f'data-plan="{panel}"' in svg for panel in panels)
+    task.write_text(THREE)
+    assert main(["balance", str(task), "-q", "-o", str(file)]) == 0
+    svg = file.read_text()
+    assert svg.count('class="step"') >= 10
+    assert "57.988 kg·mm" in svg
+    assert "Steps " not in svg  # each is told
+
+
+def test_options_of_linkages_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A rotor has no use for the options of a linkage, numbers have none for paper."""
+    task = tmp_path / "rotor.toml"
+    task.write_text(THREE)
+    for given in (["--positions", "12"], ["--paper", "A2"], ["-o", "rotor.gif"]):
+        assert main(["balance", str(task), *given]) == 2
+        assert len(capsys.readouterr().err.splitlines()) == 1
+
+
 @pytest.mark.parametrize(("text", "line"), [
     (masses("mass = -1, radius = 2, angle = 0, at = 1"), "rotor.masses.1.mass: the mass -1 is negative"),
     (masses("mass = 1, radius = 2, angle = 0"), "rotor.masses.1: at is missing"),

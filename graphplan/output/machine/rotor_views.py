@@ -1,0 +1,186 @@
+"""The views of a rotor: across its axis with the places of masses and planes, and along it with radii and angles."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from graphplan.machine.polygons import Correction, free_radius
+from graphplan.machine.rotor import PLANES
+from graphplan.machine.rotor_balance import Balanced
+from graphplan.machine.trial import TrialWeights
+from graphplan.machine.trial_runs import Effect, angle_of
+from graphplan.output.graphs import Figures
+from graphplan.output.machine.letter_places import LetterPlaces
+from graphplan.phrases import Said, said
+from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polyline, Rect, Spot
+from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.view import View
+
+MASS = Pen(0.5, pens.BROWN, fill=pens.BROWN, tip=pens.WHITE)
+CORRECTIONS = Pen(0.7, pens.RED, fill=pens.RED, tip=pens.WHITE), Pen(0.7, pens.GREEN, fill=pens.GREEN, tip=pens.WHITE)
+OTHER = Pen(0.35, pens.RED, (2.4, 1.0), fill=pens.RED, tip=pens.WHITE)
+DIMENSION, PLANE = Pen(0.18), Pen(0.35, pens.INK, (4.0, 1.2))
+SHAFT, DISC = 1.4, 1.3  # mm: half the shaft's thickness, the radius of a mass
+BEYOND = 6.0  # mm that centre lines go on beyond what is on them
+ROW, TIP = 5.0, 2.2  # mm from one dimension line to the next, and their heads
+DIMENSIONED = 6  # masses whose places are dimensioned at most
+
+
+@dataclass(frozen=True)
+class RotorViews(Figures):
+    """The views of one rotor."""
+
+    found: Balanced
+
+    @property
+    def reach(self) -> float:
+        """How far from the axis the outermost thing is."""
+        rotor, masses = self.found.task.rotor, self.found.masses
+        own = [mass.radius or 0.0 for mass in masses]
+        return max([float(free_radius(rotor, masses)), *own, *(abs(z) for _, z in self.corrections)])
+
+    @property
+    def corrections(self) -> list[tuple[Correction, complex]]:
+        """The corrections of the first answer that are not nothing, and where they are put across the axis."""
+        drawing = self.found.drawing
+        return [(one, drawing.at(f"P_{one.letter}")) for one in self.found.corrections
+                if f"P_{one.letter}" in drawing.marks]
+
+    @property
+    def places(self) -> tuple[float, float]:
+        """From where to where along the axis, from plane I, something stands."""
+        rotor = self.found.task.rotor
+        everything = [*rotor.planes, *rotor.bearings, *(mass.at for mass in self.found.masses if mass.at is not None)]
+        arms = [float(rotor.arm(place)) for place in everything]
+        return (min(arms), max(arms)) if max(arms) > min(arms) else (min(arms) - self.reach, max(arms) + self.reach)
+
+    @property
+    def foot(self) -> float:
+        """The mm under the views that dimensions take."""
+        return 2.0 + ROW * len(self._spans())
+
+    def runs(self, words: str | Said) -> Runs:
+        """A name or words as they are lettered."""
+        return name_runs(words) if "_" in words and "·" not in words else sentence_runs(self.tongue(words))
+
+    # ---- along the axis --------------------------------------------------------------------------------------------
+
+    def end_view(self, rect: Rect, k: float, level: float) -> Iterator[Item]:
+        """The rotor along its axis, from plane II: radii, masses, and corrections with their angles."""
+        plan = View(rect, 1 / k, (rect.centre[0], level))
+        places, (x, y), far = LetterPlaces(self.letters.text), plan.origin, self.reach / k + BEYOND
+        axes = ((x - far, y), (x + far, y)), ((x, y - far), (x, y + far))
+        for ends in axes:
+            yield Polyline(pens.PATH, "ruling", None, ends)
+        yield Circle(Pen(0.25), "pairs", None, (x, y), SHAFT)
+        radii = [*self._radii()]
+        places.lines += [*axes, *(((x, y), plan((z.real, z.imag))) for z, *_ in radii)]
+        yield places.at_point(axes[0][1], 1j, self.runs("x"))
+        yield places.at_point(axes[1][1], 1 + 0j, self.runs("y"))
+        for z, name, pen, step in radii:
+            spot = plan((z.real, z.imag))
+            yield Polyline(Pen(0.25, pen.colour, pen.dash), "links", step, (plan.origin, spot))
+            yield Circle(Pen(0.25, pen.colour, fill=pens.PAPER if pen.dash else pen.colour), "links", step, spot, DISC)
+            yield places.at_point(spot, z, self.runs(name), DISC + 1.0)
+        for one, _ in self.corrections:
+            yield from self._angle(plan, one, self.found.drawing.marks[f"P_{one.letter}"])
+        for index, effect in enumerate(self.found.effects):
+            yield from self._trial_masses(plan, effect, index, places)
+
+    def _radii(self) -> Iterator[tuple[complex, str, Pen, int]]:
+        """Masses and corrections across the axis: place, name, pen and step; of other answers dashed."""
+        drawing, marks = self.found.drawing, self.found.drawing.marks
+        pens_by_name = {f"P_{number}": MASS for number in range(1, len(self.found.masses) + 1)}
+        pens_by_name |= {f"P_{letter}": pen for letter, pen in zip(PLANES, CORRECTIONS, strict=True)}
+        for name, step in marks.items():
+            if name.startswith("P_"):
+                yield drawing.at(name), f"m_{name[2:]}", pens_by_name.get(name, OTHER), step
+
+    def _angle(self, plan: View, one: Correction, step: int) -> Iterator[Item]:
+        """The angle of a correction, from the axis of abscissas."""
+        radius = (0.3 + 0.16 * one.index) * self.reach * plan.scale
+        if math.radians(one.angle) * radius < 2 * TIP:
+            return
+        arc = Arc(DIMENSION, "links", step, plan.origin, radius, 0.0, one.angle)
+        yield arc
+        back = one.angle - math.degrees(TIP / radius)
+        yield Arrow(Pen(0.18, pens.INK, fill=pens.INK), "links", step, arc.at(back), arc.at(one.angle), TIP)
+        yield from self.backed(arc.at(one.angle / 2 if one.angle < 180 else one.angle - 30), f"alpha_{one.letter}",
+                               middle=True)
+
+    def _trial_masses(self, plan: View, effect: Effect, index: int, places: LetterPlaces) -> Iterator[Item]:
+        """Where trial masses were put."""
+        trial = effect.trial
+        far = float(trial.radius or free_radius(self.found.task.rotor, self.found.masses))
+        angles = [float(trial.angle)]
+        if isinstance(trial, TrialWeights):
+            angles = [angle_of(trial, k) for k in range(len(trial.weights))]
+        for k, angle in enumerate(angles):
+            z = cmath.rect(far, math.radians(angle))
+            spot = plan((z.real, z.imag))
+            yield Circle(Pen(0.25, fill=pens.PAPER), "links", None, spot, 0.8 * DISC)
+            yield places.at_point(spot, z, self.runs(f"p_{k}" if len(angles) > 1 else "m" + "'" * index), DISC + 1.0)
+
+    # ---- across the axis -------------------------------------------------------------------------------------------
+
+    def side_view(self, rect: Rect, k: float, k_z: float, level: float) -> Iterator[Item]:
+        """The rotor across its axis: planes, masses at their heights, bearings, and distances from plane I."""
+        rotor, (low, high), far = self.found.task.rotor, self.places, self.reach / k + 3.0
+        start = rect.centre[0] - (low + high) / 2 / k_z
+        plan = View(rect, 1 / k, (start, level))
+        ends = start + low / k_z - 2 * BEYOND, start + high / k_z + 2 * BEYOND
+        yield Polyline(pens.PATH, "ruling", None, ((ends[0] - 3.0, level), (ends[1] + 3.0, level)))
+        for y in (-SHAFT, SHAFT):
+            yield Polyline(Pen(0.35), "links", None, ((ends[0], level + y), (ends[1], level + y)))
+        places = LetterPlaces(self.letters.text, [((ends[0], level), (ends[1], level))])
+        for plane, letter in zip(rotor.planes, PLANES, strict=False):
+            x = start + float(rotor.arm(plane)) / k_z
+            places.lines.append(((x, level - far), (x, level + far)))
+            yield Polyline(PLANE, "links", None, places.lines[-1])
+            yield self.text((x, level + far + 1.2), said("plane {0}", letter), "middle")
+        for bearing in rotor.bearings:
+            x, y = start + float(rotor.arm(bearing)) / k_z, level - SHAFT
+            corners = (x - 2.0, y - 3.4), (x, y), (x + 2.0, y - 3.4), (x - 2.0, y - 3.4)
+            yield Polyline(pens.GROUND, "ground", None, corners)
+        yield from self._sticks(plan, k_z, places)
+        spans = ((start, start + place / k_z, name) for place, name in self._spans())
+        yield from self._dimensions(spans, level - far)
+
+    def _sticks(self, plan: View, k_z: float, places: LetterPlaces) -> Iterator[Item]:
+        """Masses and corrections at their heights over the axis."""
+        rotor, drawing = self.found.task.rotor, self.found.drawing
+        pieces = [(mass.at, f"P_{number}", MASS) for number, mass in enumerate(self.found.masses, 1)]
+        pieces += [(one.at, f"P_{one.letter}", CORRECTIONS[one.index]) for one in self.found.corrections]
+        for at, name, pen in pieces:
+            if name not in drawing.marks or at is None:
+                continue
+            height, step = drawing.at(name).imag, drawing.marks[name]
+            foot = plan.origin[0] + float(rotor.arm(at)) / k_z, plan.origin[1]
+            top = foot[0], plan((0.0, height))[1]
+            yield Polyline(Pen(0.25, pen.colour), "links", step, (foot, top))
+            yield Circle(Pen(0.25, pen.colour, fill=pen.colour), "links", step, top, DISC)
+            yield places.at_point(top, 1 + (0.8j if height >= 0 else -0.8j), self.runs(f"m_{name[2:]}"), DISC + 0.6)
+
+    def _spans(self) -> list[tuple[float, str]]:
+        """What is dimensioned, the nearest first: the places of the masses, if they are few, and that of plane II."""
+        rotor = self.found.task.rotor
+        spans = [(float(rotor.arm(mass.at)), f"a_{number}") for number, mass in enumerate(self.found.masses, 1)
+                 if mass.at is not None and (self.found.polygons or not self.found.effects)]
+        spans = spans if len(spans) <= DIMENSIONED else []
+        planes = [(float(rotor.between), "a")] if rotor.dynamic else []
+        return sorted((span for span in spans + planes if span[0]), key=lambda span: abs(span[0]))
+
+    def _dimensions(self, spans: Iterable[tuple[float, float, str]], top: float) -> Iterator[Item]:
+        """Dimension lines under each other."""
+        for row, (x, end, name) in enumerate(spans, 1):
+            y: float = top - ROW * row
+            middle: Spot = ((x + end) / 2, y)
+            for at in (x, end):
+                yield Polyline(DIMENSION, "ruling", None, ((at, y - 1.0), (at, top - 1.0)))
+                yield Arrow(Pen(0.18, pens.INK, fill=pens.INK), "ruling", None, middle, (at, y), TIP)
+            yield from self.backed(middle, name, middle=True)

@@ -10,6 +10,7 @@ from itertools import permutations
 from typing import TYPE_CHECKING, Any
 
 from graphplan.accuracy import PREFERENCES
+from graphplan.commands.output import DOTS
 from graphplan.errors import Refused
 from graphplan.mechanism.items import perhaps
 from graphplan.mechanism.pairs.pair import FRAME
@@ -82,6 +83,14 @@ def add_language(command: argparse.ArgumentParser) -> None:
 def add_paper(command: argparse.ArgumentParser, told: str) -> None:
     """The option that names the sheet."""
     command.add_argument("--paper", choices=tuple(SIZES), help=told)
+
+
+def add_diagrams(command: argparse.ArgumentParser) -> None:
+    """The options that say what a sheet of diagrams looks like; without them the scene has a say in it."""
+    command.add_argument("--dpi", type=count("--dpi", 20, 600), metavar="N", help=f"dots per inch of a .png ({DOTS})")
+    add_paper(command, "the sheet; without it the scene's, or the smallest that will do")
+    command.add_argument("--frame", choices=FRAMES, help="frame and title block; without it the scene's, or iso")
+    add_language(command)
 
 
 def add_sheet(command: argparse.ArgumentParser, *, positions: bool = True) -> None:
@@ -159,17 +168,22 @@ def _travels(text: str) -> list[Fraction] | str:
 
 def presented(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
     """The same with its sheet as the options have it, where they say; its title in the sheet's language."""
-    from graphplan.words.tongue import tongue
-
-    scene = given(options, scene)
-    said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
+    scene, said = given(options, scene), dict[str, Any]()
     if options.curves:
         said["curves"] = _movable(scene, options.curves)
     if options.centrodes:
         said["centrodes"] = _rolling(scene, options.centrodes)
     if options.faint:
         said["positions"] = options.faint
-    sheet = replace(scene.sheet, **said)
+    return on_sheet(options, scene, **said)
+
+
+def on_sheet(options: argparse.Namespace, scene: Scene, **more: Any) -> Scene:
+    """A scene with its sheet as the options and `more` have it, where they say; its title in the sheet's language."""
+    from graphplan.words.tongue import tongue
+
+    said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
+    sheet = replace(scene.sheet, **said, **more)
     return replace(scene, sheet=sheet, title=tongue(sheet.language).title(scene.title))
 
 

@@ -7,7 +7,7 @@ has kg m2, N m and J (kg and N of a drive that slides), travel in degrees (or le
 given pose. With --inertia the flywheel is given, and the unevenness found.
 
 examples:
-  graphplan flywheel ozols-13-6
+  graphplan flywheel ozols-13-6 -o sheet.svg
   graphplan flywheel ozols-13-6 --unevenness 0.02 --positions 36 -o flywheel.json
   graphplan flywheel ozols-13-6 --inertia 20 -o table.csv
 """
@@ -19,15 +19,15 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_language, add_paper, add_pencil, count, pencil
-from graphplan.commands.output import Messages, as_json, kind, write
+from graphplan.commands.choices import add_diagrams, add_pencil, count, on_sheet, pencil
+from graphplan.commands.output import SHEETS, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
     from graphplan.machine.flywheel import FlywheelResult
     from graphplan.mechanism.model import Scene
 
-ENDINGS = (".json", ".csv")
+ENDINGS = (".json", ".csv", *SHEETS)
 POSITIONS, FEWEST, MOST = 24, 12, 360
 AMOUNTS = {"speed": "the mean speed of the first drive, in rad/s (or lengths/s)", "inertia": "of a flywheel that is "
            "given, in mass * m2 (mass of a drive that slides)", "unevenness": "(omega_max - omega_min) / mean"}
@@ -35,15 +35,15 @@ AMOUNTS = {"speed": "the mean speed of the first drive, in rad/s (or lengths/s)"
 
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
-    add("-o", "--output", metavar="FILE", help=f"{', '.join(ENDINGS)}; without it JSON on standard output")
+    add("-o", "--output", metavar="FILE", help="the numbers: .json or a table, .csv; the sheet: "
+        f"{', '.join(SHEETS)}; without it JSON on standard output")
     for name, told in AMOUNTS.items():
         add(f"--{name}", metavar="X", help=f"{told}; without it the scene's")
     add("--closes", choices=("drive", "load"), help="what closes the cycle; without it the scene has a say")
     add("--positions", type=count("--positions", FEWEST, MOST), metavar="N",
         help=f"in how many plans it is drawn and tabled ({POSITIONS})")
     add_pencil(command)
-    add_paper(command, "the sheet; without it the scene's, or the smallest that will do")
-    add_language(command)
+    add_diagrams(command)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -53,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.output.machine.flywheel_numbers import numbers, table
 
     ending, messages = kind(options.output, ENDINGS, "flywheel"), Messages(options.quiet)
-    scene = _asked(load(options.scene), options)
+    scene = on_sheet(options, _asked(load(options.scene), options))
     messages.progress("reduction and energy")
     found = flywheel(scene, options.positions or POSITIONS)
     messages.progress("second opinion")
@@ -61,8 +61,13 @@ def run(options: argparse.Namespace) -> int:
     messages.progress("")
     for note in result.notes:
         messages.remark(f"{scene.name}: {note}")
-    error = _pencil_error(result, options)
-    write(table(result) if ending == ".csv" else as_json(numbers(result, error)), options.output)
+    if ending in SHEETS:
+        from graphplan.output.machine.flywheel_sheet import sheets
+
+        write_sheets(sheets(result, scene.sheet.paper or None), options.output, ending[1:], options.dpi)
+    else:
+        error = _pencil_error(result, options)
+        write(table(result) if ending == ".csv" else as_json(numbers(result, error)), options.output)
     return 0
 
 

@@ -236,13 +236,16 @@ class Figures:
             yield Polyline(AXIS, "ruling", None, ((at, y), (at, y - TICK)))
             yield self.text((at, y - TICK - 0.6 - CAPS * size), digits(x), "middle")
 
-    def numbered_y(self, graph: Graph) -> Iterator[Item]:
-        """Round ordinates, with their numbers left of the diagram."""
-        size, x = self.letters.text, graph.rect.left
-        for y in divisions(*graph.y, graph.rect.height / (0.8 * APART)):
+    def numbered_y(self, graph: Graph, right: bool = False, turns: bool = False,
+                   level: float = 0.0) -> Iterator[Item]:
+        """Round ordinates, with their numbers left of the diagram, or right of it, where the abscissa's head stands."""
+        size, x, way = self.letters.text, graph.rect.right if right else graph.rect.left, 1.0 if right else -1.0
+        for y in divisions(*graph.y, graph.rect.height / (0.8 * APART), turns):
             at = graph.at(0.0, y)[1]
-            yield Polyline(AXIS, "ruling", None, ((x - TICK, at), (x, at)))
-            yield self.text((x - TICK - 0.8, at - CAPS * size / 2), digits(y), "end")
+            if right and abs(at - graph.at(0.0, level)[1]) < size:
+                continue
+            yield Polyline(AXIS, "ruling", None, ((x + way * TICK, at), (x, at)))
+            yield self.text((x + way * (TICK + 0.8), at - CAPS * size / 2), digits(y), "start" if right else "end")
 
     def axes(self, graph: Graph, x_words: str, y_words: str, *, numbers: bool = True, turns: bool = False
              ) -> Iterator[Item]:

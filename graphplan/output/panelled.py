@@ -14,16 +14,17 @@ A kind of sheet says what it shows; paper, frame, captions, title block, and whe
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import accumulate, pairwise
+from itertools import accumulate, groupby, pairwise
 from typing import Any, ClassVar, NamedTuple
 
 from graphplan.errors import Refused
+from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Panel, Program, Step, plan_of
 from graphplan.mechanism.model import Scene
-from graphplan.phrases import Said, arranged, joined, phrase, said
+from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
 from graphplan.sheet.frames.frame import Frame, frame_of
 from graphplan.sheet.frames.title import Page, TitleBlock
 from graphplan.sheet.layout.layout import stacked
@@ -32,7 +33,7 @@ from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import HEADING, SIZE, LetterSizes, letter_sizes, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Text
-from graphplan.sheet.words.lengths import Lengths
+from graphplan.sheet.words.lengths import Lengths, Measure
 from graphplan.sheet.words.rows import Cell, Placed, TextRow, fill, hung, lettered
 from graphplan.sheet.words.tables import rows as table_rows
 from graphplan.words.tongue import Tongue, tongue
@@ -46,11 +47,12 @@ Words = Said | str | Sequence[Sequence[Said | str]]  # a paragraph; or the rows 
 
 
 class Recorded(NamedTuple):
-    """A program with the values of its steps, and how long a mm of paper is on its plans."""
+    """A program with the values of its steps, and how long a mm of paper is on its plans; some are drawn `in_mm`."""
 
     program: Program
     values: Sequence[Any]
     scales: Scales = Scales(1.0, 1.0, "mm", {})
+    in_mm: Collection[Panel] = ()
 
     @property
     def plans(self) -> list[Panel]:
@@ -61,13 +63,21 @@ class Recorded(NamedTuple):
         return found
 
 
+class PaperLengths(Lengths):
+    """The lengths of what is drawn in mm of paper: they are told as they are."""
+
+    def _given(self, quantity: Quantity, laid: Measure, where: int) -> Said:
+        return arranged("{0}: {1}", quantity.written, laid.told) if quantity.written else laid.told
+
+
 @dataclass(frozen=True)
 class Panelled(ABC):
     """One kind of sheet on one paper."""
 
     paper: str
-    again: ClassVar = phrase("Steps {0} to {1}: the same at the other divisions.")  # of steps that are not told
     told_scales: ClassVar[bool] = False  # under captions
+    again: ClassVar[Phrase] = phrase("Steps {0} to {1}: the same at the other divisions.")
+    letters_of: ClassVar[tuple[str, ...]] = ()  # quantities, such as omega_max, beside the marks of the construction
 
     # ---- what a kind of sheet says ---------------------------------------------------------------------------------
 
@@ -203,7 +213,7 @@ class Panelled(ABC):
     def _page(self, rows: Sequence[TextRow], count: int) -> Sheet:
         """The first of so many pages, with these words, as one display list."""
         wide, high = sheet_size(self.paper)
-        program, _, scales = self.recorded
+        program, scales = self.recorded.program, self.recorded.scales
         items = [*self._framed(self.title, self.panels, 1, count)]
         for panel in self.panels:
             items += self.figure(panel, self.room(panel))
@@ -258,31 +268,33 @@ class Panelled(ABC):
     @cached_property
     def _names(self) -> tuple[str, ...]:
         """The names that words are set with."""
-        return tuple(step.name for step in self.recorded.program.steps if step.name)
+        return (*(step.name for step in self.recorded.program.steps if step.name), *self.letters_of)
 
     def _steps(self) -> Iterator[TextRow]:
         """Stage by stage what is done in it, each kind of step once, and which steps are the same elsewhere."""
-        program = self.recorded.program
+        program, plans = self.recorded.program, self.recorded.plans
         for stage, steps in program.stages:
             yield replace(self._heading(stage.title, SIZE), gap=LEAD / 2)
             yield from self._set(arranged("{0:capital}.", stage.law))
-            shown, left = first_figure(steps) if self.repeats(self.recorded.plans[steps[0].index]) else (steps, ())
-            for step in shown:
-                yield from self._set(self._spoken(step), str(program.number(step.index)), step.index)
-            if left:
-                numbers = program.number(left[0].index), program.number(left[-1].index)
-                yield from self._set(self.again(*numbers))
+            runs = told_once(steps) if self.repeats(plans[steps[0].index]) else [(steps, ())]
+            for shown, left in runs:
+                for step in shown:
+                    yield from self._set(self._spoken(step), str(program.number(step.index)), step.index)
+                if left:
+                    yield from self._set(self.again(program.number(left[0].index), program.number(left[-1].index)))
 
     @cached_property
-    def _lengths(self) -> Lengths:
-        """How long on paper what is drawn is."""
-        program, values, scales = self.recorded
-        return Lengths(program, values, self.recorded.plans.__getitem__, scales)
+    def _lengths(self) -> tuple[Lengths, Lengths]:
+        """How long on paper what is drawn in lengths is, and what is drawn in mm."""
+        program, values, scales, _ = self.recorded
+        plan = self.recorded.plans.__getitem__
+        return Lengths(program, values, plan, scales), PaperLengths(program, values, plan, scales)
 
     def _spoken(self, step: Step) -> Said:
         """A step in words, with its length on paper."""
+        lengths = self._lengths[self.recorded.plans[step.index] in self.recorded.in_mm]
         told = self.recorded.program.told(step.index)
-        return joined((told, *(arranged("{0}.", length.told) for length in self._lengths.of(step))), " ")
+        return joined((told, *(arranged("{0}.", length.told) for length in lengths.of(step))), " ")
 
 
 def pages(kind: Callable[[str], Panelled], paper: str | None = None, papers: Sequence[str] = PAPERS) -> list[Sheet]:
@@ -301,9 +313,32 @@ def pages(kind: Callable[[str], Panelled], paper: str | None = None, papers: Seq
     raise Refused(f"paper {tried[-1].paper}", "what is given and found does not fit on it", "a larger one, or no name")
 
 
+def told_once(steps: Sequence[Step]) -> Iterator[tuple[Sequence[Step], Sequence[Step]]]:
+    """The steps of a stage that are told, each time with those after them that do the same again.
+
+    Told are the first, until all that is done in the stage has been done once, but of many alike one after the other
+    the first alone.
+    """
+    shown, left = first_figure(steps)
+    alike = [list(run) for _, run in groupby(shown, kind_of)]
+    told: list[Step] = []
+    for run in alike:
+        if len(run) > FEW + 1:
+            yield [*told, run[0]], run[1:]
+            told = []
+        else:
+            told += run
+    yield told, left
+
+
+def kind_of(step: Step) -> tuple[Any, str]:
+    """What a step does, and why."""
+    return step.op, getattr(step.why, "key", "")
+
+
 def first_figure(steps: Sequence[Step]) -> tuple[Sequence[Step], Sequence[Step]]:
     """The first steps of a stage, until all that is done in it has been done once, and the others."""
-    kinds = [(step.op, getattr(step.why, "key", "")) for step in steps]
+    kinds = [kind_of(step) for step in steps]
     again = next((kind for k, kind in enumerate(kinds) if kind in kinds[:k]), None)
     end = max(kinds.index(kind) for kind in kinds) + 1
     while again is not None and end < len(kinds) and kinds[end] != again:

@@ -22,7 +22,7 @@ from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import LetterSizes, name_runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.clip import clipped
-from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polyline, Spot
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Spot, Text
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.view import View
 
@@ -89,17 +89,18 @@ class StepInk:
             for item in self._step(step, self.views[panel]):
                 yield from clipped(item, rect)
 
-    def lettered(self, panel: Panel, others: Iterable[Item] = (), wishes: Iterable[Wish] = (),
+    def lettered(self, panel: Panel, others: Collection[Item] = (), wishes: Iterable[Wish] = (),
                  named: Callable[[Step], bool] = lambda step: True) -> list[Item]:
-        """The ink of a panel with letters that avoid it and each other, and what else is drawn there.
+        """The ink of a panel with letters that avoid it and each other, and what else is drawn there, letters or not.
 
         Other letters may be wished for; of the steps those have letters that are to be `named`.
         """
         ink, rect = [*self.items(panel), *others], self.views[panel].rect
+        taken = [Polygon(item.pen, item.layer, None, item.box.corners) for item in others if isinstance(item, Text)]
         marks = [self.spots[step.index] for step in self.steps(panel)
                  if step.op.gives == POINT and rect.holds(self.spots[step.index])]
         wanted = [*self.wishes(panel, named), *wishes]
-        return [*ink, *placed(wanted, ink, marks, rect, self.letters)]
+        return [*ink, *placed(wanted, [*ink, *taken], marks, rect, self.letters)]
 
     def wishes(self, panel: Panel, named: Callable[[Step], bool] = lambda step: True) -> Iterator[Wish]:
         """The letters of the points of a panel, and of its lines that have some."""

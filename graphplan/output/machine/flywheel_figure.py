@@ -1,0 +1,216 @@
+"""The diagrams of a flywheel on their panel: what the drawing's steps draw, the true curves over it, axes and letters.
+
+They lie as on the drawing board: the moment over the energy with common abscissae, the inertia turned over the
+energy-mass diagram, which has its energies from beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from graphplan.kernel.kinds import LINE
+from graphplan.kernel.program import Step
+from graphplan.machine.flywheel import FlywheelResult
+from graphplan.machine.flywheel_drawing import FLYWHEEL, FlywheelDrawing
+from graphplan.machine.flywheel_frames import FARTHEST, GAP, HEAD, Frame, Room
+from graphplan.machine.integrals import Piecewise
+from graphplan.output.graphs import AXIS, HEADED, Figures, Graph, scale_words
+from graphplan.output.panelled import Recorded
+from graphplan.output.step_ink import StepInk
+from graphplan.phrases import arranged, unit
+from graphplan.sheet.lettering.label_candidates import Wish
+from graphplan.sheet.lettering.lettering import CAPS, Runs, name_runs, sentence_runs
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.clip import clipped
+from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Spot
+from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.view import View
+
+FINE, CHORD, LEVEL = Pen(0.13, "#8a8a8a"), Pen(0.25, pens.VIOLET), Pen(0.25, pens.GREEN, (5.0, 1.0))
+TANGENTS = {"upper": Pen(0.35, pens.RED), "lower": Pen(0.35, pens.BLUE)}
+MOMENT, ENERGY, INERTIA, MASS = Pen(0.5), Pen(0.5, pens.BLUE), Pen(0.5, pens.RED), Pen(0.5, pens.VIOLET)
+SIDE, RIGHT, OVER = 4.0, 14.0, 9.0  # mm beside the pole, right of the diagrams for numbers, and over and under them
+SHARES = 0.68, 0.3  # of the width: the common abscissa; of the height: the moments, as high as the turned diagram
+PIECES, BEYOND, FREE = 6, 10.0, 4.0  # strokes of a curve from place to place; mm by which tangents go on; under curves
+
+
+def room_in(rect: Rect, figures: Figures) -> Room:
+    """How large the diagrams may be in a panel."""
+    wide = rect.width - FARTHEST - SIDE - GAP - RIGHT
+    high = rect.height - HEAD - 2 * _margin(figures)
+    return Room(SHARES[0] * wide, SHARES[1] * high, (1 - SHARES[1]) * high, (1 - SHARES[0]) * wide, SHARES[1] * high)
+
+
+def _margin(figures: Figures) -> float:
+    """What is free over and under the diagrams for scales and numbers."""
+    return OVER * figures.letters.times
+
+
+@dataclass(frozen=True)
+class FlywheelFigure:
+    """The diagrams of a result in their panel; `places` are those of the drawing's steps among the steps of the sheet.
+    """
+
+    result: FlywheelResult
+    drawing: FlywheelDrawing
+    recorded: Recorded
+    places: list[int]
+    paper: Figures
+    rect: Rect
+
+    @cached_property
+    def window(self) -> View:
+        """From the drawing's mm to those of the sheet: in the middle of the panel, and as large."""
+        left, low, right, top = self.drawing.extent
+        x, y = self.rect.centre
+        return View(self.rect, 1.0, (x - (left - SIDE + right + RIGHT) / 2, y - (low + top) / 2))
+
+    @cached_property
+    def graphs(self) -> dict[str, Graph]:
+        """The diagrams by name."""
+        found = {name: self._graph(frame) for name, frame in self.drawing.frames.items()}
+        energy, spots = found["energy"], self.drawing.spots("energies")
+        low = self.window(min(spots, key=lambda spot: spot[1]))[1] - FREE  # m and n may lie far below
+        return found | {"energy": replace(energy, rect=replace(energy.rect, bottom=max(low, energy.rect.bottom)))}
+
+    def _graph(self, frame: Frame) -> Graph:
+        x, y = self.window(frame.origin)
+        rect = Rect(x + frame.level[0], y + frame.upright[0], x + frame.level[1], y + frame.upright[1])
+        return Graph(rect, (x - frame.x.datum / frame.x.unit, y - frame.y.datum / frame.y.unit), frame.x.unit,
+                     frame.y.unit)
+
+    def items(self) -> list[Item]:
+        """All of it, its letters off its lines."""
+        drawn = [*self._areas(), *self._curves(), *self._level(), *self._tangents(), *self._axes()]
+        return self.ink.lettered(FLYWHEEL, drawn, self._wishes(), self._named)
+
+    # ---- steps -----------------------------------------------------------------------------------------------------
+
+    def _steps(self, role: str) -> list[int]:
+        """The steps of a role, by their places on the sheet."""
+        return [self.places[index] for index in self.drawing.marks[role]]
+
+    @cached_property
+    def ink(self) -> StepInk:
+        """What the steps draw: fine lines, chords by themselves; tangents are drawn as far as they touch."""
+        steps = self.recorded.program.steps
+        lines = {place: FINE for place in self.places if steps[place].op.gives == LINE}
+        chords = {steps[Q].args[1]: CHORD for Q in self._steps("energies")[1:]}
+        axis = dict.fromkeys(self._steps("axis"), AXIS)
+        hidden = {*self._steps("upper"), *self._steps("lower"), *self._steps("closed")}
+        return StepInk(self.recorded, {FLYWHEEL: self.window}, self.paper.letters, pens={**lines, **chords, **axis},
+                       beyond=dict.fromkeys(chords, 0.0), hidden=hidden)
+
+    def _level(self) -> Iterator[Item]:
+        """The level from which the closed moment counts, from the pole through the whole diagram."""
+        (place,), pole = self._steps("closed"), self.window(self.drawing.spots("ray origin")[0])
+        yield Polyline(LEVEL, "plates", place, (pole, (self.graphs["moment"].rect.right + BEYOND / 2, pole[1])))
+
+    def _tangents(self) -> Iterator[Item]:
+        """Both tangents from the axis on which they are cut to beyond where they touch."""
+        graph = self.graphs["energy-mass"]
+        for which, letter in (("upper", "m"), ("lower", "n")):
+            (place,), pen = self._steps(which), TANGENTS[which]
+            cut, touch = self.window(self.drawing.spots(letter)[0]), getattr(self.result.wheel, which)
+            slope, far = touch.slope * graph.k_x / graph.k_y, graph.rect.right + BEYOND - cut[0]
+            line = Polyline(pen, "plates", place, (cut, (cut[0] + far, cut[1] + far * slope)))
+            yield from clipped(line, Rect(self.rect.left, self.rect.bottom, self.rect.right, graph.rect.top + HEAD / 4))
+
+    # ---- curves ----------------------------------------------------------------------------------------------------
+
+    def _sampled(self, curve: Piecewise) -> Iterator[tuple[Any, Any]]:
+        """Travels as they are told, and values, stretch by stretch between jumps."""
+        for low, high in pairwise(map(float, curve.edges)):
+            travel = np.linspace(low, high, PIECES + 1)
+            yield self.result.told(travel), np.append(curve.at(travel[:-1]), curve.at(high, -1))
+
+    def _areas(self) -> Iterator[Item]:
+        """What lies between the moment and its mean."""
+        graph = self.graphs["moment"]
+        level = graph.at(0.0, self.drawing.mean)[1]
+        parts = [graph.spots(*part) for part in self._sampled(self.result.cycle.moment)]
+        spots = [spot for part in parts for spot in part]
+        corners = ((spots[0][0], level), *spots, (spots[-1][0], level))
+        yield Polygon(Pen(0.0, fill=pens.TINT), "paper", None, corners)
+
+    def _curves(self) -> Iterator[Item]:
+        """The true curves of moment, energy, inertia, and of energy by inertia."""
+        cycle, curve = self.result.cycle, partial(Polyline, layer="links", step=None)
+        for name, values, pen in (("moment", cycle.moment, MOMENT), ("energy", cycle.energy, ENERGY)):
+            spots = [spot for part in self._sampled(values) for spot in self.graphs[name].spots(*part)]
+            yield curve(pen, spots=tuple(spots))
+        inertia = self.graphs["inertia"]
+        turned = [spot for travel, I in self._sampled(cycle.inertia) for spot in inertia.spots(I, travel)]
+        yield curve(INERTIA, spots=tuple(turned))
+        travel = np.linspace(*cycle.ends, PIECES * self.result.positions + 1)
+        spots = self.graphs["energy-mass"].spots(cycle.inertia.at(travel), cycle.energy.at(travel))
+        yield curve(MASS, spots=tuple(spots))
+
+    # ---- axes and letters ------------------------------------------------------------------------------------------
+
+    @property
+    def _measures(self) -> dict[str, tuple[str, str]]:
+        """Letters and units: of a drive that slides it is forces and masses."""
+        if self.result.turns:
+            return {"M": ("M", "N m"), "E": ("E", "J"), "I": ("I", "kg m²"), "phi": ("phi", "°")}
+        return {"M": ("F", "N"), "E": ("E", "J"), "I": ("m", "kg"), "phi": ("s", self.result.scene.units.length)}
+
+    def _scale(self, what: str, k: float) -> Runs:
+        """A scale, set."""
+        letter, measure = self._measures[what]
+        told = scale_words(letter, k, measure, self.result.scene.sheet.convention)
+        return sentence_runs(self.paper.tongue(told), (f"k_{letter}", f"mu_{letter}"))
+
+    def _told(self, what: str, k: float, at: Spot, anchor: str = "start") -> Item:
+        """Letter, unit and scale of a quantity."""
+        letter, measure = self._measures[what]
+        told = self.paper.tongue(arranged("{0}, {1};  ", letter, unit(measure)))
+        return self.paper.text(at, (*sentence_runs(told, (letter,)), *self._scale(what, k)), anchor)
+
+    def _axes(self) -> Iterator[Item]:
+        """Axes, round divisions with numbers, and scales."""
+        paper, graphs = self.paper, self.graphs
+        moment, energy, inertia, mass = (graphs[name] for name in ("moment", "energy", "inertia", "energy-mass"))
+        turns = self.result.turns
+        for graph in (moment, energy):
+            yield from paper.ordinate(graph, head=True)
+            yield from paper.abscissa(graph)
+        for graph in (inertia, mass):
+            yield from paper.ordinate(graph, head=graph is inertia)
+        yield from paper.abscissa(inertia, level=inertia.y[0])
+        yield from paper.abscissa(mass)
+        for graph, what in ((moment, "M"), (energy, "E")):
+            yield self._told(what, graph.k_y, (graph.rect.left, graph.rect.top + HEADED / 2))
+            yield from paper.numbered_y(graph, right=True)
+        yield self._told("I", inertia.k_x, (inertia.rect.left, inertia.rect.bottom - HEADED))
+        yield from paper.numbered_x(energy, turns=turns)
+        yield from paper.numbered_x(mass)
+        yield from paper.numbered_y(inertia, right=True, turns=turns, level=inertia.y[0])
+        yield self._told("phi", inertia.k_y, (inertia.rect.right + RIGHT, inertia.rect.top + HEADED / 2), "end")
+        low = energy.rect.bottom - (2.4 + CAPS) * paper.letters.text
+        yield self._told("phi", energy.k_x, (energy.rect.right, low), "end")
+
+    def _named(self, step: Step) -> bool:
+        """Whether a step's letter stands on the sheet: those of the divisions stand as numbers at the curve alone."""
+        return "_" not in step.name
+
+    def _wishes(self) -> Iterator[Wish]:
+        """The numbers of the plans along the energy-mass curve and over the abscissa, and the letters of angles."""
+        for k, spot in enumerate(map(self.window, self.drawing.spots("points"))):
+            yield Wish(sentence_runs(str(k)), (spot,), 0.5, minor=True, pen=pens.FAINT, label=f"P {k}")
+        graph, bounds = self.graphs["energy-mass"], self.rect
+        for which, name in (("upper", "psi_max"), ("lower", "psi_min")):
+            touch = getattr(self.result.wheel, which)
+            cut = self.window(self.drawing.spots("m" if which == "upper" else "n")[0])
+            end = graph.at(touch.inertia, touch.energy)
+            spots = tuple(spot for t in (0.25, 0.4, 0.15, 0.6, 0.8)
+                          if bounds.holds(spot := (cut[0] + t * (end[0] - cut[0]), cut[1] + t * (end[1] - cut[1]))))
+            if spots:
+                yield Wish(name_runs(name), spots, 0.6, pen=Pen(0.0, TANGENTS[which].colour,
+                           fill=TANGENTS[which].colour), label=name, free=True)

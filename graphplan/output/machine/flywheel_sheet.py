@@ -1,0 +1,206 @@
+"""The sheet of a flywheel: the mechanism in its positions, Zhukovsky's levers, and the diagrams one under another.
+
+The diagrams are those of the second sheet of a course project: reduced moment with the moment that closes the cycle,
+energy by graphical integration, reduced inertia, turned, and Wittenbauer's curve between its two tangents. They stand
+on one panel, so that abscissae are shared and points carried across, as on a drawing board.
+
+Source: Ozols 1974, 13-6 and 15-2 with figs. 13-9, 15-2 and 15-3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+
+from graphplan.kernel.passes import put_together
+from graphplan.kernel.program import Panel
+from graphplan.machine.flywheel import FlywheelResult
+from graphplan.machine.flywheel_drawing import FLYWHEEL, FlywheelDrawing, drawn
+from graphplan.machine.flywheel_methods import NEGLECTS_NOTHING
+from graphplan.mechanism.model import Scene
+from graphplan.output.graphs import Figures
+from graphplan.output.machine.flywheel_figure import FlywheelFigure, room_in
+from graphplan.output.machine.lever_figures import LEVERS, LeverFigures
+from graphplan.output.panelled import Panelled, Recorded, Words, beside, pages, under
+from graphplan.phrases import Said, arranged, digits, joined, phrase, said, unit
+from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.plates.display import Item, Rect, Sheet
+from graphplan.sheet.plates.plate import Plates
+
+DOCUMENT = said("Flywheel sheet")
+PAPERS = ("A2", "A1")
+UPPER, SHARES = 0.36, (0.4, 0.3, 0.3)  # of the height: the plans; of the width: mechanism, lever, the other levers
+NAMES = {"gutjahr": said("Gutjahr"), "area vectors": said("area vectors"), "power": said("power"),
+         "characteristic": said("characteristic")}
+
+
+def sheets(result: FlywheelResult, paper: str | None = None) -> list[Sheet]:
+    """The sheet of a flywheel on the paper named, or on the smallest on which its words have room; see :func:`pages`.
+    """
+    return pages(lambda name: FlywheelSheet(name, result), paper, PAPERS)
+
+
+@dataclass(frozen=True)
+class FlywheelSheet(Panelled):
+    """One flywheel on one paper."""
+
+    result: FlywheelResult
+    document = DOCUMENT
+    told_scales = True
+    again = phrase("Steps {0} to {1}: the same for the others.")
+    letters_of = "phi", "psi", "delta", "omega_max", "omega_min", "k_phi", "k_M", "k_E", "k_I"
+
+    @property
+    def scene(self) -> Scene:
+        return self.result.scene
+
+    @property
+    def told(self) -> Said:
+        return said("Flywheel by Wittenbauer's diagram from {0} plans.", self.result.positions)
+
+    @property
+    def scale(self) -> Said:
+        return self._windows[0].ratio
+
+    # ---- panels ----------------------------------------------------------------------------------------------------
+
+    @property
+    def _plans(self) -> tuple[Panel, ...]:
+        """The plans of the given pose."""
+        return tuple(self.levers.plans.panels)
+
+    def divided(self, room: Rect) -> dict[Panel, Rect]:
+        """The plans of the given pose and the other levers beside each other, under them the diagrams."""
+        upper, lower = under(room, UPPER, 1 - UPPER)
+        count = len(self._plans)
+        rects = beside(upper, *SHARES[:2], *(SHARES[1] for _ in range(count - 2)), SHARES[2])
+        return dict(zip((*self._plans, LEVERS), rects, strict=True)) | {FLYWHEEL: lower}
+
+    @cached_property
+    def levers(self) -> LeverFigures:
+        """The levers of the cycle."""
+        return LeverFigures(self.result.reduction, self.result.positions, self.tongue, self.letters)
+
+    @cached_property
+    def _windows(self) -> tuple[Scales, Plates]:
+        """The scales and windows of the plans of the given pose."""
+        return self.levers.plates({panel: self.room(panel) for panel in self._plans})
+
+    @cached_property
+    def drawing(self) -> FlywheelDrawing:
+        """The diagrams, as large as they have room."""
+        room = room_in(self.room(FLYWHEEL), self._figures)
+        return drawn(self.result.cycle, self.result.wheel, self.result.positions, room)
+
+    @cached_property
+    def _joined(self) -> tuple[Recorded, list[list[int]]]:
+        """The lever and the diagrams as one construction, and where the steps of both are in it."""
+        lever, diagrams = self.levers.drawing, self.drawing
+        program, places = put_together([lever.drawn, diagrams.program])
+        values = dict(zip(places[0], lever.values, strict=True)) | dict(zip(places[1], diagrams.values, strict=True))
+        scales = self._windows[0]
+        scales = replace(scales, multiples={**scales.multiples, FLYWHEEL: Fraction(scales.k_s)})  # drawn in mm
+        return Recorded(program, [values[index] for index in range(len(program))], scales, (FLYWHEEL,)), places
+
+    @property
+    def recorded(self) -> Recorded:
+        return self._joined[0]
+
+    @property
+    def _figures(self) -> Figures:
+        return Figures(self.letters, self.tongue)
+
+    def heading(self, panel: Panel) -> tuple[Said, Said | None]:
+        """What a panel shows, and the scales of plans."""
+        return self.levers.heading(panel, self._windows[0]) if panel in self._plans else (panel.heading, None)
+
+    def repeats(self, panel: Panel) -> bool:
+        """The lever is told step by step, of the diagrams each kind of step once."""
+        return panel == FLYWHEEL
+
+    def figure(self, panel: Panel, rect: Rect) -> Iterable[Item]:
+        """The plans, the other levers, or the diagrams."""
+        if panel == LEVERS:
+            return self.levers.small(rect)
+        if panel == FLYWHEEL:
+            recorded, places = self._joined
+            return FlywheelFigure(self.result, self.drawing, recorded, places[1], self._figures, rect).items()
+        return [self._placed(item) for item in self.levers.picture(self._windows[1], panel)]
+
+    def _placed(self, item: Item) -> Item:
+        """An item of the lever, its step that of the sheet."""
+        return item if item.step is None else replace(item, step=self._joined[1][0][item.step])
+
+    # ---- words -----------------------------------------------------------------------------------------------------
+
+    def given(self) -> Iterator[Words]:
+        """The speed and how even it is to be, the masses and the loads."""
+        result, loads = self.result, self.scene.loads
+        yield arranged("omega = {0} {1}" if result.turns else "v = {0} {1}", digits(result.cycle.speed),
+                       unit(self._units[2]))
+        if not result.given:
+            yield arranged("delta = {0}", digits(result.unevenness))
+        names = self.scene.units
+        for link, mass in loads.masses.items() if loads else ():
+            parts = [arranged("m_{0} = {1} {2}", link, digits(float(mass.mass)), unit(names.mass))] if mass.mass else []
+            if mass.inertia:
+                parts.append(arranged("I_{0} = {1} {2}", link, digits(float(mass.inertia)), unit(f"{names.mass} m²")))
+            if parts:
+                yield joined(parts)
+        tables = [*(f.table for f in loads.forces), *(m.table for m in loads.moments)] if loads else []
+        for table in dict.fromkeys(filter(None, tables)):
+            yield said("A load over {0}, in {1} rows", table.over, len(table.rows))
+
+    @property
+    def _units(self) -> tuple[str, str, str]:
+        """The units of moments, inertias and speeds: of a drive that slides of forces, masses and speeds."""
+        return ("N m", "kg m²", "rad/s") if self.result.turns else ("N", "kg", "m/s")
+
+    def found(self) -> Iterator[Words]:
+        """What closes the cycle, the flywheel, the speeds, what other methods find, and the plans as a table."""
+        result, (M, I, rate) = self.result, self._units
+        cycle, wheel = result.cycle, result.wheel
+        if cycle.closing:
+            yield said("Closing moment: {0} {1}", digits(cycle.closing), unit(M))
+        yield said("Flywheel: {0} {1}; drawn {2} {1}", digits(wheel.inertia), unit(I), digits(self.drawing.inertia))
+        yield said("mn = {0} mm, {1} J", digits(self._intercept), digits(wheel.intercept(self.drawing.axis)))
+        for name, speed, touch in (("omega_max", wheel.omega_max, wheel.upper), ("omega_min", wheel.omega_min,
+                                                                                wheel.lower)):
+            at = joined((digits(float(result.told(touch.travel))), unit(self._travel)), "" if result.turns else " ")
+            yield said("{0} = {1} {2} at {3}", name, digits(speed), unit(rate), at)
+        for note in result.notes:
+            yield arranged("{0:capital}", note)
+        yield from self._methods()
+        yield self._table()
+
+    @property
+    def _travel(self) -> str:
+        return "°" if self.result.turns else self.scene.units.length
+
+    @property
+    def _intercept(self) -> float:
+        """How far apart m and n are on paper, in mm."""
+        (_, m), (_, n) = self.drawing.spots("m")[0], self.drawing.spots("n")[0]
+        return m - n
+
+    def _methods(self) -> Iterator[Words]:
+        """What each method finds, and what it neglects."""
+        I = self._units[1]
+        rows = [(said("Wittenbauer"), self.result.wheel.inertia, NEGLECTS_NOTHING),
+                *((NAMES[one.name], one.inertia, one.neglects) for one in self.result.methods)]
+        for name, inertia, neglects in rows if self.result.methods else ():
+            yield arranged("{0:capital}: {1} {2}; {3}", name, digits(inertia), unit(I), neglects)
+
+    def _table(self) -> list[list[Said | str]]:
+        """A row for each plan."""
+        result, (M, I, rate) = self.result, self._units
+        columns = [result.told_travels, *(result.plans[name] for name in ("inertia", "moment", "energy", "omega"))]
+        letters = ("phi", "I", "M", "E", "omega") if result.turns else ("s", "m", "F", "E", "v")
+        units = self._travel, I, M, "J", rate
+        head = ["", *(arranged("{0}, {1}", letter, unit(one)) for letter, one in zip(letters, units, strict=True))]
+        size = [float(abs(column).max()) or 1.0 for column in columns]
+        return [head, *([str(k), *(digits(float(x) if abs(x) > 1e-9 * most else 0.0)
+                                   for x, most in zip(row, size, strict=True))]
+                        for k, row in enumerate(zip(*columns, strict=True)))]

@@ -1,0 +1,86 @@
+"""The sheet of a flywheel: its panels, its steps, what stands in its words, and letters apart from each other."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+from graphplan.commands import main
+from graphplan.machine.flywheel import FlywheelResult, flywheel
+from graphplan.machine.flywheel_drawing import FLYWHEEL
+from graphplan.mechanism.scene import load
+from graphplan.output.machine.flywheel_sheet import FlywheelSheet, sheets
+from graphplan.output.machine.lever_figures import LEVERS
+from graphplan.output.svg import svg
+from graphplan.phrases import digits
+from graphplan.sheet.lettering.lettering import plain
+from graphplan.sheet.plates.display import EDGE, Item, Polyline, Sheet, Text
+
+
+@pytest.fixture(scope="module")
+def result() -> FlywheelResult:
+    """The scotch yoke's flywheel."""
+    return flywheel(load("ozols-13-6"))
+
+
+@pytest.fixture(scope="module")
+def pages(result: FlywheelResult) -> list[Sheet]:
+    """Its sheet."""
+    return sheets(result)
+
+
+def inside(sheet: Sheet, item: Item) -> bool:
+    """Whether a stroke or letters lie in one panel."""
+    spots = item.box.corners if isinstance(item, Text) else item.spots if isinstance(item, Polyline) else ()
+    return any(all(rect.holds(spot, EDGE) for spot in spots) for rect in sheet.panels.values())
+
+
+def test_panels_hold_what_is_drawn(pages: list[Sheet]) -> None:
+    """Mechanism, lever, the other levers and the diagrams have a panel each, and no ink or letter leaves it."""
+    first = pages[0]
+    assert list(first.panels) == ["mechanism", "lever", LEVERS, FLYWHEEL]
+    drawn = [item for item in first.items if item.layer in ("plates", "links", "letters", "ruling")]
+    assert [item for item in drawn if not inside(first, item)] == []
+
+
+@pytest.mark.parametrize("paper", ["A3", "A2", "A1"])
+def test_no_letters_meet(result: FlywheelResult, paper: str) -> None:
+    """No two words or letters stand on each other, on any paper."""
+    first, *_ = sheets(result, paper)
+    texts = [item for item in first.items if isinstance(item, Text)]
+    boxes = [(item, item.box.inset(0.05, 0.05, 0.05, 0.05)) for item in texts]
+    assert [(plain(a.runs), plain(b.runs)) for (a, one), (b, two) in combinations(boxes, 2)
+            if one.meets(two) and a.at != b.at] == []
+
+
+def test_every_step_is_drawn_and_told(result: FlywheelResult, pages: list[Sheet]) -> None:
+    """The steps of the lever and of the diagrams are numbered one after the other; each has its ink and its sentence,
+    lengths of the diagrams being mm of paper."""
+    sheet = FlywheelSheet("A2", result)
+    lever, diagrams = sheet.levers.drawing.drawn, sheet.drawing.program
+    steps = len(lever) - lever.givens + len(diagrams) - diagrams.givens
+    assert len(pages[0].sentences) - pages[0].givens == steps
+    text = svg(pages[0])
+    drawn = sum(f'data-step="{k}"' in text for k in range(1, steps + 1))
+    assert drawn > 0.97 * steps  # what is laid off on what is drawn already has no ink of its own
+    words = " ".join(plain(item.runs) for page in pages for item in page.items if isinstance(item, Text))
+    mean = sheet.drawing.spots("mean")[0][1]
+    assert f"{abs(mean):.1f} mm" in words
+
+
+def test_words_have_the_numbers(result: FlywheelResult, pages: list[Sheet]) -> None:
+    """The closing moment, the flywheel by each method, and a row for each plan stand on the sheet."""
+    lines = [plain(item.runs) for item in pages[0].items if isinstance(item, Text)]
+    words = " ".join(lines)
+    assert f"Closing moment: {digits(result.cycle.closing)} N m" in words
+    assert all(digits(value) in words for value in (result.wheel.inertia, *(one.inertia for one in result.methods)))
+    assert all(str(k) in lines for k in range(result.positions + 1))
+
+
+def test_formats(tmp_path: Path) -> None:
+    """The command writes the sheet as TikZ and a table as CSV; words that stand apart are files of their own."""
+    assert main(["flywheel", "ozols-13-6", "-q", "-o", str(tmp_path / "sheet.tex")]) == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["sheet-protocol.tex", "sheet.tex"]
+    assert r"\begin{tikzpicture}" in (tmp_path / "sheet.tex").read_text()

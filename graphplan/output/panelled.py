@@ -283,6 +283,10 @@ class Panelled(ABC):
                 if left:
                     yield from self._set(self.again(program.number(left[0].index), program.number(left[-1].index)))
 
+    def measure(self, panel: Panel) -> Lengths:
+        """How long on paper what is drawn on a panel is."""
+        return self._lengths[panel in self.recorded.in_mm]
+
     @cached_property
     def _lengths(self) -> tuple[Lengths, Lengths]:
         """How long on paper what is drawn in lengths is, and what is drawn in mm."""
@@ -292,8 +296,7 @@ class Panelled(ABC):
 
     def _spoken(self, step: Step) -> Said:
         """A step in words, with its length on paper."""
-        lengths = self._lengths[self.recorded.plans[step.index] in self.recorded.in_mm]
-        told = self.recorded.program.told(step.index)
+        told, lengths = self.recorded.program.told(step.index), self.measure(self.recorded.plans[step.index])
         return joined((told, *(arranged("{0}.", length.told) for length in lengths.of(step))), " ")
 
 

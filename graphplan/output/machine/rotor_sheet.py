@@ -87,9 +87,12 @@ class RotorSheet(Panelled):
         scales = Scales(k, 1.0, task.units.length, multiples, unit=task.units.mass, convention=task.sheet.convention)
         return Recorded(self.balanced.drawing.program, self.balanced.drawing.values, scales)
 
+    def measure(self, panel: Panel) -> Lengths:
+        return self._measured
+
     @cached_property
-    def _lengths(self) -> Lengths:
-        program, values, scales = self.recorded
+    def _measured(self) -> Lengths:
+        program, values, scales, _ = self.recorded
         return RotorLengths(program, values, self.recorded.plans.__getitem__, scales)
 
     @property

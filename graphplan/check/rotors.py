@@ -76,18 +76,24 @@ def _left(parts: list[complex]) -> float:
 
 def equilibrium(rotor: Rotor, masses: Sequence[Eccentric]) -> list[complex]:
     """The corrections, as vectors, that two equations of equilibrium give, or one of a rotor with one plane."""
-    forces, places = [*map(vector, masses)], [*map(place, masses)]
+    forces, places = [*map(vector, masses)], _from(rotor, masses)
     if not rotor.dynamic:
         return [-sum(forces, 0j)]
-    rows = np.array([[1.0, 1.0], [*map(float, rotor.planes)]])
+    rows = np.array([[1.0, 1.0], [0.0, float(rotor.planes[1] - rotor.planes[0])]])
     return [*map(complex, np.linalg.solve(rows, [-sum(forces, 0j), -np.dot(places, forces)]))]
 
 
+def _from(rotor: Rotor, masses: Sequence[Eccentric]) -> list[float]:
+    """How far masses are from the first plane."""
+    return [float((mass.at or 0) - rotor.planes[0]) for mass in masses]
+
+
 def _apart(rotor: Rotor, masses: Sequence[Eccentric], answer: Answer) -> float:
-    """How far the corrections are from equilibrium's, beside the largest unbalance and what the planes make of it."""
+    """How far the corrections are from equilibrium's, beside what masses would need that did not help each other."""
+    wide = abs(float(rotor.planes[-1] - rotor.planes[0])) or math.inf
+    size = sum(mass.size * (1 + abs(arm) / wide) for mass, arm in zip(masses, _from(rotor, masses), strict=True))
     wanted = equilibrium(rotor, masses)
-    size = max(map(abs, [*wanted, *map(vector, masses)]), default=0.0) or 1.0
-    return max(abs(vector(one) - other) for one, other in zip(answer, wanted, strict=True)) / size
+    return max(abs(vector(one) - other) for one, other in zip(answer, wanted, strict=True)) / (size or 1.0)
 
 
 def _trial(one: Effect, side: complex) -> float:

@@ -156,20 +156,21 @@ MASSES = Rows(Either((
 # ---- the rotor ------------------------------------------------------------------------------------------------------
 
 
-def _numbers(least: int, what: str, such: str, read: Callable[[Item], Fraction | None] = Item.number,
-             single: bool = False) -> Kind:
-    """A list of one number or two, at least so many; a `single` one may stand alone."""
+def _numbers(least: int, what: str, such: str, positive: str = "") -> Kind:
+    """A list of one number or two, at least so many; one alone may stand without brackets. Above 0 where that is what
+    is `positive`."""
     def found(item: Item, names: Names) -> tuple[Fraction, ...] | None:
-        values = item.value if isinstance(item.value, list) else [item.value] if single else []
+        values = item.value if isinstance(item.value, list) else [item.value]
         if not least <= len(values) <= 2:
             return item.fault(f"{described(item.value)} where {what} wanted", such)
-        numbers = tuple(read(item.instead(value)) for value in values)
+        parts = [item.instead(value) for value in values]
+        numbers = tuple(part.positive(positive) if positive else part.number() for part in parts)
         return None if None in numbers else tuple(number for number in numbers if number is not None)
 
-    entry = DISTANCE.schema if single else NUMBER.schema
+    entry = DISTANCE.schema if positive else NUMBER.schema
     listed = {"type": "array", "items": entry, "minItems": least, "maxItems": 2}
-    return Kind("list of two numbers" if least == 2 else "list of one or two numbers", found,
-                {"anyOf": [entry, listed]} if single else listed)
+    return Kind("list of two numbers" if least == 2 else "number, or list of one or two", found,
+                listed if least == 2 else {"anyOf": [entry, listed]})
 
 
 def _rotor(row: Row) -> Rotor | None:
@@ -216,11 +217,9 @@ ROTOR = Table("the rotor", (
           "where the correction planes stand, such as planes = [0, 600]"),
     Field("masses", "what is out of balance", MASSES),
     Field("radius", "how far from the axis correction masses are put, in both planes or in each: their masses follow",
-          _numbers(1, "one radius or two are", "such as radius = [80, 100]", lambda item: item.positive("radius"),
-                   single=True)),
+          _numbers(1, "one radius or two are", "such as radius = [80, 100]", "radius")),
     Field("mass", "how heavy correction masses are: their radii follow",
-          _numbers(1, "one mass or two are", "such as mass = [0.5, 0.5]", lambda item: item.positive("mass"),
-                   single=True)),
+          _numbers(1, "one mass or two are", "such as mass = [0.5, 0.5]", "mass")),
     Field("bearings", "where the bearings stand, for their rotating reactions before and after",
           _numbers(2, "two places are", "two places, such as bearings = [-50, 650]")),
     Field("omega", "the speed for these reactions, in rad/s", DISTANCE),

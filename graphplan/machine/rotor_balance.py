@@ -32,6 +32,7 @@ from graphplan.machine.trial import ThreeRuns, TrialWeights
 from graphplan.machine.trial_runs import Effect, draw, effect, read
 from graphplan.phrases import Said, digits, said, unit
 
+DOUBTFUL = 0.25  # of the way from what one answer foretells to what the other does: a measurement is off both
 Answer = tuple[Correction, ...]
 
 
@@ -83,6 +84,12 @@ class Balanced:
                        digits(found.static), unit(f"{units.mass}·{units.length}"),
                        digits(float(rotor.planes[0]) + math.copysign(found.single, rotor.planes[-1] - rotor.planes[0])),
                        unit(units.length))
+        for one in self.effects:
+            if one.fourth and isinstance(one.trial, ThreeRuns) and one.trial.fourth:
+                (near, far), measured = one.fourth, float(one.trial.fourth.amplitude)
+                if abs(measured - near) > DOUBTFUL * abs(far - near):
+                    yield said("the fourth run should have given {0} or {1} and gave {2}", digits(near), digits(far),
+                               digits(measured))
         if len(self.answers) > 1:
             yield said("amplitudes leave the sense of the angle open, so there are {0} answers: a fourth run decides",
                        len(self.answers))

@@ -80,7 +80,7 @@ def _size(row: Row) -> Fraction:
 
 def _trial_mass(row: Row) -> tuple[Fraction, Fraction, Fraction | None, Fraction | None]:
     """Mass times radius, angle, place and radius."""
-    return _size(row), row["angle"], row.values.get("at"), row.values.get("radius")
+    return _size(row), row["angle"] % 360, row.values.get("at"), row.values.get("radius")
 
 
 def _three_runs(row: Row) -> ThreeRuns:
@@ -94,7 +94,7 @@ def _marked(row: Row) -> Marked:
 _VIBRATION = Table("a vibration", (
     Field("amplitude", "its amplitude, in any unit", AMOUNT, "such as amplitude = 3.2"),
     Field("angle", "the angle in degrees, counter-clockwise", NUMBER, "degrees, such as angle = 40"),
-), lambda row: Vibration(row["amplitude"], row["angle"]))
+), lambda row: Vibration(row["amplitude"], row["angle"] % 360))
 _TRIAL_MASS = (
     Field("mass", "the trial mass", DISTANCE),
     Field("radius", "its distance from the axis", DISTANCE),
@@ -126,5 +126,6 @@ TRIALS = Rows(Either((
         Field("angle", "where on the rotor the first hangs, in degrees; the others follow counter-clockwise", NUMBER,
               default=0),
         Field("at", "where along the axis they hang; without it in the planes, in their order", NUMBER),
-    ), lambda row: TrialWeights(row["radius"], row["angle"], row.values.get("at"), row["radius"], row["weights"])),
+    ), lambda row: TrialWeights(row["radius"], row["angle"] % 360, row.values.get("at"), row["radius"],
+                                row["weights"])),
 )), single=True)

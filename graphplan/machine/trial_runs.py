@@ -35,6 +35,7 @@ from graphplan.machine.trial import Marked, ThreeRuns, Trial, TrialWeights, Vibr
 from graphplan.phrases import Said, said
 
 AMPLITUDE, WEIGHT = "amplitude", "weight"  # kinds of what is laid off
+FAINT, STILL = 1e-3, 1e-9  # of the rotor's own vibration: less is no effect; of the effect: less is no vibration
 ALIKE = 1e-6  # of a vibration: predictions that differ by less tell nothing
 
 
@@ -80,14 +81,14 @@ def _three_runs(trial: ThreeRuns, where: str) -> Effect:
     first, second, third = trial.amplitudes
     square = (second**2 + third**2) / 2 - first**2
     told = f"the amplitudes {', '.join(f'{float(one):g}' for one in trial.amplitudes)}"
-    if square <= 0:
-        why = "the trial mass has no effect" if square == 0 else "A² = (A_2² + A_3²)/2 - A_1² is below 0"
+    if square < 0 or square <= first**2 * Fraction(FAINT) ** 2:
+        why = "A² = (A_2² + A_3²)/2 - A_1² is below 0" if square < 0 else "the trial mass has next to no effect"
         raise Refused(where, f"{told}: {why}", "measure again, with a larger trial mass")
     over, under = (third**2 - second**2) / 4, first**2 * square  # cos alpha = over / sqrt(under)
     if over**2 > under:
         raise Refused(where, f"{told}: no parallelogram has these sides and diagonals (|cos α| > 1)", "measure again")
     A = math.sqrt(square)
-    if not first:
+    if first <= STILL * A:
         return Effect(trial, A, 0.0, (0.0,))
     alpha = math.degrees(math.acos(max(-1.0, min(1.0, float(over) / math.sqrt(under)))))
     ratio, turns = float(first) / A, (alpha,) if over**2 == under else (alpha, -alpha)
@@ -112,10 +113,12 @@ def _marked(trial: Marked, where: str) -> Effect:
     first, second = (cmath.rect(float(one.amplitude), math.radians(float(one.angle)))
                      for one in (trial.first, trial.second))
     A = second - first
-    if abs(A) <= 1e-12 * (abs(first) + abs(second)):
-        raise Refused(where, "both vibrations are the same: the trial mass has no effect",
+    if abs(A) <= FAINT * abs(first):
+        raise Refused(where, "both vibrations are the same: the trial mass has next to no effect",
                       "measure again, with a larger trial mass")
-    return Effect(trial, abs(A), abs(first) / abs(A), (math.degrees(cmath.phase(-first / A)) if first else 0.0,))
+    if abs(first) <= STILL * abs(A):
+        return Effect(trial, abs(A), 0.0, (0.0,))
+    return Effect(trial, abs(A), abs(first) / abs(A), (math.degrees(cmath.phase(-first / A)),))
 
 
 def _weights(trial: TrialWeights) -> Effect:
@@ -161,7 +164,7 @@ def _drawn_runs(board: Board, effect: Effect, plan: Panel) -> dict[str, Mark]:
     assert isinstance(trial, ThreeRuns)
     first, second, third = trial.amplitudes
     C = board.begin(plan=plan, name="C")
-    if not first:
+    if not effect.ratio:
         return {"C": C}
     base = board.guide(C, dx=1, dy=0, why=said("any direction"))
     D = board.lay_along(base, C, length=first, name="D", quantity=Quantity("A_1", AMPLITUDE))

@@ -21,7 +21,7 @@ from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import around
 from graphplan.sheet.plates.view import View, least, view
 
-HEAD, LETTERED = 3.5, 3.0  # mm: heads of vectors; a side with letters is longer
+HEAD, LETTERED, SEEN = 3.5, 3.0, 0.1  # mm: heads of vectors; a side with letters, and one that is drawn, is longer
 AROUND = 8.0  # mm about a figure, for its letters
 MANY = 8  # corners of a polygon that bear letters at most
 Side = tuple[complex, complex, str, Pen, int | None]  # from where to where, what it is, its pen and step
@@ -53,7 +53,8 @@ class RotorFigures(RotorViews):
         for start, end, name, pen, side_step in sides:
             foot, tip = plan((start.real, start.imag)), plan((end.real, end.imag))
             long = math.dist(foot, tip)
-            yield Arrow(pen, "links", side_step, foot, tip, min(HEAD, 0.6 * long))
+            if long >= SEEN:
+                yield Arrow(pen, "links", side_step, foot, tip, min(HEAD, 0.6 * long))
             if name and long >= LETTERED:
                 yield places.at_line(foot, tip, (start + end) / 2 - middle, self.runs(name))
 
@@ -118,7 +119,7 @@ class RotorFigures(RotorViews):
 
     def _arc(self, centre: Spot, end: Spot, step: int) -> Item:
         """The stroke of the compasses through a mark."""
-        radius = math.dist(centre, end)
+        radius = max(math.dist(centre, end), SEEN)
         at, wide = math.degrees(math.atan2(end[1] - centre[1], end[0] - centre[0])), math.degrees(4.0 / radius)
         return Arc(pens.ARC, "plates", step, centre, radius, at - wide, at + wide)
 

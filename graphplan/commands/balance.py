@@ -72,7 +72,7 @@ def run(options: argparse.Namespace) -> int:
                       _radii(options.radius), SHARE if options.share is None else options.share)
     if found.note:
         messages.remark(found.note)
-    write(table(found.before) if ending == ".csv" else as_json(numbers(found)), options.output)
+    write(table(found.before) if ending == ".csv" else as_json(numbers(found), rows=True), options.output)
     return 0
 
 

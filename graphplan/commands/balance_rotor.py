@@ -28,7 +28,7 @@ def run(options: argparse.Namespace, text: str) -> int:
     for note in found.notes:
         messages.remark(f"{options.scene}: {note}")
     if ending in NUMBERS:
-        write(table(found) if ending == ".csv" else as_json(numbers(found, check)), options.output)
+        write(table(found) if ending == ".csv" else as_json(numbers(found, check), rows=True), options.output)
         return 0
     from graphplan.output.machine.rotor_sheet import sheets
 

@@ -49,11 +49,12 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     from graphplan.check.flywheel import checked
     from graphplan.machine.flywheel import flywheel
-    from graphplan.mechanism.scene import load
+    from graphplan.mechanism.scene import parse, source_text
     from graphplan.output.machine.flywheel_numbers import numbers, table
 
     ending, messages = kind(options.output, ENDINGS, "flywheel"), Messages(options.quiet)
-    scene = on_sheet(options, _asked(load(options.scene), options))
+    text = source_text(options.scene, options.scene)
+    scene = on_sheet(options, _asked(parse(text, options.scene, by_drive=True), options))
     messages.progress("reduction and energy")
     found = flywheel(scene, options.positions or POSITIONS)
     messages.progress("second opinion")
@@ -67,7 +68,7 @@ def run(options: argparse.Namespace) -> int:
         write_sheets(sheets(result, scene.sheet.paper or None), options.output, ending[1:], options.dpi)
     else:
         error = _pencil_error(result, options)
-        write(table(result) if ending == ".csv" else as_json(numbers(result, error)), options.output)
+        write(table(result) if ending == ".csv" else as_json(numbers(result, error), rows=True), options.output)
     return 0
 
 
@@ -107,4 +108,5 @@ def _pencil_error(result: FlywheelResult, options: argparse.Namespace) -> float:
     drawing = result.drawing
     hand = program_hand(drawing.program, drawing.values, lambda step: 1.0, pencil(options))
     (m,), (n,) = drawing.marks["m"], drawing.marks["n"]
-    return drawing.per_mm(result.given) * deviation(hand, lambda values: values[m][1] - values[n][1])
+    off = deviation(hand, lambda values: values[m][1] - values[n][1]) * drawing.frames["energy"].y.unit
+    return off * drawing.change(result.given)

@@ -11,9 +11,11 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import stat
 import sys
+import textwrap
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -26,6 +28,8 @@ from graphplan.errors import Refused, printable
 STANDARD = "-"
 RED, PLAIN = "\x1b[31m", "\x1b[0m"
 WIDTH = 60  # of the line of progress, which is written over and over
+ROW = 100  # of a row of numbers
+NUMBERS = re.compile(r"\[\n( *)([-+\d.eE,\s]+|(?:[-+\d.eE,\s]|null|NaN|Infinity)+)\]")  # no string has a line's end
 
 
 SHEETS = (".svg", ".pdf", ".png", ".dxf", ".tex")  # what sheets of diagrams are written as
@@ -158,9 +162,19 @@ def write_all(contents: Sequence[tuple[str | None, str | bytes]]) -> None:
         raise _unwritable(contents[0][0], error) from None
 
 
-def as_json(data: Any, indent: int = 1) -> str:
-    """Data as a text file."""
-    return json.dumps(data, indent=indent, ensure_ascii=False) + "\n"
+def as_json(data: Any, indent: int = 1, rows: bool = False) -> str:
+    """Data as a text file; lists of numbers as `rows` of them, where there are tables."""
+    text = json.dumps(data, indent=indent, ensure_ascii=False) + "\n"
+    return NUMBERS.sub(_row, text) if rows else text
+
+
+def _row(listed: re.Match[str]) -> str:
+    """A list of numbers on one line, or filling lines where it is long."""
+    row = " ".join(listed[2].split())
+    if len(row) <= ROW:
+        return f"[{row}]"
+    lines = textwrap.wrap(row, ROW, initial_indent=listed[1], subsequent_indent=listed[1])
+    return "\n".join(["[", *lines, listed[1][:-1] + "]"])
 
 
 def flush() -> None:

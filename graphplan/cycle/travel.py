@@ -70,6 +70,11 @@ def travel_unit(scene: Scene) -> tuple[float, str]:
     return math.radians(1.0), "degrees"
 
 
+def told_travels(scene: Scene, travel: Array) -> Array:
+    """Travels as numbers are told: degrees, to the digits that turning radians into them leaves, or lengths."""
+    return travel if scene.drives[0].slides else np.round(np.degrees(travel), 12)
+
+
 def told(scene: Scene, travel: float, digits: int = 6) -> str:
     """A travel in words: degrees, or the scene's lengths."""
     unit, name = travel_unit(scene)

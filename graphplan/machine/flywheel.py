@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from graphplan.cycle.travel import told_travels
 from graphplan.errors import Refused
 from graphplan.machine.energy import SteadyCycle, reduced_rows, steady
-from graphplan.machine.flywheel_drawing import FEW, FlywheelDrawing, drawn
+from graphplan.machine.flywheel_drawing import FlywheelDrawing, drawn
 from graphplan.machine.flywheel_methods import Found, Speeds, methods
 from graphplan.machine.integrals import Reals
 from graphplan.machine.reduction import Reduction, reduction
@@ -62,10 +63,9 @@ class FlywheelResult:
         return np.linspace(*self.cycle.ends, self.positions + 1)
 
     @property
-    def told_travels(self) -> Reals:
-        """The same as they are told, round where the cycle is."""
-        first, last = self.told(self.cycle.ends)
-        return np.linspace(first, last, self.positions + 1)
+    def told_travels(self) -> Any:
+        """The same in degrees, or in lengths."""
+        return self.told(self.travels)
 
     @cached_property
     def plans(self) -> dict[str, Reals]:
@@ -79,7 +79,7 @@ class FlywheelResult:
 
     def told(self, travel: Any) -> Any:
         """Travels as they are told: degrees, or lengths."""
-        return np.degrees(travel) if self.turns else travel
+        return told_travels(self.scene, travel)
 
     def omega(self, travel: Any) -> Any:
         """The drive's speed at travels, with the flywheel, in rad/s (m/s)."""
@@ -103,22 +103,13 @@ class FlywheelResult:
 
     @cached_property
     def strip_error(self) -> float:
-        """How far the drawn flywheel, or the unevenness with a given one, may be off by the width of the strips.
-
-        The strips are halved, and doubled: the error goes with the square of their width or worse.
-        """
-        half, twice = (self._measured(replace(self, positions=max(FEW // 2, count)).drawing)
-                       for count in (2 * self.positions, self.positions // 2))
-        own = self._measured(self.drawing)
-        return 4 / 3 * abs(own - half) + abs(own - twice) / 3
-
-    def _measured(self, drawing: FlywheelDrawing) -> float:
-        return drawing.unevenness if self.given else drawing.inertia
+        """How far the drawn flywheel, or the unevenness with a given one, may be off by the width of the strips."""
+        return self.drawing.strip_error * self.drawing.change(self.given)
 
     @property
     def measured(self) -> float:
         """The drawn flywheel, in kg m^2 (kg), or the drawn unevenness with a given one."""
-        return self._measured(self.drawing)
+        return self.drawing.unevenness if self.given else self.drawing.inertia
 
 
 def flywheel(scene: Scene, positions: int = 24, *, what: str = "flywheel") -> FlywheelResult:
@@ -130,7 +121,10 @@ def flywheel(scene: Scene, positions: int = 24, *, what: str = "flywheel") -> Fl
     if wish is None:
         raise Refused(what, "the scene does not say how evenly it is to run",
                       "a table [flywheel] with speed and unevenness, or --speed and --unevenness")
-    reduced = reduction(scene)
+    try:
+        reduced = reduction(scene)
+    except Refused as fault:
+        raise Refused(what, f"the cycle does not close: {fault.why}", "a first drive that goes round") from None
     speed = float(wish.speed) * (reduced.unit if scene.drives[0].slides else 1.0)
     cycle = steady(reduced, speed, wish.closes, reduced.changing, what)
     if wish.inertia is not None:

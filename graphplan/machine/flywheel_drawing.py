@@ -30,8 +30,7 @@ from graphplan.machine.wittenbauer import Flywheel, Touch
 from graphplan.phrases import Said, digits, said
 
 FLYWHEEL = Panel("flywheel", said("flywheel"), said("Moment, energy, inertia and the energy-mass diagram"))
-FEW, MOST = 12, 360  # plans
-EQUAL = 1e-9  # of the largest: two points are as far out
+FEW, MOST = 6, 720  # plans, those included with which the error of the strips is found
 STRAIGHT = 1e-6  # mm: three points so near to a line lie on it
 
 
@@ -40,7 +39,8 @@ class FlywheelDrawing:
     """The program that draws the flywheel, its diagrams by name, and its marks by their role, in steps of the program.
 
     `travels` are those of the plans, in degrees or lengths, and those at which the moment jumps. `pole` is its distance
-    in mm: k_E = pole k_M k_phi. The tangents are cut at the inertia `axis`.
+    in mm: k_E = pole k_M k_phi. The tangents are cut at the inertia `axis`; their intercept is off by `strip_error` J
+    at most, as the moment of a strip is no straight line and the curve no parabola.
     """
 
     cycle: SteadyCycle
@@ -50,6 +50,7 @@ class FlywheelDrawing:
     frames: dict[str, Frame]
     pole: float
     axis: float
+    strip_error: float
     marks: dict[str, tuple[int, ...]]
 
     @cached_property
@@ -92,9 +93,9 @@ class FlywheelDrawing:
         """The unevenness with the wheel by the intercept, (15.13)."""
         return self.intercept / self._moment
 
-    def per_mm(self, given: bool) -> float:
-        """By how much one mm of the intercept changes the flywheel, or the unevenness with a `given` one."""
-        return self.frames["energy"].y.unit / (self._moment if given else self._divisor)
+    def change(self, given: bool) -> float:
+        """By how much one J of the intercept changes the flywheel, or the unevenness with a `given` one."""
+        return 1 / (self._moment if given else self._divisor)
 
     @property
     def _divisor(self) -> float:
@@ -140,7 +141,15 @@ class _Sheet:
         places = iter(program.wanted)
         marks = {role: tuple(next(places) for _ in found) for role, found in self.found.items()}
         return FlywheelDrawing(self.cycle, self.wheel, program, self.told, self.frames, self.scales.pole,
-                               self.scales.axis, marks)
+                               self.scales.axis, self._strip_error, marks)
+
+    @property
+    def _strip_error(self) -> float:
+        """By how much the intercept may be off by the strips, in J."""
+        plans, tangents = self.plans, ((self.wheel.upper.slope, True), (self.wheel.lower.slope, False))
+        touched = [plans.outermost(slope, above) for slope, above in tangents]
+        return plans.energy_error(*touched) + sum(plans.parabola_error(slope, k)
+                                                  for (slope, _), k in zip(tangents, touched, strict=True))
 
     def _stages(self) -> list[tuple[Said, Said, Callable[[], None]]]:
         """What is drawn one after the other: its title, its law and how."""
@@ -224,7 +233,7 @@ class _Sheet:
         Parallels through three neighbours cut the axis; their cuts, over the travels of these, are points of a parabola
         whose vertex is the tangent's. Where the moment jumps the curve has a corner, which the tangent goes through.
         """
-        k, three = self._neighbours(touch, sign=1 if letter == "m" else -1)
+        k, three = self._neighbours(touch.slope, above=letter == "m")
         if len(three) == 1:
             cut = self.board.meet(self.axis, self.board.parallel(guide, self.points[k]), name=letter)
             return cut, self._over(cut, k)
@@ -234,13 +243,12 @@ class _Sheet:
         first, middle, last = self.told[three]
         return self._vertex(A, B, C, float((middle - first) / (last - first)), letter)
 
-    def _neighbours(self, touch: Touch, sign: int) -> tuple[int, list[int]]:
+    def _neighbours(self, slope: float, above: bool) -> tuple[int, list[int]]:
         """The outermost plan, and the three that the parabola goes through: itself alone where it is a corner, or these
         lie on a line."""
-        heights = sign * (self.plans.energies - touch.slope * self.plans.inertias)
+        k, heights = self.plans.outermost(slope, above), self.plans.heights(slope)
         last = len(heights) - 1
-        k = int(np.argmax(heights[:-1] >= heights.max() - EQUAL * np.ptp(heights)))
-        middle = k if k else (1 if heights[1] >= heights[last - 1] else last - 1)
+        middle = k if k else (1 if (heights[1] >= heights[last - 1]) == above else last - 1)
         three = [middle - 1, middle, middle + 1]
         mm = heights[three] / self.frames["energy"].y.unit
         return k, [k] if self.plans.jumps(k) or _straight(self.told[three], mm) else three

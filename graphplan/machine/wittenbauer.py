@@ -112,7 +112,8 @@ def _speeds(mean: float, upper: Touch, lower: Touch, flywheel: float) -> tuple[f
     one, two = upper.inertia + flywheel, lower.inertia + flywheel
     apart = 4 * mean**2 * two + 2 * (upper.energy - lower.energy)
     under = (4 * mean * two) ** 2 + 4 * (one - two) * apart
-    fast = 2 * apart / (4 * mean * two + math.sqrt(max(under, 0.0)))
+    divisor = 4 * mean * two + math.sqrt(max(under, 0.0))
+    fast = 2 * apart / divisor if divisor > 0 else math.inf
     return fast, 2 * mean - fast
 
 

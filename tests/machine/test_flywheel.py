@@ -143,7 +143,7 @@ def test_drawn_scales(cycle):
     assert inertia.x == drawing.frames["energy-mass"].x
 
 
-@pytest.mark.parametrize("positions", [11, 361])
+@pytest.mark.parametrize("positions", [5, 721])
 def test_too_few_or_many_plans(cycle, positions):
     """A drawing through too few plans, or more than can be told apart, is refused."""
     with pytest.raises(Refused, match="positions"):

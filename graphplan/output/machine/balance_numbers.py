@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.balance import Balancing, MassMotion
+from graphplan.cycle.travel import told_travels
 from graphplan.machine.counterweights import Counterweight
 from graphplan.machine.engine import Engine
 from graphplan.machine.spanning import as_multiple
@@ -151,4 +152,4 @@ def table(motion: MassMotion) -> str:
 
 def _travel(motion: MassMotion) -> Any:
     """The travel in degrees, or lengths of a drive that slides."""
-    return motion.travel if motion.centre.scene.drives[0].slides else np.round(np.degrees(motion.travel), 12)
+    return told_travels(motion.centre.scene, motion.travel)

@@ -15,10 +15,10 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import accumulate, groupby, pairwise
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import Quantity
@@ -46,15 +46,16 @@ INDENT, LEAD = 8.0, 3.0  # mm: of what hangs from a step's number, and over a he
 Words = Said | str | Sequence[Sequence[Said | str]]  # a paragraph; or the rows of a table, its head first
 
 
-class Recorded(NamedTuple):
+@dataclass(frozen=True)
+class Recorded:
     """A program with the values of its steps, and how long a mm of paper is on its plans; some are drawn `in_mm`."""
 
     program: Program
     values: Sequence[Any]
-    scales: Scales = Scales(1.0, 1.0, "mm", {})
+    scales: Scales = field(default_factory=lambda: Scales(1.0, 1.0, "mm", {}))
     in_mm: Collection[Panel] = ()
 
-    @property
+    @cached_property
     def plans(self) -> list[Panel]:
         """The plan that each step lies on."""
         found: list[Panel] = []
@@ -76,6 +77,7 @@ class Panelled(ABC):
 
     paper: str
     told_scales: ClassVar[bool] = False  # under captions
+    apart: ClassVar[bool] = False  # the steps stand on pages of their own, whatever room there is
     again: ClassVar[Phrase] = phrase("Steps {0} to {1}: the same at the other divisions.")
     letters_of: ClassVar[tuple[str, ...]] = ()  # quantities, such as omega_max, beside the marks of the construction
 
@@ -290,9 +292,9 @@ class Panelled(ABC):
     @cached_property
     def _lengths(self) -> tuple[Lengths, Lengths]:
         """How long on paper what is drawn in lengths is, and what is drawn in mm."""
-        program, values, scales, _ = self.recorded
-        plan = self.recorded.plans.__getitem__
-        return Lengths(program, values, plan, scales), PaperLengths(program, values, plan, scales)
+        drawn = self.recorded
+        read = drawn.program, drawn.values, drawn.plans.__getitem__, drawn.scales
+        return Lengths(*read), PaperLengths(*read)
 
     def _spoken(self, step: Step) -> Said:
         """A step in words, with its length on paper."""
@@ -308,7 +310,7 @@ def pages(kind: Callable[[str], Panelled], paper: str | None = None, papers: Seq
     """
     tried = [kind(name) for name in ([paper] if paper else papers)]
     for one in tried:
-        if one.placed([*one.brief, *one.steps]) is not None:
+        if not one.apart and one.placed([*one.brief, *one.steps]) is not None:
             return one.whole()
     for one in tried:
         if one.placed(one.brief) is not None:

@@ -48,7 +48,7 @@ class FlywheelSheet(Panelled):
 
     result: FlywheelResult
     document = DOCUMENT
-    told_scales = True
+    told_scales = apart = True
     again = phrase("Steps {0} to {1}: the same for the others.")
     letters_of = "phi", "psi", "delta", "omega_max", "omega_min", "k_phi", "k_M", "k_E", "k_I"
 
@@ -104,7 +104,7 @@ class FlywheelSheet(Panelled):
         scales = replace(scales, multiples={**scales.multiples, FLYWHEEL: Fraction(scales.k_s)})  # drawn in mm
         return Recorded(program, [values[index] for index in range(len(program))], scales, (FLYWHEEL,)), places
 
-    @property
+    @cached_property
     def recorded(self) -> Recorded:
         return self._joined[0]
 

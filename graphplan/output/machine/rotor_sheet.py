@@ -92,8 +92,8 @@ class RotorSheet(Panelled):
 
     @cached_property
     def _measured(self) -> Lengths:
-        program, values, scales, _ = self.recorded
-        return RotorLengths(program, values, self.recorded.plans.__getitem__, scales)
+        drawn = self.recorded
+        return RotorLengths(drawn.program, drawn.values, drawn.plans.__getitem__, drawn.scales)
 
     @property
     def scale(self) -> Said:

@@ -30,6 +30,7 @@ from graphplan.mechanism.scene import load, packaged
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.svg import svg
 from graphplan.output.text import steps
+from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import pages
@@ -79,10 +80,12 @@ class DrawnScene:
     def task_on_a4(self) -> bool:
         """Whether a student can draw on A4: the mechanism, wheels and all, is long enough, and no plan is a mere strip.
         """
-        try:
-            composition = drafted(self.composition.plans.drawing, Pencil(), paper="A4").composition
-        except Refused:
-            return False
+        composition = self.composition
+        if composition.arrangement.paper != frame_of(self.scene).paper("A4"):  # named, it is the same once more
+            try:
+                composition = drafted(composition.plans.drawing, Pencil(), paper="A4").composition
+            except Refused:
+                return False
         page, view = task(composition)[0], composition.views[MECHANISM]
         places = [*map(composition.plans.place, self.scene.points), *higher_pairs.reach(self.scene)]
         spots = np.array([view(place) for place in places])

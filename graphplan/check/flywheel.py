@@ -140,9 +140,11 @@ class _Motion:
         found = np.empty((3, *places.shape))
         for own, side in ((np.s_[:, :-1], 1), (np.s_[:, -1:], -1)):
             travel = places[own].ravel()
-            truth = Opinion(self.reduction, travel, side).truth
-            moment = truth["moment"].value + self._over_speed(travel, side) + self.result.cycle.closing
-            rows = (truth["inertia"].value + self.result.wheel.inertia, truth["slope"].value, moment)
+            opinion = Opinion(self.reduction, travel, side)
+            truth = opinion.truth
+            moment = truth["moment"].value + opinion.friction + self._over_speed(travel, side)
+            rows = (truth["inertia"].value + self.result.wheel.inertia, truth["slope"].value,
+                    moment + self.result.cycle.closing)
             for k, row in enumerate(rows):
                 found[k][own] = np.reshape(row, places[own].shape)
         inertia, slope, moment = found

@@ -134,6 +134,7 @@ class _Opinion:
         opinion = solved.Opinion(self.found.reduction, travel, 1)
         truth = opinion.truth
         rows = [truth[what].value + 0 * travel for what in ("inertia", "slope", "moment")]
+        rows[2] += opinion.friction
         for load, table in self._over_speeds():
             rows += [self._arm(opinion, load) + 0 * travel, self._speed(opinion, table) + 0 * travel]
         return np.array(rows)

@@ -53,7 +53,7 @@ def smooth(found: Reduced, what: str) -> Any:
 
 
 def checked(reduction: Reduction, travel: Any, side: int = 1) -> dict[str, float]:
-    """The largest difference from the solver in any of these poses, by what differs.
+    """The largest difference from the solver in any of these poses, by what differs; with friction where it rubs.
 
     Fails with `Disagreement` where one is more than rounding, beside the condition of the solver's rates.
     """
@@ -69,7 +69,8 @@ def checked(reduction: Reduction, travel: Any, side: int = 1) -> dict[str, float
             elif not gap[k] <= SAFETY * EPSILON * opinion.condition:
                 where = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
                 raise Disagreement(where, f"reduced {what}", f"{ours:.15g}", f"{truth:.15g}", float(gap[k]))
-    return {what: float(np.max(gap, initial=0.0)) for what, gap in found.items()}
+    rubbing = {} if reduction.friction is None else {"friction": friction_gap(reduction, travel)}
+    return {what: float(np.max(gap, initial=0.0)) for what, gap in found.items()} | rubbing
 
 
 def lever_gap(reduction: Reduction, travel: float = 0.0) -> float:
@@ -94,17 +95,16 @@ def lever_gap(reduction: Reduction, travel: float = 0.0) -> float:
 
 def friction_gap(reduction: Reduction, travel: Any) -> float:
     """How far the moment of friction is from the solver's, whose reactions lean of themselves, in any of these poses;
-    beside what the drive gives and loses. Nothing where nothing rubs.
+    beside what the drive gives and loses.
 
     Fails with `Disagreement` where that is more than rounding.
     """
     rubbing = reduction.friction
-    if rubbing is None:
-        return 0.0
-    travel = np.atleast_1d(np.asarray(travel, dtype=float))
+    assert rubbing is not None
+    travel = rubbing.beside(np.atleast_1d(np.asarray(travel, dtype=float)))
     turn = reduction.motion.turn(travel)
     rates = reduction.motion.velocities(turn)
-    found, values = rubbing.at(travel, turn, rates), rubbing.loads(travel, turn, rates)
+    found, values = rubbing.at(travel), rubbing.loads(travel, turn, rates)
     worst = 0.0
     for k in range(travel.size):
         assert rubbing.scene.loads is not None
@@ -133,7 +133,15 @@ class Opinion:
         self.part = Round(at_unit_rate(self.scene), np.arange(travel.size), self.turn.points, self.turn.guides)
         self.posed = self.part.posed
         self.rates: Any = poses.solve(self.posed, travel.size, sizes=True)
+        self.rubbing = reduction.friction
         self.metres, self.unit = float(METRES[self.scene.units.length]), self.motion.unit
+
+    @property
+    def friction(self) -> Any:
+        """The moment of friction, which `friction_gap` compares: it is no part of the truth."""
+        if self.rubbing is None:
+            return np.zeros(self.travel.shape)
+        return self.rubbing.at(self.travel, self.side).moment
 
     @property
     def _none(self) -> Sized:

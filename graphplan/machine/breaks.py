@@ -101,21 +101,29 @@ def _beyond(place: Function, corner: float, travel: Array) -> tuple[Array, Array
 def zeros(function: Function, travel: Array, values: Array) -> list[float]:
     """Where a function, which gives values and slopes, is zero: once between samples of different signs, and at samples
     that are zero."""
-    crossed = np.flatnonzero(values[:-1] * values[1:] < 0)
-    exact = travel[:-1][values[:-1] == 0] if travel.size else travel
-    low, high, rising = travel[crossed], travel[crossed + 1], values[crossed + 1] > 0
-    at = low + (high - low) * (values[crossed] / (values[crossed] - values[crossed + 1]))
-    for _ in range(ROUNDS if crossed.size else 0):
+    exact, crossed = travel[:-1][values[:-1] == 0], np.flatnonzero(values[:-1] * values[1:] < 0)
+    return [*map(float, exact), *refined(function, travel[crossed], travel[crossed + 1], values[crossed],
+                                         values[crossed + 1])]
+
+
+def refined(function: Function, low: Array, high: Array, before: Array, after: Array) -> list[float]:
+    """Where a function is zero, once between each `low` and `high`, where it has values of different signs.
+
+    By Newton's method, or with slopes that are nan by secants; a step that leaves the bracket is one to its middle.
+    """
+    rising, last, left = after > 0, low, before
+    at = low + (high - low) * (before / (before - after))
+    for _ in range(ROUNDS if low.size else 0):
         value, slope = function(at)
         below = (value < 0) == rising
         low, high = np.where(below, at, low), np.where(below, high, at)
         with np.errstate(all="ignore"):
-            step = at - value / slope
-        new = np.where((step >= low) & (step <= high), step, (low + high) / 2)
-        moved, at = np.abs(new - at), new
+            step = at - value / np.where(np.isfinite(slope), slope, (value - left) / (at - last))
+        new = np.where((step >= low) & (step <= high), step, np.where(value == 0, at, (low + high) / 2))
+        moved, last, left, at = np.abs(new - at), at, value, new
         if np.all(moved <= SETTLED * np.maximum(1.0, np.abs(at))):
             break
-    return [*map(float, exact), *map(float, at)]
+    return [*map(float, at)]
 
 
 def common_period(period: float, tables: list[LoadTable]) -> float:

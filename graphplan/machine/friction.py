@@ -2,20 +2,20 @@
 
 The reactions are those of kinetostatics, with the inertia forces at the mean speed of the first drive, which the drive
 itself balances. Force polygons with friction circles and leaning guides give the balance with friction; what it is more
-than that without is the reduced moment of friction, M_F. By the pairs it is sum(N)/omega with the reactions without
-friction, N = f R r |omega_rel| of a journal and f R |v_rel| of a slide or a contact: the textbook's form, which leaves
-out how friction changes the reactions (Ozols 1974, 13-3, 12-1 and 14-6; method A4).
+than that without is the reduced moment of friction, M_F. It is made up of what the pairs take, N/omega with
+N = f R r |omega_rel| of a journal, and of a slide the friction force times |v_rel| (Ozols 1974, 13-3, 12-1 and 14-6;
+method A4, there with the reactions R without friction).
 
 Kinytskyi's lambda mechanism, scene `kinytskyi`, by the crank's travel from the scene's pose: the moment M of the drive
-without friction and what is lost, N m. His own method, forces in three points and the power balance of the joints, is
-that by the pairs, where the links' own inertia is small against the driven masses; his curves are not printed with
-numbers. Towards the dwell, 190 to 290 degrees, M nearly vanishes and the efficiency with it, yet not quite: the stop is
-approximate, as he says; and the efficiency does not depend on how large the load is.
+without friction, M_F, M_F by his power balance of the joints with the reactions without friction, N m, and the
+efficiency; his curves are not printed with numbers. Towards the dwell, from 190 to 290 degrees, M nearly vanishes and
+the efficiency with it, yet not quite: the stop is approximate, as he says; nor does the efficiency depend on how large
+the load is, where that alone is heavy.
 
     travel        0      30      60      90     120     150     180     240     330
     M         5.729   5.328   0.000  -4.496  -6.307  -0.709   0.190   0.001   0.564
-    polygons  0.689   0.430   0.088   0.435   0.950   0.686   0.420   0.277   0.401
-    pairs     0.672   0.416   0.087   0.453   0.979   0.676   0.412   0.274   0.401
+    M_F      -0.689  -0.430  -0.088  -0.435  -0.950  -0.686  -0.420  -0.277  -0.401
+    balance  -0.672  -0.416  -0.087  -0.453  -0.979  -0.676  -0.412  -0.274  -0.401
     eta       0.893   0.925   0.004   0.903   0.849   0.032   0.312   0.003   0.584
 """
 
@@ -33,7 +33,8 @@ from graphplan.cycle.linkage import Array
 from graphplan.cycle.travel import told
 from graphplan.cycle.turn import Turn
 from graphplan.errors import Refused
-from graphplan.machine.breaks import samples, zeros
+from graphplan.machine.breaks import refined, samples
+from graphplan.machine.friction_drawing import RUBBED_REACTION, rubbed_drawing
 from graphplan.machine.integrals import settled
 from graphplan.machine.reduced_loads import LoadValues, acting
 from graphplan.machine.unit_motion import Rates, UnitMotion, at_unit_rate
@@ -42,12 +43,13 @@ from graphplan.mechanism.plane import times
 from graphplan.mechanism.units import NEWTONS, weight
 from graphplan.methods import kinds
 from graphplan.methods.batch import Poses
-from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import JointForce
 from graphplan.phrases import said
 
+Vanishing = Callable[[Poses, Turn], tuple[Array, Array]]
 M_F = "M_F"
+HAIR = 1e-10  # of the cycle: so far beside a break it is seen how pairs move there
 STANDS = 1e-9  # of the balance: what one round of friction more may change
 ROUNDS = 6  # of friction: after four the forces of every pose stand, unless the mechanism is near to locking itself
 
@@ -57,8 +59,8 @@ class Rubbed:
     """Friction in n poses: arrays of shape (n,), in N m of the first drive (in N of one that slides).
 
     `balance` is what the drive must give without friction at its mean speed, positive in the sense of motion, `moment`
-    the reduced moment of friction, which is negative as it resists, and `losses` what the pairs take of it by their
-    reactions without friction, by the names of joints and links, such as `A 2` and `3 along frame`.
+    the reduced moment of friction, which is negative as it resists, and `losses` what the pairs take of it, by the
+    names of joints and links, such as `A 2` and `3 along frame`.
     """
 
     balance: Array
@@ -75,20 +77,22 @@ class Rubbed:
 
 
 class FrictionOverCycle:
-    """The friction of a scene's pairs over its motion, by one recorded construction of its forces.
+    """The friction of a scene's pairs over its motion between two `ends`, by one recorded construction of its forces.
 
-    `speed` is the mean speed of the first drive, in rad/s or lengths/s; at rest there are no inertia forces.
+    `speed` is the mean speed of the first drive, in rad/s or lengths/s; at rest there are no inertia forces. `edges`
+    are the travels at which a pair stands still or bears nothing: there the moment of friction jumps or has a corner.
     """
 
-    def __init__(self, scene: Scene, motion: UnitMotion):
+    def __init__(self, scene: Scene, motion: UnitMotion, ends: tuple[float, float]):
         assert scene.loads is not None
-        self.motion, self.speed = motion, mean_speed(scene)
+        self.motion, self.speed, self.ends = motion, mean_speed(scene), ends
         self.scene = held = kinetostatic(scene, self.speed)
         assert held.loads is not None
         self.values = LoadValues(held, [*acting(held, held.loads)])
         self.frictions = [one for one in held.loads.frictions if one.coefficient and (one.radius or not one.at)]
         self._rate, self._newton = abs(float(held.drives[0].rate)), float(NEWTONS[scene.units.force])
         self.power = self._newton * motion.metres / motion.unit  # of force * length/s by the drive's rate
+        self.edges = np.array(self._breaks())
 
     @property
     def pairs(self) -> tuple[str, ...]:
@@ -99,17 +103,19 @@ class FrictionOverCycle:
     @cached_property
     def drawing(self) -> Construction:
         """The force polygons in the given pose, with rounds of friction."""
-        return construct(self.scene, plan="polygons")
+        return rubbed_drawing(self.scene, ROUNDS)
 
     @cached_property
     def _further(self) -> Construction:
         """The same with one round more: where that says otherwise the forces do not stand."""
-        assert self.scene.loads is not None
-        return construct(replace(self.scene, loads=replace(self.scene.loads, rounds=ROUNDS + 1)), plan="polygons")
+        return rubbed_drawing(self.scene, ROUNDS + 1)
 
-    def at(self, travel: Array, turn: Turn, rates: Rates, side: int = 1) -> Rubbed:
-        """The friction at some travels, whose poses and unit rates are known; fails with `Refused` where the mechanism
-        locks itself."""
+    def at(self, travel: Array, side: int = 1) -> Rubbed:
+        """The friction at some travels; at a break that which it has on one side, -1 or 1. Fails with `Refused` where
+        the mechanism locks itself."""
+        travel = self.beside(travel, side)
+        turn = self.motion.turn(travel)
+        rates = self.motion.velocities(turn)
         acting = self.loads(travel, turn, rates, side)
         found = self._evaluated(self.drawing, turn, acting)
         plain, rubbed = (self._balance(found, way) for way in (kinds.BY_PLANS, kinds.RUBBED))
@@ -119,6 +125,16 @@ class FrictionOverCycle:
             at = told(self.scene, float(travel[locked[0]]))
             raise Refused("friction", said("the mechanism locks itself at a travel of {0}", at), "less friction")
         return Rubbed(plain, plain - rubbed, dict(self._losses(found)))
+
+    def beside(self, travel: Array, side: int = 1) -> Array:
+        """The travels, but those at breaks a hair beside them: there the senses are known."""
+        if not self.edges.size:
+            return travel
+        low, high = self.ends
+        place = low + np.mod(travel - low, high - low) if self.motion.period else travel
+        nearest = np.argmin(np.abs(self.edges - place[:, None]), axis=1)
+        away, hair = place - self.edges[nearest], HAIR * (high - low)
+        return np.where(np.abs(away) < hair, travel - away + side * hair, travel)
 
     def _evaluated(self, drawing: Construction, turn: Turn, acting: Mapping[str, Array]) -> Poses:
         """All forces and rates of some poses."""
@@ -152,17 +168,18 @@ class FrictionOverCycle:
         return np.asarray(self.motion.sense * self._newton * value)
 
     def _losses(self, found: Poses) -> Iterator[tuple[str, Array]]:
-        """What each journal and slide takes of the moment, by its reaction without friction and its rate for a unit of
-        travel; contacts and gears are left to the polygons."""
+        """What each journal and slide takes of the moment, by its reaction and its rate for a unit of travel; what
+        contacts take is left to the polygons."""
         unit = self.power / self._rate
         for one in self.frictions:
             for journal in self._journals(one):
                 circle = float(one.radius * one.coefficient)
-                force, turning = found.reactions[JointForce(one.at, journal[0]).name], self._turning(found, journal)
+                force = found.named(RUBBED_REACTION)[JointForce(one.at, journal[0]).name]
+                turning = self._turning(found, journal)
                 yield f"{one.at} {journal[0]}", -unit * circle * np.abs(force) * np.abs(turning)
             for slide in self._slides(one):
-                slip, force = found.named(kinds.SLIDE_VELOCITY)[slide.name], found.reactions[slide.name]
-                yield slide.name, -unit * float(one.coefficient) * np.abs(force) * np.abs(slip)
+                slip, force = found.named(kinds.SLIDE_VELOCITY)[slide.name], found.named(RUBBED_REACTION)[slide.name]
+                yield slide.name, -unit * np.abs((np.conj(slip) * force).real)
 
     def _journals(self, one: Friction) -> list[tuple[str, str]]:
         """The links on the pin of a joint that rubs, each with the link that has the pin."""
@@ -180,46 +197,65 @@ class FrictionOverCycle:
 
     # ---- where it breaks ---------------------------------------------------------------------------------------------
 
-    def breaks(self, ends: tuple[float, float]) -> list[float]:
-        """The travels at which a journal or a slide that rubs stands still, or a slide's reaction is nothing."""
-        travel, found = samples(self.motion, ends), list[float]()
+    def _breaks(self) -> list[float]:
+        """The travels at which a journal or a slide that rubs stands still, or its reaction passes through nothing."""
+        travel = samples(self.motion, self.ends)
+        poses, turn = self._posed(travel)
+        exact, brackets = list[float](), list[tuple[Vanishing, Any]]()
         for of in [of for one in self.frictions for of in self._vanishing(one)]:
-            function = partial(self._of, of)
-            found += zeros(function, travel, function(travel)[0])
-        return found
+            values, _ = of(poses, turn)
+            exact += travel[:-1][values[:-1] == 0].tolist()
+            brackets += [(of, k) for k in np.flatnonzero(values[:-1] * values[1:] < 0)]
+        for name in (JointForce(one.at, link).name for one in self.frictions for link, _ in self._journals(one)):
+            force = poses.named(RUBBED_REACTION)[name]
+            brackets += [(partial(self._turns_round, name, force[k].conj()), k)
+                         for k in np.flatnonzero((force[:-1] * force[1:].conj()).real < 0)]
 
-    def _of(self, of: Callable[[Poses, Turn], tuple[Any, Any]], travel: Array) -> tuple[Array, Array]:
-        """Something of the poses at some travels, and its slope."""
+        def values_of(at: Array) -> tuple[Array, Array]:
+            poses, turn = self._posed(at)
+            told = [[part[j] for part in of(poses, turn)] for j, (of, _) in enumerate(brackets)]
+            return np.array([value for value, _ in told]), np.array([change for _, change in told]) / self._rate
+
+        low = np.array([k for _, k in brackets], dtype=int)
+        ends_of = [np.array([of(poses, turn)[0][k] for (of, _), k in zip(brackets, places, strict=True)])
+                   for places in (low, low + 1)]
+        return exact + refined(values_of, travel[low], travel[low + 1], *ends_of)
+
+    def _posed(self, travel: Array) -> tuple[Poses, Turn]:
+        """All forces and rates at some travels, and where everything is."""
         turn = self.motion.turn(travel)
-        found = self._evaluated(self.drawing, turn, self.loads(travel, turn, self.motion.velocities(turn)))
-        value, change = of(found, turn)
-        return value + np.zeros(travel.shape), change / self._rate + np.zeros(travel.shape)
+        acting = self.loads(travel, turn, self.motion.velocities(turn))
+        return self._evaluated(self.drawing, turn, acting), turn
 
-    def _vanishing(self, one: Friction) -> Iterator[Callable[[Poses, Turn], tuple[Any, Any]]]:
+    def _vanishing(self, one: Friction) -> Iterator[Vanishing]:
         """What is zero where a pair stands still, or a slide is not pressed: the value and how it changes in time."""
         yield from (partial(self._stands, journal) for journal in self._journals(one))
         for slide in self._slides(one):
             yield partial(self._slips, slide)
             yield partial(self._presses, slide)
 
-    def _stands(self, journal: tuple[str, str], found: Poses, turn: Turn) -> tuple[Any, Any]:
-        return self._turning(found, journal), self._turning(found, journal, kinds.ALPHA)
+    def _stands(self, journal: tuple[str, str], found: Poses, turn: Turn) -> tuple[Array, Array]:
+        zero = np.zeros(turn.travel.shape)
+        return self._turning(found, journal) + zero, self._turning(found, journal, kinds.ALPHA) + zero
 
-    def _slips(self, slide: Slide, found: Poses, turn: Turn) -> tuple[Any, Any]:
+    def _slips(self, slide: Slide, found: Poses, turn: Turn) -> tuple[Array, Array]:
         back = np.conj(self.values.along(slide, turn))
         rates = (found.named(kind)[slide.name] for kind in (kinds.SLIDE_VELOCITY, kinds.SLIDE_ACCELERATION))
         speed, change = ((back * rate).real for rate in rates)
         return speed, change
 
-    def _presses(self, slide: Slide, found: Poses, turn: Turn) -> tuple[Any, Any]:
-        return (np.conj(self.values.along(slide, turn)) * found.reactions[slide.name]).imag, np.nan
+    def _presses(self, slide: Slide, found: Poses, turn: Turn) -> tuple[Array, Array]:
+        back = np.conj(self.values.along(slide, turn))
+        return (back * found.named(RUBBED_REACTION)[slide.name]).imag, np.full(turn.travel.shape, np.nan)
+
+    def _turns_round(self, name: str, back: complex, found: Poses, turn: Turn) -> tuple[Array, Array]:
+        return (found.named(RUBBED_REACTION)[name] * back).real, np.full(turn.travel.shape, np.nan)
 
 
 @dataclass(frozen=True)
 class CycleLosses:
-    """Friction over a cycle, in J: the work that is `lost`, as the polygons have it, and the `pairs`' shares by their
-    reactions without friction; the work `given` by all that drives, the drive and the loads whose works are positive.
-    """
+    """Friction over a cycle, in J: the work that is `lost`, and the `pairs`' shares; the work `given` by all that
+    drives, the drive and the loads whose works are positive."""
 
     lost: float
     given: float
@@ -232,14 +268,12 @@ class CycleLosses:
 
 
 def cycle_losses(friction: FrictionOverCycle, moments: Callable[[Array], Mapping[str, Array]],
-                 ends: tuple[float, float], breaks: Sequence[float]) -> CycleLosses:
-    """The losses between two travels, where `moments` are those of the loads by name and all is smooth between breaks.
-    """
-    motion, names = friction.motion, list[str]()
+                 breaks: Sequence[float]) -> CycleLosses:
+    """The losses over the cycle, where `moments` are those of the loads by name, and all is smooth between breaks."""
+    motion, ends, names = friction.motion, friction.ends, list[str]()
 
     def rows(travel: Array) -> Array:
-        turn = motion.turn(travel)
-        found = friction.at(travel, turn, motion.velocities(turn))
+        found = friction.at(travel)
         named = {"": found.balance - found.moment, M_F: found.moment, **moments(travel)}
         names[:] = [*named, *found.losses]
         return np.array([*named.values(), *found.losses.values()])

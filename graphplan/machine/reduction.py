@@ -82,9 +82,9 @@ class Reduction:
             ends = 0.0, common_period(self.motion.period, [load.table for load in self.acting if load.table])
         self.ends = ends
         rubs = any(one.coefficient for one in scene.loads.frictions)
-        self.friction = FrictionOverCycle(scene, self.motion) if rubs else None
+        self.friction = FrictionOverCycle(scene, self.motion, ends) if rubs else None
         found = breaks(self.values, self.motion, ends)
-        self.breaks = in_order([*found, *self.friction.breaks(ends)], ends) if self.friction else found
+        self.breaks = in_order([*found, *self.friction.edges.tolist()], ends) if self.friction else found
 
     @property
     def changing(self) -> tuple[str, ...]:
@@ -113,7 +113,7 @@ class Reduction:
         by = {load.name: load.arm(rates, turn) * values.get(load.name, 1.0) + zero for load in self.acting
               if not (load.table and load.table.over_speed)}
         if self.friction:
-            by[M_F] = self.friction.at(travel, turn, rates, side).moment
+            by[M_F] = self.friction.at(travel, side).moment
         return Reduced(travel, self._summed(rates, rates, VELOCITIES) + zero, sum(by.values(), zero), by,
                        tuple(self.values.over_speed(self.motion, turn, rates)),
                        lambda: self._slope(rates, self.motion.accelerations(turn)) + zero)
@@ -141,7 +141,7 @@ class Reduction:
         def moments(travel: Array) -> dict[str, Array]:
             return {name: moment for name, moment in self.at(travel).by.items() if name != M_F}
 
-        return cycle_losses(self.friction, moments, self.ends, self.breaks)
+        return cycle_losses(self.friction, moments, self.breaks)
 
     def drawing(self, travel: float = 0.0) -> Construction:
         """The lever in the pose at a travel, drawn step by step; it balances with the opposite of the reduced moment.

@@ -150,7 +150,7 @@ class Loaded(Draughtsman):
                 stands = not self.loads.rounds and last.stands(rubbed, self._valued)
             except ConstructionError:  # whoever reads the numbers is told
                 break
-        self._note(balances(loading, forces, RUBBED), ())
+        self.note_rubbed(loading, forces)
         self.rounds = forces.number
         if self.loads.rounds:
             self.notes.append(said("friction: rounds drawn, as asked: {0}", forces.number))
@@ -158,6 +158,10 @@ class Loaded(Draughtsman):
             self.notes.append(said("friction: the forces no longer change after round {0}", forces.number))
         else:
             self.notes.append(said("friction: the forces still change after {0} rounds", forces.number))
+
+    def note_rubbed(self, loading: Loading, forces: DrawnForces) -> None:
+        """Keep what is asked for of the last round of friction."""
+        self._note(balances(loading, forces, RUBBED), ())
 
     def _valued(self, marks: Sequence[Mark]) -> list[Any]:
         """The values of marks in this pose."""

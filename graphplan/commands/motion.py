@@ -8,6 +8,7 @@ in the sense in which the drive moves, in degrees (lengths of a drive that slide
 examples:
   graphplan motion ozols-13-6 -o yoke.json                  the steady cycle with its flywheel
   graphplan motion ozols-13-6 --speed 0 --travel 720        two turns from rest
+  graphplan motion ozols-13-7 -o loader.svg                 its diagrams, drawn step by step
   graphplan motion scene.toml --steady --positions 72 -o cycle.csv
 """
 
@@ -16,17 +17,18 @@ from __future__ import annotations
 import argparse
 import math
 
-from graphplan.commands.choices import count
-from graphplan.commands.output import Messages, as_json, kind, write
+from graphplan.commands.choices import add_diagrams, count, on_sheet
+from graphplan.commands.output import SHEETS, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 
-ENDINGS = (".json", ".csv")
-POSITIONS, STRIPS = 24, 96  # strips that can be drawn at most
+ENDINGS = (".json", ".csv", *SHEETS)
+POSITIONS, MOST = 24, 96  # without a word, and that can be drawn
 
 
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
-    add("-o", "--output", metavar="FILE", help=", ".join(ENDINGS) + "; without it JSON on standard output")
+    add("-o", "--output", metavar="FILE", help=".json, the numbers, or .csv, a table of them; "
+        f"{', '.join(SHEETS)}, the sheet; without it JSON on standard output")
     add("--speed", type=float, metavar="W0", help="the first drive's speed at the beginning, in rad/s (length/s); 0: "
         "from rest; with --steady its mean")
     add("--travel", type=float, metavar="DEGREES", help="how far the motion is followed, in degrees (lengths of a "
@@ -34,6 +36,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--positions", type=count("--positions", 4, 7200), metavar="N",
         help=f"in how many equal parts of the travel ({POSITIONS})")
     add("--steady", action="store_true", help="the cycle that repeats itself")
+    add_diagrams(command)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -48,14 +51,19 @@ def run(options: argparse.Namespace) -> int:
         if (value := getattr(options, name)) is not None and not math.isfinite(value):
             raise Refused(f"--{name}", f"{value:g}", "give a number")
     messages, positions = Messages(options.quiet), options.positions or POSITIONS
-    scene = parse(source_text(options.scene, options.scene), options.scene, by_drive=True)
+    scene = on_sheet(options, parse(source_text(options.scene, options.scene), options.scene, by_drive=True))
     found = motion_of(scene, options.speed, options.travel, options.steady)
-    drawing = drawn(found.motion, min(positions, STRIPS))
+    drawing = drawn(found.motion, min(positions, MOST))
     check = checked(found, drawing)
     if (stop := found.motion.stop) is not None:
         messages.remark(f"{found.scene.name}: the machine stops at {found.machine.told(stop.travel)}, after "
                         f"{stop.time:.6g} s")
-    if ending == ".csv":
+    if ending in SHEETS:
+        from graphplan.output.machine.motion_sheet import sheets
+
+        pages = sheets(found, min(positions, MOST), scene.sheet.paper or None)
+        write_sheets(pages, options.output, ending[1:], options.dpi)
+    elif ending == ".csv":
         write(motion_numbers.text(found, positions), options.output)
     else:
         write(as_json(motion_numbers.numbers(found, drawing, check, positions)), options.output)

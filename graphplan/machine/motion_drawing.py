@@ -11,16 +11,14 @@ Sources: Ozols 1974, 13-6 with fig. 13-9 and 13-10, (13.36) to (13.41); 15-2 (in
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from graphplan.cycle.curves import FARTHEST, round_scale
 from graphplan.cycle.diagram_program import Axes, integrate
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
@@ -28,34 +26,15 @@ from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage
 from graphplan.machine.driven import Driven
 from graphplan.machine.integrals import Reals
+from graphplan.machine.motion_frames import Frame, Layout, Room
 from graphplan.machine.strips import parabola
 from graphplan.machine.true_motion import TrueMotion
 from graphplan.phrases import Said, digits, said
 
 MOTION = Panel("motion", said("motion"), said("True motion: energy, speed and time over the travel"))
 STRIPS = 24
-ROOM, LENGTH, BESIDE = 34.0, 144.0, 20.0  # mm: for poles, of the axis of travel, between the two columns of diagrams
-HEIGHTS = {"moment": 36.0, "energy": 56.0, "omega": 40.0, "slowness": 34.0, "time": 40.0}
-BETWEEN, WIDE = 11.0, 56.0  # mm: between diagrams under each other, of the largest inertia
-ORIGINS = {"moment": "M", "energy-mass": "I", "omega": "ω", "slowness": "u", "reciprocal": "r", "time": "t"}
-SLOWEST = 8.0  # times the least 1/omega: what is larger goes off the paper
-
-
-class Frame(NamedTuple):
-    """A diagram on the panel: where its quantities are nothing, how much of each a mm is, and its window, in mm."""
-
-    x: float
-    y: float
-    k_x: float
-    k_y: float
-    left: float
-    bottom: float
-    right: float
-    top: float
-
-    def at(self, x: Any, y: Any) -> tuple[Any, Any]:
-        """Where values lie, in mm."""
-        return self.x + x / self.k_x, self.y + y / self.k_y
+CORRECTED = 3  # times that a load over a speed is taken anew, at the speed in the middle of a strip
+ORIGINS = {"moment": "M", "energy-mass": "I", "slowness": "u", "reciprocal": "r", "time": "t"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,26 +72,30 @@ class MotionDrawing:
                 for name, (drawn, exact) in pairs.items()}
 
 
-def drawn(motion: TrueMotion, strips: int = STRIPS) -> MotionDrawing | None:
+def drawn(motion: TrueMotion, strips: int = STRIPS, room: Room | None = None) -> MotionDrawing | None:
     """The construction of a motion in so many strips; none where it stops within the first three.
 
-    Each strip has the moment of its middle, that of loads over a speed at the speed at which the strip begins.
+    Each strip has the moment of its middle, that of loads over a speed at the speed there.
     """
     machine = motion.machine
     travel = np.linspace(motion.start, motion.end, strips + 1)
     moments, energies = _chords(machine, travel, float(motion.at([motion.start]).energy[0]))
     if len(moments) < 3:
         return None
-    return _Drawing(motion, travel[:len(energies)], np.array(moments), np.array(energies)).made
+    return _Drawing(motion, travel[:len(energies)], np.array(moments), np.array(energies), room or Room()).made
 
 
 def _chords(machine: Driven, travel: Reals, energy: float) -> tuple[list[float], list[float]]:
     """The moment of each strip, and the energies at the divisions, as far as there is some."""
     moments, energies = list[float](), [energy]
     for here, there in pairwise(travel):
-        rate = np.sqrt(2 * energies[-1] / machine.inertia(np.array([here])))
-        moment = float(machine.moment(np.array([(here + there) / 2]), rate)[0])
-        energy = energies[-1] + moment * (there - here)
+        middle = np.array([(here + there) / 2])
+        inertia, half = float(machine.inertia(middle)[0]), energy
+        for _ in range(CORRECTED if machine.laws else 1):
+            rate = np.sqrt(2 * max(half, 0.0) / inertia)
+            moment = float(machine.moment(middle, np.array([rate]))[0])
+            half = energy + moment * (there - here) / 2
+        energy += moment * (there - here)
         if not energy > 0:
             break
         moments.append(moment)
@@ -123,63 +106,14 @@ def _chords(machine: Driven, travel: Reals, energy: float) -> tuple[list[float],
 class _Drawing:
     """Draws one motion on the board."""
 
-    def __init__(self, motion: TrueMotion, travel: Reals, moments: Reals, energies: Reals):
-        self.motion, self.travel, self.moments, self.energies = motion, travel, moments, energies
-        self.inertias = motion.machine.inertia(travel)
-        self.omegas = np.sqrt(2 * energies / self.inertias)
-        self.first = 2 if energies[0] == 0 else 0
+    def __init__(self, motion: TrueMotion, travel: Reals, moments: Reals, energies: Reals, room: Room):
+        self.motion, self.travel, self.x = motion, travel, travel - motion.start
+        inertias, first = motion.machine.inertia(travel), 0 if energies[0] > 0 else 2
+        omegas = np.sqrt(2 * energies / inertias)
+        self.lay = Layout(self.x, moments, energies, inertias, omegas, first, motion.end - motion.start,
+                          motion.machine.degree, room)
+        self.first, self.frames = first, self.lay.frames
         self.board, self.found = Board(), dict[str, list[Mark]]()
-        self._scaled()
-
-    # ---- scales and places -----------------------------------------------------------------------------------------
-
-    def _scaled(self) -> None:
-        """Round scales, and what they make of the lengths c, d, q and the poles."""
-        k_phi = self._travel_scale(self.motion.end - self.motion.start)
-        slowness = 1 / self.omegas[max(1, self.first):]
-        slowest = min(slowness.max(), SLOWEST * slowness.min())
-        k_e = _scale(self.energies.max() / HEIGHTS["energy"])
-        k_i = _scale(self.inertias.max() / WIDE)
-        k_w = _scale(self.omegas.max() / HEIGHTS["omega"])
-        k_s = _scale(slowest / HEIGHTS["slowness"])
-        span = max(self.moments.max(), 0) - min(self.moments.min(), 0)
-        k_m = _scale(max(span / HEIGHTS["moment"], k_e / k_phi / FARTHEST))
-        end = self._elapsed()
-        k_t = _scale(max(end / HEIGHTS["time"], k_s * k_phi * 5))
-        self.poles = k_e / k_m / k_phi, k_t / k_s / k_phi
-        steepest = (self.energies / k_e / (self.inertias / k_i)).max()
-        self.c = min(WIDE * 0.6, HEIGHTS["energy"] / steepest)
-        self.d = 2 * k_e / (k_i * self.c * k_w**2)
-        self.q = 1 / math.sqrt(k_w * k_s)
-        self._framed(k_phi, {"moment": k_m, "energy": k_e, "omega": k_w, "slowness": k_s, "time": k_t}, k_i)
-
-    def _travel_scale(self, span: float) -> float:
-        """Degrees or lengths for one mm, round, in SI."""
-        unit = self.motion.machine.degree
-        return unit * _scale(span / unit / LENGTH)
-
-    def _elapsed(self) -> float:
-        """About how long it takes."""
-        w, x = self.omegas, self.travel
-        start = parabola(x, w).time if self.first else 0.0
-        return start + float((np.diff(x)[self.first:] * (1 / w[self.first:-1] + 1 / w[self.first + 1:]) / 2).sum())
-
-    def _framed(self, k_phi: float, k: dict[str, float], k_i: float) -> None:
-        """The diagrams of the travel under each other, inertia and energy-mass diagram right of the first two."""
-        self.frames, top = dict[str, Frame](), 0.0
-        length = (self.motion.end - self.motion.start) / k_phi
-        for name, height in HEIGHTS.items():
-            below = -min(self.moments.min() / k["moment"], 0.0) if name == "moment" else 0.0
-            low = top - height
-            self.frames[name] = Frame(0.0, low + below, k_phi, k[name], 0.0, low, length, top)
-            top = low - BETWEEN
-        right, energy, moment = length + BESIDE, self.frames["energy"], self.frames["moment"]
-        end = right + WIDE
-        self.frames["energy-mass"] = Frame(right, energy.y, k_i, k["energy"], right, energy.bottom, end, energy.top)
-        down = -(self.motion.end - self.motion.start) / (moment.top - moment.bottom)
-        self.frames["inertia"] = Frame(right, moment.top, k_i, down, right, moment.bottom, end, moment.top)
-        omega = self.frames["omega"]
-        self.frames["reciprocal"] = Frame(right, omega.y, 1.0, 1.0, right, omega.bottom, end, omega.top)
 
     # ---- drawing ---------------------------------------------------------------------------------------------------
 
@@ -189,8 +123,11 @@ class _Drawing:
         stages: list[tuple[Said, Said, Callable[[], None]]] = [
             (said("Energy"), said("its chords have the slope of the moment in the middle of each strip"), self._energy),
             (said("Energy-mass diagram"), said("energies are projected across, inertias down"), self._mass),
-            (said("Speed"), said("omega² = 2 k_E/k_I tan psi: the root is a mean proportional"), self._speed),
-            (said("Slowness"), said("1/omega by similar triangles"), self._slowness),
+            *([(said("Speed"), said("omega² = 2 E/I"), self._computed)] if self.lay.far else [
+                (said("Speed"), said("omega² = 2 k_E/k_I tan psi: the root is a mean proportional"), self._speed),
+                (said("Slowness"), said("1/omega by similar triangles"), self._slowness)]),
+            *([(said("First strips"), said("from rest 1/omega has no end"), self._begun)] if self.first else []),
+            (said("Mean slowness"), said("of each strip"), self._means),
             (said("Time"), said("its chords have the slope of the mean 1/omega of each strip"), self._time)]
         with self.board.on(MOTION):
             self._ruled()
@@ -212,14 +149,16 @@ class _Drawing:
 
     def _ruled(self) -> None:
         """What is given: origins, divisions, moments, inertias, and the energy at the beginning."""
-        x, count = self.travel - self.motion.start, len(self.travel)
+        x, lay, count = self.x, self.lay, len(self.x)
         self.origins = {name: self._given(name, 0.0, 0.0, f"O_{letter}") for name, letter in ORIGINS.items()}
-        self.start = self._given("energy", 0.0, float(self.energies[0]), "E_0")
+        low = self.frames["omega"]
+        self.base = self.board.given(x=low.left, y=low.bottom, name="O_ω")
+        self.start = self._given("energy", 0.0, float(lay.energies[0]), "E_0")
         self.divisions = [self._given("moment", float(x[k]), 0.0, f"D_{k}") for k in range(count)]
         middles = (x[1:] + x[:-1]) / 2
         self.found["moment"] = [self._given("moment", float(at), float(moment), f"M_{k}")
-                                for k, (at, moment) in enumerate(zip(middles, self.moments, strict=True), 1)]
-        self.found["inertia"] = [self._given("inertia", float(self.inertias[k]), float(x[k]), f"I_{k}")
+                                for k, (at, moment) in enumerate(zip(middles, lay.moments, strict=True), 1)]
+        self.found["inertia"] = [self._given("inertia", float(lay.inertias[k]), float(x[k]), f"I_{k}")
                                  for k in range(count)]
 
     def _axes(self, frame: str, letter: str, pole: float) -> Axes:
@@ -231,7 +170,7 @@ class _Drawing:
         return Axes(O, t, y, H)
 
     def _energy(self) -> None:
-        board, self.rate = self.board, self._axes("moment", "M", self.poles[0])
+        board, self.rate = self.board, self._axes("moment", "M", self.lay.poles[0])
         names = [f"E_{k}" for k in range(1, len(self.travel))]
         rays = integrate(board, self.found["moment"], self.start, self.divisions, self.rate, names)
         self.found["energy"] = [self.start, *(ray.end for ray in rays)]
@@ -246,14 +185,34 @@ class _Drawing:
             upright = board.parallel(self.rate.ordinates, inertia, why=said("carry the inertia down"))
             self.found["energy-mass"].append(board.meet(level, upright, name=f"W_{k}"))
 
+    def _computed(self) -> None:
+        """Speeds and their reciprocals laid off as they are computed: the rays' origin is off the paper."""
+        low, omegas = self.frames["omega"], self.lay.omegas
+        base = self.board.parallel(self.rate.abscissas, self.base, why=said("the axis of travel"))
+        self.under = self._axes("slowness", "u", self.lay.poles[1])
+        heights = low.at(0.0, omegas)[1] - low.bottom, 1 / omegas / self.frames["slowness"].k_y
+        axes = base, self.under.abscissas
+        for (name, letter), axis, rows in zip((("omega", "omega"), ("slowness", "u")), axes, heights, strict=True):
+            self.found[name] = []
+            for k, height in enumerate(rows):
+                told = said("from the point {0}: omega = {1}", k, digits(float(omegas[k])))
+                self.found[name].append(self.board.lay_off(self._foot(k, axis), dx=0, dy=float(height),
+                                                           name=f"{letter}_{k}", why=told))
+
+    def _foot(self, k: int, axis: Mark) -> Mark:
+        """Where the upright at a division meets an axis."""
+        told = said("the upright at division {0}", k)
+        upright = self.board.parallel(self.rate.ordinates, self.divisions[k], why=told)
+        return self.board.meet(upright, axis)
+
     def _speed(self) -> None:
         board = self.board
         axis = board.parallel(self.rate.abscissas, self.O, why=said("the axis of inertias"))
-        C = board.lay_off(self.O, dx=self.c, dy=0, name="C", why=said("c: its length sets the scale"))
-        P = board.lay_off(C, dx=0, dy=-self.d, name="P", why=said("d = 2 k_E/(k_I c k_ω²)"))
+        C = board.lay_off(self.O, dx=self.lay.c, dy=0, name="C", why=said("c: its length sets the scale"))
+        P = board.lay_off(C, dx=0, dy=-self.lay.d, name="P", why=said("d = 2 k_E/(k_I c k_ω²)"))
         self.cutting = board.parallel(self.rate.ordinates, C, why=said("on it the rays cut off c tan psi"))
         self.found["omega"] = []
-        base = board.parallel(self.rate.abscissas, self.origins["omega"], why=said("the axis of travel"))
+        base = board.parallel(self.rate.abscissas, self.base, why=said("the axis of travel"))
         self.found["rays"], self.found["roots"] = [], []
         for k in range(1 if self.first else 0, len(self.travel)):
             ray = board.line(self.O, self.found["energy-mass"][k], why=said("its slope is that of omega²/2"))
@@ -268,20 +227,20 @@ class _Drawing:
     def _carried(self, k: int, base: Mark, one: Mark, other: Mark, what: str, name: str) -> None:
         """A length laid off upwards at a division of an axis."""
         board = self.board
-        upright = board.parallel(self.rate.ordinates, self.divisions[k], why=said("the upright at division {0}", k))
-        foot = board.meet(upright, base)
+        foot = self._foot(k, base)
         arc = board.circle(foot, board.opening(one, other), why=said("carried there with dividers"))
+        upright = board.parallel(self.rate.ordinates, self.divisions[k])
         self.found[what].append(board.line_meets_circle(upright, arc, way="on", name=name))
 
     def _slowness(self) -> None:
         board = self.board
         corner = self.origins["reciprocal"]
-        right = board.lay_off(corner, dx=self.q, dy=0, name="Q", why=said("q: its square sets the scale"))
-        above = board.lay_off(corner, dx=0, dy=self.q, name="S", why=said("q upwards"))
+        right = board.lay_off(corner, dx=self.lay.q, dy=0, name="Q", why=said("q: its square sets the scale"))
+        above = board.lay_off(corner, dx=0, dy=self.lay.q, name="S", why=said("q upwards"))
         wall = board.parallel(self.rate.ordinates, right, why=said("to it the speeds are projected"))
         ceiling = board.parallel(self.rate.abscissas, above, why=said("on it the rays cut off q²/omega"))
         self.found["slowness"], self.found["reciprocals"] = [], []
-        self.under = self._axes("slowness", "u", self.poles[1])
+        self.under = self._axes("slowness", "u", self.lay.poles[1])
         for k, omega in self._from_first():
             level = board.parallel(self.rate.abscissas, omega, why=said("carry the speed across"))
             ray = board.line(corner, board.meet(level, wall), why=said("the ray of this speed"))
@@ -294,31 +253,25 @@ class _Drawing:
         omegas = dict(enumerate(self.found["omega"], 1 if self.first else 0))
         return [(k, omegas[k]) for k in range(self.first, len(self.travel))]
 
+    def _means(self) -> None:
+        self.means = [self.board.midpoint(P, Q, why=said("the mean 1/omega of the strip"))
+                      for P, Q in pairwise(self.found["slowness"])]
+
     def _time(self) -> None:
-        board, x = self.board, self.travel - self.motion.start
-        means = [board.midpoint(P, Q, why=said("the mean 1/omega of the strip"))
-                 for P, Q in zip(self.found["slowness"], self.found["slowness"][1:], strict=False)]
-        starts = self._begun(x)
-        names = [f"t_{k}" for k in range(self.first + 1, len(x))]
-        rays = integrate(board, means, starts[-1], self.divisions[self.first:], self.under, names)
+        starts = self.found.get("time") or [self.origins["time"]]
+        names = [f"t_{k}" for k in range(self.first + 1, len(self.x))]
+        rays = integrate(self.board, self.means, starts[-1], self.divisions[self.first:], self.under, names)
         self.found["time"] = [*starts, *(ray.end for ray in rays)]
         self.found["time rays"] = [ray.cut for ray in rays]
 
-    def _begun(self, x: Reals) -> Sequence[Mark]:
-        """The first points of the diagram of time: its origin, or from rest those of the parabola."""
-        if not self.first:
-            return [self.origins["time"]]
-        curve, found = parabola(x, self.omegas), []
-        axis = self.board.parallel(self.rate.abscissas, self.origins["time"], why=said("the axis of travel"))
+    def _begun(self) -> None:
+        """The first points of the diagram of time, from rest: those of the parabola."""
+        curve, x, board = parabola(self.x, self.lay.omegas), self.x, self.board
+        axis = board.parallel(self.rate.abscissas, self.origins["time"], why=said("the axis of travel"))
+        self.found["time"] = []
         for k in (1, 2):
-            spent = curve.time * (x[k] / x[2]) ** (1 - curve.n)
-            told = said("the first two strips as a parabola omega = {0} phi^{1}: {2} s", digits(round(curve.k, 4)),
-                        digits(round(curve.n, 4)), digits(round(spent, 5)))
-            upright = self.board.parallel(self.rate.ordinates, self.divisions[k])
-            foot = self.board.meet(upright, axis)
-            found.append(self.board.lay_off(foot, dx=0, dy=spent / self.frames["time"].k_y, name=f"t_{k}", why=told))
-        return found
-
-
-def _scale(least: float) -> float:
-    return float(round_scale(float(least)))
+            spent = curve.time * float(x[k] / x[2]) ** (1 - curve.n)
+            told = said("the first two strips as a parabola omega = {0} phi^{1}: {2} s", digits(curve.k),
+                        digits(curve.n), digits(spent))
+            length = spent / self.frames["time"].k_y
+            self.found["time"].append(board.lay_off(self._foot(k, axis), dx=0, dy=length, name=f"t_{k}", why=told))

@@ -60,6 +60,20 @@ def test_run_up(tmp_path: Path) -> None:
     assert finer["time"] < 0.4 * found["drawn"]["error"]["time"] < 0.02
 
 
+@pytest.mark.parametrize("options", [["--speed", "0", "--travel", "90"], []])
+def test_sheet(tmp_path: Path, options: list[str]) -> None:
+    """The sheet has the diagrams on one panel, and tells how they are drawn; of a steady cycle the origin is far away.
+    """
+    file = tmp_path / "motion.svg"
+    scene = yoke(tmp_path, DRIVEN.format(400)) if options else "ozols-13-6"
+    assert main(["motion", scene, "-q", "-o", str(file), "--positions", "12", *options]) == 0
+    svg = "".join(page.read_text() for page in tmp_path.glob("motion*.svg"))
+    assert 'data-plan="motion"' in svg
+    for title in ("Energy-mass diagram", "Speed", "Mean slowness", "Time", *(["First strips"] if options else [])):
+        assert f">{title}<" in svg
+    assert ("mean proportional" in svg) == bool(options)
+
+
 def test_steady_cycle_with_its_flywheel(tmp_path: Path) -> None:
     """With [flywheel] it is the steady cycle, as uneven as asked for, also where scaled loads close it."""
     found = motion(tmp_path, "ozols-13-6")

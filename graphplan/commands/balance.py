@@ -7,7 +7,8 @@ the table over the cycle. A .toml is the scene with added dyads whose joint S mo
 solve and cycle.
 
 examples:
-  graphplan balance ozols-16-1 --positions 72 -o engine.json
+  graphplan balance ozols-16-1 -o sheet.svg
+  graphplan balance ozols-16-1 --counterweights share --share 0.6 --radius 1=80 --positions 72 -o engine.json
   graphplan balance ozols-16-1 -o dyads.toml && graphplan draw dyads.toml -o dyads.svg
   graphplan balance rotor.toml -o rotor.svg
 """
@@ -15,13 +16,14 @@ examples:
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 
 from graphplan.commands.choices import add_language, add_paper, count
-from graphplan.commands.output import DOTS, Messages, as_json, kind, write
+from graphplan.commands.output import DOTS, SHEETS, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 from graphplan.mechanism.presentation import FRAMES
 
-ENDINGS = (".json", ".csv", ".toml")
+ENDINGS = (".json", ".csv", ".toml", *SHEETS)
 POSITIONS, SHARE = 72, 0.5
 WAYS = ("full", "partial", "share", "none")
 
@@ -30,8 +32,8 @@ def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("scene", metavar="SCENE", help="a scene with masses, a packaged one, a task with [rotor], or - for standard "
         "input")
-    add("-o", "--output", metavar="FILE", help=".json, .csv, of a rotor also the sheet: .svg, .pdf, .png, .tex or "
-        ".dxf; without it JSON on standard output")
+    add("-o", "--output", metavar="FILE", help="the sheet: .svg, .pdf, .png, .tex or .dxf; the numbers: .json or .csv; "
+        "of a linkage also .toml; without it JSON on standard output")
     add("--positions", type=count("--positions", 3), metavar="N", help=f"in how many poses of the cycle ({POSITIONS})")
     add("--counterweights", choices=WAYS, default="", help="so that the mass centre stands still (full, the default "
         "where it can be done); moves along the guide on the frame alone (partial); of a slider-crank on the crank "
@@ -59,7 +61,10 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.output.machine.balance_numbers import numbers, table
 
     scene = parse(text, options.scene, by_drive=True)
+    said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
+    scene = replace(scene, sheet=replace(scene.sheet, **said))
     ending, messages = kind(options.output, ENDINGS, "balance"), Messages(options.quiet)
+    drawn_alone(options, ending)
     if ending == ".toml":
         from graphplan.check.balance import checked_dyads
 
@@ -72,8 +77,21 @@ def run(options: argparse.Namespace) -> int:
                       _radii(options.radius), SHARE if options.share is None else options.share)
     if found.note:
         messages.remark(found.note)
-    write(table(found.before) if ending == ".csv" else as_json(numbers(found), rows=True), options.output)
+    if ending in SHEETS:
+        from graphplan.output.machine.balance_sheet import sheets
+
+        write_sheets(sheets(found, scene.sheet.paper or None), options.output, ending.removeprefix("."), options.dpi)
+    else:
+        write(table(found.before) if ending == ".csv" else as_json(numbers(found), rows=True), options.output)
     return 0
+
+
+def drawn_alone(options: argparse.Namespace, ending: str) -> None:
+    """Refuse options of sheets where none is drawn."""
+    for name, fits in (("dpi", ending == ".png"), ("paper", ending in SHEETS), ("frame", ending in SHEETS)):
+        if getattr(options, name) and not fits:
+            raise Refused(f"--{name} {getattr(options, name)}", f"a {ending} has no use for it",
+                          "leave it out, or -o FILE.png")
 
 
 def _radii(given: list[str]) -> dict[str, float]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
+from graphplan.commands.balance import drawn_alone
 from graphplan.commands.output import Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 
@@ -41,7 +42,4 @@ def _asked(options: argparse.Namespace, ending: str) -> None:
     for name in ("positions", "counterweights", "radius", "keep", "share"):
         if getattr(options, name):
             raise Refused(f"--{name}", "this is a rotor, which has no use for it", "leave it out")
-    for name, fits in (("dpi", ending == ".png"), ("paper", ending not in NUMBERS), ("frame", ending not in NUMBERS)):
-        if getattr(options, name) and not fits:
-            raise Refused(f"--{name} {getattr(options, name)}", f"a {ending} has no use for it",
-                          "leave it out, or -o FILE.png")
+    drawn_alone(options, ending)

@@ -26,7 +26,7 @@ from graphplan.machine.spanning import SpanningTree, as_multiple, moments_of_mas
 from graphplan.mechanism.model import Mass, Number, Scene
 from graphplan.mechanism.plane import less
 from graphplan.methods.panels import MECHANISM
-from graphplan.phrases import Said, said
+from graphplan.phrases import Said, digits, said
 
 ROUNDING = 2.0**-45
 """A part of a vector that is smaller, beside its mass times the length of its link, is rounding alone."""
@@ -149,19 +149,19 @@ def _program(scene: Scene, base: str, vectors: tuple[PrincipalVector, ...]) -> P
 def _head(board: Board, vector: PrincipalVector, points: Mapping[str, Mark]) -> Mark:
     """The principal point of a link: how far along its line, and how far beside it."""
     P, Q = points[vector.start], points[vector.end]
-    head, told = P, f"h_{vector.link}" if vector.link else f"h_{vector.end}"
+    head, name, line = P, vector.link or vector.end, f"{vector.start}{vector.end}"
     if vector.along:
-        head = board.step_off(P, Q, P, ratio=vector.along, why=said("the principal point"),
-                              quantity=Quantity(told, "length"))
+        told = said("the principal point: h_{0} = {1} {2}", name, digits(float(vector.along), 5), line)
+        head = board.step_off(P, Q, P, ratio=vector.along, why=told, quantity=Quantity(f"h_{name}", "length"))
     if vector.across:
-        head = board.step_across(P, Q, head, ratio=vector.across, why=said("its offset"),
-                                 quantity=Quantity(f"ξ_{vector.link}", "length"))
+        told = said("its offset: xi_{0} = {1} {2}", name, digits(float(vector.across), 5), line)
+        head = board.step_across(P, Q, head, ratio=vector.across, why=told, quantity=Quantity(f"xi_{name}", "length"))
     return head
 
 
 def _laid(vector: PrincipalVector) -> Said:
     if not vector.link:
-        return said("the masses that hang on {0}, by their part of the whole", vector.end)
+        return said("the mass that hangs on {0}, by their part of the whole", vector.end)
     return said("head to tail, as link {0} is directed", vector.link)
 
 
@@ -169,4 +169,5 @@ def _stage(vector: PrincipalVector) -> Stage:
     if not vector.link:
         return Stage(said("Further hinge {0}", vector.end), said("the part of the mass that hangs on it"))
     return Stage(said("Principal vector of link {0}", vector.link),
-                 said("h = [its mass by the distance of its centre, and the masses beyond by its length] : the mass"))
+                 said("the link's mass by the distance of its centre, and the masses beyond by the distance of their "
+                      "joint, over the whole mass"))

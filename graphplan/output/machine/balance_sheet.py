@@ -1,0 +1,393 @@
+"""The sheet of a linkage's balancing: the mass centre by principal vectors, its path, and what shakes the frame.
+
+The mechanism with principal points and vectors in the given pose, the path of the mass centre before and after, the
+shaking force as a polar diagram (its hodograph), force and moment over the travel; of an engine the first two orders.
+
+Source: Ozols 1974, 16-2 to 16-4 with figs. 16-4 to 16-12.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from graphplan.check.balance import FULL, GUIDED, NONE, SHARED, Balancing, MassMotion
+from graphplan.kernel.kinds import Movement
+from graphplan.kernel.program import Panel
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.units import KILOGRAMS, METRES
+from graphplan.methods.panels import MECHANISM
+from graphplan.output.graphs import CURVES, Figures, Graph, Polar, scale_words, smoothed, stacked, through
+from graphplan.output.machine.balance_numbers import links, principal_vectors, variant, weight_told
+from graphplan.output.panelled import Panelled, Recorded, Words, beside, pages, under
+from graphplan.output.step_ink import HEAD, StepInk
+from graphplan.phrases import Said, arranged, digits, joined, said, unit
+from graphplan.sheet.layout.scales import Scales, ratio, round_up
+from graphplan.sheet.lettering.label_candidates import Wish
+from graphplan.sheet.lettering.letters import of_mechanism
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.clip import clipped
+from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Sheet, Spot
+from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
+from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.plans import around
+from graphplan.sheet.plates.view import View, least, view
+
+FORCE = Panel("shaking force", said("shaking force"), said("Shaking force: its polar diagram"))
+CYCLE = Panel("cycle", said("cycle"), said("Shaking force and moment over the travel"))
+WAYS = {FULL: said("fully: the mass centre stands still"),
+        GUIDED: said("partly: the mass centre moves along the guide"),
+        SHARED: said("partly: what rotates, and a share of what reciprocates"), NONE: said("not")}
+OPINIONS = {"path": said("path"), "velocity": said("velocity"), "acceleration": said("acceleration"),
+            "shaking force": said("shaking force"), "shaking moment": said("shaking moment"),
+            "counterweights": said("counterweights"), "orders": said("orders")}
+VECTOR, PATH = Pen(0.5, pens.BLUE, fill=pens.BLUE), Pen(0.35)
+BEFORE, AFTER, FIRST, SECOND = CURVES[0], CURVES[2], CURVES[1], CURVES[4]
+WEIGHT, ARM = Pen(0.35, pens.RED, fill="#e8c4c6"), Pen(0.35, pens.RED, (2.4, 1.0))
+OUTSIDE = 6.0  # mm about the mechanism
+MANY_TIMES = 8.0  # the middle size of a force: between limits what is larger may lie off its diagram
+MOST, LEAST = 12, 5  # numbered positions at most; mm that the radius of a drawn counterweight is at most
+
+
+def sheets(found: Balancing, paper: str | None = None) -> list[Sheet]:
+    """The sheet of a linkage on the paper named, or on the smallest on which its words have room; see :func:`pages`."""
+    return pages(lambda name: BalanceSheet(name, found), paper)
+
+
+@dataclass(frozen=True)
+class BalanceSheet(Panelled):
+    """One linkage on one paper."""
+
+    balancing: Balancing
+    document = said("Balancing of a linkage")
+    told_scales = True
+
+    @property
+    def before(self) -> MassMotion:
+        """The linkage as it is given."""
+        return self.balancing.before
+
+    @property
+    def scene(self) -> Scene:
+        return self.before.centre.scene
+
+    @property
+    def told(self) -> Said:
+        program = self.before.centre.program
+        return said("Mass centre by principal vectors in {0} steps, and the shaking force over the cycle.",
+                    len(program) - program.givens)
+
+    @cached_property
+    def recorded(self) -> Recorded:
+        scales = Scales(self.k_s, 1.0, self.scene.units.length, {}, convention=self.scene.sheet.convention)
+        return Recorded(self.before.centre.program, self.before.centre.values, scales)
+
+    @property
+    def scale(self) -> Said:
+        return ratio(self.k_s, self.scene.units.length)
+
+    @cached_property
+    def figures(self) -> Figures:
+        return Figures(self.letters, self.tongue)
+
+    def repeats(self, panel: Panel) -> bool:
+        """Each link has its own vector: all steps are told."""
+        return False
+
+    # ---- panels ----------------------------------------------------------------------------------------------------
+
+    def divided(self, room: Rect) -> dict[Panel, Rect]:
+        """The mechanism above; under it the polar diagram, and beside that what changes over the travel."""
+        upper, lower = under(room, 1.3, 1.0)
+        left, right = beside(lower, 1.0, 1.25)
+        return {MECHANISM: upper, FORCE: left, CYCLE: right}
+
+    def heading(self, panel: Panel) -> tuple[Said, Said | None]:
+        """What a panel shows, and its scale."""
+        if panel == MECHANISM:
+            scale = Scales(self.k_s, 1.0, self.scene.units.length, {}, convention=self.scene.sheet.convention)
+            return said("Mass centre by principal vectors"), joined(scale.said(MECHANISM, set()), ",  ")
+        if panel == FORCE:
+            return panel.heading, scale_words("J", self.polar(self.room(panel)).k, "N", self.scene.sheet.convention)
+        return panel.heading, None
+
+    def figure(self, panel: Panel, rect: Rect) -> Iterator[Item]:
+        """The mechanism, or a diagram."""
+        if panel == MECHANISM:
+            return self._mechanism(rect)
+        return self._polar(rect) if panel == FORCE else self._cycle(rect)
+
+    @cached_property
+    def motions(self) -> list[tuple[MassMotion, Pen]]:
+        """The linkage before and after it is balanced, each with its pen."""
+        after = self.balancing.after
+        return [(self.before, BEFORE), *([(after, AFTER)] if after else [])]
+
+    # ---- the mechanism ---------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _box(self) -> Rect:
+        """What the plan of the mechanism must hold: its points, the paths of the mass centre, and counterweights."""
+        paths = [complex(z) for motion, _ in self.motions for z in motion.path[np.isfinite(motion.path)]]
+        weights = [weight.place(self.scene) for weight in self.balancing.weights if weight.radius <= self.scene.extent]
+        program = self.before.centre.program
+        ends = [self.before.centre.values[index][:2] for index in program.wanted]
+        places = [*((z.real, z.imag) for z in (*paths, *weights)), *ends]
+        return around([*places, *((float(x), float(y)) for x, y in self.scene.points.values())])
+
+    @cached_property
+    def k_s(self) -> float:
+        """Lengths for a mm of the mechanism, in a round scale."""
+        return float(round_up(least(self._box, self.room(MECHANISM).inset(*(OUTSIDE,) * 4))))
+
+    def _mechanism(self, rect: Rect) -> Iterator[Item]:
+        """The links with their counterweights, the paths of the mass centre, and the steps."""
+        window = view(self._box, rect, self.k_s)
+        drawn = DrawnMechanism(self.scene, window)
+        ink = StepInk(self.recorded, {MECHANISM: window}, self.letters)
+        others = [*self._weights(window), *self._paths(window), *drawn.items(), *self._vectors(ink)]
+        wishes = [*of_mechanism(drawn), *self._numbers(window)]
+        yield from ink.lettered(MECHANISM, others, wishes, lambda step: step.op.movement is not Movement.GIVEN)
+
+    def _vectors(self, ink: StepInk) -> Iterator[Item]:
+        """The principal vectors head to tail."""
+        program, base = self.recorded.program, self.before.centre.base
+        first = next(step.index for step in program.steps if step.name == base)
+        for start, end in pairwise([first, *program.wanted[2::2]]):
+            head = min(HEAD, 0.6 * math.dist(ink.spots[start], ink.spots[end]))
+            yield Arrow(VECTOR, "plates", end, ink.spots[start], ink.spots[end], head)
+
+    def _paths(self, window: View) -> Iterator[Item]:
+        """The paths of the mass centre; one that stands still is a spot."""
+        for motion, pen in self.motions:
+            spots = [window((float(z.real), float(z.imag))) for z in motion.path]
+            yield from clipped(Polyline(pen, "links", None, tuple(self._smooth(motion, spots))), window.rect)
+            yield from (Circle(pen.filled(pen.colour), "links", None, spots[k], 0.5) for k in self.places)
+
+    def _weights(self, window: View) -> Iterator[Item]:
+        """The counterweights where they stand, their areas as their masses, on arms from their pivots."""
+        heaviest = max((weight.mass for weight in self.balancing.weights), default=1.0)
+        for weight in self.balancing.weights:
+            at, pivot = weight.place(self.scene), complex(*map(float, self.scene.points[weight.pivot]))
+            spot, root = (window((z.real, z.imag)) for z in (at, pivot))
+            yield from clipped(Polyline(ARM, "links", None, (root, spot)), window.rect)
+            if window.rect.holds(spot):
+                yield Circle(WEIGHT, "links", None, spot, max(1.0, LEAST * (weight.mass / heaviest) ** 0.5))
+
+    def _numbers(self, window: View) -> Iterator[Wish]:
+        """The numbers of positions on the path."""
+        for number, k in enumerate(self.places):
+            z = self.before.path[k]
+            if np.isfinite(z):
+                yield Wish(self._runs(str(number)), (window((float(z.real), float(z.imag))),), 0.8, True, pens.FAINT)
+
+    def _runs(self, text: str) -> Any:
+        return self.figures.text((0.0, 0.0), text).runs
+
+    @cached_property
+    def places(self) -> list[int]:
+        """The positions that are numbered, by their places among all."""
+        count = len(self.before.travel)
+        each = next(step for step in range(1, count + 1) if count % step == 0 and count / step <= MOST)
+        return [k for k in range(0, count, each) if np.isfinite(self.before.path[k])]
+
+    def _smooth(self, motion: MassMotion, spots: list[Spot]) -> list[Spot]:
+        """A smooth line through spots, back to its beginning where the motion closes."""
+        known = [spot for spot, z in zip(spots, motion.path, strict=True) if np.isfinite(z)]
+        if not motion.closed or len(known) < len(spots):
+            return smoothed(known)
+        count = len(spots)
+        whole = smoothed([known[-1], *known, known[0], known[1]])
+        pieces = (len(whole) - 1) // (count + 2)
+        return whole[pieces:-pieces]
+
+    # ---- diagrams --------------------------------------------------------------------------------------------------
+
+    def polar(self, rect: Rect) -> Polar:
+        """The polar diagram of the shaking force, before and after."""
+        forces = np.concatenate([self._usual(motion.shaking.force) for motion, _ in self.motions])
+        return Polar.fitted(rect.inset(4.0, 4.0, 4.0, 8.0), forces.real.tolist(), forces.imag.tolist())
+
+    def _polar(self, rect: Rect) -> Iterator[Item]:
+        """The curves of the ends of the shaking force, with numbered positions, and that of the given pose."""
+        polar = self.polar(rect)
+        yield from self.figures.rings(polar, "N")
+        for motion, pen in self.motions:
+            spots = [polar.at(float(z.real), float(z.imag)) for z in motion.shaking.force]
+            yield from clipped(Polyline(pen, "links", None, tuple(self._smooth(motion, spots))), polar.rect)
+            for number, k in ((number, k) for number, k in enumerate(self.places) if polar.rect.holds(spots[k])):
+                yield Circle(pen.filled(pen.colour), "links", None, spots[k], 0.5)
+                if motion is self.before:
+                    yield self._outwards(polar.centre, spots[k], str(number))
+        yield from self._legend(rect, [("J", BEFORE), *([("J'", AFTER)] if self.balancing.after else [])])
+
+    def _usual(self, values: Any) -> Any:
+        """The values for which a diagram must have room: all of a motion that closes; between limits, where forces grow
+        beyond all bounds, those that are not many times as large as most."""
+        known = values[np.isfinite(values)]
+        most = MANY_TIMES * np.median(np.abs(known))
+        return known if self.before.closed or not most else known[np.abs(known) <= most]
+
+    def _outwards(self, centre: Spot, spot: Spot, words: str) -> Item:
+        """A number beside a spot, away from the middle."""
+        far, size = math.dist(centre, spot) or 1.0, self.letters.text
+        x, y = (at + (0.9 + 0.6 * size) * (at - mid) / far for at, mid in zip(spot, centre, strict=True))
+        return self.figures.text((x, y - 0.35 * size), words, "middle", pen=pens.FAINT)
+
+    def _legend(self, rect: Rect, curves: list[tuple[str, Pen]]) -> Iterator[Item]:
+        """Which curve is which, in the upper left corner."""
+        words = {"J": said("before"), "J'": said("balanced"), "J_1": said("first order"), "J_2": said("second order")}
+        x, size = rect.left + 2.0, self.letters.text
+        for name, pen in curves:
+            yield Polyline(pen, "letters", None, ((x, rect.top - 2.0), (x + 6.0, rect.top - 2.0)))
+            told = self.figures.text((x + 7.5, rect.top - 2.0 - 0.35 * size), words[name])
+            yield told
+            x = told.box.right + 6.0
+
+    def _cycle(self, rect: Rect) -> Iterator[Item]:
+        """The size of the shaking force, of an engine its parts along the guide, and the moment, over the travel."""
+        forces, moments = self._forces, [(np.asarray(motion.shaking.moment), pen) for motion, pen in self.motions]
+        slides = self.scene.drives[0].slides
+        travel = self.before.travel if slides else np.degrees(self.before.travel)
+        ends = (0.0, 360.0 * max(1, round(travel[-1] / 360))) if self._whole else (travel[0], travel[-1])
+        spans = [_span([self._usual(values) for values, _ in curves]) for curves in (forces, moments)]
+        upper, lower = stacked(rect.inset(2.0, 2.0, 4.0, 5.0), ends, spans, (1.4, 1.0))
+        unit_x = self.scene.units.length if slides else "°"
+        yield from through([upper, lower], self._uprights(travel))
+        words = "s" if slides else "φ"
+        convention = self.scene.sheet.convention
+        yield from self.figures.axes(upper, "", scale_words("J", upper.k_y, "N", convention), numbers=False)
+        yield from self.figures.axes(lower, f"{words}, {unit_x}", scale_words("M", lower.k_y, "N m", convention),
+                                     turns=not slides)
+        for graph, curves in ((upper, forces), (lower, moments)):
+            for values, pen in curves:
+                yield from self._curve(graph, travel, values, pen)
+        named = [("J", BEFORE), *([("J'", AFTER)] if self.balancing.after else [])]
+        yield from self._legend(rect, [*named, *([("J_1", FIRST), ("J_2", SECOND)] if self.balancing.engine else [])])
+
+    @cached_property
+    def _whole(self) -> bool:
+        """Whether the travel is that of whole turns."""
+        return self.before.closed and not self.scene.drives[0].slides
+
+    def _uprights(self, travel: Any) -> list[float]:
+        """The travels of the numbered positions."""
+        return [float(travel[k]) for k in self.places]
+
+    def _curve(self, graph: Graph, travel: Any, values: Any, pen: Pen) -> Iterator[Item]:
+        """A smooth curve over the travel, to the end of its period."""
+        if self._whole:
+            travel, values = np.append(travel, graph.x[1]), np.append(values, values[0])
+        yield from graph.smooth(travel, values, pen)
+
+    @cached_property
+    def _forces(self) -> list[tuple[Any, Pen]]:
+        """What of the shaking force is drawn over the travel: of an engine along its guide, with its orders."""
+        engine = self.balancing.engine
+        if engine is None:
+            return [(np.abs(motion.shaking.force), pen) for motion, pen in self.motions]
+        crank = self.before.points[engine.pin(self.scene)] - self.before.points[engine.hinge]
+        angle = np.angle(crank / engine.ahead)
+        parts = [(np.real(motion.shaking.force / engine.ahead), pen) for motion, pen in self.motions]
+        first = np.real(engine.force(angle, (1,)))
+        return [*parts, (first, FIRST), (np.real(engine.order(2) * np.exp(-2j * angle)), SECOND)]
+
+    # ---- words -----------------------------------------------------------------------------------------------------
+
+    def given(self) -> Iterator[Words]:
+        """The masses, and where their centres are."""
+        length = self.scene.units.length
+        told = links(self.before)
+        rows: list[list[Said | str]] = [[said("link"), arranged("m, {0}", unit("kg")), arranged("s, {0}", unit(length)),
+                                         arranged("k, {0}", unit(length))]]
+        for name, link in told.items():
+            rows.append([name, digits(link["mass"]), *(digits(_clean(link.get(key, 0.0), link.get("length", 1.0)))
+                                                       for key in ("s", "offset"))])
+        yield said("Masses of the links, and their centres: s along the link from its first joint, k to its left:")
+        yield rows
+        drive = self.scene.drives[0]
+        rate = arranged("{0} {1}", digits(float(drive.rate)), unit(f"{length}/s" if drive.slides else "rad/s"))
+        yield said("Drive of link {0}: {1}", drive.link, rate)
+
+    def found(self) -> Iterator[Words]:
+        """Principal vectors, counterweights, the largest forces before and after, and the checks."""
+        scene, length = self.scene, unit(self.scene.units.length)
+        mass = digits(float(KILOGRAMS[scene.units.mass] * self.before.centre.mass))
+        yield said("Mass of the moving links: {0} {1}", mass, unit("kg"))
+        for letter, z, per in (("v", self.before.velocity, "/s"), ("a", self.before.acceleration, "/s²")):
+            if self._posed is not None:
+                x, y = (digits(float(part), 5) for part in (z[self._posed].real, z[self._posed].imag))
+                yield arranged("{0}_S = ({1}, {2}) {3}", letter, x, y, unit(f"{scene.units.length}{per}"))
+        heads: list[Said | str] = [said("link"), arranged("h, {0}", length), arranged("ξ, {0}", length)]
+        rows = [[name, digits(one["h"], 5), digits(_clean(one["offset"], one["length"]), 4)]
+                for name, one in principal_vectors(self.before).items()]
+        yield said("Principal vectors, along the links and square to them:")
+        yield [heads, *rows]
+        yield arranged("{0}: {1}", said("Balanced"), WAYS[self.balancing.way])
+        if self.balancing.note:
+            yield self.balancing.note
+        yield from self._weights_told()
+        yield from self._largest()
+        if self.balancing.engine:
+            yield from self._engine_told()
+        parts = [joined((OPINIONS[name], digits(size, 2)), " ") for name, size in self.balancing.check.items()]
+        yield said("Second opinions differ by: {0}", joined(parts))
+
+    @property
+    def _posed(self) -> int | None:
+        """The place of the given pose among the positions."""
+        there = np.flatnonzero(self.before.travel == 0)
+        return int(there[0]) if there.size and np.isfinite(self.before.path[there[0]]) else None
+
+    def _weights_told(self) -> Iterator[Words]:
+        """The counterweights in a table, and which variant they make."""
+        if not self.balancing.weights:
+            return
+        rows: list[list[Said | str]] = [[said("link"), arranged("m r, {0}", unit("kg m")), "°", arranged(
+            "r, {0}", unit(self.scene.units.length)), arranged("m, {0}", unit("kg"))]]
+        for weight in self.balancing.weights:
+            one = weight_told(self.scene, weight)
+            rows.append([one["link"], *(digits(one[key], 5) for key in ("mass_radius", "angle", "radius", "mass"))])
+        yield said("Counterweights, where they stand in this pose:")
+        yield rows
+        if self.balancing.after is not None and (name := variant(self.balancing.after)):
+            yield said("Variant {0} of table 16-1", name)
+
+    def _largest(self) -> Iterator[Words]:
+        """The largest shaking force and moment."""
+        rows: list[list[Said | str]] = [["", arranged("J, {0}", unit("N")), arranged("M, {0}", unit("N m"))]]
+        for words, motion in ((said("before"), self.before), (said("balanced"), self.balancing.after)):
+            if motion is not None:
+                size = max(float(np.nanmax(np.abs(part))) for part in motion.shaking.parts.values()) or 1.0
+                reach = size * self.scene.extent * float(METRES[self.scene.units.length])
+                force, moment = (float(np.nanmax(np.abs(values))) for values in (motion.shaking.force,
+                                                                                motion.shaking.moment))
+                rows.append([words, digits(_clean(force, size), 5), digits(_clean(moment, reach), 5)])
+        yield said("Largest shaking force, and moment about {0}:", self.before.centre.base)
+        yield rows
+
+    def _engine_told(self) -> Iterator[Words]:
+        """The reduced masses and orders of an engine."""
+        engine = self.balancing.engine
+        assert engine is not None
+        yield said("Engine: rotating mass {0} {2}, reciprocating mass {1} {2}", digits(engine.rotating),
+                   digits(engine.reciprocating), unit("kg"))
+        yield said("Forces of what rotates {0}, of the first order {1}, of the second {2} {3}",
+                   *(digits(abs(force)) for force in (engine.centrifugal, engine.order(1), engine.order(2))), unit("N"))
+
+
+def _span(curves: list[Any]) -> tuple[float, float]:
+    """From the least of some values to the largest, and a little more; zero among them."""
+    low, high = (float(end([end([0.0, *values]) for values in curves])) for end in (min, max))
+    return (1.05 * low, 1.05 * high) if high > low else (-1.0, 1.0)
+
+
+def _clean(value: float, size: float) -> float:
+    """A value that is nothing beside a size."""
+    return 0.0 if abs(value) < 1e-9 * size else value

@@ -81,13 +81,14 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
     motion, travel = followed(scene, positions, span,
                               lambda part: told("positions")(round(part * positions), positions))
     turn = motion.turn(travel, machine)
-    left = Round.reached(scene, turn.points, turn.guides)
+    left = Round.reached(scene, turn.points, turn.guides, turn.loads)
     found = Cycle(scene, drawing, turn, drawing.blank(positions), dict(turn.faults),
                   {kind: np.full(positions, np.nan) for kind in groups(drawing)}, centrodes=rolling(motion, travel))
     for name, other in _forms(drawing, method, plan, inertia):
         if not left.places.size:
             break
-        drawn = other.evaluate(left.points, left.guides, workers=workers, compiled=machine, progress=told("plans"))
+        drawn = other.evaluate(left.points, left.guides, loads=left.loads, workers=workers, compiled=machine,
+                               progress=told("plans"))
         apart = gaps(left, other, drawn.results, told("check"))
         kept = sound(left, other, drawn.results, apart)
         if other is drawing:

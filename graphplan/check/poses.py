@@ -38,34 +38,37 @@ Results = dict[str, dict[str, Any]]
 
 @dataclass(frozen=True)
 class Round:
-    """Some poses of a scene: their places among all, and where points and guides are in them."""
+    """Some poses of a scene: their places among all, where points and guides are in them, and the loads that change."""
 
     scene: Scene
     places: Any
     points: Mapping[str, Any]
     guides: Mapping[str, Any]
+    loads: Mapping[str, Any]
 
     @classmethod
-    def reached(cls, scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any]) -> Round:
+    def reached(cls, scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any],
+                loads: Mapping[str, Any]) -> Round:
         """The poses in which every point has its place."""
         there = np.all([np.isfinite(z) for z in points.values()], axis=0)
-        return cls(scene, np.arange(there.size), points, guides).some(there)
+        return cls(scene, np.arange(there.size), points, guides, loads).some(there)
 
     def some(self, kept: Any) -> Round:
         """Those of the poses that a mask or a slice keeps."""
-        points, guides = ({name: z[kept] for name, z in arrays.items()} for arrays in (self.points, self.guides))
-        return Round(self.scene, self.places[kept], points, guides)
+        arrays = ({name: z[kept] for name, z in named.items()} for named in (self.points, self.guides, self.loads))
+        return Round(self.scene, self.places[kept], *arrays)
 
     @property
     def posed(self) -> Scene:
         """The scene in these poses."""
-        return poses.posed(self.scene, self.points, self.guides)
+        return poses.posed(self.scene, self.points, self.guides, self.loads)
 
 
-def checked(drawing: Construction, points: Mapping[str, Any], guides: Mapping[str, Any]) -> dict[str, Any]:
+def checked(drawing: Construction, points: Mapping[str, Any], guides: Mapping[str, Any],
+            loads: Mapping[str, Any]) -> dict[str, Any]:
     """Where points are in the poses in which the construction agrees with the solver; nan in others."""
-    part = Round.reached(drawing.scene, points, guides)
-    results = drawing.evaluate(part.points, part.guides).results
+    part = Round.reached(drawing.scene, points, guides, loads)
+    results = drawing.evaluate(part.points, part.guides, loads=part.loads).results
     there = np.zeros(len(next(iter(points.values()))), dtype=bool)
     there[part.places] = sound(part, drawing, results, gaps(part, drawing, results))
     return {name: np.where(there, z, np.nan) for name, z in points.items()}

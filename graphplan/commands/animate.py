@@ -75,10 +75,11 @@ def _film(drawing: Construction, composition: Composition, moved: Loop, seconds:
     reached = [k for k in range(len(turn.travel)) if k not in turn.faults]
     if not reached:
         raise Refused("--animate", "no pose of the range is reached", "another range")
-    points, guides = ({name: z[reached] for name, z in arrays.items()} for arrays in (turn.points, turn.guides))
-    ways = [(one, checked(one, points, guides)) for one in constructions(drawing)]
+    points, guides, loads = ({name: z[reached] for name, z in arrays.items()}
+                             for arrays in (turn.points, turn.guides, turn.loads))
+    ways = [(one, checked(one, points, guides, loads)) for one in constructions(drawing)]
     found: dict[int, tuple[Sheet, bool]] = {}
-    for k, drawn in zip(reached, sheets(composition, ways, points, guides), strict=True):
+    for k, drawn in zip(reached, sheets(composition, ways, points, guides, loads), strict=True):
         found[k] = drawn
         messages.progress(f"drawn: {len(found)} of {len(reached)}" if len(found) < len(reached) else "")
     if bare := sum(not drawn for _, drawn in found.values()):

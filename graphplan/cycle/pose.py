@@ -14,6 +14,7 @@ from graphplan.cycle.travel import check_drives
 from graphplan.cycle.turn import Turn, follow, under
 from graphplan.errors import Refused, SingularPose
 from graphplan.mechanism.assembly import moved_on
+from graphplan.mechanism.load_values import filled_in
 from graphplan.mechanism.model import FRAME, Assembly, Drive, Pair, Placement, Scene, Slide
 from graphplan.mechanism.numerals import TO_A_FLOAT
 from graphplan.mechanism.placements import needs
@@ -41,7 +42,7 @@ def at(scene: Scene, travel: Travel | Sequence[Travel] | str) -> Scene:
             raise SingularPose(why, ())
         raise Refused(f"{scene.name}: the pose", why, said("a travel that the mechanism reaches"))
     assembly = Assembly(given, gone, moved_on(given, gone, TO_A_FLOAT), under(scene), turned)
-    posed = in_pose(scene, found, 0)
+    posed = filled_in(in_pose(scene, found, 0), travels[0])
     where = "the pose: constructed at another travel of its drive"
     return replace(posed, placements=_standing(scene), irrational=(*scene.irrational, where), assembly=assembly)
 

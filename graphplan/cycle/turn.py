@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, field
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from graphplan.cycle.dyads import Failure
 from graphplan.cycle.groups import Group
 from graphplan.cycle.higher import touching
 from graphplan.cycle.linkage import Array, Linkage, number
+from graphplan.cycle.loads import loads_at
 from graphplan.cycle.positions import Placing
 from graphplan.cycle.rates import Moved, moved
 from graphplan.cycle.travel import TURN, closes, paces, told, travel_unit, travels
@@ -40,6 +41,7 @@ class Turn:
     guide under the sliding point goes with that point. `guides`: the directions, complex arrays of shape (n,), of the
     slides along moving links that are given by a vector, by the slide's name. `faults`: by the pose's place, why it is
     not reached, or has no velocities at a limit. `closed`: after a full turn of the first drive all is as it was.
+    `motion` is whose poses they are.
     """
 
     travel: Array
@@ -47,6 +49,17 @@ class Turn:
     guides: dict[str, Array]
     faults: dict[int, str]
     closed: bool = False
+    motion: RangeOfMotion | None = field(default=None, repr=False, compare=False)
+
+    @cached_property
+    def loads(self) -> dict[str, Array]:
+        """The loads that change, by their letters: forces as complex arrays of shape (n,), moments as real ones.
+
+        Fails with :class:`Refused` where a table does not cover a pose that is reached.
+        """
+        if self.motion is None:
+            return {}
+        return loads_at(self.motion.scene, self.travel, self.points, self.guides, self.motion.moved)
 
 
 def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None,
@@ -118,7 +131,7 @@ class RangeOfMotion:
         points |= {contact.at: touching(scene, contact, points, turns.get(contact.name, 1.0))
                    for contact in scene.contacts if not scene.links_of[contact.at]}
         back = self.closed and self.path.upper is None and self.back(float(self.path.travel[-1]))
-        return Turn(travel, points, ways, course.faults(placing.failures), back)
+        return Turn(travel, points, ways, course.faults(placing.failures), back, self)
 
     def moved(self, travel: Array) -> dict[str, Moved]:
         """How every link lies and moves at these travels; nan where the pose is not reached."""

@@ -29,10 +29,14 @@ Claim = tuple[Any, ...]
 
 
 class Quantity(NamedTuple):
-    """What a given length is drawn for: how it is written, such as P_3 or ω·OA, and the kind of its scale."""
+    """What a given length is drawn for: how it is written, such as P_3 or ω·OA, and the kind of its scale.
+
+    One that is `changing` has another value in other poses, so that nothing else may be drawn by the same step.
+    """
 
     written: str
     kind: str  # length, velocity, acceleration or force
+    changing: bool = False
 
 
 Form = Callable[..., Any]  # what it draws on the board from its operands; nothing where it is not for the pose

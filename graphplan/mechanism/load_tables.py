@@ -71,6 +71,11 @@ class LoadTable:
         return tuple(dict.fromkeys(place for place, _ in self.rows))
 
     @property
+    def numbers(self) -> tuple[Number, ...]:
+        """All numbers of its rows, or its powers."""
+        return self.powers or tuple(number for row in self.rows for number in row)
+
+    @property
     def length(self) -> Number:
         """From its lowest place to its highest."""
         return max(self.corners) - min(self.corners)

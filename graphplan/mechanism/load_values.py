@@ -13,14 +13,12 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from graphplan.errors import Refused
 from graphplan.mechanism.elimination import Elimination
-from graphplan.mechanism.items import Faults
 from graphplan.mechanism.load_tables import SPEED, LoadTable
 from graphplan.mechanism.model import Force, Moment, Scene, Slide
 from graphplan.mechanism.numerals import exactly, is_exact, root
 from graphplan.mechanism.pairs.pair import FRAME, Along, Rate, Side, Sides, Statement
-from graphplan.mechanism.plane import Pair, dot, less, times
+from graphplan.mechanism.plane import Number, Pair, dot, less, times
 
 STANDING = 1e-9
 """A slide is at a dead point where its speed is less than this part of what the drives make at the mechanism's reach.
@@ -37,29 +35,30 @@ def guide_origin(scene: Scene, slide: Slide) -> str:
     return "" if slide.along == FRAME else next(iter(scene.links[slide.along]), "")
 
 
-def filled_in(scene: Scene, faults: Faults) -> Scene:
-    """The scene with the values that its loads have in this pose; a fault where a table does not cover it."""
+def filled_in(scene: Scene, travel: Number = Fraction(0)) -> Scene:
+    """The scene with the values that its loads have in its pose, where the first drive has gone so far.
+
+    Fails with `Refused` where a table does not cover the pose.
+    """
     loads = scene.loads
     every: tuple[Force | Moment, ...] = (*loads.forces, *loads.moments) if loads else ()
     if loads is None or not any(load.table for load in every):
         return scene
-    pose, irrational = OwnPose(scene), list(scene.irrational)
+    pose, irrational = OwnPose(scene, Fraction(travel)), list(scene.irrational)
 
     def value(load: Force | Moment) -> Any:
         table = load.table
         if table is None:
             return load
-        try:
-            found, exact = pose.value(table)
-        except Refused as refused:
-            faults.add(refused.what, refused.why, refused.do)
-            return load
+        found, exact = pose.value(table)
         if isinstance(load, Force):
             assert load.direction is not None
-            length, rational = _length(load.direction)
-            exact = exact and rational and is_exact(load.direction)
-            vector = times(found / length, exactly(load.direction))
-            filled: Any = replace(load, value=vector if exact else (float(vector[0]), float(vector[1])))
+            ends = [scene.points[point] for point in load.through or ()]
+            direction = less(ends[1], ends[0]) if ends else load.direction
+            length, rational = _length(direction)
+            exact = exact and rational and is_exact(direction)
+            x, y = times(found / length, exactly(direction))
+            filled: Any = replace(load, value=(x, y) if exact else (float(x), float(y)), direction=direction)
         else:
             filled = replace(load, value=found if exact else float(found))
         if not exact:
@@ -78,11 +77,17 @@ def driven(scene: Scene) -> Scene:
     return scene.with_drives((first.driven_at(Fraction(-1 if first.change < 0 else 1), Fraction(0)), *others))
 
 
+def sense(scene: Scene) -> int:
+    """The sense in which the first drive moves: 1 or -1."""
+    return -1 if scene.drives and scene.drives[0].rate < 0 else 1
+
+
 @dataclass(frozen=True)
 class OwnPose:
-    """A scene in its own pose, in fractions."""
+    """A scene in its pose, in fractions, where the first drive has gone so far from the given one."""
 
     scene: Scene
+    travel: Fraction
 
     def value(self, table: LoadTable) -> tuple[Fraction, bool]:
         """What a table says here, and whether that is exact."""
@@ -91,7 +96,7 @@ class OwnPose:
             rate = first.rate if first else Fraction(0)
             return Fraction(table.value(Fraction(rate))), isinstance(rate, Fraction)
         if not table.slide:
-            return Fraction(table.value(Fraction(0), self.sense)), True
+            return Fraction(table.value(self.travel, sense(driven(self.scene)))), True
         slide = next(slide for slide in self.scene.slides if slide.name == table.slide)
         length, rational = _length(slide.direction)
         if table.over_speed:
@@ -103,12 +108,6 @@ class OwnPose:
         place = Fraction(dot(away, exactly(slide.direction))) / length
         exact = rational and is_exact(slide.direction, *(self.scene.points[p] for p in (slide.at, origin) if p))
         return Fraction(table.value(place, self._stroke(slide, table))), exact
-
-    @property
-    def sense(self) -> int:
-        """The sense in which the first drive moves."""
-        moved = driven(self.scene).drives
-        return -1 if moved and moved[0].rate < 0 else 1
 
     @property
     def exact(self) -> bool:

@@ -6,12 +6,16 @@ links before this one, joints with links after it, and the others, each by name;
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import Any, TypeVar
 
 from graphplan.errors import Key as Key
 from graphplan.errors import by_name as by_name
 from graphplan.mechanism.model import FRAME, Contact, Drive, Force, Gear, Loads, Moment, Scene, Slide
+
+Load = TypeVar("Load", Force, Moment)
 
 
 def ordered(scene: Scene) -> Scene:
@@ -33,6 +37,8 @@ def _ordered_loads(loads: Loads) -> Loads:
     """The loads by their links, those of one link by their values and points."""
     def key(load: Force | Moment) -> tuple[Key, tuple[float, ...], Key]:
         at, value = (load.at, load.value) if isinstance(load, Force) else ("", (load.value,))
+        if load.table is not None:  # so a load is called alike in every pose
+            value = *(load.direction or () if isinstance(load, Force) else ()), *load.table.numbers
         return by_name(load.on), tuple(map(float, value)), by_name(at)
 
     masses = {link: loads.masses[link] for link in sorted(loads.masses, key=by_name)}
@@ -43,9 +49,34 @@ def _ordered_loads(loads: Loads) -> Loads:
 
 def named_forces(loads: Loads) -> dict[str, Force]:
     """The given forces by their letters: P_2 and P_2' on link 2."""
-    forces = _ordered_loads(loads).forces
-    links = [force.on for force in forces]
-    return {f"P_{force.on}" + "'" * links[:i].count(force.on): force for i, force in enumerate(forces)}
+    return _lettered("P", _ordered_loads(loads).forces)
+
+
+def named_moments(loads: Loads) -> dict[str, Moment]:
+    """The given moments by their letters: M_2 and M_2' on link 2."""
+    return _lettered("M", _ordered_loads(loads).moments)
+
+
+def changing_loads(loads: Loads | None) -> dict[str, Force | Moment]:
+    """The loads that change over the cycle, by their letters."""
+    named: dict[str, Force | Moment] = {**named_forces(loads), **named_moments(loads)} if loads else {}
+    return {name: load for name, load in named.items() if load.table}
+
+
+def with_values(loads: Loads, values: Mapping[str, Any]) -> Loads:
+    """The loads, some with other values by their letters: pairs for forces, numbers for moments; or arrays of them."""
+    found: dict[int, Any] = {id(load): values[name] for name, load in changing_loads(loads).items() if name in values}
+
+    def valued(load: Any) -> Any:
+        return replace(load, value=found[id(load)]) if id(load) in found else load
+
+    return replace(loads, forces=tuple(map(valued, loads.forces)), moments=tuple(map(valued, loads.moments)))
+
+
+def _lettered(letter: str, loads: Sequence[Load]) -> dict[str, Load]:
+    """Loads by their letters: that of their link, with a prime where it is taken."""
+    links = [load.on for load in loads]
+    return {f"{letter}_{load.on}" + "'" * links[:i].count(load.on): load for i, load in enumerate(loads)}
 
 
 def named_moments(loads: Loads) -> dict[str, Moment]:

@@ -12,7 +12,7 @@ from dataclasses import replace
 from errno import EBADF
 from fractions import Fraction
 
-from graphplan.errors import Fault, SceneError
+from graphplan.errors import Fault, Refused, SceneError
 from graphplan.mechanism import sections
 from graphplan.mechanism.checks import (
     check_connections,
@@ -185,7 +185,12 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
     rounded = [f"points.{quoted(point)}: {placements[point].how} placement" for point in placements
                if point in names.placed and point in counting and not is_exact(names.placed[point])]
     scene = _checked(replace(scene, irrational=(*rounded, *names.irrational)), names.placed, faults)
-    return (scene if len(faults) else filled_in(scene, faults)), names.files
+    if not len(faults):
+        try:
+            scene = filled_in(scene)
+        except Refused as refused:
+            faults.add(refused.what, refused.why, refused.do)
+    return scene, names.files
 
 
 def _kept_by_its_drive(scene: Scene) -> Scene:

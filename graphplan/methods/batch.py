@@ -13,9 +13,11 @@ from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import Step, error_at
 from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides as straight_guides
 from graphplan.mechanism.replaced import replaced, rolling_guides
 from graphplan.methods.executors import crew
+from graphplan.methods.forces.changing import given_loads
 from graphplan.methods.recorded import Recorded
 from graphplan.methods.replay import guide_steps, replay_of
 from graphplan.methods.results import Given
@@ -49,15 +51,16 @@ class Poses(Given):
         return np.zeros(self.n, dtype=complex)
 
 
-def batch(construction: Recorded, points: Mapping[str, Any], guides: Mapping[str, Any],
+def batch(construction: Recorded, points: Mapping[str, Any], guides: Mapping[str, Any], loads: Mapping[str, Any],
           only: Collection[str] | None = None, workers: int | str = 1, compiled: bool = False,
           progress: Progress | None = None) -> Poses:
-    """The construction replayed over the poses in `points` and `guides`, for all kinds of results or `only` some.
+    """The construction replayed over the poses in `points` and `guides`, for all kinds of results or `only` some; the
+    `loads` that change are complex arrays by their letters, real ones of moments, and as they are where left out.
 
     `workers` is how many processes share the poses out, or the address of a dask scheduler; `compiled` replays in
     machine code; `progress` is told after each stretch how many poses are done, of how many.
     """
-    n, given = _given(construction, points, guides)
+    n, given = _given(construction, points, guides, loads)
     stretches = [slice(start, min(start + STRETCH, n)) for start in range(0, n, STRETCH)] if given else [slice(0, n)]
     results, faults = _wanted(construction, n, only), dict[int, str]()
     found = _filled(construction, given, stretches, results, workers, compiled)
@@ -177,8 +180,10 @@ def _by_rules(construction: Recorded, given: Coordinates, results: Results) -> F
     return faults
 
 
-def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[str, Any]) -> tuple[int, Coordinates]:
-    """The number of poses, and what is given in each: coordinates of points, and directions of guides by their step."""
+def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[str, Any],
+           loads: Mapping[str, Any]) -> tuple[int, Coordinates]:
+    """The number of poses, and what is given in each: coordinates of points, and by their steps directions of guides
+    and loads."""
     scene = construction.scene
     if scene.assembly is not None and (points or guides):
         raise Refused("points", said("the pose is constructed from the lengths of links"), "the scene as it is given")
@@ -193,7 +198,13 @@ def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[st
             free = [n for n, s in slides.items() if s.through is None and s.along != FRAME]
             raise Refused(f"guide {name}", "no guide on a moving link has its direction given under this name",
                           f"one of {', '.join(free)}" if free else "points alone: they turn every guide here")
-    shapes = {array.shape for array in (*arrays.values(), *directions.values())} or {(1,)}
+    changing = changing_loads(scene.loads)
+    for name in loads:
+        if name not in changing:
+            raise Refused(f"load {name}", "the scene has no load of this name that changes",
+                          f"one of {', '.join(changing)}" if changing else "a load with a table")
+    acting = {name: np.atleast_1d(np.asarray(z)) for name, z in loads.items()}
+    shapes = {array.shape for array in (*arrays.values(), *directions.values(), *acting.values())} or {(1,)}
     if len(shapes) > 1 or len(next(iter(shapes))) != 1:
         raise Refused("poses", f"the arrays have the shapes {sorted(shapes)}", "one array of shape (n,) a point")
     for name, at in construction.shared.items():  # one mark serves both
@@ -208,6 +219,7 @@ def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[st
     given: Coordinates = {name: _parts(z, "x", "y") for name, z in arrays.items() if name in drawn}
     for name, z in directions.items():
         given |= {step: _parts(z, "dx", "dy") for step in guide_steps(construction, slides[name])}
+    given |= given_loads(construction.program, scene, construction.phi, acting)
     return next(iter(shapes))[0], given
 
 

@@ -295,19 +295,22 @@ class Construction(Recorded, Given):
         return tuple(found)
 
     def evaluate(self, points: Mapping[str, Any], guides: Mapping[str, Any] | None = None, *,
-                 only: Collection[str] | None = None, workers: int | str = 1, compiled: bool = False,
+                 loads: Mapping[str, Any] | None = None, only: Collection[str] | None = None,
+                 workers: int | str = 1, compiled: bool = False,
                  progress: Callable[[int, int], None] | None = None) -> Poses:
         """The same steps over n poses: `points` gives complex arrays of shape (n,); points left out stand still.
 
         `guides` gives, by the names of slides, the directions of guides that ride on moving links and whose direction
-        the scene gives as a vector. `only` names the kinds of results that are wanted, such as velocity and
-        acceleration: nothing else is reckoned. `workers` processes share the poses out, or those of a dask scheduler
-        by its address; `compiled` replays in machine code, where numba is installed: the same numbers to the last bit,
-        several times faster. `progress` is told how many are done, of how many.
+        the scene gives as a vector. `loads` gives those that change over the cycle, by their letters: forces as complex
+        arrays (P_3, P_3'), moments as real ones (M_1); one left out stays as it is here. `only` names the kinds of
+        results that are wanted, such as velocity and acceleration: nothing else is reckoned. `workers` processes share
+        the poses out, or those of a dask scheduler by its address; `compiled` replays in machine code, where numba is
+        installed: the same numbers to the last bit, several times faster. `progress` is told how many are done, of how
+        many.
         """
         from graphplan.methods.batch import batch
 
-        return batch(self, points, guides or {}, only, workers, compiled, progress)
+        return batch(self, points, guides or {}, loads or {}, only, workers, compiled, progress)
 
     def replay(self, points: Mapping[str, complex] | None = None, *,
                only: Collection[str] | None = None) -> dict[str, dict[str, Any]]:

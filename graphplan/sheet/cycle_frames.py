@@ -17,7 +17,9 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, evaluate
 from graphplan.mechanism.model import Pair, Scene, Slide
+from graphplan.mechanism.order import with_values
 from graphplan.methods.construction import Construction
+from graphplan.methods.forces.changing import given_loads
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.frames.title import CONSTRUCTION
 from graphplan.sheet.layout.composition import Composition
@@ -34,7 +36,7 @@ from graphplan.sheet.plates.view import View
 
 SAME = 1e-6  # of the largest mark: by more a drawn mark does not differ from what the rules say, unless its form fails
 Given = dict[Any, dict[str, float]]
-Places = Mapping[str, Sequence[complex]]  # of points, or the directions of guides, in each pose
+Places = Mapping[str, Any]  # arrays: of points, of the directions of guides or of loads, in each pose
 
 
 class Posed(Construction):
@@ -50,15 +52,17 @@ class Posed(Construction):
         return super().read(domain, self.given)
 
 
-def posed(construction: Construction, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Posed | None:
-    """The construction with its points, and the guides that ride on links, elsewhere.
+def posed(construction: Construction, points: Mapping[str, complex], guides: Mapping[str, complex],
+          loads: Mapping[str, Any]) -> Posed | None:
+    """The construction with its points, and the guides that ride on links, elsewhere, and other loads that change.
 
     None where the pose is singular, its drawing takes other forms than that of the given pose, or points lie apart on
     whose coincidence it relies.
     """
     if any(points[one] != points[other] for one, other in construction.relied):
         return None
-    drawn, program = (given_in(steps, points, guides) for steps in (construction.drawn, construction.program))
+    drawn, program = (given_in(steps, points, guides) | given_loads(steps, construction.scene, construction.phi, loads)
+                      for steps in (construction.drawn, construction.program))
     try:
         values = evaluate(construction.drawn, Floats(), drawn)
         truth = evaluate(construction.program, Floats(), program)
@@ -66,7 +70,7 @@ def posed(construction: Construction, points: Mapping[str, complex], guides: Map
         return None
     if not _alike(construction, values, truth):
         return None
-    return Posed(construction, scene_in(construction.scene, points, guides), values, program)
+    return Posed(construction, scene_in(construction.scene, points, guides, loads), values, program)
 
 
 def _alike(construction: Construction, values: Sequence[Any], truth: Sequence[Any]) -> bool:
@@ -88,8 +92,9 @@ def given_in(program: Program, points: Mapping[str, complex], guides: Mapping[st
     return given
 
 
-def scene_in(scene: Scene, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Scene:
-    """The scene in another pose."""
+def scene_in(scene: Scene, points: Mapping[str, complex], guides: Mapping[str, complex],
+             loads: Mapping[str, Any] | None = None) -> Scene:
+    """The scene in another pose, and with other loads that change, by their letters."""
 
     def direction(slide: Any) -> Pair:
         z: complex | None = None
@@ -99,18 +104,22 @@ def scene_in(scene: Scene, points: Mapping[str, complex], guides: Mapping[str, c
             z = guides.get(slide.name)
         return slide.direction if z is None else (z.real, z.imag)
 
+    if scene.loads and loads:
+        vectors = {name: (z.real, z.imag) if isinstance(z, complex) else z for name, z in loads.items()}
+        scene = replace(scene, loads=with_values(scene.loads, vectors))
     return scene.posed({name: (points[name].real, points[name].imag) for name in scene.points}, direction)
 
 
 def sheets(composition: Composition, ways: Sequence[tuple[Construction, Places]], points: Places,
-           guides: Places) -> Iterator[tuple[Sheet, bool]]:
+           guides: Places, loads: Places) -> Iterator[tuple[Sheet, bool]]:
     """The plans of each pose as a sheet, and whether the construction is on them: else the mechanism alone.
 
     Reads a composed construction; constructions of its scene, each with where the points are in the poses in which it
-    is sound, of which the first that can be drawn in a pose is; and where points and guides are, in every pose.
+    is sound, of which the first that can be drawn in a pose is; where points and guides are, and the loads that change,
+    in every pose.
     """
     count = len(next(iter(points.values())))
-    poses = [next(filter(None, (_drawn(one, composition, sound, guides, k) for one, sound in ways)), None)
+    poses = [next(filter(None, (_drawn(one, composition, sound, guides, loads, k) for one, sound in ways)), None)
              for k in range(count)]
     rows = replace(composition.arrangement, rows=())
     links = [around([(z.real, z.imag) for z in here.values()]) for k in range(count)
@@ -133,16 +142,17 @@ def _sheet(composition: Composition, items: Iterable[Item]) -> Sheet:
     return replace(whole, items=tuple(stacked([*outlines, *captions(composition), *items])))
 
 
-def _drawn(drawing: Construction, composition: Composition, points: Places, guides: Places, k: int) -> Posed | None:
+def _drawn(drawing: Construction, composition: Composition, points: Places, guides: Places, loads: Places,
+           k: int) -> Posed | None:
     """A construction in the pose at a place of these arrays, where it can be drawn on these plans."""
-    here, directions = _at(k, points, guides)
-    found = posed(drawing, here, directions) if all(map(cmath.isfinite, here.values())) else None
+    here, directions, acting = _at(k, points, guides, loads)
+    found = posed(drawing, here, directions, acting) if all(map(cmath.isfinite, here.values())) else None
     return found if found and composition.views.keys() >= {*Plans(found).panels} else None
 
 
-def _at(k: int, *arrays: Places) -> list[dict[str, complex]]:
+def _at(k: int, *arrays: Mapping[str, Any]) -> list[dict[str, Any]]:
     """The pose at a place of arrays."""
-    return [{name: complex(z[k]) for name, z in one.items()} for one in arrays]
+    return [{name: z[k].item() for name, z in one.items()} for one in arrays]
 
 
 def _enlarged(composition: Composition, links: Rect) -> Composition:

@@ -15,6 +15,7 @@ import numpy as np
 from graphplan.mechanism.elimination import transpose
 from graphplan.mechanism.model import Balance, Force, Scene
 from graphplan.mechanism.numerals import mapped
+from graphplan.mechanism.order import with_values
 from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
 from graphplan.solver.blocks import Block, blocks
@@ -70,11 +71,12 @@ def sized(number: Any) -> Sized:
     return number if isinstance(number, Sized) else Sized(np.asarray(number, dtype=float))
 
 
-def posed(scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any]) -> Scene:
+def posed(scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any],
+          loads: Mapping[str, Any] | None = None) -> Scene:
     """The scene in n poses at once: coordinates and directions that change are arrays of shape (n,).
 
     `points` gives them by name as complex arrays, `guides` the directions of pairs that no two points give; complex
-    numbers give the scene in one other pose.
+    numbers give the scene in one other pose. `loads` are those that change, by their letters: forces as complex arrays.
     """
     def where(name: str) -> Any:
         return _pair(points[name]) if name in points else tuple(map(float, scene.points[name]))
@@ -86,7 +88,10 @@ def posed(scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any]) ->
         return _pair(guides[pair.name]) if pair.name in guides else tuple(map(float, pair.direction))
 
     driven = scene.with_drives(drive.driven_at(*map(float, drive.rates)) for drive in scene.drives)
-    return replace(driven, loads=mapped(scene.loads, float)).posed({name: where(name) for name in scene.points},
+    acting = mapped(scene.loads, float)
+    if loads:
+        acting = with_values(acting, {name: _pair(z) if np.iscomplexobj(z) else z for name, z in loads.items()})
+    return replace(driven, loads=acting).posed({name: where(name) for name in scene.points},
                         lambda one: one.direction if isinstance(one, Balance) else direction(one), float)
 
 

@@ -14,7 +14,7 @@ from functools import partial
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Loads, Mass, Number, Scene
-from graphplan.mechanism.order import by_name, lower, named_forces, turning_drives
+from graphplan.mechanism.order import by_name, lower, named_forces, named_moments, turning_drives
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.forces import stages
 from graphplan.methods.motion.network import Network
@@ -69,15 +69,16 @@ class Loading:
     def each(self, link: str) -> Iterator[tuple[str, Lay]]:
         """The forces on a link: the point where each acts, and how it is laid off; one that is nothing is left out."""
         for name, force in named_forces(self.loads).items():
-            if force.on == link and any(force.value):
+            if force.on == link and (force.table or any(force.value)):
                 why = said("{0}, the given force on {1} at {2}", name, link_named(link), force.at)
-                yield force.at, partial(self._given, force.at, force.value, name, why)
+                yield force.at, partial(self._given, force.at, force.value, Quantity(name, "force", bool(force.table)),
+                                        why)
         mass = self.loads.masses.get(link)
         if mass and mass.mass:
             heaviness = tuple(mass.mass * g * weight(self.scene.units) for g in self.loads.gravity)
             if any(heaviness):
                 why = said("{0}, the weight of {1}, at {2}", f"G_{link}", link_named(link), mass.centre)
-                yield mass.centre, partial(self._given, mass.centre, heaviness, f"G_{link}", why)
+                yield mass.centre, partial(self._given, mass.centre, heaviness, Quantity(f"G_{link}", "force"), why)
             yield from self._inertia_forces(link, mass)
 
     def _inertia_forces(self, link: str, mass: Mass) -> Iterator[tuple[str, Lay]]:
@@ -145,10 +146,10 @@ class Loading:
                     why=said("the radius of gyration is the mean of the distances from {0}", centre))
         return name
 
-    def _given(self, at: str, value: tuple[Number, ...], name: str, why: str, start: Mark) -> Acting:
+    def _given(self, at: str, value: tuple[Number, ...], quantity: Quantity, why: str, start: Mark) -> Acting:
         x, y = value
-        head = self.board.lay_off(start, dx=x * self.phi, dy=y * self.phi, why=why, quantity=Quantity(name, "force"))
-        return Acting(self.pose.points[at], start, head, name)
+        head = self.board.lay_off(start, dx=x * self.phi, dy=y * self.phi, why=why, quantity=quantity)
+        return Acting(self.pose.points[at], start, head, quantity.written)
 
     def _inertia(self, link: str, point: str, mass: Number, name: str, start: Mark) -> Acting:
         """The inertia force of a mass that moves as a point of a link does, against its acceleration."""
@@ -167,14 +168,14 @@ class Loading:
 
     def couples(self, link: str, start: Mark) -> Iterator[tuple[Acting, Acting]]:
         """The couples on a link, as pairs of forces laid off from `start`: the force at one point, and its answer."""
-        for moment in (m for m in self.loads.moments if m.on == link):
-            if moment.value:
+        for name, moment in named_moments(self.loads).items():
+            if moment.on == link and (moment.table or moment.value):
                 P, R = self.arm(link)
                 value = moment.value * self.phi * metre(self.scene.units)
                 head = self.board.couple(P, R, start, moment=value,
                                          why=said("the given moment on {0}", link_named(link)),
-                                         quantity=Quantity(f"M_{link}", "force"))
-                yield Acting(R, start, head, f"M_{link}"), Acting(P, head, start, f"M_{link}")
+                                         quantity=Quantity(name, "force", bool(moment.table)))
+                yield Acting(R, start, head, name), Acting(P, head, start, name)
         mass = self.loads.masses.get(link)
         if mass and self._form(link, mass) == "couple":
             yield self._inertia_pair(link, mass, start)

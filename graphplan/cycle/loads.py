@@ -1,0 +1,106 @@
+"""The loads that change, in many poses: each table read where the drive, or its slide, stands and moves."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from graphplan.cycle.linkage import Array, number
+from graphplan.cycle.rates import Moved
+from graphplan.cycle.travel import travel_unit
+from graphplan.mechanism.load_tables import SPEED, LoadTable
+from graphplan.mechanism.load_values import STANDING, driven, guide_origin, sense
+from graphplan.mechanism.model import Force, Scene, Slide
+from graphplan.mechanism.order import changing_loads
+
+AHEAD = 1e-4
+"""How far ahead, in radians or of the mechanism's extent, a slide at a dead point is seen to move."""
+
+Motion = Callable[[Array], Mapping[str, Moved]]
+"""Gives how every link lies and moves at some travels."""
+
+
+def loads_at(scene: Scene, travel: Array, points: Mapping[str, Array], guides: Mapping[str, Array],
+             motion: Motion) -> dict[str, Array]:
+    """The loads of a scene that change, by their letters, at these travels (radians or lengths), shape (n,): forces as
+    complex numbers, moments as real ones, nan where the pose is not reached.
+
+    `points` and `guides` are where they are there. Fails with `Refused` where a table does not cover one of the poses.
+    """
+    found: dict[str, Array] = {}
+    for name, load in changing_loads(scene.loads).items():
+        assert load.table is not None
+        values = _values(scene, load.table, travel, points, guides, motion)
+        found[name] = values * _way(load, points) if isinstance(load, Force) else values
+    return found
+
+
+def _way(force: Force, points: Mapping[str, Array]) -> Any:
+    """The unit vector along which a force acts."""
+    return _unit(points[force.through[1]] - points[force.through[0]] if force.through
+                 else number(*force.direction or (1, 0)))
+
+
+def _values(scene: Scene, table: LoadTable, travel: Array, points: Mapping[str, Array], guides: Mapping[str, Array],
+            motion: Motion) -> Array:
+    """What a table says at these travels."""
+    moved = driven(scene)
+    if table.over == SPEED:
+        return table.at(np.full(travel.shape, float(scene.drives[0].rate))) + 0 * travel
+    if not table.slide:
+        reached = np.isfinite(np.sum(list(points.values()), axis=0))
+        return table.at(np.where(reached, travel / travel_unit(scene)[0], np.nan), sense(moved))
+    slide = next(slide for slide in scene.slides if slide.name == table.slide)
+    way = direction(slide, points, guides)
+    speeds = slide_rate(slide, motion(travel), points[slide.at], way)
+    if table.over_speed:
+        return table.at(speeds * float(scene.drives[0].rate))
+    places = place(scene, slide, points, way)
+    senses = _strokes(slide, motion, travel, speeds * sense(moved), scene, points, guides)
+    return table.at(places, np.where(senses, senses, next(iter(table.strokes))))
+
+
+def direction(slide: Slide, points: Mapping[str, Array], guides: Mapping[str, Array]) -> Any:
+    """The unit vector of a slide's guide."""
+    if slide.through:
+        return _unit(points[slide.through[1]] - points[slide.through[0]])
+    return _unit(guides.get(slide.name, number(*slide.direction)))
+
+
+def _unit(along: Any) -> Any:
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return along / np.abs(along)
+
+
+def place(scene: Scene, slide: Slide, points: Mapping[str, Array], way: Any) -> Array:
+    """The position of a slide along its guide."""
+    origin = guide_origin(scene, slide)
+    away = points[slide.at] - (points[origin] if origin else 0.0)
+    return np.asarray((away * np.conj(way)).real)
+
+
+def slide_rate(slide: Slide, links: Mapping[str, Moved], at: Array, way: Any) -> Array:
+    """How a slide's position changes with the first drive's travel."""
+    apart = links[slide.link].velocity_at(at) - links[slide.along].velocity_at(at)
+    return np.asarray((apart * np.conj(way)).real)
+
+
+def _strokes(slide: Slide, motion: Motion, travel: Array, speeds: Array, scene: Scene, points: Mapping[str, Array],
+             guides: Mapping[str, Array]) -> Array:
+    """The sense in which a slide moves, 1 or -1, or at a dead point begins to; 0 where neither can be told."""
+    first = driven(scene).drives[0]
+    reach = 1.0 if first.slides else scene.extent
+    senses = np.sign(np.where(np.abs(speeds) > STANDING * reach, speeds, 0.0))
+    dead = np.flatnonzero((senses == 0) & np.isfinite(speeds))
+    if dead.size:
+        way = {name: z[dead] for name, z in guides.items()}
+        here = {name: z[dead] for name, z in points.items()}
+        for ahead in (1.0, -1.0):  # at the end of the way what it came by, turned
+            step = ahead * sense(driven(scene)) * AHEAD * (scene.extent if first.slides else 1.0)
+            links = motion(travel[dead] + step)
+            rates = ahead * sense(driven(scene)) * slide_rate(slide, links, here[slide.at], direction(slide, here, way))
+            told = np.sign(np.where(np.isfinite(rates), rates, 0.0))
+            senses[dead] = np.where(senses[dead] == 0, told, senses[dead])
+    return senses

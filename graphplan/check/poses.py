@@ -48,10 +48,10 @@ class Round:
 
     @classmethod
     def reached(cls, scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any],
-                loads: Mapping[str, Any]) -> Round:
+                loads: Mapping[str, Any] | None = None) -> Round:
         """The poses in which every point has its place."""
         there = np.all([np.isfinite(z) for z in points.values()], axis=0)
-        return cls(scene, np.arange(there.size), points, guides, loads).some(there)
+        return cls(scene, np.arange(there.size), points, guides, loads or {}).some(there)
 
     def some(self, kept: Any) -> Round:
         """Those of the poses that a mask or a slice keeps."""
@@ -65,7 +65,7 @@ class Round:
 
 
 def checked(drawing: Construction, points: Mapping[str, Any], guides: Mapping[str, Any],
-            loads: Mapping[str, Any]) -> dict[str, Any]:
+            loads: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Where points are in the poses in which the construction agrees with the solver; nan in others."""
     part = Round.reached(drawing.scene, points, guides, loads)
     results = drawing.evaluate(part.points, part.guides, loads=part.loads).results

@@ -38,6 +38,11 @@ class Quantity(NamedTuple):
     kind: str  # length, velocity, acceleration or force
     changing: bool = False
 
+    @property
+    def own(self) -> tuple[Quantity, ...]:
+        """What no other quantity's step may be taken for, though it is as long in this pose."""
+        return (self,) if self.changing else ()
+
 
 Form = Callable[..., Any]  # what it draws on the board from its operands; nothing where it is not for the pose
 

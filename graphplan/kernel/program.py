@@ -215,9 +215,7 @@ class Board(Verbs):
         places = tuple([step.index for step in read])
         heading = bearing(op, [arg.heading for arg in args], len(self.steps))
         set_square = op.movement is Movement.PARALLEL or op.movement is Movement.PERPENDICULAR
-        key = (*heading, places[1]) if set_square else _key(op, places, params)
-        if quantity and quantity.changing:
-            key = (*key, quantity)
+        key = (*heading, places[1]) if set_square else (*_key(op, places, params), *(quantity.own if quantity else ()))
         total = laid_off(*(arg.total for arg in args)) if op.movement is Movement.LAID_OFF and not params else None
         if total is not None:
             key = (read[op.where].panel, *total)

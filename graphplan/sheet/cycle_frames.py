@@ -53,7 +53,7 @@ class Posed(Construction):
 
 
 def posed(construction: Construction, points: Mapping[str, complex], guides: Mapping[str, complex],
-          loads: Mapping[str, Any]) -> Posed | None:
+          loads: Mapping[str, Any] | None = None) -> Posed | None:
     """The construction with its points, and the guides that ride on links, elsewhere, and other loads that change.
 
     None where the pose is singular, its drawing takes other forms than that of the given pose, or points lie apart on
@@ -61,7 +61,7 @@ def posed(construction: Construction, points: Mapping[str, complex], guides: Map
     """
     if any(points[one] != points[other] for one, other in construction.relied):
         return None
-    drawn, program = (given_in(steps, points, guides) | given_loads(steps, construction.scene, construction.phi, loads)
+    drawn, program = (given_in(steps, points, guides) | given_loads(steps, construction.scene, construction.phi, loads or {})
                       for steps in (construction.drawn, construction.program))
     try:
         values = evaluate(construction.drawn, Floats(), drawn)
@@ -111,7 +111,7 @@ def scene_in(scene: Scene, points: Mapping[str, complex], guides: Mapping[str, c
 
 
 def sheets(composition: Composition, ways: Sequence[tuple[Construction, Places]], points: Places,
-           guides: Places, loads: Places) -> Iterator[tuple[Sheet, bool]]:
+           guides: Places, loads: Places | None = None) -> Iterator[tuple[Sheet, bool]]:
     """The plans of each pose as a sheet, and whether the construction is on them: else the mechanism alone.
 
     Reads a composed construction; constructions of its scene, each with where the points are in the poses in which it
@@ -119,7 +119,7 @@ def sheets(composition: Composition, ways: Sequence[tuple[Construction, Places]]
     in every pose.
     """
     count = len(next(iter(points.values())))
-    poses = [next(filter(None, (_drawn(one, composition, sound, guides, loads, k) for one, sound in ways)), None)
+    poses = [next(filter(None, (_drawn(one, composition, sound, guides, loads or {}, k) for one, sound in ways)), None)
              for k in range(count)]
     rows = replace(composition.arrangement, rows=())
     links = [around([(z.real, z.imag) for z in here.values()]) for k in range(count)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Any
 
@@ -44,7 +44,7 @@ class Round:
     places: Any
     points: Mapping[str, Any]
     guides: Mapping[str, Any]
-    loads: Mapping[str, Any]
+    loads: Mapping[str, Any] = field(default_factory=dict)
 
     @classmethod
     def reached(cls, scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any],

@@ -48,10 +48,10 @@ def _values(scene: Scene, table: LoadTable, travel: Array, points: Mapping[str, 
     """What a table says at these travels."""
     moved = driven(scene)
     if table.over == SPEED:
-        return table.at(np.full(travel.shape, float(scene.drives[0].rate))) + 0 * travel
+        return table.at(np.full(travel.shape, abs(float(scene.drives[0].rate)))) + 0 * travel
     if not table.slide:
         reached = np.isfinite(np.sum(list(points.values()), axis=0))
-        return table.at(np.where(reached, travel / travel_unit(scene)[0], np.nan), sense(moved))
+        return table.at(np.where(reached, sense(moved) * travel / travel_unit(scene)[0], np.nan))
     slide = next(slide for slide in scene.slides if slide.name == table.slide)
     way = direction(slide, points, guides)
     speeds = slide_rate(slide, motion(travel), points[slide.at], way)

@@ -140,6 +140,9 @@ def table(row: Row) -> LoadTable | None:
             "powers are of a speed, and the load is over a position", 'values, or over = "speed"')
     rows: Pairs = row[given[0]]
     found = LoadTable(over, rows, where=where)
+    if found.over_position and len(rows) > 3 and rows[0] == rows[-1]:  # it may say that it goes around
+        rows = rows[:-1] if rows[0][0] == rows[-2][0] else rows
+        found = LoadTable(over, rows, where=where)
     faults = list(_out_of_order(found))
     for what, instead in faults[:1]:
         item.fault(what, instead)

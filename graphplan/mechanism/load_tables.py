@@ -29,6 +29,7 @@ class LoadTable:
 
     `rows` are places and values; over a speed v there may be `powers` c_0, c_1, c_2 in their stead: the load is
     c_0 + c_1 v + c_2 v |v|. A table over travel repeats after its `period`, if it has one: whole turns of the drive.
+    Travel and speed of the drive count in the sense in which it moves, those of a slide along its guide's direction.
     `where` is where the scene has it. Places are in the scene's lengths and degrees, speeds in rad/s and lengths/s.
     """
 
@@ -88,7 +89,7 @@ class LoadTable:
         if self.powers:
             square = place * place if place > 0 else -place * place
             return sum((c * v for c, v in zip(self.powers, (Fraction(1), place, square), strict=False)), Fraction(0))
-        place, rows = self._home(place), self.strokes[sense]
+        place, rows = self._home(place, after), self.strokes[sense]
         ways, slack = [sense * p for p, _ in rows], self.length * ROUNDING
         at = sense * place
         if not ways[0] - slack <= at <= ways[-1] + slack:
@@ -111,7 +112,7 @@ class LoadTable:
         if self.powers:
             terms = 1.0 + 0 * places, places, places * np.abs(places)
             return sum(float(c) * v for c, v in zip(self.powers, terms, strict=False))
-        home, senses = self._home(places), np.broadcast_to(np.asarray(senses, float), places.shape)
+        home, senses = self._home(places, after), np.broadcast_to(np.asarray(senses, float), places.shape)
         found = np.full(places.shape, np.nan)
         for sense in self.strokes:
             there = (senses * sense > 0) & np.isfinite(home)
@@ -134,14 +135,16 @@ class LoadTable:
         value = rows[one, 1] + part * (rows[other, 1] - rows[one, 1])
         return np.where(found == 0, rows[0, 1], np.where(found == len(rows), rows[-1, 1], value))
 
-    def _home(self, places: Any) -> Any:
-        """Where places lie in the first period: within the table, if it covers whole turns."""
+    def _home(self, places: Any, after: bool) -> Any:
+        """Where places lie in the first period of a table of whole turns: its end counts as its beginning, or where the
+        load before a jump is asked for its beginning as its end."""
         if not self.period:
             return places
-        first, period = self.rows[0][0], self.period
+        (first, _), period = self.rows[0], self.period
         if not isinstance(places, Fraction):
             first, period = float(first), float(period)
-        turns = (places - first) // period
+        slack = period * (ROUNDING if isinstance(places, Fraction) else float(ROUNDING))
+        turns = (places - first + slack) // period if after else -((first - places + slack) // period) - 1
         return places - turns * period
 
     def uncovered(self, place: Number) -> Refused:

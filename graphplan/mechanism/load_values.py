@@ -94,9 +94,9 @@ class OwnPose:
         if table.over == SPEED:
             first = self.scene.drives[0] if self.scene.drives else None
             rate = first.rate if first else Fraction(0)
-            return Fraction(table.value(Fraction(rate))), isinstance(rate, Fraction)
+            return Fraction(table.value(abs(Fraction(rate)))), isinstance(rate, Fraction)
         if not table.slide:
-            return Fraction(table.value(self.travel, sense(driven(self.scene)))), True
+            return Fraction(table.value(self.travel * sense(driven(self.scene)))), True
         slide = next(slide for slide in self.scene.slides if slide.name == table.slide)
         length, rational = _length(slide.direction)
         if table.over_speed:

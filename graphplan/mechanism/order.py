@@ -79,13 +79,6 @@ def _lettered(letter: str, loads: Sequence[Load]) -> dict[str, Load]:
     return {f"{letter}_{load.on}" + "'" * links[:i].count(load.on): load for i, load in enumerate(loads)}
 
 
-def named_moments(loads: Loads) -> dict[str, Moment]:
-    """The given moments by their letters: M_2 and M_2' on link 2."""
-    moments = _ordered_loads(loads).moments
-    links = [moment.on for moment in moments]
-    return {f"M_{moment.on}" + "'" * links[:i].count(moment.on): moment for i, moment in enumerate(moments)}
-
-
 def ordered_links(scene: Scene) -> dict[str, tuple[str, ...]]:
     """Each link with its points."""
     links = sorted(scene.links, key=lambda link: (link == FRAME, by_name(link)))

@@ -61,7 +61,8 @@ def posed(construction: Construction, points: Mapping[str, complex], guides: Map
     """
     if any(points[one] != points[other] for one, other in construction.relied):
         return None
-    drawn, program = (given_in(steps, points, guides) | given_loads(steps, construction.scene, construction.phi, loads or {})
+    scene, phi = construction.scene, construction.phi
+    drawn, program = (given_in(steps, points, guides) | given_loads(steps, scene, phi, loads or {})
                       for steps in (construction.drawn, construction.program))
     try:
         values = evaluate(construction.drawn, Floats(), drawn)

@@ -77,9 +77,11 @@ def test_the_value_in_the_given_pose_is_exact() -> None:
 
 def test_a_drive_the_other_way_takes_the_other_stroke() -> None:
     """Turned backwards the slide goes out; at rest it moves as the drive would turn it forwards."""
+    closed = ROUND.replace("[200, -50]]", "[200, -50], [200, 50]]")  # the round may say that it is closed
     for omega, along in [("-15", -42), ("0", 42), ("0\nalpha = -2", -42)]:
-        text = (YOKE + ALONG + ROUND).replace("omega = 15", f"omega = {omega}")
-        assert parse(text, "yoke").loads.forces[0].value == (0, along)  # type: ignore[union-attr]
+        for rows in (ROUND, closed):
+            text = (YOKE + ALONG + rows).replace("omega = 15", f"omega = {omega}")
+            assert parse(text, "yoke").loads.forces[0].value == (0, along)  # type: ignore[union-attr]
 
 
 def test_at_a_dead_point_the_stroke_is_that_which_begins() -> None:
@@ -168,6 +170,11 @@ def test_many_places_at_once() -> None:
     assert travel.value(Fraction(90)) == -3
     assert travel.value(Fraction(90), after=False) == 3
     assert travel.value(Fraction(90), -1) == 3
+    assert (travel.value(Fraction(360)), travel.value(Fraction(360), after=False)) == (1, 1)
+    jump = LoadTable("travel", ((0, 1), (360, 5)), period=360)  # type: ignore[arg-type]
+    for place in (-360, 0, 360, 720 + 1e-8):
+        assert jump.at([place, place]) == pytest.approx([1, 1])
+        assert jump.at([place, place], after=False) == pytest.approx([5, 5])
     assert slide.value(Fraction(0), -1) == 1
     with pytest.raises(Refused, match="goes from 0 to 2, and 2"):
         slide.at(np.array([1.0, 2.1]))

@@ -45,7 +45,7 @@ def exactly(scene: Scene, **choices: str) -> Report:
         return report(scene, exact=True)
 
 
-@settings(max_examples=120, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=80, deadline=None, suppress_health_check=list(HealthCheck))
 @given(mechanisms, st.sampled_from(CHOICES))
 def test_construction_equals_solver_in_fractions(scene: Scene, choices: dict[str, str]) -> None:
     """Whatever the mechanism, form and plan, construction and solver agree to the last digit."""
@@ -55,7 +55,7 @@ def test_construction_equals_solver_in_fractions(scene: Scene, choices: dict[str
     assert all(difference == 0 for difference in found.check.values())
 
 
-@settings(max_examples=80, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
 @given(mechanisms)
 def test_rounding_is_what_the_mechanism_allows(scene: Scene) -> None:
     """In floats the construction is within 1e-12, or within 100 roundings of the mechanism's own condition."""

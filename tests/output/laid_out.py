@@ -17,7 +17,7 @@ from graphplan.sheet.plates.view import view
 SIDE = 150.0  # mm of paper for each plan
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=64)
 def laid_out(name: str, strict: bool = False, times: float = 1.0) -> tuple[Construction, Plates]:
     """A packaged scene constructed, and as it is drawn; its plans are so many `times` too large for their windows."""
     drawing = gp.construct(gp.load(name), strict=strict)

@@ -88,7 +88,7 @@ def apart(index: int) -> Panel:
 PLACES = pytest.mark.parametrize("place", [together, apart], ids=["one plan", "several plans"])
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=64)
 def drafted_plates(name: str, strict: bool = False) -> tuple[Construction, Plates, Composition]:
     """A packaged scene constructed, as it is drawn, on its sheet."""
     found = report(gp.load(name), strict=strict)

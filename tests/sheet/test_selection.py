@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from sheets import SCENES, drawing_of, outside, sheet_of
+from sheets import SCENES, composition_of, drawing_of, outside, sheet_of
 
 import graphplan as gp
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
-from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.pictures import MARK, STAGE, STEP, parted
 from graphplan.sheet.plates import pens
@@ -66,7 +65,7 @@ def test_steps_that_are_not_there_are_refused(text: str) -> None:
 def test_the_strip_shows_every_step_once(name: str) -> None:
     """The pictures' steps are all steps in order, each picture's on one plan, its words below it inside the frame."""
     drawing = drawing_of(name)
-    composition, drawn = compose(drawing), drawing.drawn
+    composition, drawn = composition_of(name), drawing.drawn
     plans = composition.plans
     for cut in (MARK, STAGE):
         film = Strip.of(composition, cut)
@@ -83,7 +82,7 @@ def test_the_strip_shows_every_step_once(name: str) -> None:
 @pytest.mark.parametrize("name", ["four-bar", "slotted-link", "jaanimets-10"])
 def test_letters_of_a_strip_stand_apart(name: str) -> None:
     """No letter of a picture covers another, nor a word below it."""
-    composition = compose(drawing_of(name))
+    composition = composition_of(name)
     for page in [*strip(composition), *by_stages(composition, "A4 portrait")[1]]:
         boxes = [item.box.inset(0.05, 0.05, 0.05, 0.05) for item in page.items if isinstance(item, Text)]
         assert not [(one, other) for i, one in enumerate(boxes) for other in boxes[:i] if one.meets(other)]
@@ -91,7 +90,7 @@ def test_letters_of_a_strip_stand_apart(name: str) -> None:
 
 def test_a_single_strip_has_a_picture_for_each_step() -> None:
     """There is a picture for every step; for every mark they are fewer."""
-    composition = compose(drawing_of("four-bar"))
+    composition = composition_of("four-bar")
     drawn = composition.plans.drawing.drawn
     steps = len(drawn) - drawn.givens
     assert len(Strip.of(composition, STEP).pictures) == steps > len(Strip.of(composition, MARK).pictures)
@@ -100,7 +99,7 @@ def test_a_single_strip_has_a_picture_for_each_step() -> None:
 @pytest.mark.parametrize("name", ["four-bar", "slotted-link", "jaanimets-10"])
 def test_a_picture_shows_what_its_steps_use(name: str) -> None:
     """Every point that a step of a picture draws or reads on its plan is in it, with nothing else of before."""
-    composition = compose(drawing_of(name))
+    composition = composition_of(name)
     for one in Strip.of(composition, STAGE).pictures:
         shown, own = one.excerpt, {step.index for step in one.steps}
         points = [drawn for drawn in shown.steps if drawn.kind == POINT and drawn.number]
@@ -111,7 +110,7 @@ def test_a_picture_shows_what_its_steps_use(name: str) -> None:
 
 def test_new_strokes_are_in_ink_and_others_in_grey() -> None:
     """In a picture what its steps draw is as dark as ink, what they use is paler, and so is the mechanism."""
-    one = Strip.of(compose(drawing_of("four-bar")), MARK).pictures[1]
+    one = Strip.of(composition_of("four-bar"), MARK).pictures[1]
     own = {step.index for step in one.steps}
     dark = {item.step for item in one.items if not isinstance(item, Text) and item.pen.colour == pens.INK}
     assert dark <= own
@@ -139,4 +138,4 @@ def test_a_strip_that_does_not_fit_is_refused(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setitem(HIGH, MARK, 4.0)
     monkeypatch.setattr("graphplan.sheet.plates.excerpt.FLAT", 3.0)
     with pytest.raises(Refused, match="larger --paper"):
-        strip(compose(drawing_of("four-bar")), "A4")
+        strip(composition_of("four-bar"), "A4")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from itertools import combinations
 
 import numpy as np
@@ -14,11 +15,18 @@ from graphplan.check.trusted import report
 from graphplan.kernel.kinds import LINE
 from graphplan.mechanism.scene import packaged
 from graphplan.mechanism.structure import structure
+from graphplan.methods.construction import Construction
 
 CHOICES: list[dict[str, str]] = [{}, *({"method": m} for m in ("trial", "auxiliary", "poles")), {"plan": "polar"}]
 FLATTEST = 15  # degrees
 
 packaged_scenes = pytest.mark.parametrize("name", packaged())
+
+
+@cache
+def drawing_of(name: str) -> Construction:
+    """A packaged scene in the forms that its pose chooses."""
+    return report(gp.load(name)).drawing
 
 
 @packaged_scenes
@@ -34,7 +42,7 @@ def test_construction_and_solver_agree(name: str, choices: dict[str, str]) -> No
 @packaged_scenes
 def test_lines_cross_well(name: str) -> None:
     """No two lines that fix a mark on the sheet cross below 15 degrees."""
-    drawing = report(gp.load(name)).drawing
+    drawing = drawing_of(name)
     for step in drawing.drawn.steps:
         if step.op.name == "meet":
             (a, b, _), (c, d, _) = (drawing.values[arg] for arg in step.args)
@@ -45,7 +53,7 @@ def test_lines_cross_well(name: str) -> None:
 @packaged_scenes
 def test_auxiliary_points_are_on_the_sheet(name: str) -> None:
     """Where an auxiliary point or a pole is drawn, it lies near the mechanism."""
-    drawing = report(gp.load(name)).drawing
+    drawing = drawing_of(name)
     own = [complex(float(x), float(y)) for x, y in drawing.scene.points.values()]
     extent = max(abs(p - q) for p in own for q in own)
     for step, value in zip(drawing.drawn.steps, drawing.values, strict=True):

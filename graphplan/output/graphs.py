@@ -240,12 +240,13 @@ class Figures:
                    level: float = 0.0) -> Iterator[Item]:
         """Round ordinates, with their numbers left of the diagram, or right of it, where the abscissa's head stands."""
         size, x, way = self.letters.text, graph.rect.right if right else graph.rect.left, 1.0 if right else -1.0
-        for y in divisions(*graph.y, graph.rect.height / (0.8 * APART), turns):
-            at = graph.at(0.0, y)[1]
-            if right and abs(at - graph.at(0.0, level)[1]) < size:
+        for value in divisions(*graph.y, graph.rect.height / (0.8 * APART), turns):
+            y = graph.at(0.0, value)[1]
+            if right and abs(y - graph.at(0.0, level)[1]) < size:
                 continue
-            yield Polyline(AXIS, "ruling", None, ((x + way * TICK, at), (x, at)))
-            yield self.text((x + way * (TICK + 0.8), at - CAPS * size / 2), digits(y), "start" if right else "end")
+            yield Polyline(AXIS, "ruling", None, ((x + way * TICK, y), (x, y)))
+            at = x + way * (TICK + 0.8), y - CAPS * size / 2
+            yield from self.backed(at, digits(value)) if right else (self.text(at, digits(value), "end"),)
 
     def axes(self, graph: Graph, x_words: str, y_words: str, *, numbers: bool = True, turns: bool = False
              ) -> Iterator[Item]:

@@ -28,7 +28,7 @@ from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
 from graphplan.sheet.frames.frame import Frame, frame_of
 from graphplan.sheet.frames.title import Page, TitleBlock
 from graphplan.sheet.layout.layout import stacked
-from graphplan.sheet.layout.paper import Arrangement, lower_right, packed, sheet_size, words_page
+from graphplan.sheet.layout.paper import lower_right, packed, sheet_size, words_page
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import HEADING, SIZE, LetterSizes, letter_sizes, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
@@ -132,6 +132,10 @@ class Panelled(ABC):
         """What is found."""
         return ()
 
+    def tables(self) -> Iterable[Words]:
+        """What stands under that, or where it has no room there before the steps."""
+        return ()
+
     # ---- paper -----------------------------------------------------------------------------------------------------
 
     @property
@@ -189,28 +193,29 @@ class Panelled(ABC):
         return [*self._section(said("Given"), self.given()), *self._section(said("Found"), self.found())]
 
     @cached_property
+    def tabled(self) -> list[TextRow]:
+        """Its tables."""
+        return [row for words in self.tables() for row in self._set(words)]
+
+    @cached_property
     def steps(self) -> list[TextRow]:
         """The construction in words."""
         return [self._heading(said("Construction")), *self._steps()]
 
-    @cached_property
-    def _apart(self) -> tuple[Arrangement, list[list[Placed]]]:
-        """A page of words alone, and the steps page by page."""
-        page = words_page(self.paper, *self._frame)
-        return page, packed([row.enlarged(self.letters.times) for row in self.steps], page)
-
     def whole(self) -> list[Sheet]:
         """The sheet with all words on it."""
-        return [self._page([*self.brief, *self.steps], 1)]
+        return [self._page([*self.brief, *self.tabled, *self.steps], 1)]
 
-    def parted(self) -> list[Sheet]:
-        """The sheet with what is given and found, and the pages of steps that follow it."""
-        arrangement, pages = self._apart
-        first = self._page(self.brief, 1 + len(pages))
-        further = [replace(first, panels={}, items=tuple(stacked([
-            *self._framed(arrangement.title, {}, number, 1 + len(pages)), *lettered(placed)])))
-            for number, placed in enumerate(pages, 2)]
-        return [first, *further]
+    def parted(self, beside: bool = True) -> list[Sheet]:
+        """The sheet with what is given and found, and the pages that follow it: of its steps, and of its tables where
+        they do not stand `beside` the panels."""
+        page = words_page(self.paper, *self._frame)
+        first, rows = [*self.brief, *(self.tabled if beside else ())], [*(() if beside else self.tabled), *self.steps]
+        filled = packed([row.enlarged(self.letters.times) for row in rows], page)
+        sheet = self._page(first, 1 + len(filled))
+        return [sheet, *(replace(sheet, panels={}, items=tuple(stacked([
+            *self._framed(page.title, {}, number, 1 + len(filled)), *lettered(placed)])))
+            for number, placed in enumerate(filled, 2))]
 
     def _page(self, rows: Sequence[TextRow], count: int) -> Sheet:
         """The first of so many pages, with these words, as one display list."""
@@ -310,11 +315,12 @@ def pages(kind: Callable[[str], Panelled], paper: str | None = None, papers: Seq
     """
     tried = [kind(name) for name in ([paper] if paper else papers)]
     for one in tried:
-        if not one.apart and one.placed([*one.brief, *one.steps]) is not None:
+        if not one.apart and one.placed([*one.brief, *one.tabled, *one.steps]) is not None:
             return one.whole()
-    for one in tried:
-        if one.placed(one.brief) is not None:
-            return one.parted()
+    for beside in (True, False):
+        for one in tried:
+            if one.placed([*one.brief, *(one.tabled if beside else ())]) is not None:
+                return one.parted(beside)
     raise Refused(f"paper {tried[-1].paper}", "what is given and found does not fit on it", "a larger one, or no name")
 
 

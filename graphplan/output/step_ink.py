@@ -30,6 +30,7 @@ DOT = 0.35  # mm: radius of marks
 BEYOND, STUB, STRIKE = 1.5, 3.0, 3.0  # mm: of lines beyond their marks, of a line with one mark, of an arc to each side
 HEAD = 3.0  # mm: of a vector's head
 STROKES = Movement.LAID_OFF, Movement.LAID_BY_COMPONENTS, Movement.TURNED, Movement.MEASURED
+TINTED = "paper"  # the layer of tints, on which letters may stand
 ALONG = 0.97, 0.03, 0.85, 0.15, 0.5  # where along a line its letter may stand
 
 
@@ -97,10 +98,11 @@ class StepInk:
         """
         ink, rect = [*self.items(panel), *others], self.views[panel].rect
         taken = [Polygon(item.pen, item.layer, None, item.box.corners) for item in others if isinstance(item, Text)]
+        off = [item for item in ink if item.layer != TINTED]
         marks = [self.spots[step.index] for step in self.steps(panel)
                  if step.op.gives == POINT and rect.holds(self.spots[step.index])]
         wanted = [*self.wishes(panel, named), *wishes]
-        return [*ink, *placed(wanted, [*ink, *taken], marks, rect, self.letters)]
+        return [*ink, *placed(wanted, [*off, *taken], marks, rect, self.letters)]
 
     def wishes(self, panel: Panel, named: Callable[[Step], bool] = lambda step: True) -> Iterator[Wish]:
         """The letters of the points of a panel, and of its lines that have some."""

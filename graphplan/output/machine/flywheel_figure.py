@@ -6,7 +6,8 @@ energy-mass diagram, which has its energies from beside it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
@@ -18,7 +19,7 @@ from graphplan.kernel.kinds import LINE
 from graphplan.kernel.program import Step
 from graphplan.machine.flywheel import FlywheelResult
 from graphplan.machine.flywheel_drawing import FLYWHEEL, FlywheelDrawing
-from graphplan.machine.flywheel_frames import FARTHEST, GAP, HEAD, Frame, Room
+from graphplan.machine.flywheel_frames import HEAD, Frame, Room, laid_out, plans_of
 from graphplan.machine.integrals import Piecewise
 from graphplan.output.graphs import AXIS, HEADED, Figures, Graph, scale_words
 from graphplan.output.panelled import Recorded
@@ -30,21 +31,60 @@ from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.clip import clipped
 from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.view import View
+from graphplan.sheet.plates.plans import around
+from graphplan.sheet.plates.view import View, view
 
 FINE, CHORD, LEVEL = Pen(0.13, "#8a8a8a"), Pen(0.25, pens.VIOLET), Pen(0.25, pens.GREEN, (5.0, 1.0))
 TANGENTS = {"upper": Pen(0.35, pens.RED), "lower": Pen(0.35, pens.BLUE)}
 MOMENT, ENERGY, INERTIA, MASS = Pen(0.5), Pen(0.5, pens.BLUE), Pen(0.5, pens.RED), Pen(0.5, pens.VIOLET)
 SIDE, RIGHT, OVER = 4.0, 14.0, 9.0  # mm beside the pole, right of the diagrams for numbers, and over and under them
-SHARES = 0.68, 0.3  # of the width: the common abscissa; of the height: the moments, as high as the turned diagram
-PIECES, BEYOND, FREE = 6, 10.0, 4.0  # strokes of a curve from place to place; mm by which tangents go on; under curves
+PARTS, LOW = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9), (0.15, 0.2, 0.25, 0.3, 0.4)  # of the room that are tried for a diagram
+NUMBERED, SAMPLES = 36, 360  # plans that have numbers; places of a curve
+PIECES, BEYOND, FREE = 6, 10.0, 4.0  # strokes of a piece of a curve; mm by which tangents go on; under curves
 
 
-def room_in(rect: Rect, figures: Figures) -> Room:
-    """How large the diagrams may be in a panel."""
-    wide = rect.width - FARTHEST - SIDE - GAP - RIGHT
-    high = rect.height - HEAD - 2 * _margin(figures)
-    return Room(SHARES[0] * wide, SHARES[1] * high, (1 - SHARES[1]) * high, (1 - SHARES[0]) * wide, SHARES[1] * high)
+def room_in(rect: Rect, result: FlywheelResult, figures: Figures) -> Room:
+    """The room at which the diagrams, in round scales, are as large as they can be in a panel."""
+    plans, true, margin = plans_of(result.cycle, result.positions), spans(result), _margin(figures)
+    wide, high = rect.width - SIDE - RIGHT, rect.height - 2 * margin
+
+    def size(room: Room) -> float:
+        """How large the diagrams are; nothing where they have no room."""
+        layout = laid_out(result.cycle, result.wheel, plans, room)
+        box = extent(layout.frames, layout.pole, true)
+        if box.width > wide or box.height > high:
+            return 0.0
+        return math.prod(end - start for frame in (layout.frames[name] for name in ("moment", "energy-mass"))
+                         for start, end in (frame.level, frame.upright))
+
+    found = Room(0.5 * wide, 0.2 * high, 0.4 * high, 0.2 * wide, 0.25 * high)
+    across = [replace(found, travel=x * wide, inertia=(1 - x) * y * wide) for x in PARTS for y in PARTS]
+    found = max((found, *across), key=size)
+    return max((found, *(replace(found, moment=x * high, turned=x * high, energy=(1 - x) * y * high)
+                         for x in LOW for y in PARTS)), key=size)
+
+
+Span = tuple[float, float]
+
+
+def spans(result: FlywheelResult) -> dict[str, tuple[Span, Span]]:
+    """How far the true curves go along both axes of each diagram: between plans farther than at these."""
+    cycle, travel = result.cycle, np.linspace(*result.cycle.ends, SAMPLES + 1)
+    told, I, M, E = ((float(values.min()), float(values.max())) for values in (
+        result.told(travel), cycle.inertia.at(travel), cycle.moment.at(travel), cycle.energy.at(travel)))
+    return {"moment": (told, M), "energy": (told, E), "inertia": (I, told), "energy-mass": (I, E)}
+
+
+def extent(frames: Mapping[str, Frame], pole: float, true: Mapping[str, tuple[Span, Span]]) -> Rect:
+    """The room of all diagrams with their curves, in mm."""
+    spots = [(-pole, 0.0)]
+    for name, (xs, ys) in true.items():
+        frame = frames[name]
+        (left, right), (low, top) = frame.at(np.array(xs), np.array(ys))
+        x, y = frame.origin
+        spots += [(left, low), (right, top), (x + frame.level[0], y + frame.upright[0]),
+                  (x + frame.level[1], y + frame.upright[1])]
+    return around([(float(x), float(y)) for x, y in spots])
 
 
 def _margin(figures: Figures) -> float:
@@ -67,9 +107,8 @@ class FlywheelFigure:
     @cached_property
     def window(self) -> View:
         """From the drawing's mm to those of the sheet: in the middle of the panel, and as large."""
-        left, low, right, top = self.drawing.extent
-        x, y = self.rect.centre
-        return View(self.rect, 1.0, (x - (left - SIDE + right + RIGHT) / 2, y - (low + top) / 2))
+        box = extent(self.drawing.frames, self.drawing.pole, spans(self.result))
+        return view(replace(box, left=box.left - SIDE, right=box.right + RIGHT), self.rect, 1.0)
 
     @cached_property
     def graphs(self) -> dict[str, Graph]:
@@ -148,7 +187,7 @@ class FlywheelFigure:
         inertia = self.graphs["inertia"]
         turned = [spot for travel, I in self._sampled(cycle.inertia) for spot in inertia.spots(I, travel)]
         yield curve(INERTIA, spots=tuple(turned))
-        travel = np.linspace(*cycle.ends, PIECES * self.result.positions + 1)
+        travel = np.linspace(*cycle.ends, SAMPLES + 1)
         spots = self.graphs["energy-mass"].spots(cycle.inertia.at(travel), cycle.energy.at(travel))
         yield curve(MASS, spots=tuple(spots))
 
@@ -202,7 +241,8 @@ class FlywheelFigure:
 
     def _wishes(self) -> Iterator[Wish]:
         """The numbers of the plans along the energy-mass curve and over the abscissa, and the letters of angles."""
-        for k, spot in enumerate(map(self.window, self.drawing.spots("points"))):
+        points = [*map(self.window, self.drawing.spots("points"))]
+        for k, spot in [*enumerate(points)][:: 1 + len(points) // NUMBERED]:
             yield Wish(sentence_runs(str(k)), (spot,), 0.5, minor=True, pen=pens.FAINT, label=f"P {k}")
         graph, bounds = self.graphs["energy-mass"], self.rect
         for which, name in (("upper", "psi_max"), ("lower", "psi_min")):

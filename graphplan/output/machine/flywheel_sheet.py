@@ -91,7 +91,7 @@ class FlywheelSheet(Panelled):
     @cached_property
     def drawing(self) -> FlywheelDrawing:
         """The diagrams, as large as they have room."""
-        room = room_in(self.room(FLYWHEEL), self._figures)
+        room = room_in(self.room(FLYWHEEL), self.result, self._figures)
         return drawn(self.result.cycle, self.result.wheel, self.result.positions, room)
 
     @cached_property
@@ -165,7 +165,8 @@ class FlywheelSheet(Panelled):
         if cycle.closing:
             yield said("Closing moment: {0} {1}", digits(cycle.closing), unit(M))
         yield said("Flywheel: {0} {1}; drawn {2} {1}", digits(wheel.inertia), unit(I), digits(self.drawing.inertia))
-        yield said("mn = {0} mm, {1} J", digits(self._intercept), digits(wheel.intercept(self.drawing.axis)))
+        yield arranged("mn = {0} {1}, {2} {3}", digits(self._intercept), unit("mm"),
+                       digits(wheel.intercept(self.drawing.axis)), unit("J"))
         for name, speed, touch in (("omega_max", wheel.omega_max, wheel.upper), ("omega_min", wheel.omega_min,
                                                                                 wheel.lower)):
             at = joined((digits(float(result.told(touch.travel))), unit(self._travel)), "" if result.turns else " ")
@@ -173,7 +174,6 @@ class FlywheelSheet(Panelled):
         for note in result.notes:
             yield arranged("{0:capital}", note)
         yield from self._methods()
-        yield self._table()
 
     @property
     def _travel(self) -> str:
@@ -193,7 +193,7 @@ class FlywheelSheet(Panelled):
         for name, inertia, neglects in rows if self.result.methods else ():
             yield arranged("{0:capital}: {1} {2}; {3}", name, digits(inertia), unit(I), neglects)
 
-    def _table(self) -> list[list[Said | str]]:
+    def tables(self) -> Iterator[Words]:
         """A row for each plan."""
         result, (M, I, rate) = self.result, self._units
         columns = [result.told_travels, *(result.plans[name] for name in ("inertia", "moment", "energy", "omega"))]
@@ -201,6 +201,6 @@ class FlywheelSheet(Panelled):
         units = self._travel, I, M, "J", rate
         head = ["", *(arranged("{0}, {1}", letter, unit(one)) for letter, one in zip(letters, units, strict=True))]
         size = [float(abs(column).max()) or 1.0 for column in columns]
-        return [head, *([str(k), *(digits(float(x) if abs(x) > 1e-9 * most else 0.0)
+        yield [head, *([str(k), *(digits(float(x) if abs(x) > 1e-9 * most else 0.0)
                                    for x, most in zip(row, size, strict=True))]
                         for k, row in enumerate(zip(*columns, strict=True)))]

@@ -34,6 +34,7 @@ from graphplan.words.tongue import Tongue
 LEVERS = Panel("levers", said("levers"), said("Orthogonal velocities in the other positions"))
 RAY, IMAGE = Pen(0.18, pens.BLUE), Pen(0.25)
 FREE, NUMBER = 1.0, 1.4  # mm about a small figure; of the height of letters, for its number
+MOST = 36  # small figures, and faint positions of the mechanism
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,8 @@ class LeverFigures:
         """The plans of the given pose; on that of the mechanism are its other positions, and the paths of points."""
         places = {name: [(float(z.real), float(z.imag)) for z in np.atleast_1d(zs) + 0j]
                   for name, zs in self.turn.points.items()}
-        positions = tuple({name: spots[k % len(spots)] for name, spots in places.items()} for k in range(self.count))
+        positions = tuple({name: spots[k % len(spots)] for name, spots in places.items()}
+                          for k in range(0, self.count, 1 + self.count // MOST))
         moving = [name for name in self.reduction.motion.scene.find.velocity if name in places]
         paths = tuple(PointPath(name, (*places[name], places[name][0]), (False, False)) for name in moving)
         return Plans(self.drawing, self.tongue, motion=TracedMotion(paths, positions))
@@ -111,13 +113,14 @@ class LeverFigures:
         return [names for names in found if len(names) > 1]
 
     def small(self, rect: Rect) -> Iterator[Item]:
-        """The orthogonal velocities of all positions but the given one, each beside its number, at one scale."""
-        cells, number = _grid(rect, self.count - 1), NUMBER * self.letters.text
+        """The orthogonal velocities of the other positions, or some of them, each beside its number, at one scale."""
+        shown = range(1, self.count, 1 + self.count // MOST)
+        cells, number = _grid(rect, len(shown)), NUMBER * self.letters.text
         rooms = [cell.inset(FREE, FREE, FREE, FREE + number) for cell in cells]
-        boxes = [around([(0.0, 0.0), *self._spots(k)]) for k in range(1, self.count)]
+        boxes = [around([(0.0, 0.0), *self._spots(k)]) for k in shown]
         scale = max(map(least, boxes, rooms)) or 1.0
         paper = Figures(self.letters, self.tongue)
-        for k, (cell, room, box) in enumerate(zip(cells, rooms, boxes, strict=True), 1):
+        for k, cell, room, box in zip(shown, cells, rooms, boxes, strict=True):
             yield paper.text((cell.left + FREE, cell.top - number), str(k))
             yield from self._plan(k, view(box, room, scale))
 

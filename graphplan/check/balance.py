@@ -6,26 +6,24 @@ links, the shaking force and its moment with what the frame bears by the solver'
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from graphplan.check.cycle import cycle
+from graphplan.check.link_motion import LinkMotion, link_motion
 from graphplan.check.trusted import construct
-from graphplan.cycle.loop import whole_motion
 from graphplan.errors import Disagreement, Refused
 from graphplan.machine.added_dyads import Dyads, added_dyads
 from graphplan.machine.counterweights import Counterweight, along_guide, balanced, full
 from graphplan.machine.engine import Engine, engine
 from graphplan.machine.mass_centre import MassCentre, mass_centre
 from graphplan.machine.shaking import Shaking, shaking
-from graphplan.mechanism.model import FRAME, Balance, Drive, Find, Loads, Scene
+from graphplan.mechanism.model import FRAME, Balance, Drive, Loads, Scene
 from graphplan.mechanism.plane import times
 from graphplan.mechanism.scene import parse
-from graphplan.mechanism.units import METRES, NEWTONS
+from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.solver import poses, solve, statics
 
 CLOSE = 1e-9  # of what is added up: so far opinions may be apart
@@ -37,46 +35,49 @@ class MassMotion:
     """The mass centre of a scene in n poses and what shakes its frame; complex arrays of shape (n,), nan where a pose
     is not reached.
 
-    `travel` of the first drive, in the sense in which it moves, is in radians or scene lengths, `path`, `velocity` and
-    `acceleration` are in scene units.
-    `check` says by how much the opinions differ, beside the largest of what they add up.
+    `links` is the motion that they are found from; `points` are where all points are, `path`, `velocity` and
+    `acceleration` are in scene units. `check` says by how much the opinions differ, beside the largest of what they add
+    up.
     """
 
     centre: MassCentre
-    travel: Any
-    closed: bool
+    links: LinkMotion
     points: Mapping[str, Any]
     path: Any
     velocity: Any
     acceleration: Any
     shaking: Shaking
-    faults: Mapping[int, str]
     check: Mapping[str, float]
 
+    @property
+    def travel(self) -> Any:
+        """The travel of the first drive in the sense in which it moves, in radians or scene lengths."""
+        return self.links.travel
 
-def mass_motion(scene: Scene, positions: int) -> MassMotion:
+    @property
+    def closed(self) -> bool:
+        """Whether the motion closes."""
+        return self.links.closed
+
+    @property
+    def faults(self) -> Mapping[int, str]:
+        """Why poses are not reached, by their places."""
+        return self.links.faults
+
+
+def mass_motion(scene: Scene, positions: int, links: LinkMotion | None = None) -> MassMotion:
     """The mass centre in so many poses of the cycle, constructed and compared.
 
-    Fails with `Refused` where no link has a mass or the mechanism does not move, with `Disagreement` where opinions
-    differ by more than rounding.
+    Reads how the links move, where that is known from the same links with other masses. Fails with `Refused` where no
+    link has a mass or the mechanism does not move, with `Disagreement` where opinions differ by more than rounding.
     """
     centre = mass_centre(scene)
-    asked = Find(centre.points, centre.points, links=scene.moving)
-    span, closed = _span(scene, positions)
-    found = cycle(replace(scene, find=asked, loads=None), positions, span)
-    if len(found.faults) == positions:
-        raise Refused(f"{scene.name}: the cycle", next(iter(found.faults.values())), "another pose")
-    if found.wrong:
-        raise Disagreement(scene.name, "motion", f"otherwise in pose {found.wrong[0]}", "by the solver", math.nan)
-    still, results = np.zeros(positions, dtype=complex), found.results
-    rates = [{name: results[kind].get(name, still) for name in centre.points} for kind in ("velocity", "acceleration")]
-    alphas = {link: results["alpha"][link] for link in scene.moving}
-    points = {name: np.where(np.isnan(found.gaps["velocity"]), np.nan, z) for name, z in found.turn.points.items()}
-    path, velocity, acceleration = (centre.at(places) for places in (points, *rates))
-    shakes = shaking(centre, points, rates[1], alphas)
-    motion = MassMotion(centre, sense(scene) * found.turn.travel, closed, points, path, velocity,
-                        acceleration, shakes, found.faults, {})
-    check = _compared(motion, found.turn.guides)
+    links = links or link_motion(scene, positions)
+    places, *rates = links.of(scene, centre.points)
+    path, velocity, acceleration = (centre.at(vectors) for vectors in (places, *rates))
+    motion = MassMotion(centre, links, {**links.points, **places}, path, velocity, acceleration,
+                        shaking(centre, places, rates[1], links.alpha), {})
+    check = _compared(motion)
     for what, gap in check.items():
         if not gap <= CLOSE:
             raise Disagreement(scene.name, what, "otherwise", "by the solver", gap)
@@ -115,7 +116,7 @@ def balancing(scene: Scene, positions: int, way: str = "", keep: Sequence[str] =
             raise
         weights, note = (), f"{refused.what}: {refused.why}"
     way = way or (NONE if note else FULL)
-    after = mass_motion(balanced(scene, weights), positions) if weights else None
+    after = mass_motion(balanced(scene, weights), positions, before.links) if weights else None
     check = {**before.check, **_held(after or before, way), **(_by_orders(before, found) if found else {})}
     for what, gap in check.items():
         if not gap <= CLOSE:
@@ -160,32 +161,11 @@ def _by_orders(motion: MassMotion, found: Engine) -> dict[str, float]:
     return {"orders": _gap(force, [*motion.shaking.parts.values()])}
 
 
-def sense(scene: Scene) -> int:
-    """In which sense the first drive moves: 1, or -1 where it turns clockwise, or against its guide's direction."""
-    return -1 if scene.drives[0].rate < 0 else 1
-
-
-def _span(scene: Scene, positions: int) -> tuple[tuple[float, float], bool]:
-    """The span of travel that the mechanism goes through in the sense of its drive, and whether it closes.
-
-    Between limits it keeps half a step off each: at the limit itself there are no velocities.
-    """
-    motion = whole_motion(scene)
-    low, high = (float(motion.path.travel[end]) for end in (0, -1))
-    if not scene.drives[0].slides:
-        low, high = (round(math.degrees(end), 12) for end in (low, high))
-    step = (high - low) / positions
-    ends = (low, high - step) if motion.whole else (low + step / 2, high - step / 2)
-    if sense(scene) < 0:
-        ends = (-ends[0], -ends[1]) if motion.whole else ends[::-1]
-    return ends, motion.whole
-
-
-def _compared(motion: MassMotion, guides: Mapping[str, Any]) -> dict[str, float]:
+def _compared(motion: MassMotion) -> dict[str, float]:
     """By how much the opinions differ, each beside the largest of what it adds up."""
     centre, scene = motion.centre, motion.centre.scene
     there = np.flatnonzero(np.isfinite(motion.path))
-    points, ways = ({name: z[there] for name, z in arrays.items()} for arrays in (motion.points, guides))
+    points, ways = ({name: z[there] for name, z in arrays.items()} for arrays in (motion.points, motion.links.guides))
     alone = _alone(scene)
     posed = poses.posed(alone, points, ways)
     rates = poses.solve(posed, there.size)
@@ -193,14 +173,21 @@ def _compared(motion: MassMotion, guides: Mapping[str, Any]) -> dict[str, float]
     reach = max(abs(z - points[centre.base]).max() for z in points.values())
     found = {"path": _gap(motion.path[there], [parts[link] * points[mass.centre] for link, mass
                                                in centre.masses.items()], reach)}
-    for kind, ours, theirs in (("velocity", motion.velocity, rates.velocity),
-                               ("acceleration", motion.acceleration, rates.acceleration)):
+    turning, changing = ([array[there] for array in named.values()] for named in (motion.links.omega,
+                                                                                  motion.links.alpha))
+    speed = reach * max(float(abs(omega).max()) for omega in turning)
+    sharp = reach * max(float((abs(alpha) + omega**2).max()) for omega, alpha in zip(turning, changing, strict=True))
+    for kind, ours, theirs, size in (("velocity", motion.velocity, rates.velocity, speed),
+                                     ("acceleration", motion.acceleration, rates.acceleration, sharp)):
         terms = [parts[link] * _complex(theirs[mass.centre], there.size) for link, mass in centre.masses.items()]
-        found[kind] = _gap(ours[there], terms)
+        found[kind] = _gap(ours[there], terms, size)
     borne = _borne(alone, poses.reactions(posed, rates, there.size), points, motion.shaking.about, there.size)
     if borne is not None:
-        found["shaking force"] = _gap(motion.shaking.force[there], [force for force, _ in borne])
-        found["shaking moment"] = _gap(motion.shaking.moment[there], [moment for _, moment in borne])
+        metre, weight = float(METRES[scene.units.length]), float(KILOGRAMS[scene.units.mass] * centre.mass)
+        size = weight * metre * sharp
+        found["shaking force"] = _gap(motion.shaking.force[there], [force for force, _ in borne], size)
+        found["shaking moment"] = _gap(motion.shaking.moment[there], [moment for _, moment in borne],
+                                       size * metre * reach)
     return found
 
 
@@ -212,16 +199,15 @@ def _gap(ours: Any, terms: list[Any], size: float = 0.0) -> float:
 
 
 def _alone(scene: Scene) -> Scene:
-    """The scene with its masses as the only loads, and a balance for each drive."""
+    """The scene with its masses as the only loads, held by its drives: other balances hold it in some poses alone."""
     def balance(drive: Drive) -> Balance:
         if not drive.slides:
             return Balance(drive.link)
         slide = scene.driven_slide(drive)
         return Balance(slide.link, slide.at, slide.direction)
 
-    loads = scene.loads
-    balances = loads.balances if loads and loads.balances else tuple(map(balance, scene.drives))
-    return replace(scene, loads=Loads((0, 0), loads.masses if loads else {}, (), (), balances))
+    masses = scene.loads.masses if scene.loads else {}
+    return replace(scene, loads=Loads((0, 0), masses, (), (), tuple(map(balance, scene.drives))))
 
 
 def _borne(scene: Scene, found: statics.Reactions, points: Mapping[str, Any], about: complex,

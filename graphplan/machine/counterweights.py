@@ -29,8 +29,8 @@ from graphplan.mechanism.units import METRES
 from graphplan.phrases import said
 
 BALANCED = 1e-11  # of what is to be balanced: what is left over is rounding
-ROUNDS, SETTLED = 60, 2.0**-50  # in which the masses of counterweights must settle that load each other's links
-LONGER = (1, 2, 4)  # times the length of the link: radii that are tried where none is given
+ROUNDS, SETTLED = 100, 2.0**-44  # in which the masses of counterweights must settle that load each other's links
+LONGER = (1, 2, 4, 8)  # times the length of the link: radii that are tried where none is given
 
 Form = dict[str, complex]
 """A sum of vectors: of each link that tells how others turn, or of each free sliding, the factor; lengths complex."""

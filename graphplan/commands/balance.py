@@ -18,7 +18,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
-from graphplan.commands.choices import add_language, add_paper, count
+from graphplan.commands.choices import add_language, add_paper, add_pencil, count
 from graphplan.commands.output import DOTS, SHEETS, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 from graphplan.mechanism.presentation import FRAMES
@@ -46,6 +46,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add_paper(command, "the sheet; without it the task's, or the smallest that will do")
     add("--frame", choices=FRAMES, help="frame and title block; without it the task's, or iso")
     add_language(command)
+    add_pencil(command)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -6,6 +6,7 @@ import argparse
 from dataclasses import replace
 
 from graphplan.commands.balance import drawn_alone
+from graphplan.commands.choices import pencil
 from graphplan.commands.output import Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 
@@ -19,6 +20,7 @@ def run(options: argparse.Namespace, text: str) -> int:
     from graphplan.machine.rotor import parse
     from graphplan.machine.rotor_balance import balanced
     from graphplan.output.machine.rotor_numbers import numbers, table
+    from graphplan.output.machine.rotor_sheet import pencil_errors, sheets
 
     ending = kind(options.output, ENDINGS, "rotor")
     _asked(options, ending)
@@ -28,12 +30,13 @@ def run(options: argparse.Namespace, text: str) -> int:
     check = checked(found)
     for note in found.notes:
         messages.remark(f"{options.scene}: {note}")
-    if ending in NUMBERS:
-        write(table(found) if ending == ".csv" else as_json(numbers(found, check), rows=True), options.output)
-        return 0
-    from graphplan.output.machine.rotor_sheet import sheets
-
-    write_sheets(sheets(found, check, found.task.sheet.paper or None), options.output, ending[1:], options.dpi)
+    if ending == ".csv":
+        write(table(found), options.output)
+    elif ending == ".json":
+        errors = pencil_errors(found, pencil(options))
+        write(as_json(numbers(found, check, errors), rows=True), options.output)
+    else:
+        write_sheets(sheets(found, check, pencil(options)), options.output, ending[1:], options.dpi)
     return 0
 
 

@@ -15,7 +15,7 @@ Source: Ozols 1974, 16-5 with figs. 16-17 to 16-19, (16.20) to (16.24).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from enum import Enum
@@ -25,14 +25,16 @@ from typing import Any
 
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage
 from graphplan.machine.rotor import PLANES, Eccentric, Rotor, Vector, direction
-from graphplan.phrases import Said, said
+from graphplan.phrases import Said, digits, said
 
 END_VIEW = Panel("end view", said("end view"))
 MOMENTS = Panel("moment polygon", said("moment polygon"), said("Moment polygon: m·a·r"))
 FORCES = Panel("force polygon", said("force polygon"), said("Force polygon: m·r"))
+Pair = tuple[Any, Any]  # a vector by its components, in any numbers
 MOMENT, FORCE = "moment", "force"  # kinds of what is laid off
 ZERO = 1e-12  # of the sum of a polygon's sides: what closes it and is shorter is rounding
 
@@ -134,30 +136,31 @@ class RotorDrawing:
         """Where a mark is, on its plan."""
         return complex(*self.values[self.marks[name]])
 
-    def points(self, letter: str) -> list[complex]:
+    def corners(self, letter: str) -> list[str]:
         """The marks of a polygon, in their order."""
-        names = [name for name in self.marks if name.startswith(f"{letter}_")]
-        return [self.at(name) for name in names]
+        return [name for name in self.marks if name.startswith(f"{letter}_")]
+
+    def between(self, start: str, end: str, values: Sequence[Any]) -> Pair:
+        """The vector from one mark to another, in any numbers that the program has been drawn with."""
+        (x, y), (u, v) = values[self.marks[start]], values[self.marks[end]]
+        return u - x, v - y
 
 
-def corrections(drawing: RotorDrawing, rotor: Rotor, found: Sums) -> tuple[Correction, ...]:
-    """The corrections, measured on the closing sides of the polygons."""
-    sides = [_closing(drawing.points("F"))]
+def closing(drawing: RotorDrawing, rotor: Rotor, found: Sums, values: Sequence[Any]) -> list[Pair]:
+    """What corrects each plane, mass times radius, as the sides that close the polygons: from the last mark to the
+    first."""
+    force = drawing.between(drawing.corners("F")[-1], "F_0", values)
+    sides = [force]
     if rotor.dynamic:
-        second = _closing(drawing.points("M")) / float(rotor.between)
-        sides = [sides[0] if any(found.force) else -second, second]
-    needed = [side if any(unbalance) else 0j for side, unbalance in zip(sides, found.planes, strict=True)]
-    return tuple(corrected(rotor, k, side) for k, side in enumerate(needed))
+        x, y = drawing.between(drawing.corners("M")[-1], "M_0", values)
+        second = x / float(rotor.between), y / float(rotor.between)
+        sides = [force if any(found.force) else (-second[0], -second[1]), second]
+    return [side if any(unbalance) else (0.0, 0.0) for side, unbalance in zip(sides, found.planes, strict=True)]
 
 
-def corrected(rotor: Rotor, index: int, side: complex) -> Correction:
+def corrected(rotor: Rotor, index: int, side: Pair) -> Correction:
     """The correction in a plane that has this mass times radius vector."""
-    return Correction(index, rotor.planes[index], abs(side), direction(side.real, side.imag))
-
-
-def _closing(points: list[complex]) -> complex:
-    """The side that closes a polygon, from its last mark to its first."""
-    return points[0] - points[-1]
+    return Correction(index, rotor.planes[index], math.hypot(*side), direction(*side))
 
 
 def free_radius(rotor: Rotor, masses: tuple[Eccentric, ...]) -> Fraction:
@@ -180,7 +183,8 @@ class PolygonRecorder:
         with self.board.on(END_VIEW):
             self._keep("O", self.board.given(x=0, y=0, name="O"))
             for k, mass in self.turned:
-                x, y = (part / self._ratio(mass) for part in mass.unbalance)
+                ratio = mass.mass or Fraction(mass.size) / self.free
+                x, y = (part / ratio for part in mass.unbalance)
                 self._keep(f"P_{k}", self.board.given(x=x, y=y, name=f"P_{k}"))
 
     def draw(self) -> None:
@@ -200,33 +204,32 @@ class PolygonRecorder:
         """The stage in which correction masses are placed."""
         return self.board.on(END_VIEW, stage=Stage(said("Correction masses"), law))
 
-    def _ratio(self, mass: Eccentric) -> Fraction:
-        """How many times the radius vector, as it is drawn, is in the unbalance."""
-        return mass.mass or Fraction(mass.size) / self.free
-
     def _keep(self, name: str, mark: Mark) -> Mark:
         self.marks[name] = mark
         return mark
 
-    def _sides(self, letter: str, sides: Iterator[tuple[int, Fraction, Quantity]]) -> Mark:
-        """A polygon of multiples of the masses' radius vectors; the last mark."""
+    def _sides(self, letter: str, written: str, kind: str, arms: Iterable[tuple[int, Eccentric, Fraction]]) -> Mark:
+        """A polygon of multiples of the masses' unbalances, each along the radius; the last mark."""
         end = self.marks[f"{letter}_0"]
-        for k, ratio, quantity in sides:
-            end = self._keep(f"{letter}_{k}", self.board.step_off(
-                self.marks["O"], self.marks[f"P_{k}"], end, ratio=ratio, name=f"{letter}_{k}", quantity=quantity))
+        for k, mass, arm in arms:
+            x, y = mass.unbalance
+            ray = self.board.inclined(end, angle=Angle(digits(mass.angle), x, y))
+            told = said("against the radius: the mass is left of plane I") if arm < 0 else ""
+            end = self._keep(f"{letter}_{k}", self.board.lay_along(
+                ray, end, length=mass.size * float(arm), name=f"{letter}_{k}", why=told,
+                quantity=Quantity(written.format(k), kind)))
         return end
 
     def _moments(self) -> None:
         """The moment polygon of the masses that are not in plane I."""
         self._keep("M_0", self.board.begin(plan=MOMENTS, name="M_0"))
         arms = [(k, mass, self.rotor.arm(mass.at)) for k, mass in self.turned if mass.at is not None]
-        self.last = self._sides("M", ((k, self._ratio(mass) * arm, Quantity(f"m_{k}·a_{k}·r_{k}", MOMENT))
-                                      for k, mass, arm in arms if arm))
+        self.last = self._sides("M", "m_{0}·a_{0}·r_{0}", MOMENT, (one for one in arms if one[2]))
 
     def _forces(self) -> None:
         """The force polygon, with what the moment polygon gives."""
         self._keep("F_0", self.board.begin(plan=FORCES, name="F_0"))
-        end = self._sides("F", ((k, self._ratio(mass), Quantity(f"m_{k}·r_{k}", FORCE)) for k, mass in self.turned))
+        end = self._sides("F", "m_{0}·r_{0}", FORCE, ((k, mass, Fraction(1)) for k, mass in self.turned))
         if self.rotor.dynamic and any(self.sums.moment) and any(self.sums.force):
             end = self._keep("F_II", self.board.step_off(
                 self.last, self.marks["M_0"], end, ratio=1 / self.rotor.between, name="F_II",
@@ -236,12 +239,12 @@ class PolygonRecorder:
     def _corrections(self) -> None:
         """Where the correction masses are put: on radii that run as the sides that close the polygons."""
         if self.rotor.dynamic and any(self.sums.moment):
-            side = self.board.line(self.last, self.marks["M_0"], why=said("the side that closes the moment polygon"))
+            side = self.board.line(self.last, self.marks["M_0"], why=said("the closing side"))
             self._put(1, side, "on")
             if not any(self.sums.force):
                 self._put(0, side, "back", said("forces close by themselves: m_I·r_I is opposite and as large"))
         if any(self.sums.force) and any(self.sums.planes[0]):
-            side = self.board.line(self.end, self.marks["F_0"], why=said("the side that closes the force polygon"))
+            side = self.board.line(self.end, self.marks["F_0"], why=said("the closing side"))
             self._put(0, side, "on")
 
     def _put(self, index: int, side: Mark, way: str, why: str = "") -> None:
@@ -252,7 +255,7 @@ class PolygonRecorder:
     def placed(self, index: int, ray: Mark, way: str = "on", prime: str = "") -> None:
         """A correction mass on a radius."""
         board, letter, given = self.board, PLANES[index], self.rotor.radii[index]
-        told = said("its radius") if given else said("its radius is free")
+        told = "" if given else said("its radius is free")
         reach = board.radius(length=given or self.free, quantity=Quantity(f"r_{letter}", "length"), why=told)
         circle = board.circle(self.marks["O"], reach)
         name = f"P_{letter}{prime}"

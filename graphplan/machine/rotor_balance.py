@@ -8,23 +8,25 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import product
+from typing import Any
 
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Board, Mark
 from graphplan.machine.polygons import (
     Correction,
+    Pair,
     PolygonRecorder,
     RotorDrawing,
     State,
     Sums,
+    closing,
     corrected,
-    corrections,
     sums,
 )
 from graphplan.machine.rotor import PLANES, Eccentric, Rotor, RotorTask
@@ -62,6 +64,13 @@ class Balanced:
     @cached_property
     def sums(self) -> Sums:
         return sums(self.task.rotor, self.masses)
+
+    def sides(self, values: Sequence[Any]) -> list[Pair]:
+        """What the first answer is read from, mass times radius vectors, in any numbers that the drawing was made with.
+        """
+        if self.polygons:
+            return closing(self.drawing, self.task.rotor, self.sums, values)
+        return [read(self.drawing, one, index, values)[0] for index, one in enumerate(self.effects)]
 
     @property
     def polygons(self) -> bool:
@@ -123,7 +132,8 @@ def _by_polygons(task: RotorTask, effects: tuple[Effect, ...], masses: list[tupl
         marks |= draw(board, one, index)
     recorder.draw()
     drawing = _frozen(board, marks | recorder.marks)
-    first = corrections(drawing, task.rotor, recorder.sums)
+    sides = closing(drawing, task.rotor, recorder.sums, drawing.values)
+    first = tuple(corrected(task.rotor, k, side) for k, side in enumerate(sides))
     others = (reckoned(task.rotor, found) for found in masses[1:])
     return Balanced(task, effects, tuple(masses), drawing, (first, *others))
 
@@ -143,7 +153,7 @@ def _by_trials(task: RotorTask, effects: tuple[Effect, ...], masses: list[tuple[
             for k, side in enumerate(one.balancing if one.ratio else ()):
                 recorder.placed(index, _ray(board, recorder.marks["O"], one, k, side), prime="'" * k)
     drawing = _frozen(board, marks | recorder.marks)
-    found = [read(drawing, one, index) for index, one in enumerate(effects)]
+    found = [read(drawing, one, index, drawing.values) for index, one in enumerate(effects)]
     answers = tuple(tuple(corrected(task.rotor, index, side) for index, side in enumerate(sides))
                     for sides in product(*found))
     return Balanced(task, effects, tuple(masses), drawing, answers)
@@ -164,5 +174,4 @@ def _frozen(board: Board, marks: dict[str, Mark]) -> RotorDrawing:
 
 def reckoned(rotor: Rotor, masses: tuple[Eccentric, ...]) -> Answer:
     """The corrections by their equations: opposite to the two eccentric masses that a rotor is as."""
-    return tuple(corrected(rotor, k, -complex(*map(float, unbalance)))
-                 for k, unbalance in enumerate(sums(rotor, masses).planes))
+    return tuple(corrected(rotor, k, (-float(x), -float(y))) for k, (x, y) in enumerate(sums(rotor, masses).planes))

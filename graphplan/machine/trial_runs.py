@@ -21,18 +21,19 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
-from graphplan.machine.polygons import RotorDrawing
+from graphplan.machine.polygons import Pair, RotorDrawing
 from graphplan.machine.rotor import PLANES
 from graphplan.machine.trial import Marked, ThreeRuns, Trial, TrialWeights, Vibration
-from graphplan.phrases import Said, said
+from graphplan.phrases import said
 
 AMPLITUDE, WEIGHT = "amplitude", "weight"  # kinds of what is laid off
 FAINT, STILL = 1e-3, 1e-9  # of the rotor's own vibration: less is no effect; of the effect: less is no vibration
@@ -221,20 +222,18 @@ DRAWN: dict[type[Trial], Callable[[Board, Effect, Panel], dict[str, Mark]]] = {
     ThreeRuns: _drawn_runs, Marked: _drawn_marks, TrialWeights: _drawn_weights}
 
 
-def read(drawing: RotorDrawing, effect: Effect, index: int) -> list[complex]:
-    """The corrections as they are measured on the plan of a trial, one for each answer."""
-    size, turned = float(effect.trial.mass_radius), cmath.rect(1.0, math.radians(float(effect.trial.angle)))
+def read(drawing: RotorDrawing, effect: Effect, index: int, values: Sequence[Any]) -> list[Pair]:
+    """The corrections as they are measured on the plan of a trial, mass times radius, one for each answer."""
+    size, at = float(effect.trial.mass_radius), cmath.rect(1.0, math.radians(float(effect.trial.angle)))
     if not effect.ratio:
-        return [0j]
+        return [(0.0, 0.0)]
     if isinstance(effect.trial, TrialWeights):
-        return [size * drawing.at(f"{index}:p")]
-    C, D = (drawing.at(f"{index}:{name}") for name in "CD")
-    ends = [drawing.at(f"{index}:{name}") for name in "GH"[:len(effect.turns)]]
-    return [size * turned * (C - D) / (G - D) for G in ends]
-
-
-def told_of(trial: Trial) -> Said:
-    """How a trial was made, in words."""
-    if isinstance(trial, TrialWeights):
-        return said("trial weights")
-    return said("marks of the largest deflection") if isinstance(trial, Marked) else said("three runs")
+        x, y = drawing.between(f"{index}:W_0", f"{index}:p", values)
+        return [(size * x, size * y)]
+    (u, v), found = drawing.between(f"{index}:D", f"{index}:C", values), []
+    for end in "GH"[:len(effect.turns)]:  # the trial mass's vector, turned and grown as DG is to DC
+        x, y = drawing.between(f"{index}:D", f"{index}:{end}", values)
+        square = (x * x + y * y) / size
+        along, across = (u * x + v * y) / square, (v * x - u * y) / square
+        found.append((along * at.real - across * at.imag, along * at.imag + across * at.real))
+    return found

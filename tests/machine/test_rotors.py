@@ -60,6 +60,8 @@ def test_numbers_of_three_masses(tmp_path: Path) -> None:
     assert numbers["static_unbalance"] == pytest.approx(0.0133960, rel=3e-6)
     assert numbers["moment"] == pytest.approx(0.0272475, rel=3e-6)
     assert max(numbers["check"].values()) < 1e-14
+    assert all(0 < one["drawn_error"]["mass_radius"] < 0.01 * one["mass_radius"] for one in numbers["corrections"])
+    assert all(0 < one["drawn_error"]["angle"] < 0.5 for one in numbers["corrections"])
 
 
 @pytest.mark.parametrize(("text", "state", "corrections"), [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from graphplan.sheet.lettering.lettering import CAPS, DEPTH, Runs, width
@@ -65,16 +65,22 @@ class LetterPlaces:
         """How far a place is from the lines; below nothing where it is on one or on other letters."""
         if any(rect.meets(other) for other in self.taken):
             return -10.0
-        middle, half = rect.centre[1], rect.height / 2
-        count = max(3, 1 + math.ceil(2 * rect.width / rect.height))
-        return min((_apart(spot, line) - half for spot in _across(rect, middle, count) for line in self.lines),
-                   default=math.inf)
+        return min((_off(rect, line) for line in self.lines), default=math.inf)
 
 
-def _across(rect: Rect, y: float, count: int) -> Iterator[Spot]:
-    """So many spots on the middle line of a rectangle."""
-    for k in range(count):
-        yield rect.left + rect.width * k / (count - 1), y
+def _off(rect: Rect, line: tuple[Spot, Spot]) -> float:
+    """How far a line is from a rectangle; 0 where it crosses it."""
+    (x, y), (u, v) = line
+    low, high = 0.0, 1.0  # the part of the line that is inside, edge by edge (Liang and Barsky)
+    for way, room in ((x - u, x - rect.left), (u - x, rect.right - x), (y - v, y - rect.bottom), (v - y, rect.top - y)):
+        if way:
+            low, high = (max(low, room / way), high) if way < 0 else (low, min(high, room / way))
+        elif room < 0:
+            low = math.inf
+    if low <= high:
+        return 0.0
+    beyond = ((max(rect.left - a, 0.0, a - rect.right), max(rect.bottom - b, 0.0, b - rect.top)) for a, b in line)
+    return min(*(math.hypot(*off) for off in beyond), *(_apart(corner, line) for corner in rect.corners))
 
 
 def _apart(spot: Spot, line: tuple[Spot, Spot]) -> float:

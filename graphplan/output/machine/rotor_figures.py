@@ -63,7 +63,7 @@ class RotorFigures(RotorViews):
     def polygon(self, rect: Rect, letter: str, scale: Said) -> Iterator[Item]:
         """A polygon with what each side is, and the side that closes it."""
         drawing = self.found.drawing
-        names = [name for name in drawing.marks if name.startswith(f"{letter}_")]
+        names = drawing.corners(letter)
         corners = [drawing.at(name) for name in names]
         written = "m_{0}·a_{0}·r_{0}" if letter == "M" else "m_{0}·r_{0}"
         drawn = zip(pairwise(corners), names[1:], strict=True)

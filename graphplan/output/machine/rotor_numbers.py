@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 from graphplan.check.rotors import reactions
 from graphplan.machine.polygons import Correction
@@ -12,17 +12,23 @@ from graphplan.machine.rotor import direction
 from graphplan.machine.rotor_balance import Answer, Balanced
 from graphplan.mechanism.units import KILOGRAMS
 
+if TYPE_CHECKING:
+    from graphplan.output.machine.rotor_sheet import PencilError
+
 HEADINGS = "what", "place", "mass_radius [kg m]", "angle [deg]"
 
 
-def numbers(found: Balanced, check: Mapping[str, float]) -> dict[str, Any]:
+def numbers(found: Balanced, check: Mapping[str, float], errors: Sequence[PencilError]) -> dict[str, Any]:
     """All of it, plain data for JSON: kg, m and N, angles in degrees from 0 to 360; places along the axis as the task
-    has them. `answers` are there where trials leave a choice, of which `corrections` is the first."""
+    has them. `answers` are there where trials leave a choice, of which `corrections` is the first; `drawn_error` are
+    two standard deviations of what a pencil draws of these."""
     task, program, sums = found.task, found.drawing.program, found.sums
     kg_m, metres = float(task.kg_m), float(task.metres)
+    drawn = [{"mass_radius": 2 * error.mass_radius * kg_m, "angle": 2 * error.angle} for error in errors]
     data: dict[str, Any] = {
         "title": task.title, "units": {"length": task.units.length, "mass_radius": "kg m", "moment": "kg m2"},
-        "corrections": _answer(found, found.corrections),
+        "corrections": [one | {"drawn_error": error}
+                        for one, error in zip(_answer(found, found.corrections), drawn, strict=True)],
         "state": sums.state.value,
         "static_unbalance": sums.static * kg_m, "static_angle": direction(*sums.force),
         "moment": sums.dynamic * kg_m * metres, "moment_angle": direction(*sums.moment),

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
+from typing import Any, NamedTuple
 
+from graphplan.accuracy.first_order import deviation
+from graphplan.accuracy.hand import program_hand
+from graphplan.accuracy.pencil import Pencil
 from graphplan.check.rotors import reactions
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Panel
@@ -33,9 +38,21 @@ ROUNDING = 1e-9  # of what bearings bore before: what is less is nothing
 LESS = 1.3  # times as coarse as the scale along the axis may be to be that across it
 
 
-def sheets(found: Balanced, check: Mapping[str, float], paper: str | None = None) -> list[Sheet]:
-    """The sheet of a rotor on the paper named, or on the smallest on which its words have room; see :func:`pages`."""
-    return pages(lambda name: RotorSheet(name, found, check), paper, PAPERS)
+def sheets(found: Balanced, check: Mapping[str, float], pencil: Pencil) -> list[Sheet]:
+    """The sheet of a rotor on the task's paper, or on the smallest on which its words have room; see :func:`pages`."""
+    return pages(lambda name: RotorSheet(name, found, check, pencil), found.task.sheet.paper or None, PAPERS)
+
+
+def pencil_errors(found: Balanced, pencil: Pencil) -> list[PencilError]:
+    """How far off the corrections of the first answer are drawn on the task's paper, or on A3."""
+    return RotorSheet(found.task.sheet.paper or PAPERS[0], found, {}, pencil).errors
+
+
+class PencilError(NamedTuple):
+    """The standard deviations of a drawn correction: of mass times radius in the task's units, and of its angle."""
+
+    mass_radius: float
+    angle: float
 
 
 class RotorLengths(Lengths):
@@ -61,6 +78,7 @@ class RotorSheet(Panelled):
 
     balanced: Balanced
     check: Mapping[str, float]
+    pencil: Pencil
     document = said("Balancing of a rotor")
     again = phrase("Steps {0} to {1}: the same for the others.")
 
@@ -102,6 +120,24 @@ class RotorSheet(Panelled):
     def repeats(self, panel: Panel) -> bool:
         """Whether the steps of a plan are told once for all masses: of so many it is enough."""
         return len(self.balanced.masses) > MANY
+
+    @cached_property
+    def errors(self) -> list[PencilError]:
+        """How far off the corrections of the first answer are drawn, in first order."""
+        drawing, plans = self.balanced.drawing, self.recorded.plans
+        hand = program_hand(drawing.program, drawing.values,
+                            lambda step: self.recorded.scales.of(plans[step.index]), self.pencil)
+        found = []
+        for k, one in enumerate(self.balanced.corrections):
+            ways = math.radians(one.angle), math.radians(one.angle + 90)
+            along, across = (deviation(hand, partial(self._part, k, way)) for way in ways)
+            found.append(PencilError(along, math.degrees(across / one.mass_radius) if one.mass_radius else 0.0))
+        return found
+
+    def _part(self, k: int, way: float, values: Sequence[Any]) -> Any:
+        """The part in a direction of a correction, in numbers that were drawn."""
+        x, y = self.balanced.sides(values)[k]
+        return x * math.cos(way) + y * math.sin(way)
 
     # ---- panels ----------------------------------------------------------------------------------------------------
 
@@ -145,7 +181,7 @@ class RotorSheet(Panelled):
         drawing = self.balanced.drawing
         index = next((k for k, plan in enumerate(TRIAL_PLANS) if plan == panel), None)
         if index is None:
-            points = drawing.points("M" if panel == MOMENTS else "F")
+            points = [drawing.at(name) for name in drawing.corners("M" if panel == MOMENTS else "F")]
         else:
             points = [complex(*drawing.values[step]) for step in self.figures.trial_marks(index).values()]
         return 1 / self.figures.window(self.room(panel), points).scale
@@ -236,8 +272,10 @@ class RotorSheet(Panelled):
         for number, answer in enumerate(self.balanced.answers, 1):
             if len(self.balanced.answers) > 1:
                 yield said("Answer {0}:", number)
-            yield from self._answer(answer)
+            yield from self._answer(answer, self.errors if number == 1 else ())
         yield from self._disbalance()
+        if any(one.mass_radius for one in self.balanced.corrections):
+            yield said("± as it is drawn: {0}", self.pencil.told)
         yield from self._borne()
         for note in self.balanced.notes:
             yield arranged("{0:capital}", note)
@@ -256,15 +294,18 @@ class RotorSheet(Panelled):
         if effect.fourth:
             yield said("the fourth run should give {0}; the other answer {1}", *(digits(one) for one in effect.fourth))
 
-    def _answer(self, answer: Answer) -> Iterator[Said]:
-        """The corrections of an answer, plane by plane."""
+    def _answer(self, answer: Answer, errors: Sequence[PencilError]) -> Iterator[Said]:
+        """The corrections of an answer, plane by plane, those of the first with what a pencil makes of them."""
         measure = unit(f"{self.balanced.task.units.mass}·{self.balanced.task.units.length}")
         for one in answer:
             if not one.mass_radius:
                 yield arranged("m_{0}·r_{0} = 0", one.letter)
                 continue
-            yield said("m_{0}·r_{0} = {1} {2} at alpha_{0} = {3}°", one.letter, digits(one.mass_radius, 5), measure,
-                       digits(one.angle, 5))
+            size, angle = digits(one.mass_radius, 5), digits(one.angle, 5)
+            if errors:
+                size = arranged("{0} ± {1}", size, digits(errors[one.index].mass_radius, 2))
+                angle = arranged("{0}° ± {1}", angle, digits(errors[one.index].angle, 2))
+            yield said("m_{0}·r_{0} = {1} {2} at alpha_{0} = {3}°", one.letter, size, measure, angle)
             yield from self._chosen(one)
 
     def _chosen(self, one: Correction) -> Iterator[Said]:

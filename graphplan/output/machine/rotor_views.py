@@ -135,9 +135,10 @@ class RotorViews(Figures):
         plan = View(rect, 1 / k, (start, level))
         ends = start + low / k_z - 2 * BEYOND, start + high / k_z + 2 * BEYOND
         yield Polyline(pens.PATH, "ruling", None, ((ends[0] - 3.0, level), (ends[1] + 3.0, level)))
-        for y in (-SHAFT, SHAFT):
-            yield Polyline(Pen(0.35), "links", None, ((ends[0], level + y), (ends[1], level + y)))
-        places = LetterPlaces(self.letters.text, [((ends[0], level), (ends[1], level))])
+        places = LetterPlaces(self.letters.text)
+        for y in (level - SHAFT, level + SHAFT):
+            places.lines.append(((ends[0], y), (ends[1], y)))
+            yield Polyline(Pen(0.35), "links", None, places.lines[-1])
         for plane, letter in zip(rotor.planes, PLANES, strict=False):
             x = start + float(rotor.arm(plane)) / k_z
             places.lines.append(((x, level - far), (x, level + far)))

@@ -66,6 +66,8 @@ def run(options: argparse.Namespace) -> int:
     scene = replace(scene, sheet=replace(scene.sheet, **said))
     ending, messages = kind(options.output, ENDINGS, "balance"), Messages(options.quiet)
     drawn_alone(options, ending)
+    if options.pencil:
+        raise Refused("--pencil", "this is a linkage, whose numbers are not drawn", "leave it out")
     if ending == ".toml":
         from graphplan.check.balance import checked_dyads
 

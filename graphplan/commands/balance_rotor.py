@@ -20,7 +20,7 @@ def run(options: argparse.Namespace, text: str) -> int:
     from graphplan.machine.rotor import parse
     from graphplan.machine.rotor_balance import balanced
     from graphplan.output.machine.rotor_numbers import numbers, table
-    from graphplan.output.machine.rotor_sheet import pencil_errors, sheets
+    from graphplan.output.machine.rotor_sheet import one_sheet, sheets
 
     ending = kind(options.output, ENDINGS, "rotor")
     _asked(options, ending)
@@ -33,8 +33,7 @@ def run(options: argparse.Namespace, text: str) -> int:
     if ending == ".csv":
         write(table(found), options.output)
     elif ending == ".json":
-        errors = pencil_errors(found, pencil(options))
-        write(as_json(numbers(found, check, errors), rows=True), options.output)
+        write(as_json(numbers(one_sheet(found, check, pencil(options))), rows=True), options.output)
     else:
         write_sheets(sheets(found, check, pencil(options)), options.output, ending[1:], options.dpi)
     return 0

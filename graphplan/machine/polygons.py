@@ -25,11 +25,10 @@ from typing import Any
 
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage
 from graphplan.machine.rotor import PLANES, Eccentric, Rotor, Vector, direction
-from graphplan.phrases import Said, digits, said
+from graphplan.phrases import Said, said
 
 END_VIEW = Panel("end view", said("end view"))
 MOMENTS = Panel("moment polygon", said("moment polygon"), said("Moment polygon: m·a·r"))
@@ -212,12 +211,11 @@ class PolygonRecorder:
         """A polygon of multiples of the masses' unbalances, each along the radius; the last mark."""
         end = self.marks[f"{letter}_0"]
         for k, mass, arm in arms:
-            x, y = mass.unbalance
-            ray = self.board.inclined(end, angle=Angle(digits(mass.angle), x, y))
-            told = said("against the radius: the mass is left of plane I") if arm < 0 else ""
-            end = self._keep(f"{letter}_{k}", self.board.lay_along(
-                ray, end, length=mass.size * float(arm), name=f"{letter}_{k}", why=told,
-                quantity=Quantity(written.format(k), kind)))
+            radius = self.board.line(self.marks["O"], self.marks[f"P_{k}"])
+            name, length = f"{letter}_{k}", Quantity(written.format(k), kind)
+            told = said("opposite to the radius: left of plane I") if arm < 0 else ""
+            end = self._keep(name, self.board.lay_along(self.board.parallel(radius, end), end, name=name, why=told,
+                                                        length=mass.size * float(arm), quantity=length))
         return end
 
     def _moments(self) -> None:
@@ -240,23 +238,19 @@ class PolygonRecorder:
         """Where the correction masses are put: on radii that run as the sides that close the polygons."""
         if self.rotor.dynamic and any(self.sums.moment):
             side = self.board.line(self.last, self.marks["M_0"], why=said("the closing side"))
-            self._put(1, side, "on")
+            self.placed(1, self.board.parallel(side, self.marks["O"]))
             if not any(self.sums.force):
-                self._put(0, side, "back", said("forces close by themselves: m_I·r_I is opposite and as large"))
+                self.placed(0, self.board.parallel(side, self.marks["O"]), -1, said(
+                    "forces close by themselves: m_I·r_I is opposite and as large"))
         if any(self.sums.force) and any(self.sums.planes[0]):
             side = self.board.line(self.end, self.marks["F_0"], why=said("the closing side"))
-            self._put(0, side, "on")
+            self.placed(0, self.board.parallel(side, self.marks["O"]))
 
-    def _put(self, index: int, side: Mark, way: str, why: str = "") -> None:
-        """A correction mass on the radius that is parallel to a side."""
-        ray = self.board.parallel(side, self.marks["O"], why=why)
-        self.placed(index, ray, way)
-
-    def placed(self, index: int, ray: Mark, way: str = "on", prime: str = "") -> None:
-        """A correction mass on a radius."""
-        board, letter, given = self.board, PLANES[index], self.rotor.radii[index]
-        told = "" if given else said("its radius is free")
-        reach = board.radius(length=given or self.free, quantity=Quantity(f"r_{letter}", "length"), why=told)
-        circle = board.circle(self.marks["O"], reach)
+    def placed(self, index: int, ray: Mark, way: int = 1, why: str = "", prime: str = "") -> None:
+        """A correction mass on a radius, or opposite."""
+        letter, given = PLANES[index], self.rotor.radii[index]
         name = f"P_{letter}{prime}"
-        self._keep(name, board.line_meets_circle(ray, circle, way=way, name=name))
+        why = why or ("" if given else said("its radius is free"))
+        length = way * (given or self.free)
+        self._keep(name, self.board.lay_along(ray, self.marks["O"], length=length, name=name, why=why,
+                                              quantity=Quantity(f"r_{letter}", "length")))

@@ -286,7 +286,7 @@ class Panelled(ABC):
             runs = told_once(steps) if self.repeats(plans[steps[0].index]) else [(steps, ())]
             for shown, left in runs:
                 for step in shown:
-                    yield from self._set(self._spoken(step), str(program.number(step.index)), step.index)
+                    yield from self._set(self.spoken(step), str(program.number(step.index)), step.index)
                 if left:
                     yield from self._set(self.again(program.number(left[0].index), program.number(left[-1].index)))
 
@@ -301,7 +301,7 @@ class Panelled(ABC):
         read = drawn.program, drawn.values, drawn.plans.__getitem__, drawn.scales
         return Lengths(*read), PaperLengths(*read)
 
-    def _spoken(self, step: Step) -> Said:
+    def spoken(self, step: Step) -> Said:
         """A step in words, with its length on paper."""
         told, lengths = self.recorded.program.told(step.index), self.measure(self.recorded.plans[step.index])
         return joined((told, *(arranged("{0}.", length.told) for length in lengths.of(step))), " ")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from graphplan.check.rotors import reactions
@@ -13,18 +12,19 @@ from graphplan.machine.rotor_balance import Answer, Balanced
 from graphplan.mechanism.units import KILOGRAMS
 
 if TYPE_CHECKING:
-    from graphplan.output.machine.rotor_sheet import PencilError
+    from graphplan.output.machine.rotor_sheet import RotorSheet
 
 HEADINGS = "what", "place", "mass_radius [kg m]", "angle [deg]"
 
 
-def numbers(found: Balanced, check: Mapping[str, float], errors: Sequence[PencilError]) -> dict[str, Any]:
+def numbers(sheet: RotorSheet) -> dict[str, Any]:
     """All of it, plain data for JSON: kg, m and N, angles in degrees from 0 to 360; places along the axis as the task
     has them. `answers` are there where trials leave a choice, of which `corrections` is the first; `drawn_error` are
-    two standard deviations of what a pencil draws of these."""
+    two standard deviations of what a pencil draws of these; steps speak lengths of paper of this sheet."""
+    found = sheet.balanced
     task, program, sums = found.task, found.drawing.program, found.sums
     kg_m, metres = float(task.kg_m), float(task.metres)
-    drawn = [{"mass_radius": 2 * error.mass_radius * kg_m, "angle": 2 * error.angle} for error in errors]
+    drawn = [{"mass_radius": 2 * error.mass_radius * kg_m, "angle": 2 * error.angle} for error in sheet.errors]
     data: dict[str, Any] = {
         "title": task.title, "units": {"length": task.units.length, "mass_radius": "kg m", "moment": "kg m2"},
         "corrections": [one | {"drawn_error": error}
@@ -46,8 +46,8 @@ def numbers(found: Balanced, check: Mapping[str, float], errors: Sequence[Pencil
     return data | {
         "notes": [str(note) for note in found.notes],
         "steps": [{"step": program.number(step.index), "stage": str(stage.title),
-                   "sentence": str(program.told(step.index))} for stage, steps in program.stages for step in steps],
-        "check": dict(check)}
+                   "sentence": str(sheet.spoken(step))} for stage, steps in program.stages for step in steps],
+        "check": dict(sheet.check)}
 
 
 def _answer(found: Balanced, answer: Answer) -> list[dict[str, Any]]:

@@ -43,9 +43,9 @@ def sheets(found: Balanced, check: Mapping[str, float], pencil: Pencil) -> list[
     return pages(lambda name: RotorSheet(name, found, check, pencil), found.task.sheet.paper or None, PAPERS)
 
 
-def pencil_errors(found: Balanced, pencil: Pencil) -> list[PencilError]:
-    """How far off the corrections of the first answer are drawn on the task's paper, or on A3."""
-    return RotorSheet(found.task.sheet.paper or PAPERS[0], found, {}, pencil).errors
+def one_sheet(found: Balanced, check: Mapping[str, float], pencil: Pencil) -> RotorSheet:
+    """The sheet on the task's paper, or on A3, whether its words have room or not."""
+    return RotorSheet(found.task.sheet.paper or PAPERS[0], found, check, pencil)
 
 
 class PencilError(NamedTuple):
@@ -275,7 +275,7 @@ class RotorSheet(Panelled):
             yield from self._answer(answer, self.errors if number == 1 else ())
         yield from self._disbalance()
         if any(one.mass_radius for one in self.balanced.corrections):
-            yield said("± as it is drawn: {0}", self.pencil.told)
+            yield said("±: the standard deviation of what the pencil draws")
         yield from self._borne()
         for note in self.balanced.notes:
             yield arranged("{0:capital}", note)

@@ -72,6 +72,13 @@ class Balanced:
             return closing(self.drawing, self.task.rotor, self.sums, values)
         return [read(self.drawing, one, index, values)[0] for index, one in enumerate(self.effects)]
 
+    def chosen(self, one: Correction) -> tuple[float | None, float | None]:
+        """Mass and radius of a correction, in the task's units; nothing where neither is given."""
+        radius, mass = self.task.rotor.radii[one.index], self.task.rotor.weights[one.index]
+        if radius is not None:
+            return one.mass_radius / float(radius), float(radius)
+        return (None, None) if mass is None else (float(mass), one.mass_radius / float(mass))
+
     @property
     def polygons(self) -> bool:
         """Whether polygons are drawn."""

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from graphplan.check.rotors import reactions
 from graphplan.machine.polygons import Correction
 from graphplan.machine.rotor import direction
 from graphplan.machine.rotor_balance import Answer, Balanced
 from graphplan.mechanism.units import KILOGRAMS
-
-if TYPE_CHECKING:
-    from graphplan.output.machine.rotor_sheet import RotorSheet
+from graphplan.output.machine.rotor_sheet import RotorSheet
 
 HEADINGS = "what", "place", "mass_radius [kg m]", "angle [deg]"
 
@@ -63,17 +61,9 @@ def _plain(number: Any) -> float | int:
 
 def _chosen(found: Balanced, one: Correction) -> dict[str, float]:
     """Mass in kg and radius in m of a correction, where one of them is given."""
-    mass, radius = chosen(found, one)
+    mass, radius = found.chosen(one)
     units = {"mass": float(KILOGRAMS[found.task.units.mass]), "radius": float(found.task.metres)}
     return {key: value * units[key] for key, value in (("mass", mass), ("radius", radius)) if value is not None}
-
-
-def chosen(found: Balanced, one: Correction) -> tuple[float | None, float | None]:
-    """Mass and radius of a correction, in the task's units; nothing where neither is given."""
-    radius, mass = found.task.rotor.radii[one.index], found.task.rotor.weights[one.index]
-    if radius is not None:
-        return one.mass_radius / float(radius), float(radius)
-    return (None, None) if mass is None else (float(mass), one.mass_radius / float(mass))
 
 
 def _borne(reaction: complex) -> dict[str, float]:

@@ -22,7 +22,6 @@ from graphplan.machine.trial_runs import AMPLITUDE, TRIAL_PLANS, Effect
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.units import NEWTONS
 from graphplan.output.machine.rotor_figures import AROUND, MANY, RotorFigures
-from graphplan.output.machine.rotor_numbers import chosen
 from graphplan.output.panelled import Panelled, Recorded, Words, beside, pages, under
 from graphplan.phrases import Said, arranged, digits, joined, phrase, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
@@ -310,7 +309,7 @@ class RotorSheet(Panelled):
 
     def _chosen(self, one: Correction) -> Iterator[Said]:
         """Mass and radius, where one of them is given."""
-        mass, radius = chosen(self.balanced, one)
+        mass, radius = self.balanced.chosen(one)
         if mass is not None and radius is not None:
             units = self.balanced.task.units
             yield arranged("m_{0} = {1} {2}, r_{0} = {3} {4}", one.letter, digits(mass), unit(units.mass),

@@ -33,8 +33,9 @@ class SteadyCycle:
     """One cycle of a machine at a mean speed, which returns to its beginning.
 
     `inertia` in kg m^2 and its `slope` by travel, the moments of the `loads` by their names, all together in `moment`;
-    the `closing` moment on the drive, and the `factor` of the `changing` loads, which the moments contain. Travel is in
-    radians, or in lengths of `unit` metres, inertias then in kg, moments in N and slopes by metres.
+    the `closing` moment on the drive, and the `factor` of the `changing` loads, which the moments contain. Between the
+    `corners` all is smooth. Travel is in radians, or in lengths of `unit` metres, inertias then in kg, moments in N and
+    slopes by metres.
     """
 
     speed: float
@@ -45,6 +46,7 @@ class SteadyCycle:
     closing: float
     factor: float
     changing: tuple[str, ...]
+    corners: Reals
 
     @cached_property
     def moment(self) -> Piecewise:
@@ -106,7 +108,9 @@ def steady(reduction: Reduction, speed: float, closes: str = DRIVE, changing: Co
         loads = {name: moment * factor if name in changing else moment for name, moment in loads.items()}
     else:
         closing = -sum(works.values()) / span
-    return SteadyCycle(speed, reduction.unit, inertia, slope, loads, closing, factor, tuple(changing))
+    first, last = reduction.ends
+    corners = np.array([at for at in reduction.breaks if first < at < last])
+    return SteadyCycle(speed, reduction.unit, inertia, slope, loads, closing, factor, tuple(changing), corners)
 
 
 def _reduced(reduction: Reduction, speed: float) -> tuple[Piecewise, Piecewise, dict[str, Piecewise]]:

@@ -109,7 +109,9 @@ class FlywheelDrawing:
 
     def touching(self, which: str) -> float:
         """The travel at which the `upper` or the `lower` tangent touches, as it is read off."""
-        return float(self.frames["energy"].x.value(self.spots(f"{which} apex")[0][0]))
+        first, last = self.travels[[0, -1]]
+        read = float(self.frames["energy"].x.value(self.spots(f"{which} apex")[0][0]))
+        return float(first + (read - first) % (last - first))
 
 
 def drawn(cycle: SteadyCycle, wheel: Flywheel, positions: int = 24, room: Room | None = None) -> FlywheelDrawing:
@@ -128,6 +130,8 @@ class _Sheet:
         self.frames, self.board = self.scales.frames, Board()
         self.found: dict[str, list[Mark]] = {}
         self.told = np.degrees(self.plans.travels) if cycle.unit == 1.0 else self.plans.travels
+        even = (self.plans.travels - cycle.ends[0]) / cycle.span * positions
+        self.numbers = np.floor(even + 1e-6).astype(int).tolist()  # a corner has that of the plan before it, primed
 
     @property
     def drawing(self) -> FlywheelDrawing:
@@ -148,7 +152,7 @@ class _Sheet:
         """By how much the intercept may be off by the strips, in J."""
         plans, tangents = self.plans, ((self.wheel.upper.slope, True), (self.wheel.lower.slope, False))
         touched = [plans.outermost(slope, above) for slope, above in tangents]
-        return plans.energy_error(*touched) + sum(plans.parabola_error(slope, k)
+        return plans.energy_error(self.cycle, *touched) + sum(plans.parabola_error(slope, k)
                                                   for (slope, _), k in zip(tangents, touched, strict=True))
 
     def _stages(self) -> list[tuple[Said, Said, Callable[[], None]]]:
@@ -169,14 +173,14 @@ class _Sheet:
         plans, last = self.plans, len(self.told) - 1
         self.before, self.after = list[Mark](), list[Mark]()
         for k, x in enumerate(self.told):
-            one = self._mark("moment", x, plans.right[k] if k < last else plans.left[k], f"M_{k}")
+            one = self._mark("moment", x, plans.right[k] if k < last else plans.left[k], f"M_{self.numbers[k]}")
             self.after.append(one)
             two = 0 < k < last and plans.jumps(k)
-            self.before.append(self._mark("moment", x, plans.left[k], f"M_{k}") if two else one)
+            self.before.append(self._mark("moment", x, plans.left[k], f"M_{self.numbers[k]}") if two else one)
         self.found["moments"] = [mark for pair in zip(self.before, self.after, strict=True)
                                  for mark in dict.fromkeys(pair)]
         self.found["inertias"] = [self._mark("inertia", I, x, f"I_{k}")
-                                  for k, (x, I) in enumerate(zip(self.told, plans.inertias, strict=True))]
+                                  for k, x, I in zip(self.numbers, self.told, plans.inertias, strict=True)]
 
     def _closing(self) -> None:
         """The axes, the mean ordinate of all strips, and the pole on its level."""
@@ -198,14 +202,14 @@ class _Sheet:
         board, down = self.board, self.frames["energy"].origin[1]
         start = board.lay_off(self.rates.origin, dx=0, dy=down, name="E_0", why=said("the energy counts from here"))
         rays = integrate(board, self.means, start, self.after, self.rates,
-                         [f"E_{k}" for k in range(1, len(self.told))])
+                         [f"E_{k}" for k in self.numbers[1:]])
         self.energies = [start, *(ray.end for ray in rays)]
         self.found |= {"energies": self.energies, "cuts": [ray.cut for ray in rays]}
 
     def _points(self) -> None:
         """The energy-mass diagram."""
         board, points = self.board, list[Mark]()
-        for k, (E, I) in enumerate(zip(self.energies[:-1], self.found["inertias"], strict=False)):
+        for k, E, I in zip(self.numbers[:-1], self.energies, self.found["inertias"], strict=False):
             across = board.parallel(self.level, E, why=said("carry the energy across"))
             down = board.parallel(self.upright, I, why=said("and the inertia down"))
             points.append(board.meet(across, down, name=f"P_{k}"))
@@ -237,26 +241,28 @@ class _Sheet:
         if len(three) == 1:
             cut = self.board.meet(self.axis, self.board.parallel(guide, self.points[k]), name=letter)
             return cut, self._over(cut, k)
-        cuts = [self.board.meet(self.axis, self.board.parallel(guide, self.points[j]), name=f"{letter}_{j}")
-                for j in three]
+        round_trip = len(self.points) - 1
+        cuts = [self.board.meet(self.axis, self.board.parallel(guide, self.points[j % round_trip]),
+                                name=f"{letter}_{self.numbers[j % round_trip]}") for j in three]
         A, B, C = (self._over(cut, j) for cut, j in zip(cuts, three, strict=True))
-        first, middle, last = self.told[three]
+        first, middle, last = self.plans.around(self.told, three)
         return self._vertex(A, B, C, float((middle - first) / (last - first)), letter)
 
     def _neighbours(self, slope: float, above: bool) -> tuple[int, list[int]]:
         """The outermost plan, and the three that the parabola goes through: itself alone where it is a corner, or these
-        lie on a line."""
-        k, heights = self.plans.outermost(slope, above), self.plans.heights(slope)
-        last = len(heights) - 1
-        middle = k if k else (1 if (heights[1] >= heights[last - 1]) == above else last - 1)
+        lie on a line. That after the last is the second, in the next cycle."""
+        plans, k = self.plans, self.plans.outermost(slope, above)
+        middle = k or len(self.told) - 1
         three = [middle - 1, middle, middle + 1]
-        mm = heights[three] / self.frames["energy"].y.unit
-        return k, [k] if self.plans.jumps(k) or _straight(self.told[three], mm) else three
+        mm = plans.heights(slope)[np.array(three) % (len(self.told) - 1)] / self.frames["energy"].y.unit
+        return k, [k] if plans.jumps(k) or _straight(plans.around(self.told, three), mm) else three
 
     def _over(self, cut: Mark, k: int) -> Mark:
         """The level of a cut over the travel of a plan."""
-        board = self.board
-        return board.meet(board.parallel(self.level, cut), board.parallel(self.upright, self.energies[k]))
+        board, energies = self.board, self.energies
+        at = energies[k] if k < len(energies) else board.transfer(
+            energies[0], energies[-1], energies[k - len(energies) + 1], why=said("the cycle goes on as it began"))
+        return board.meet(board.parallel(self.level, cut), board.parallel(self.upright, at))
 
     def _vertex(self, A: Mark, B: Mark, C: Mark, part: float, letter: str) -> tuple[Mark, Mark]:
         """The level tangent of the parabola through three points, where it meets the axis and where it touches.

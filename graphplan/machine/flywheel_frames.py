@@ -7,6 +7,7 @@ inertia is turned, its ordinates over those of the energy-mass diagram, which ha
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -22,6 +23,7 @@ NEAREST, FARTHEST = 12.0, 45.0  # the pole from the axis, in mm
 GAP, HEAD = 20.0, 16.0  # between the columns and the rows of diagrams, in mm
 OFF = 1.3  # on the axis I = 0 the intercept may be so much longer than on a parallel, for that axis to be drawn
 CLOSE, JUMP = 1e-9, 1e-6  # of the largest: no more than rounding; a moment that jumps by more has a point on each side
+MISSED = 0.005  # of the energy's range: a chord that is more off passes a corner by
 
 
 @dataclass(frozen=True)
@@ -92,24 +94,22 @@ class Plans:
         """The energy at each plan by the strips, where the mean closes the cycle."""
         return np.append(0.0, np.cumsum((self.strips - self.mean) * np.diff(self.travels)) * self.unit)
 
-    @cached_property
-    def strip_errors(self) -> Reals:
-        """By how much the work of each strip may be off, as its moment is no straight line.
+    def gaps(self, cycle: SteadyCycle) -> Reals:
+        """By how much the work of each strip is off, as its chord is no curve."""
+        return np.abs(np.diff(cycle.energy.at(self.travels)) - np.diff(self.energies))
 
-        Where the moment bends by d between the strips on either side of a plan, to half of them on each side, a strip
-        of width h misses d h/8 at most; of a smooth curve it misses a twelfth.
+    def energy_error(self, cycle: SteadyCycle, j: int, k: int) -> float:
+        """By how much the energies of two plans may be off against each other, as chords are no curves.
+
+        The errors of the strips on the better way from one to the other are added up, whatever their signs.
         """
-        widths, slopes = np.diff(self.travels), (self.left[1:] - self.right[:-1]) / np.diff(self.travels)
-        bends = np.abs(np.diff(slopes, append=slopes[0]))
-        bends[[self.jumps(k) for k in range(1, len(self.travels))]] = 0.0
-        return np.maximum(bends, np.roll(bends, 1)) * widths**2 / 8 * self.unit
+        gaps, (low, high) = self.gaps(cycle), sorted((j, k))
+        return float(min(gaps[low:high].sum(), gaps[:low].sum() + gaps[high:].sum()))
 
-    def energy_error(self, j: int, k: int) -> float:
-        """By how much the energies of two plans may be off against each other, by the strips on the better way."""
-        low, high = sorted((j, k))
-        inside, rest = self.strip_errors[low:high].sum(), self.strip_errors.sum()
-        part = (self.travels[high] - self.travels[low]) / (self.travels[-1] - self.travels[0])
-        return float(min(inside + part * rest, (rest - inside) + (1 - part) * rest))
+    def around(self, travels: Reals, places: Sequence[int]) -> Reals:
+        """The travels of plans, those beyond the last in the next cycle."""
+        count = len(travels) - 1
+        return np.array([travels[k % count] + (travels[-1] - travels[0]) * (k // count) for k in places])
 
     def heights(self, slope: float) -> Reals:
         """How far out the points of the energy-mass curve are, over a line of a slope, in J."""
@@ -123,11 +123,11 @@ class Plans:
     def parabola_error(self, slope: float, k: int) -> float:
         """By how much the vertex of a parabola through three points about a plan is off the curve's, in J.
 
-        A cubic through four neighbours is off by a sixteenth of their third difference at most; where the moment has a
-        corner it may be twice that.
+        Of a cubic it is a sixteenth of the third difference of four neighbours at most; corners between plans can make
+        it more than twice that.
         """
-        around = np.arange(k - 4, k + 6) % (len(self.travels) - 1)
-        return float(np.abs(np.diff(self.heights(slope)[around], 3)).max()) / 8
+        around = np.arange(k - 3, k + 4) % (len(self.travels) - 1)
+        return float(np.abs(np.diff(self.heights(slope)[around], 3)).max()) / 6
 
     def jumps(self, k: int) -> bool:
         """Whether the moment jumps at a plan."""
@@ -136,17 +136,21 @@ class Plans:
 
 
 def plans_of(cycle: SteadyCycle, positions: int) -> Plans:
-    """The plans at even travels, and where the moment jumps."""
-    first, last = cycle.ends
-    inner, moment = cycle.inertia.edges[1:-1], cycle.moment
-    jumped = np.abs(moment.at(inner) - moment.at(inner, -1))
-    jumps = inner[jumped > JUMP * np.abs(moment.at(inner)).max(initial=0.0)]
-    even = np.linspace(first, last, positions + 1)
-    apart = np.abs(jumps[:, None] - even).min(axis=1, initial=np.inf) > CLOSE * (last - first)
-    travels = np.sort(np.concatenate([even, jumps[apart]]))
-    for at in jumps[~apart]:
-        travels[np.argmin(np.abs(travels - at))] = at
-    left, right = moment.at(travels, -1), moment.at(travels)
+    """The plans at even travels, and at corners: where the moment jumps, or where a chord would pass one by."""
+    even = np.linspace(*cycle.ends, positions + 1)
+    plans = _plans_at(cycle, even)
+    strips = np.clip(np.searchsorted(even, cycle.corners, side="right") - 1, 0, positions - 1)
+    jumped = np.abs(cycle.moment.at(cycle.corners) - cycle.moment.at(cycle.corners, -1))
+    missed = plans.gaps(cycle)[strips] > MISSED * np.ptp(plans.energies)
+    return _plans_at(cycle, even, cycle.corners[missed | (jumped > JUMP * np.abs(plans.right).max())])
+
+
+def _plans_at(cycle: SteadyCycle, even: Reals, corners: Reals | None = None) -> Plans:
+    """The plans at even travels and corners; one that is near a corner to rounding is there."""
+    corners = np.empty(0) if corners is None else corners
+    near = np.abs(even[:, None] - corners).min(axis=1, initial=np.inf) <= CLOSE * (even[-1] - even[0])
+    travels = np.sort(np.concatenate([even[~near], corners]))
+    left, right = cycle.moment.at(travels, -1), cycle.moment.at(travels)
     left[0], right[-1] = left[-1], right[0]  # the cycle goes on as it began
     return Plans(travels, cycle.unit, left, right, cycle.inertia.at(travels))
 

@@ -54,7 +54,7 @@ def test_the_printed_yoke() -> None:
     assert abs(result.measured - result.wheel.inertia) < result.strip_error
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", [2, 55, 81, 133])  # a ramp, a tangent over the cycle's end, peaks between plans
 def test_random_linkages(seed: int) -> None:
     """The integrated motion has the unevenness asked for, and the drawn flywheel is as near as its error says."""
     result = flywheel(four_bar(np.random.default_rng(seed)))

@@ -96,6 +96,8 @@ class _Piece:
     values: Reals
 
     def at(self, travel: float) -> Reals:
+        """The values; beyond an end those there, as a step may try how far it comes."""
+        travel = min(max(travel, self.low), self.high)
         away = (2 * travel - self.low - self.high) / (self.high - self.low) - self.points
         if not away.all():
             found: Reals = self.values[:, int(np.argmin(abs(away)))]
@@ -169,7 +171,9 @@ class _Opinion:
                 points = np.cos(np.pi * (np.arange(count) + 0.5) / count)
                 values = self._solved((low + high) / 2 + (high - low) / 2 * points)
                 terms = abs(np.cos(np.outer(np.arange(count), np.arccos(points))) @ values.T) * 2 / count
-                if (terms[-3:].max(axis=0) <= FINE * np.maximum(abs(values).max(axis=1), 1e-9)).all() or count >= MOST:
+                sizes = abs(values).max(axis=1)
+                sizes[1] = max(sizes[:2])  # a slope that is nothing beside the inertia is noise
+                if (terms[-3:].max(axis=0) <= FINE * sizes).all() or count >= MOST:
                     break
                 count *= 2
             self.pieces[k] = _Piece(low, high, points, values)
@@ -219,7 +223,7 @@ def _onwards(rates: Callable[[Reals], Reals], state: Reals, end: float, size: Re
         step = min(step, 1.1 * left / max(state[1], math.sqrt(abs(first[1]) * left)))  # no farther than is known
         after, apart, last = _step(rates, state, first, step)
         error = float((apart / size).max()) / STEP
-        if not error <= 1 or after[0] > end + left / 4:  # beyond the end the values lead nowhere
+        if not error <= 1:
             step *= max(0.2, 0.9 * error**-0.2) if 1 < error < math.inf else 0.5
             continue
         if after[0] >= end:

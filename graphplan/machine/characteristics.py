@@ -19,7 +19,7 @@ from graphplan.machine.integrals import Reals
 from graphplan.machine.true_motion import Place, TrueMotion, moved
 
 NEAR = 0.01  # of the steady speed: a machine so near to it has run up
-TURNS = 500  # that a run-up may take
+TURNS = 100  # that a run-up may take
 OCTAVES, GRID = 12, 8  # how far from a speed the nominal one is looked for, and in how many steps each
 ROUNDS = 60  # of the search for the cycle that repeats itself: it takes three to six
 CLOSED = 1e-12  # of the energy, or of all work in a cycle: what is less is rounding
@@ -69,7 +69,7 @@ def steady(machine: Driven, speed: float) -> TrueMotion:
     Fails with `Refused` where the machine does not turn, or its cycle does not close at any speed.
     """
     if not machine.closed:
-        raise Refused("the steady motion", "the machine does not turn round", "a first drive that does")
+        raise Refused("the steady motion", "the machine is not back after a turn", "a first drive that goes round")
     if not speed > 0:
         raise Refused("the steady motion", "no speed is said", "--speed, or the omega of the first [[drive]]")
     if machine.laws:
@@ -102,7 +102,7 @@ def limit_cycle(machine: Driven, omega: float) -> TrueMotion:
         if abs(miss) <= CLOSED * energy:
             return motion
         steeper = (miss - last) / (energy - before) if round_ else -1.0
-        before, energy = energy, energy - miss / (steeper if steeper < 0 else -1.0)
+        before, energy = energy, max(energy - miss / (steeper if steeper < 0 else -1.0), energy / 4)
     raise Refused("the steady motion", "no cycle repeats itself", "a driver whose moment falls with the speed")
 
 

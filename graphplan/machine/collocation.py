@@ -8,6 +8,7 @@ smooth in s. A machine that comes to rest passes such a stretch backwards.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from typing import NamedTuple, Protocol
@@ -25,11 +26,11 @@ NUDGE = 1e-7  # of the rate: the step by which laws are differentiated
 
 
 class Machine(Protocol):
-    """What moves: its inertia over the travel, and its moment over travel and rate."""
+    """What moves: its inertia over the travel, and at travels its moments as a function of the rates there."""
 
     def inertia(self, travel: Reals) -> Reals: ...
 
-    def moment(self, travel: Reals, rate: Reals) -> Reals: ...
+    def moments(self, travel: Reals) -> Callable[[Reals], Reals]: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,15 +57,15 @@ def stretch(machine: Machine, start: float, way: float, energy: float, elapsed: 
     """
     rule, power = _rule(), 2 if at_rest else 1
     travel, pace = start + way * rule.nodes**power, way * power * rule.nodes**(power - 1)
-    inertia, still = machine.inertia(travel), np.zeros(NODES)
-    energies = machine.moment(travel, still) * (travel - start) if at_rest else np.full(NODES, energy)
+    inertia, moments, still = machine.inertia(travel), machine.moments(travel), np.zeros(NODES)
+    energies = moments(still) * (travel - start) if at_rest else np.full(NODES, energy)
     for _ in range(ROUNDS):
         if not (energies > 0).all():
             return None
         rate = np.sqrt(2 * energies / inertia)
-        moment = machine.moment(travel, rate)
+        moment = moments(rate)
         step = NUDGE * rate
-        slope = (machine.moment(travel, rate + step) - moment) / step / (inertia * rate)
+        slope = (moments(rate + step) - moment) / step / (inertia * rate)
         miss = energies - energy - rule.integral @ (pace * moment)
         change = np.linalg.solve(np.eye(NODES) - rule.integral * (pace * slope), miss)
         if not np.isfinite(change).all():

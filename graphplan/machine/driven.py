@@ -14,11 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.travel import travel_unit
+from graphplan.cycle.travel import told, travel_unit
+from graphplan.errors import Refused
 from graphplan.machine.integrals import Piecewise, Reals, settled
 from graphplan.machine.reduction import Reduction
 from graphplan.mechanism.load_tables import LoadTable
 
+NOTHING = 1e-9  # of the largest inertia: less is none
 SAMPLES = 48  # places of the cycle that show how large moments and inertias are
 
 
@@ -81,11 +83,13 @@ class Driven:
 
     def moment(self, travel: Reals, rate: Reals, side: int = 1) -> Reals:
         """The moment of all loads, at a break that from the right, or from the left with `side` -1."""
-        found = self.closing + self.curve(self.reduced[2], travel, side)
-        for law in self.laws:
-            speed = self.curve(law.rate, travel, side) * rate
-            found = found + self.curve(law.arm, travel, side) * law.value(speed)
-        return found
+        return self.moments(travel, side)(rate)
+
+    def moments(self, travel: Reals, side: int = 1) -> Callable[[Reals], Reals]:
+        """The moment of all loads at these travels, as a function of the rates there."""
+        fixed = self.closing + self.curve(self.reduced[2], travel, side)
+        laws = [(law, self.curve(law.arm, travel, side), self.curve(law.rate, travel, side)) for law in self.laws]
+        return lambda rate: sum((arm * law.value(speed * rate) for law, arm, speed in laws), fixed)
 
     def curve(self, curve: Piecewise, travel: Reals, side: int = 1) -> Reals:
         """A curve of the machine at any travels."""
@@ -124,6 +128,7 @@ def driven(reduction: Reduction, wheel: float = 0.0, closing: float = 0.0) -> Dr
     sizes[2] = sum(abs(moment).max() for moment in sample.by.values())
     edges = [first, *(float(x) for x in reduction.breaks if first < x < last), last]
     curves = [replace(curve, edges=curve.edges * reduction.unit) for curve in settled(rows, edges, sizes)]
+    _heavy(curves[0], reduction)
     arms = zip(sample.speed_loads, curves[3::2], curves[4::2], strict=True)
     laws = tuple(SpeedLaw(load.name, arm, rate, load.law, _ends(load.table)) for load, arm, rate in arms)
     return Driven((curves[0], curves[1], curves[2]), reduction.closed, laws, wheel, closing, reduction.unit * unit,
@@ -133,3 +138,15 @@ def driven(reduction: Reduction, wheel: float = 0.0, closing: float = 0.0) -> Dr
 def _ends(table: LoadTable) -> tuple[float, float]:
     """The speeds between which a table knows the load."""
     return (-math.inf, math.inf) if table.powers else (float(min(table.corners)), float(max(table.corners)))
+
+
+def _heavy(inertia: Piecewise, reduction: Reduction) -> None:
+    """Refuse a machine that has no inertia somewhere: its speed there would have no end."""
+    low, high = inertia.edges[:-1, None], inertia.edges[1:, None]
+    travel = (low + (high - low) * np.linspace(0, 1, 9)).ravel()
+    values = inertia.at(travel)
+    least = int(np.argmin(values))
+    if not values[least] > NOTHING * values.max():
+        where = told(reduction.scene, float(travel[least] / reduction.unit))
+        raise Refused("the machine", f"its reduced inertia is nothing at {where}",
+                      "[masses] with the inertia of the first drive's link")

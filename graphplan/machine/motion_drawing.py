@@ -78,7 +78,7 @@ def drawn(motion: TrueMotion, strips: int = STRIPS, room: Room | None = None) ->
     Each strip has the moment of its middle, that of loads over a speed at the speed there.
     """
     machine = motion.machine
-    travel = np.linspace(motion.start, motion.end, strips + 1)
+    travel = np.linspace(motion.start, motion.last, strips + 1)
     moments, energies = _chords(machine, travel, float(motion.at([motion.start]).energy[0]))
     if len(moments) < 3:
         return None
@@ -110,7 +110,7 @@ class _Drawing:
         self.motion, self.travel, self.x = motion, travel, travel - motion.start
         inertias, first = motion.machine.inertia(travel), 0 if energies[0] > 0 else 2
         omegas = np.sqrt(2 * energies / inertias)
-        self.lay = Layout(self.x, moments, energies, inertias, omegas, first, motion.end - motion.start,
+        self.lay = Layout(self.x, moments, energies, inertias, omegas, first, motion.last - motion.start,
                           motion.machine.degree, room)
         self.first, self.frames = first, self.lay.frames
         self.board, self.found = Board(), dict[str, list[Mark]]()

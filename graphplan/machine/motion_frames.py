@@ -21,7 +21,7 @@ from graphplan.machine.integrals import Reals
 from graphplan.machine.strips import times
 
 POLE, BESIDE, BETWEEN = 34.0, 22.0, 12.0  # mm: for poles, between the two columns of diagrams, and between their rows
-NEAREST, FARTHEST = 6.0, 30.0  # mm: poles from their axes
+NEAREST, FARTHEST = 4.5, 30.0  # mm: poles from their axes
 SHARES = {"moment": 0.17, "energy": 0.28, "omega": 0.19, "slowness": 0.16, "time": 0.2}  # of what is free: heights
 LENGTH, WIDE, CUT = 0.66, 0.22, 0.6  # of what is free: the axis of travel, the largest inertia; of that, c at most
 SLOWEST = 8.0  # times the least 1/omega: what is larger goes off the paper

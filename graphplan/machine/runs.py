@@ -19,6 +19,8 @@ from graphplan.machine.reduction import Reduction, reduction
 from graphplan.machine.true_motion import TrueMotion, moved
 from graphplan.mechanism.model import Loads, Scene
 
+TURN_TOLD = 360.0  # degrees
+
 
 @dataclass(frozen=True, eq=False)
 class Run:
@@ -52,7 +54,7 @@ def run(scene: Scene, speed: float | None = None, travel: float | None = None, i
     found, machine = _with_wheel(scene, found)
     own = abs(float(scene.drives[0].rate))
     if in_cycle:
-        mean = float(scene.flywheel.speed) if scene.flywheel is not None else own if speed is None else speed
+        mean = speed if speed is not None else own if scene.flywheel is None else float(scene.flywheel.speed)
         motion = steady(machine, abs(mean) * machine.pace)
         return Run(found, machine, motion, motion, nominal(machine, motion.means.planimetric) if machine.laws else None)
     first = own if speed is None else speed
@@ -61,8 +63,10 @@ def run(scene: Scene, speed: float | None = None, travel: float | None = None, i
     stops = asked is not None and asked.stops
     end = _end(machine, travel, stops)
     motion = moved(machine, first * machine.pace, machine.begin, end)
-    if stops and motion.stop is None:
-        raise Refused("run: stops", f"the machine still moves after {machine.told(end)}", "a travel, or more load")
+    if stops:
+        if motion.stop is None:
+            raise Refused("run: stops", f"the machine still moves after {machine.told(end)}", "a travel, or more load")
+        motion = replace(motion, end=motion.stop.travel)
     return _compared(Run(found, machine, motion), first)
 
 
@@ -72,13 +76,18 @@ def _told(*values: object) -> float | None:
 
 
 def _reduced(scene: Scene, travel: float | None) -> Reduction:
-    """The masses and loads of the scene, over a whole cycle where the travel is longer than a turn or not said."""
-    sliding = bool(scene.drives) and scene.drives[0].slides
-    if travel is not None and (sliding or travel < 360):
-        if travel <= 0:
-            raise Refused("--travel", f"{travel:g} leads nowhere", "degrees (lengths of a sliding drive) above 0")
-        return reduction(scene, (0.0, travel))
-    return reduction(scene)
+    """The masses and loads of the scene: over a whole cycle where there is one and the travel is a turn or more, or not
+    said, or where a flywheel is asked for; else over the travel."""
+    if travel is not None and travel <= 0:
+        raise Refused("--travel", f"{travel:g} leads nowhere", "degrees (lengths of a sliding drive) above 0")
+    whole = scene.flywheel is not None or travel is None or travel >= TURN_TOLD
+    if bool(scene.drives) and not scene.drives[0].slides and whole:
+        try:
+            return reduction(scene)
+        except Refused:
+            if scene.flywheel is not None:
+                raise
+    return reduction(scene, None if scene.drives[0].slides and travel is None else (0.0, travel or TURN_TOLD))
 
 
 def _end(machine: Driven, travel: float | None, stops: bool) -> float:
@@ -125,7 +134,7 @@ def _compared(found: Run, speed: float) -> Run:
         return found
     try:
         omega = nominal(machine, found.motion.extremes[1].omega)
-        cycle = limit_cycle(machine, omega)
-        return replace(found, steady=cycle, nominal=omega, run_up=run_up(machine, cycle, speed * machine.pace))
+        found = replace(found, nominal=omega, steady=(cycle := limit_cycle(machine, omega)))
+        return replace(found, run_up=run_up(machine, cycle, speed * machine.pace))
     except Refused:
         return found

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ import pytest
 
 from graphplan.commands import main
 from graphplan.commands.result_schemas import printed
-from graphplan.mechanism.scene import source_text
+from graphplan.mechanism.scene import parse, source_text
 
 jsonschema = pytest.importorskip("jsonschema")
 
@@ -112,8 +113,26 @@ def test_characteristic(tmp_path: Path) -> None:
     found = motion(tmp_path, scene)
     assert found["nominal_omega"] == pytest.approx(20 - 400 / math.pi / 50, rel=1e-9)
     assert 1 < found["run_up"]["turns"] < 5
+    scene = yoke(tmp_path, motor.replace("values = [[0, 1000], [20, 0], [40, -1000]]", "powers = [1000, -50]"))
     cycle = motion(tmp_path, scene, "--steady", "--speed", "10", "--positions", "4")
     assert cycle["omega"][0] == pytest.approx(cycle["omega"][-1], rel=1e-11)
+
+
+@pytest.mark.parametrize("name", ["four-bar", "shaper", "planetary", "roller-cam"])
+def test_any_mechanism(tmp_path: Path, name: str) -> None:
+    """Mechanisms of all kinds, clockwise ones too, with masses, a motor and a force: both opinions agree to 1e-9."""
+    scene = parse(source_text(name, name), name)
+    last = scene.moving[-1]
+    text = scene.text + "".join(f'[masses.{link}]\nmass = 2\ninertia = 0.1\ncentre = "{scene.links[link][-1]}"\n'
+                                for link in scene.moving)
+    sense = 1 if scene.drives[0].rate > 0 else -1
+    text += f'[[moments]]\non = "{scene.drives[0].link}"\nover = "speed"\npowers = [{9 * sense}, {-0.2 * sense}]\n'
+    text += f'[[forces]]\non = "{last}"\nat = "{scene.links[last][0]}"\nvalue = [3, -2]\n'
+    file = tmp_path / "scene.toml"
+    file.write_text(text)
+    found = motion(tmp_path, str(file), "--travel", "200", "--positions", "8")
+    assert found["stop"] is None
+    assert all(b > a for a, b in pairwise(found["time"]))
 
 
 @pytest.mark.parametrize(("loads", "options", "why"), [

@@ -75,8 +75,7 @@ def drawn(found: Run, drawing: MotionDrawing) -> dict[str, Any]:
 def by_strips(found: Run, positions: int) -> dict[str, Any]:
     """What other forms come to at the end of as many strips, beside the true motion there."""
     motion, machine = found.motion, found.machine
-    travel = np.linspace(motion.start, motion.end, positions + 1)
-    travel = travel[travel <= motion.last]
+    travel = np.linspace(motion.start, motion.last, positions + 1)[:None if motion.stop is None else -1]
     exact = motion.at(travel)
     forms = {"true": exact.omega}
     if len(travel) > 3:

@@ -112,8 +112,7 @@ def friction_gap(reduction: Reduction, travel: Any) -> float:
         given = replace(rubbing.scene, loads=acting)
         own = Round(given, np.arange(travel.size), turn.points, turn.guides).some(k)
         told = with_friction(alone(own.posed))
-        drive = rubbing.scene.drives[0]
-        work = float(delivered(told)) / abs(float(drive.rate)) * rubbing.power
+        work = float(delivered(told)) * rubbing.power
         size = max(abs(float(found.balance[k])), abs(work), -sum(float(loss[k]) for loss in found.losses.values()))
         gap = abs(work - float(found.balance[k] - found.moment[k])) / size if size else 0.0
         if gap > max(FRICTION, SAFETY * EPSILON * told.condition):

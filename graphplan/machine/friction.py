@@ -24,7 +24,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -36,18 +36,17 @@ from graphplan.errors import Refused
 from graphplan.machine.breaks import refined, samples
 from graphplan.machine.friction_drawing import RUBBED_REACTION, rubbed_drawing
 from graphplan.machine.integrals import settled
+from graphplan.machine.recordings import Recordings, Results
 from graphplan.machine.reduced_loads import LoadValues, acting
 from graphplan.machine.unit_motion import Rates, UnitMotion, at_unit_rate
 from graphplan.mechanism.model import FRAME, Balance, Find, Force, Friction, Loads, Scene, Slide
 from graphplan.mechanism.plane import times
 from graphplan.mechanism.units import NEWTONS, weight
 from graphplan.methods import kinds
-from graphplan.methods.batch import Poses
-from graphplan.methods.construction import Construction
 from graphplan.methods.panels import JointForce
 from graphplan.phrases import said
 
-Vanishing = Callable[[Poses, Turn], tuple[Array, Array]]
+Vanishing = Callable[[Results, Turn], tuple[Array, Array]]
 M_F = "M_F"
 HAIR = 1e-10  # of the cycle: so far beside a break it is seen how pairs move there
 STANDS = 1e-9  # of the balance: what one round of friction more may change
@@ -90,8 +89,10 @@ class FrictionOverCycle:
         assert held.loads is not None
         self.values = LoadValues(held, [*acting(held, held.loads)])
         self.frictions = [one for one in held.loads.frictions if one.coefficient and (one.radius or not one.at)]
-        self._rate, self._newton = abs(float(held.drives[0].rate)), float(NEWTONS[scene.units.force])
-        self.power = self._newton * motion.metres / motion.unit  # of force * length/s by the drive's rate
+        self._rate = abs(float(held.drives[0].rate))
+        self.power = float(NEWTONS[scene.units.force]) * motion.metres / motion.unit / self._rate
+        self.recordings, self._further = (Recordings(rounds_of(held, rounds), motion.motion, rubbed_drawing)
+                                          for rounds in (ROUNDS, ROUNDS + 1))
         self.edges = np.array(self._breaks())
 
     @property
@@ -100,26 +101,15 @@ class FrictionOverCycle:
         return tuple(name for one in self.frictions for name in (
             *(f"{one.at} {link}" for link, _ in self._journals(one)), *(slide.name for slide in self._slides(one))))
 
-    @cached_property
-    def drawing(self) -> Construction:
-        """The force polygons in the given pose, with rounds of friction."""
-        return rubbed_drawing(self.scene, ROUNDS)
-
-    @cached_property
-    def _further(self) -> Construction:
-        """The same with one round more: where that says otherwise the forces do not stand."""
-        return rubbed_drawing(self.scene, ROUNDS + 1)
-
     def at(self, travel: Array, side: int = 1) -> Rubbed:
         """The friction at some travels; at a break that which it has on one side, -1 or 1. Fails with `Refused` where
-        the mechanism locks itself."""
+        the mechanism locks itself: where one round of friction more changes the forces, as none is in equilibrium."""
         travel = self.beside(travel, side)
         turn = self.motion.turn(travel)
-        rates = self.motion.velocities(turn)
-        acting = self.loads(travel, turn, rates, side)
-        found = self._evaluated(self.drawing, turn, acting)
-        plain, rubbed = (self._balance(found, way) for way in (kinds.BY_PLANS, kinds.RUBBED))
-        further = self._balance(self._evaluated(self._further, turn, acting), kinds.RUBBED)
+        acting = self.loads(travel, turn, self.motion.velocities(turn), side)
+        found = self._forces(self.recordings, turn, acting)
+        plain, rubbed = (self._delivered(found, way) for way in (kinds.BY_PLANS, kinds.RUBBED))
+        further = self._delivered(self._forces(self._further, turn, acting), kinds.RUBBED)
         size = np.maximum(np.abs(plain), np.abs(rubbed))
         if locked := np.flatnonzero(~(np.abs(further - rubbed) <= STANDS * size)).tolist():
             at = told(self.scene, float(travel[locked[0]]))
@@ -136,14 +126,11 @@ class FrictionOverCycle:
         away, hair = place - self.edges[nearest], HAIR * (high - low)
         return np.where(np.abs(away) < hair, travel - away + side * hair, travel)
 
-    def _evaluated(self, drawing: Construction, turn: Turn, acting: Mapping[str, Array]) -> Poses:
+    def _forces(self, recordings: Recordings, turn: Turn, acting: Mapping[str, Array]) -> Results:
         """All forces and rates of some poses."""
         if acting:
             raise Refused("friction", said("loads that change are not known to it"), "constant loads")
-        found = drawing.evaluate(turn.points, turn.guides)
-        if found.faults:
-            raise Refused("friction", next(iter(found.faults.values())), "less friction, or another span of travels")
-        return found
+        return recordings.evaluate(turn)
 
     def loads(self, travel: Array, turn: Turn, rates: Rates, side: int = 1) -> dict[str, Array]:
         """The loads that change, at the mean speed, by their letters and in the scene's units."""
@@ -152,34 +139,35 @@ class FrictionOverCycle:
                    for load in self.values.over_speed(self.motion, turn, rates)}
         return self.values.in_units(values, turn)
 
-    def _balance(self, found: Poses, way: str) -> Array:
-        """What the drive gives, positive in the sense of motion, in SI."""
-        loads = self.scene.loads
+    def _delivered(self, found: Results, way: str) -> Array:
+        """What the drives give together for a unit of travel, in SI."""
+        loads, total = self.scene.loads, np.zeros(())
         assert loads is not None
-        ((name, balance),) = loads.named_balances.items()
-        values = found.named(kinds.balance_kind(way, balance))
-        if name not in values:
-            raise Refused("friction", said("the balance of the first drive is not found by force polygons"),
-                          "a scene whose reactions are statically determinate")
-        value: Any = values[name]
-        if balance.direction is not None:
-            along = complex(*map(float, balance.direction))
-            value = (value * along.conjugate()).real / abs(along)
-        return np.asarray(self.motion.sense * self._newton * value)
+        for drive, (name, balance) in zip(self.scene.drives, loads.named_balances.items(), strict=True):
+            values = found.get(kinds.balance_kind(way, balance), {})
+            if name not in values:
+                raise Refused("friction", said("force polygons do not find the balance of the drive"),
+                              "a scene whose reactions are statically determinate")
+            value: Any = values[name]
+            if balance.direction is None:
+                total = total + value * float(drive.rate) / self.motion.metres
+            else:
+                along = complex(*map(float, balance.direction))
+                total = total + (value * along.conjugate()).real / abs(along) * float(drive.rate)
+        return np.asarray(self.power * total)
 
-    def _losses(self, found: Poses) -> Iterator[tuple[str, Array]]:
+    def _losses(self, found: Results) -> Iterator[tuple[str, Array]]:
         """What each journal and slide takes of the moment, by its reaction and its rate for a unit of travel; what
         contacts take is left to the polygons."""
-        unit = self.power / self._rate
         for one in self.frictions:
             for journal in self._journals(one):
                 circle = float(one.radius * one.coefficient)
-                force = found.named(RUBBED_REACTION)[JointForce(one.at, journal[0]).name]
+                force = found[RUBBED_REACTION][JointForce(one.at, journal[0]).name]
                 turning = self._turning(found, journal)
-                yield f"{one.at} {journal[0]}", -unit * circle * np.abs(force) * np.abs(turning)
+                yield f"{one.at} {journal[0]}", -self.power * circle * np.abs(force) * np.abs(turning)
             for slide in self._slides(one):
-                slip, force = found.named(kinds.SLIDE_VELOCITY)[slide.name], found.named(RUBBED_REACTION)[slide.name]
-                yield slide.name, -unit * np.abs((np.conj(slip) * force).real)
+                slip, force = found[kinds.SLIDE_VELOCITY][slide.name], found[RUBBED_REACTION][slide.name]
+                yield slide.name, -self.power * np.abs((np.conj(slip) * force).real)
 
     def _journals(self, one: Friction) -> list[tuple[str, str]]:
         """The links on the pin of a joint that rubs, each with the link that has the pin."""
@@ -190,9 +178,9 @@ class FrictionOverCycle:
         """The slide that rubs, if it is one."""
         return [slide for slide in self.scene.slides if {*slide.links} == {*one.links}]
 
-    def _turning(self, found: Poses, journal: tuple[str, str], kind: str = kinds.OMEGA) -> Any:
+    def _turning(self, found: Results, journal: tuple[str, str], kind: str = kinds.OMEGA) -> Any:
         """How a link turns on that with the pin."""
-        one, other = (0.0 if link == FRAME else found.named(kind)[link] for link in journal)
+        one, other = (0.0 if link == FRAME else found[kind][link] for link in journal)
         return one - other
 
     # ---- where it breaks ---------------------------------------------------------------------------------------------
@@ -207,7 +195,7 @@ class FrictionOverCycle:
             exact += travel[:-1][values[:-1] == 0].tolist()
             brackets += [(of, k) for k in np.flatnonzero(values[:-1] * values[1:] < 0)]
         for name in (JointForce(one.at, link).name for one in self.frictions for link, _ in self._journals(one)):
-            force = poses.named(RUBBED_REACTION)[name]
+            force = poses[RUBBED_REACTION][name]
             brackets += [(partial(self._turns_round, name, force[k].conj()), k)
                          for k in np.flatnonzero((force[:-1] * force[1:].conj()).real < 0)]
 
@@ -221,11 +209,11 @@ class FrictionOverCycle:
                    for places in (low, low + 1)]
         return exact + refined(values_of, travel[low], travel[low + 1], *ends_of)
 
-    def _posed(self, travel: Array) -> tuple[Poses, Turn]:
+    def _posed(self, travel: Array) -> tuple[Results, Turn]:
         """All forces and rates at some travels, and where everything is."""
         turn = self.motion.turn(travel)
         acting = self.loads(travel, turn, self.motion.velocities(turn))
-        return self._evaluated(self.drawing, turn, acting), turn
+        return self._forces(self.recordings, turn, acting), turn
 
     def _vanishing(self, one: Friction) -> Iterator[Vanishing]:
         """What is zero where a pair stands still, or a slide is not pressed: the value and how it changes in time."""
@@ -234,22 +222,22 @@ class FrictionOverCycle:
             yield partial(self._slips, slide)
             yield partial(self._presses, slide)
 
-    def _stands(self, journal: tuple[str, str], found: Poses, turn: Turn) -> tuple[Array, Array]:
+    def _stands(self, journal: tuple[str, str], found: Results, turn: Turn) -> tuple[Array, Array]:
         zero = np.zeros(turn.travel.shape)
         return self._turning(found, journal) + zero, self._turning(found, journal, kinds.ALPHA) + zero
 
-    def _slips(self, slide: Slide, found: Poses, turn: Turn) -> tuple[Array, Array]:
+    def _slips(self, slide: Slide, found: Results, turn: Turn) -> tuple[Array, Array]:
         back = np.conj(self.values.along(slide, turn))
-        rates = (found.named(kind)[slide.name] for kind in (kinds.SLIDE_VELOCITY, kinds.SLIDE_ACCELERATION))
+        rates = (found[kind][slide.name] for kind in (kinds.SLIDE_VELOCITY, kinds.SLIDE_ACCELERATION))
         speed, change = ((back * rate).real for rate in rates)
         return speed, change
 
-    def _presses(self, slide: Slide, found: Poses, turn: Turn) -> tuple[Array, Array]:
+    def _presses(self, slide: Slide, found: Results, turn: Turn) -> tuple[Array, Array]:
         back = np.conj(self.values.along(slide, turn))
-        return (back * found.named(RUBBED_REACTION)[slide.name]).imag, np.full(turn.travel.shape, np.nan)
+        return (back * found[RUBBED_REACTION][slide.name]).imag, np.full(turn.travel.shape, np.nan)
 
-    def _turns_round(self, name: str, back: complex, found: Poses, turn: Turn) -> tuple[Array, Array]:
-        return (found.named(RUBBED_REACTION)[name] * back).real, np.full(turn.travel.shape, np.nan)
+    def _turns_round(self, name: str, back: complex, found: Results, turn: Turn) -> tuple[Array, Array]:
+        return (found[RUBBED_REACTION][name] * back).real, np.full(turn.travel.shape, np.nan)
 
 
 @dataclass(frozen=True)
@@ -292,20 +280,28 @@ def mean_speed(scene: Scene) -> float:
 
 
 def kinetostatic(scene: Scene, speed: float) -> Scene:
-    """The scene at a constant mean speed of its first drive, which balances it; at rest with weights alone, and in
-    motion only so that friction has a sense."""
+    """The scene at a constant mean speed of its first drive, with a balance at each drive; at rest with weights alone,
+    moving only so that friction has a sense. Fails with `Refused` where a drive acts between two moving links."""
     moved, loads = at_unit_rate(scene), scene.loads
     assert loads is not None
-    drive = moved.drives[0]
-    slide = moved.driven_slide(drive) if drive.slides else None
-    balance = Balance(drive.link, slide.at, slide.direction) if slide else Balance(drive.link)
+    if any(drive.on != FRAME for drive in moved.drives):
+        raise Refused("friction", said("a drive acts between two moving links, and balances act on the frame alone"),
+                      "drives on the frame")
+    guides = (moved.driven_slide(drive) if drive.slides else None for drive in moved.drives)
+    balances = tuple(Balance(drive.link, slide.at, slide.direction) if slide else Balance(drive.link)
+                     for drive, slide in zip(moved.drives, guides, strict=True))
     if speed:
         moved = moved.with_drives(one.driven_at(Fraction(one.rate) * Fraction(speed), 0) for one in moved.drives)
     else:
         loads = weights_alone(scene, loads)
-    rubbing = replace(loads, balances=(balance,), rounds=ROUNDS)
     slides = tuple(slide.name for slide in scene.slides)
-    return replace(moved, loads=rubbing, find=Find((), (), None, scene.moving, slides))
+    return replace(moved, loads=replace(loads, balances=balances), find=Find((), (), None, scene.moving, slides))
+
+
+def rounds_of(scene: Scene, rounds: int) -> Scene:
+    """The scene with so many rounds of friction."""
+    assert scene.loads is not None
+    return replace(scene, loads=replace(scene.loads, rounds=rounds))
 
 
 def weights_alone(scene: Scene, loads: Loads) -> Loads:

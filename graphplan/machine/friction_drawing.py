@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from graphplan.mechanism import units
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
@@ -38,10 +36,8 @@ class RubbedForces(Loaded):
                 self.read(RUBBED_REACTION, slide.name, *forces.slides[slide])
 
 
-def rubbed_drawing(scene: Scene, rounds: int) -> Construction:
-    """The polygons of a scene with friction in so many rounds, drawn by the best way of its motion."""
-    assert scene.loads is not None
-    given = replace(scene, loads=replace(scene.loads, rounds=rounds))
-    plans = ForceTransfer(given)
-    return next(ways(Network(given), "", lambda planner: RubbedForces(
-        given, planner, Style(lever=False), plans).draw()))[0]
+def rubbed_drawing(scene: Scene, method: str = "") -> Construction:
+    """The polygons of a scene with friction, drawn by the best way of its motion, by a method if one is named."""
+    plans = ForceTransfer(scene)
+    return next(ways(Network(scene), method, lambda planner: RubbedForces(
+        scene, planner, Style(lever=False), plans).draw()))[0]

@@ -1,14 +1,12 @@
 """The motion at a unit rate of the first drive: rates by its travel, from one recorded construction.
 
 Only ratios of velocities count where masses and forces are reduced, so the first drive goes at a rate of one and the
-others in pace, whatever their rates are; a scene that stands still is moved so, too (Ozols 1974, 13-2). Where the
-construction of the given pose cannot serve in another one, those by other forms are tried there, and then those that
-are recorded in other poses.
+others in pace, whatever their rates are; a scene that stands still is moved so, too (Ozols 1974, 13-2).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -16,19 +14,17 @@ from typing import Any
 import numpy as np
 
 from graphplan.cycle.linkage import Array
-from graphplan.cycle.pose import in_pose
 from graphplan.cycle.turn import RangeOfMotion, Turn
-from graphplan.errors import GraphplanError, Refused
+from graphplan.errors import Refused
+from graphplan.machine.recordings import Recordings
 from graphplan.mechanism.model import FRAME, Find, Scene
 from graphplan.mechanism.units import METRES
 from graphplan.methods import kinds
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
-from graphplan.methods.styles import METHODS
 
 VELOCITIES = kinds.VELOCITY, kinds.OMEGA, kinds.SLIDE_VELOCITY
 ACCELERATIONS = kinds.ACCELERATION, kinds.ALPHA, kinds.SLIDE_ACCELERATION
-ELSEWHERE = (0.11, 0.43, 0.79)  # of the range: poses in which constructions are recorded where no other serves
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +56,7 @@ class UnitMotion:
         self.turns = not first.slides
         self.unit = 1.0 if self.turns else self.metres
         self.scene = replace(at_unit_rate(scene), loads=None, find=find)
-        self._drawings: dict[object, Construction | None] = {}
+        self.recordings = Recordings(self.scene, motion, _constructed, compiled)
 
     def turn(self, travel: Array) -> Turn:
         """Where everything is at these travels, of a closed motion at any; fails with `Refused` where a pose is not
@@ -88,31 +84,7 @@ class UnitMotion:
 
     def _rates(self, turn: Turn, wanted: tuple[kinds.ResultKind, ...]) -> Rates:
         """The rates of some kinds in the poses of a turn."""
-        n = len(turn.travel)
-        found, left = dict[str, dict[str, Array]](), np.arange(n)
-        why = ""
-        for drawing in self._constructions():
-            only = [kind for kind in drawing.kinds if kind in wanted]
-            if not only:
-                break
-            points, guides = ({name: z[left] for name, z in own.items()} for own in (turn.points, turn.guides))
-            try:
-                poses = drawing.evaluate(points, guides, only=only, compiled=self.compiled)
-            except Refused as refused:
-                why = str(refused)
-                continue
-            if not found:
-                found = {kind: {name: np.full(n, np.nan, z.dtype) for name, z in named.items()}
-                         for kind, named in poses.results.items()}
-            for kind, named in poses.results.items():
-                for name, z in named.items():
-                    found[kind][name][left] = z
-            torn = np.any([~np.isfinite(z) for named in poses.results.values() for z in named.values()], axis=0)
-            left, why = left[torn], next(iter(poses.faults.values()), why)
-            if not left.size:
-                break
-        else:
-            raise Refused("the cycle", why, "a span of travels in which the mechanism has velocities")
+        found = self.recordings.evaluate(turn, wanted)
         return Rates({kind: {name: z * self._scale(kind) for name, z in named.items()}
                       for kind, named in found.items()})
 
@@ -121,33 +93,9 @@ class UnitMotion:
         dimension = kinds.kind_of(kind).dimension
         return self.metres**dimension.length * self.unit**dimension.time
 
-    @property
-    def drawing(self) -> Construction:
-        """The construction of the velocities in the given pose."""
-        return next(self._constructions())
 
-    def _constructions(self) -> Iterator[Construction]:
-        """The construction in the given pose; then by other forms, and as it is recorded in other poses."""
-        yield from self._drawn(None, lambda: construct(self.scene))
-        for method in METHODS:
-            yield from self._drawn(method, lambda method=method: construct(self.scene, method=method))
-        low, high = (float(self.motion.path.travel[end]) for end in (0, -1))
-        for part in ELSEWHERE:
-            turn = self.motion.turn(np.array([low + part * (high - low)]))
-            if not turn.faults:
-                yield from self._drawn(part, lambda turn=turn: construct(in_pose(self.scene, turn, 0)))
-
-    def _drawn(self, key: object, draw: Any) -> Iterator[Construction]:
-        """A construction that is drawn when it is first asked for; none where there is none."""
-        if key not in self._drawings:
-            try:
-                self._drawings[key] = draw()
-            except GraphplanError:
-                if key is None:
-                    raise
-                self._drawings[key] = None
-        if found := self._drawings[key]:
-            yield found
+def _constructed(scene: Scene, method: str) -> Construction:
+    return construct(scene, method=method)
 
 
 def at_unit_rate(scene: Scene) -> Scene:

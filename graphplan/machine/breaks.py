@@ -22,6 +22,7 @@ from graphplan.mechanism.model import Slide
 from graphplan.methods import kinds
 
 SAMPLES = 360  # of the motion in each turn, between which a slide changes its sense once at most
+ASIDE = 0.38  # of the way between two samples
 NEAR = 1e-9  # of a table's length: a place that is so near to a dead point is that
 SAME = 1e-11  # of the range: breaks that are nearer to each other are one
 ROUNDS, SETTLED = 60, 4e-16
@@ -40,8 +41,10 @@ def breaks(loads: LoadValues, motion: UnitMotion, ends: tuple[float, float]) -> 
 
 
 def in_order(found: Iterable[float], ends: tuple[float, float]) -> tuple[float, ...]:
-    """Travels between two ends in order, those that are next to each other once."""
+    """Travels between two ends in order, those that are next to each other once; those beyond the end are those of the
+    next round."""
     low, high = ends
+    found = (low + (travel - low) % (high - low) if travel > high else travel for travel in found)
     close, kept = SAME * (high - low), [low]
     for travel in sorted(found):
         if travel - kept[-1] > close and high - travel > close:
@@ -62,9 +65,11 @@ def _written(table: LoadTable, motion: UnitMotion, ends: tuple[float, float]) ->
 
 
 def samples(motion: UnitMotion, ends: tuple[float, float]) -> Array:
-    """Travels between which a pair changes its sense once at most."""
+    """Travels between which a pair changes its sense once at most: of a closed cycle all round, the last that of the
+    first again, and none of them at a round place, where a pair may stand still."""
     turns = (ends[1] - ends[0]) / TURN if motion.turns else 1.0
-    return np.linspace(*ends, max(2, math.ceil(SAMPLES * turns)) + 1)
+    count = max(2, math.ceil(SAMPLES * turns))
+    return np.linspace(*ends, count + 1) + (ASIDE * (ends[1] - ends[0]) / count if motion.period else 0.0)
 
 
 def _passed(loads: LoadValues, motion: UnitMotion, slide: Slide, tables: list[LoadTable],

@@ -25,7 +25,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from typing import Any
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -48,9 +49,18 @@ from graphplan.phrases import said
 
 Vanishing = Callable[[Results, Turn], tuple[Array, Array]]
 M_F = "M_F"
+NOTHING = 1e-12  # of the drive's rates, or of the largest reaction
 HAIR = 1e-10  # of the cycle: so far beside a break it is seen how pairs move there
 STANDS = 1e-9  # of the balance: what one round of friction more may change
 ROUNDS = 6  # of friction: after four the forces of every pose stand, unless the mechanism is near to locking itself
+
+
+class Bracket(NamedTuple):
+    """Something that vanishes between two samples of the motion."""
+
+    of: Vanishing
+    low: int
+    high: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,11 +115,11 @@ class FrictionOverCycle:
         """The friction at some travels; at a break that which it has on one side, -1 or 1. Fails with `Refused` where
         the mechanism locks itself: where one round of friction more changes the forces, as none is in equilibrium."""
         travel = self.beside(travel, side)
-        turn = self.motion.turn(travel)
-        acting = self.loads(travel, turn, self.motion.velocities(turn), side)
-        found = self._forces(self.recordings, turn, acting)
+        plain = self._delivered(self._forces(self.recordings, travel, side, gaps=True)[0], kinds.BY_PLANS)
+        travel = np.where(np.isfinite(plain), travel, travel + side * HAIR * (self.ends[1] - self.ends[0]))
+        found, _ = self._forces(self.recordings, travel, side)
         plain, rubbed = (self._delivered(found, way) for way in (kinds.BY_PLANS, kinds.RUBBED))
-        further = self._delivered(self._forces(self._further, turn, acting), kinds.RUBBED)
+        further = self._delivered(self._forces(self._further, travel, side)[0], kinds.RUBBED)
         size = np.maximum(np.abs(plain), np.abs(rubbed))
         if locked := np.flatnonzero(~(np.abs(further - rubbed) <= STANDS * size)).tolist():
             at = told(self.scene, float(travel[locked[0]]))
@@ -126,11 +136,12 @@ class FrictionOverCycle:
         away, hair = place - self.edges[nearest], HAIR * (high - low)
         return np.where(np.abs(away) < hair, travel - away + side * hair, travel)
 
-    def _forces(self, recordings: Recordings, turn: Turn, acting: Mapping[str, Array]) -> Results:
-        """All forces and rates of some poses."""
-        if acting:
-            raise Refused("friction", said("loads that change are not known to it"), "constant loads")
-        return recordings.evaluate(turn)
+    def _forces(self, recordings: Recordings, travel: Array, side: int = 1, gaps: bool = False) -> tuple[Results, Turn]:
+        """All forces and rates at some travels, with `gaps` as far as they can be drawn there; and where everything is.
+        """
+        turn = self.motion.turn(travel)
+        acting = self.loads(travel, turn, self.motion.velocities(turn), side)
+        return recordings.evaluate(turn, gaps=gaps, loads=acting), turn
 
     def loads(self, travel: Array, turn: Turn, rates: Rates, side: int = 1) -> dict[str, Array]:
         """The loads that change, at the mean speed, by their letters and in the scene's units."""
@@ -188,39 +199,44 @@ class FrictionOverCycle:
     def _breaks(self) -> list[float]:
         """The travels at which a journal or a slide that rubs stands still, or its reaction passes through nothing."""
         travel = samples(self.motion, self.ends)
-        poses, turn = self._posed(travel)
-        exact, brackets = list[float](), list[tuple[Vanishing, Any]]()
-        for of in [of for one in self.frictions for of in self._vanishing(one)]:
-            values, _ = of(poses, turn)
-            exact += travel[:-1][values[:-1] == 0].tolist()
-            brackets += [(of, k) for k in np.flatnonzero(values[:-1] * values[1:] < 0)]
-        for name in (JointForce(one.at, link).name for one in self.frictions for link, _ in self._journals(one)):
-            force = poses[RUBBED_REACTION][name]
-            brackets += [(partial(self._turns_round, name, force[k].conj()), k)
-                         for k in np.flatnonzero((force[:-1] * force[1:].conj()).real < 0)]
+        found, turn = self._forces(self.recordings, travel, gaps=True)
+        brackets = [*self._brackets(found, turn)]
 
-        def values_of(at: Array) -> tuple[Array, Array]:
-            poses, turn = self._posed(at)
-            told = [[part[j] for part in of(poses, turn)] for j, (of, _) in enumerate(brackets)]
+        def values(at: Array) -> tuple[Array, Array]:
+            found, turn = self._forces(self.recordings, at, gaps=True)
+            told = [[part[j] for part in one.of(found, turn)] for j, one in enumerate(brackets)]
             return np.array([value for value, _ in told]), np.array([change for _, change in told]) / self._rate
 
-        low = np.array([k for _, k in brackets], dtype=int)
-        ends_of = [np.array([of(poses, turn)[0][k] for (of, _), k in zip(brackets, places, strict=True)])
-                   for places in (low, low + 1)]
-        return exact + refined(values_of, travel[low], travel[low + 1], *ends_of)
+        low, high = (np.array([getattr(one, end) for one in brackets], dtype=int) for end in ("low", "high"))
+        before, after = (np.array([one.of(found, turn)[0][k] for one, k in zip(brackets, places, strict=True)])
+                         for places in (low, high))
+        places = np.array(refined(values, travel[low], travel[high], before, after))
+        first, last = self.ends
+        return list(first + np.mod(places - first, last - first) if self.motion.period else places)
 
-    def _posed(self, travel: Array) -> tuple[Results, Turn]:
-        """All forces and rates at some travels, and where everything is."""
-        turn = self.motion.turn(travel)
-        acting = self.loads(travel, turn, self.motion.velocities(turn))
-        return self._forces(self.recordings, turn, acting), turn
+    def _brackets(self, found: Results, turn: Turn) -> Iterator[Bracket]:
+        """Between which of the samples something vanishes; what is next to nothing at a sample is passed over."""
+        every = [np.abs(force) for force in found[RUBBED_REACTION].values()]
+        largest = max((float(np.nanmax(sizes)) for sizes in every), default=0.0)
+        for of, size in [of for one in self.frictions for of in self._vanishing(one, largest)]:
+            values, _ = of(found, turn)
+            for i, j in pairwise(np.flatnonzero(np.abs(values) > NOTHING * size).tolist()):
+                if values[i] * values[j] < 0 and j - i <= 2:
+                    yield Bracket(of, i, j)
+        for name in (JointForce(one.at, link).name for one in self.frictions for link, _ in self._journals(one)):
+            force = found[RUBBED_REACTION][name]
+            for i, j in pairwise(np.flatnonzero(np.abs(force) > NOTHING * largest).tolist()):
+                if (force[i] * force[j].conj()).real < 0 and j - i <= 2:
+                    yield Bracket(partial(self._turns_round, name, force[i].conj()), i, j)
 
-    def _vanishing(self, one: Friction) -> Iterator[Vanishing]:
-        """What is zero where a pair stands still, or a slide is not pressed: the value and how it changes in time."""
-        yield from (partial(self._stands, journal) for journal in self._journals(one))
+    def _vanishing(self, one: Friction, force: float) -> Iterator[tuple[Vanishing, float]]:
+        """What is zero where a pair stands still, or a slide is not pressed, the value and how it changes in time; and
+        beside what it is nothing."""
+        for journal in self._journals(one):
+            yield partial(self._stands, journal), self._rate / self.motion.unit
         for slide in self._slides(one):
-            yield partial(self._slips, slide)
-            yield partial(self._presses, slide)
+            yield partial(self._slips, slide), self._rate * (self.scene.extent if self.motion.turns else 1.0)
+            yield partial(self._presses, slide), force
 
     def _stands(self, journal: tuple[str, str], found: Results, turn: Turn) -> tuple[Array, Array]:
         zero = np.zeros(turn.travel.shape)

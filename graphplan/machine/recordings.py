@@ -38,10 +38,11 @@ class Recordings:
         """The construction of the given pose."""
         return next(self._constructions())
 
-    def evaluate(self, turn: Turn, wanted: Collection[str] | None = None, **given: Mapping[str, Array]) -> Results:
-        """The results of the wanted kinds, or of all, in the poses of a turn.
+    def evaluate(self, turn: Turn, wanted: Collection[str] | None = None, gaps: bool = False,
+                 **given: Mapping[str, Array]) -> Results:
+        """The results of the wanted kinds, or of all, in the poses of a turn; with `gaps` nan where there are none.
 
-        Fails with `Refused` where no construction serves in a pose.
+        Else it fails with `Refused` where no construction serves in a pose.
         """
         found, why = Results(), ""
         left = np.arange(len(turn.travel))
@@ -62,6 +63,8 @@ class Recordings:
             left, why = left[torn], next(iter(poses.faults.values()), why)
             if not left.size:
                 return found
+        if gaps and found:
+            return found
         raise Refused("the cycle", why, "a span of travels in which the mechanism has velocities")
 
     def _poses(self, drawing: Construction, turn: Turn, left: Array, only: Collection[str] | None,

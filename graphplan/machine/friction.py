@@ -109,15 +109,17 @@ class FrictionOverCycle:
     def pairs(self) -> tuple[str, ...]:
         """The names of the journals and slides that rub."""
         return tuple(name for one in self.frictions for name in (
-            *(f"{one.at} {link}" for link, _ in self._journals(one)), *(slide.name for slide in self._slides(one))))
+            *(journal_name(one, *journal) for journal in self._journals(one)),
+            *(slide.name for slide in self._slides(one))))
 
     def at(self, travel: Array, side: int = 1) -> Rubbed:
         """The friction at some travels; at a break that which it has on one side, -1 or 1. Fails with `Refused` where
         the mechanism locks itself: where one round of friction more changes the forces, as none is in equilibrium."""
         travel = self.beside(travel, side)
-        plain = self._delivered(self._forces(self.recordings, travel, side, gaps=True)[0], kinds.BY_PLANS)
-        travel = np.where(np.isfinite(plain), travel, travel + side * HAIR * (self.ends[1] - self.ends[0]))
-        found, _ = self._forces(self.recordings, travel, side)
+        found, _ = self._forces(self.recordings, travel, side, gaps=True)
+        if (torn := ~np.isfinite(self._delivered(found, kinds.RUBBED))).any():
+            travel = np.where(torn, travel + side * HAIR * (self.ends[1] - self.ends[0]), travel)
+            found, _ = self._forces(self.recordings, travel, side)
         plain, rubbed = (self._delivered(found, way) for way in (kinds.BY_PLANS, kinds.RUBBED))
         further = self._delivered(self._forces(self._further, travel, side)[0], kinds.RUBBED)
         size = np.maximum(np.abs(plain), np.abs(rubbed))
@@ -175,7 +177,7 @@ class FrictionOverCycle:
                 circle = float(one.radius * one.coefficient)
                 force = found[RUBBED_REACTION][JointForce(one.at, journal[0]).name]
                 turning = self._turning(found, journal)
-                yield f"{one.at} {journal[0]}", -self.power * circle * np.abs(force) * np.abs(turning)
+                yield journal_name(one, *journal), -self.power * circle * np.abs(force) * np.abs(turning)
             for slide in self._slides(one):
                 slip, force = found[kinds.SLIDE_VELOCITY][slide.name], found[RUBBED_REACTION][slide.name]
                 yield slide.name, -self.power * np.abs((np.conj(slip) * force).real)
@@ -270,6 +272,11 @@ class CycleLosses:
         """The mean efficiency: how much of the work that is given does not go into friction (Ozols 1974, 14-1)."""
         return 1 - self.lost / self.given if self.given else 0.0
 
+    @property
+    def apart(self) -> float:
+        """How far the pairs' shares are from all that is lost, beside that: what contacts take is no share."""
+        return abs(sum(self.pairs.values()) - self.lost) / self.lost if self.lost else 0.0
+
 
 def cycle_losses(friction: FrictionOverCycle, moments: Callable[[Array], Mapping[str, Array]],
                  breaks: Sequence[float]) -> CycleLosses:
@@ -288,6 +295,11 @@ def cycle_losses(friction: FrictionOverCycle, moments: Callable[[Array], Mapping
     pairs = {name: -done.pop(name) for name in friction.pairs}
     lost = -done.pop(M_F)
     return CycleLosses(lost, sum(max(0.0, work) for work in done.values()), pairs)
+
+
+def journal_name(one: Friction, link: str, pin: str) -> str:
+    """A journal by its joint and its link; that with the pin where the other is the frame."""
+    return f"{one.at} {pin if link == FRAME else link}"
 
 
 def mean_speed(scene: Scene) -> float:

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 
 from graphplan.cycle.linkage import Array
+from graphplan.cycle.loads import direction, place
 from graphplan.cycle.turn import Turn
 from graphplan.machine.unit_motion import Rates, UnitMotion
 from graphplan.mechanism.load_tables import SPEED, LoadTable
-from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.model import FRAME, Force, Loads, Moment, Scene, Slide
 from graphplan.mechanism.order import named_forces, named_moments
 from graphplan.mechanism.units import KILOGRAMS, NEWTONS
@@ -163,21 +163,15 @@ class LoadValues:
 
     def place(self, slide: Slide, turn: Turn) -> Array:
         """Where a slide stands along its guide, in scene lengths."""
-        origin = guide_origin(self.scene, slide)
-        away = turn.points[slide.at] - (turn.points[origin] if origin else 0.0)
-        return (np.conj(self.along(slide, turn)) * away).real
+        return place(self.scene, slide, turn.points, self.along(slide, turn))
 
     def speed(self, slide: Slide, turn: Turn, rates: Rates, kind: str = kinds.SLIDE_VELOCITY) -> Array:
         """How fast a slide moves along its guide, in metres for a unit of travel; or how that changes."""
         return (np.conj(self.along(slide, turn)) * rates.of(kind, slide.name)).real + np.zeros(turn.travel.shape)
 
     def along(self, slide: Slide, turn: Turn) -> Any:
-        """The direction of a guide."""
-        if slide.through:
-            along: Any = turn.points[slide.through[1]] - turn.points[slide.through[0]]
-        else:
-            along = turn.guides.get(slide.name, complex(*map(float, slide.direction)))
-        return along / np.abs(along)
+        """The direction of a guide, a unit vector."""
+        return direction(slide, turn.points, turn.guides)
 
     def _sense(self, slide: Slide, motion: UnitMotion, turn: Turn, rates: Rates, side: int) -> Array:
         """The stroke: the sense in which a slide moves, at a dead point that on one side of it."""

@@ -133,6 +133,7 @@ class Reduction:
                 total = total + unit * float(mass.inertia) * turning
         return total
 
+    @cached_property
     def losses(self) -> CycleLosses:
         """What friction takes over the cycle; fails with `Refused` where nothing rubs."""
         if self.friction is None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from graphplan.machine.flywheel import FlywheelResult
 from graphplan.machine.flywheel_methods import NEGLECTS_NOTHING
+from graphplan.machine.friction import M_F
 from graphplan.machine.wittenbauer import Flywheel, Touch
 
 HEADINGS = ("I [kg*m^2]", "M_r [N*m]", "M [N*m]", "E [J]", "omega [rad/s]")
@@ -42,7 +43,17 @@ def numbers(result: FlywheelResult, pencil_error: float) -> dict[str, Any]:
         "drawing": _drawing(result),
         "check": dict(result.check),
     }
+    if result.reduction.friction:
+        found["friction"] = _friction(result)
     return found
+
+
+def _friction(result: FlywheelResult) -> dict[str, Any]:
+    """What friction takes: its moment by travel, the work lost over the cycle, all of it and pair by pair, of the work
+    that is given, and so the mean efficiency."""
+    losses, moment = result.reduction.losses, result.reduction.at(result.travels).by[M_F]
+    return {"moment": np.stack([result.told_travels, moment + 0.0], 1).tolist(), "lost": losses.lost,
+            "given": losses.given, "efficiency": losses.efficiency, "pairs": losses.pairs}
 
 
 def table(result: FlywheelResult) -> str:

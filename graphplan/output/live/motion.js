@@ -9,6 +9,7 @@ class Motion {
     this.still = data.linkage.still;
     this.linkage = new Linkage(data.linkage, tape.steps);
     this.opinion = new Opinion(data, this.linkage);
+    this.changing = new ChangingLoads(data, this.linkage, this.opinion);
     this.way = data.linkage.drives.map((drive) => drive.pace);
     this.reset();
   }
@@ -180,8 +181,11 @@ class Motion {
     const torn = this.torn(this.data.shared, points)
       || this.data.lined.find(([one, other]) => apart(way(one), way(other)) > ROUNDED)?.[2];
     if (torn) return { program: this._program, values: null, why: torn, results: null };
+    const loads = this.changing.at(this.knot, points, guides);
+    if (typeof loads === "string") return { program: this._program, values: null, why: loads, results: null };
+    this.opinion.changed = loads;
     const found = programs.map(() => null), ruled = {};
-    const tried = (k) => (found[k] ??= this.tried(k, points, guides, ruled));
+    const tried = (k) => (found[k] ??= this.tried(k, points, guides, loads, ruled));
     const serves = (k) => tried(k).apart <= this.data.same * (k < this._program ? 1 / 64 : 1);
     let program = programs.findIndex((_, k) => k <= this._program && serves(k));
     if (program < 0) program = programs.findIndex((_, k) => serves(k));
@@ -205,11 +209,12 @@ class Motion {
 
   /** One program in this pose: the values of its marks, what the rules say, and by how much they differ; `ruled` keeps
       what rules said for others. */
-  tried(k, points, guides, ruled) {
-    const { points: names, guides: ways, wanted, asked, relied, rules: place } = this.data.programs[k];
+  tried(k, points, guides, loads, ruled) {
+    const { points: names, guides: ways, loads: changing, wanted, asked, relied, rules: place } = this.data.programs[k];
     const torn = this.torn(relied, points);
     if (torn) return { values: null, rules: null, why: torn, apart: Infinity };
-    const x = [...names.flatMap((name) => points[name]), ...ways.flatMap((name) => guides[name] ?? this.data.guides[name])];
+    const x = [...names.flatMap((name) => points[name]), ...ways.flatMap((name) => guides[name] ?? this.data.guides[name]),
+      ...changing.flatMap((name) => loads[name])];
     const rules = (ruled[place] ??= this.tape.rules[place](x)), values = this.tape.drawn[k](x);
     if (typeof rules === "number") return { values: null, rules: null, why: asked.rules[rules], apart: Infinity };
     if (typeof values === "number") return { values: null, rules, why: asked.drawn[values], apart: Infinity };
@@ -352,6 +357,9 @@ class Motion {
       if (way && side === null) pair.direction = way;
       else if (way) pair.centres[side] = way;
     });
+    for (const load of [scene.forces ?? [], scene.moments ?? []].flat()) {
+      if (load.over === "travel") load.values = load.values.map(([place, value]) => [place - this.changing.sense * this.travel, value]);
+    }
     this.data.lines.forEach((line, k) => {
       if (line) [scene.balance].flat()[k].direction = line;
     });

@@ -23,13 +23,16 @@ from graphplan.cycle.travel import TURN, check_drives, paces, travel_unit
 from graphplan.cycle.turn import RangeOfMotion, stopped, under
 from graphplan.errors import Refused
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer
-from graphplan.mechanism.model import FRAME, Scene, Slide
+from graphplan.mechanism.load_tables import ROUNDING
+from graphplan.mechanism.load_values import guide_origin
+from graphplan.mechanism.model import FRAME, Force, Scene, Slide
+from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.batch import apart
 from graphplan.methods.construction import Construction
 from graphplan.output.live.tapes import Data, PosedTapes, arrow
-from graphplan.phrases import said
+from graphplan.phrases import digits, said
 from graphplan.sheet.cycle_frames import SAME
 
 SPAN = 3.0
@@ -90,7 +93,7 @@ def rolling(scene: Scene) -> Iterator[list[str]]:
 def script() -> str:
     """What moves it: the class `Motion`, all else it needs being its own."""
     texts = (files(__package__).joinpath(f"{name}.js").read_text("utf-8")
-             for name in ("linkage", "opinion", "toml", "motion"))
+             for name in ("linkage", "opinion", "loads", "toml", "motion"))
     return "\n".join(['const Motion = (() => {\n"use strict";', *texts, "return Motion;\n})();\n"])
 
 
@@ -133,7 +136,7 @@ def _linkage(scene: Scene) -> tuple[Data, list[str]]:
         "rules": RULES, "reach": linkage.reach, "origin": _pair(linkage.origins[FRAME]), **_followed(scene),
         "groups": [_group(group, other, moving, layouts) for group, other in zip(parts, others, strict=True)],
         "counted": _counted(parts, others, moving) if linkage.counted else None,
-        "links": moving, "opinion": _opinion(scene, moving),
+        "links": moving, "opinion": _opinion(scene, moving), "changing": [*_changing(scene, moving)],
         "bases": [_pair(linkage.origins[link] - linkage.origins[FRAME], linkage.reach) for link in linkage.links],
         "owned": dict(_owned(linkage)), "guided": dict(_guided(scene, moving)),
         "ways": list(_ways(scene)), "anchors": list(_anchors(linkage, parts)),
@@ -184,17 +187,43 @@ def _opinion(scene: Scene, moving: Mapping[str, int]) -> Data:
     pull = [weigh * float(part) for part in loads.gravity] if loads else [0.0, 0.0]
     return {
         "points": {name: moving[links[0]] for name, links in scene.links_of.items() if links}, 
-        "slides": [{"name": slide.name, "link": moving[slide.link], "along": moving[slide.along], "at": slide.at,
-                    "direction": [*map(float, slide.direction)], "through": slide.through} for slide in scene.slides],
+        "slides": [_slide(slide, moving) for slide in scene.slides],
         "acting": [*({"link": moving[force.on], "at": force.at, "force": [*map(float, force.value)]}
-                     for force in (loads.forces if loads else ())),
+                     for force in (loads.forces if loads else ()) if not force.table),
                    *({"link": moving[moment.on], "moment": long * float(moment.value)}
-                     for moment in (loads.moments if loads else ()))],
+                     for moment in (loads.moments if loads else ()) if not moment.table)],
         "masses": [{"link": moving[link], "at": mass.centre, "mass": resist * float(mass.mass),
                     "inertia": couple * float(mass.inertia), "weight": [float(mass.mass) * part for part in pull]}
                    for link, mass in (loads.masses.items() if loads else ())],
         "metre": long,
     }  # fmt: skip
+
+
+def _slide(slide: Slide, moving: Mapping[str, int]) -> Data:
+    """A slide by the places of its links."""
+    return {"name": slide.name, "link": moving[slide.link], "along": moving[slide.along], "at": slide.at,
+            "direction": [*map(float, slide.direction)], "through": slide.through}
+
+
+def _changing(scene: Scene, moving: Mapping[str, int]) -> Iterator[Data]:
+    """The loads that change, with their tables: rows by the sense in which the place changes."""
+    slides = {slide.name: slide for slide in scene.slides}
+    for name, load in changing_loads(scene.loads).items():
+        assert load.table is not None
+        table, slide = load.table, slides.get(load.table.slide)
+        force: Data = {"at": load.at, "direction": [*map(float, load.direction or ())],
+                       "through": load.through} if isinstance(load, Force) else {}
+        strokes = {} if table.powers else {
+            str(sense): [[*map(float, row)] for row in rows] for sense, rows in table.strokes.items()}
+        known = (float(end) for end in (min(table.corners), max(table.corners))) if strokes else ()
+        yield {
+            "name": name, "link": moving[load.on], "force": bool(force), **force, "strokes": strokes,
+            "over": "speed" if table.over_speed else "place", "period": float(table.period),
+            "rate": float(scene.drives[0].rate), "powers": [*map(float, table.powers)] or None,
+            "slack": float(table.length * ROUNDING) if strokes else 0.0,
+            "slide": slide and {**_slide(slide, moving), "origin": guide_origin(scene, slide)},
+            "why": said("the table of {0} goes from {1} to {2}", name, *map(digits, known)) if strokes else "",
+        }  # fmt: skip
 
 
 def _parts(scene: Scene, rates: tuple[float, ...]) -> tuple[Linkage, list[Group]]:

@@ -2,7 +2,7 @@
     accelerations by their differences, balances by virtual powers.  */
 class Opinion {
   constructor(data, linkage) {
-    Object.assign(this, data.linkage.opinion, { linkage, links: data.linkage.links, drives: data.linkage.drives, reach: data.linkage.reach });
+    Object.assign(this, data.linkage.opinion, { linkage, tabled: data.linkage.changing, links: data.linkage.links, drives: data.linkage.drives, reach: data.linkage.reach });
     this.origin = data.linkage.origin;
     const speed = (size, drive) => Math.abs(size) / (drive.slides ? this.reach : 1);
     const paces = this.drives.map((drive) => Math.max(speed(drive.rate, drive), Math.sqrt(speed(drive.change, drive))));
@@ -144,6 +144,10 @@ class Opinion {
   /** All loads, with weight and inertia: forces at points, moments in force times length. */
   *loads(points, acceleration, changes) {
     yield* this.acting;
+    for (const { name, link, at, force } of this.tabled) {
+      const value = this.changed[name];
+      yield force ? { link, at, force: value } : { link, moment: this.metre * value };
+    }
     for (const { link, mass, inertia, at, weight } of this.masses) {
       const [x, y] = acceleration(link, points[at]);
       yield { link, at, force: [weight[0] - mass * x, weight[1] - mass * y] };

@@ -15,10 +15,13 @@ from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Program, Step, error_at, evaluate
 from graphplan.kernel.tape.record import Symbol, Symbols, Tape
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer, asked_of
-from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.model import FRAME, Force, Scene
+from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides
+from graphplan.mechanism.units import metre
 from graphplan.methods.batch import apart
 from graphplan.methods.construction import Construction
+from graphplan.methods.forces.changing import changing_steps
 from graphplan.methods.replay import guided
 
 SOLVED = ("check", "bounds", "arithmetic", "method", "steps")
@@ -100,6 +103,8 @@ class PosedTapes:
         self.points = [name for name in scene.points if name in given]
         self.guides = {name: guide for name, guide in guides(scene).items()
                        if guide.through is None and guide.along != FRAME}
+        self.loads = {name: ("dx", "dy") if isinstance(load, Force) else ("moment",)
+                      for name, load in changing_loads(scene.loads).items()}
         drawn, rules = self._told(drawing.drawn), self._told(drawing.program)
         self.wanted = [(i, j) for i, j in zip(drawing.drawn.wanted, drawing.program.wanted, strict=True)
                        if drawing.drawn.steps[i].op.gives == POINT]
@@ -108,7 +113,8 @@ class PosedTapes:
         self.rules = self._function(rules, {"points": points, "results": self._results(rules)})
         steps = len(drawing.drawn) - drawing.drawn.givens
         self.data = {
-            "points": self.points, "guides": [*self.guides], "wanted": [i for i, _ in self.wanted],
+            "points": self.points, "guides": [*self.guides], "loads": [*self.loads],
+            "wanted": [i for i, _ in self.wanted],
             "asked": {"drawn": self._reasons(drawing.drawn, drawn), "rules": self._reasons(drawing.program, rules)},
             "relied": [[one, other, apart(one, other)] for one, other in drawing.relied],
             "title": scene.title, "method": drawing.method, "steps": steps,
@@ -122,9 +128,17 @@ class PosedTapes:
         for name, guide in self.guides.items():
             way = {part: number(f"{name}.{part}") for part in ("dx", "dy")}
             given |= dict.fromkeys(guided(program, guide), way)
+        for name, steps in changing_steps(program, self.drawing.scene).items():
+            given |= {step: {part: number(f"{name}.{part}") * factor for part, factor in self._scales(parts).items()}
+                      for step, parts in steps}
         values = evaluate(program, domain, given,
                           lambda step: asked.extend([step] * (len(domain.tape.questions) - len(asked))))
         return _Told(domain, values, asked)
+
+    def _scales(self, parts: Iterable[str]) -> dict[str, float]:
+        """How long components of a load are drawn: for a unit of force, or of a moment's force times length."""
+        phi, long = float(self.drawing.phi), float(metre(self.drawing.scene.units))
+        return {part: phi * (long if part == "moment" else 1.0) for part in parts}
 
     def _reasons(self, program: Program, told: _Told) -> list[str]:
         """Why each question's step cannot be drawn where its answer is no."""
@@ -147,6 +161,7 @@ class PosedTapes:
         tape = told.domain.tape
         names = [f"{name}.{part}" for name in self.points for part in "xy"]
         names += [f"{name}.{part}" for name in self.guides for part in ("dx", "dy")]
+        names += [f"{name}.{part}" for name, parts in self.loads.items() for part in parts]
         inputs = {tape.input(name).place: f"x[{k}]" for k, name in enumerate(names)}
         writer = _Answering(tape, inputs)
         body = writer.statements([*_symbols(wanted)], tape.questions)

@@ -63,6 +63,58 @@ omega = 10
 velocity = "all"
 acceleration = "all"
 """
+LOADED = """
+title = "A slider-crank with loads that change"
+[points]
+O = [0, 0]
+A = [-30, 40]
+B = [90, 0]
+[links]
+1 = "O A"
+2 = "A B"
+3 = "B"
+frame = "O"
+[[slides]]
+link = "3"
+along = "frame"
+at = "B"
+direction = [-2, 0]
+[[drive]]
+link = "1"
+omega = -5
+[[forces]]
+on = "3"
+at = "B"
+direction = "A B"
+over = "3 along frame"
+values = [[-200, 50], [-90, 80], [-60, -10], [-60, 10], [-200, 40]]
+[[forces]]
+on = "2"
+at = "A"
+direction = [3, 4]
+over = "travel"
+values = [[-100, 5], [20, 70], [20, -7], [260, 5]]
+[[forces]]
+on = "2"
+at = "B"
+direction = 30
+over = "speed of 3 along frame"
+powers = [3, 0.2, 0.01]
+[[moments]]
+on = "1"
+over = "speed"
+values = [[0, 30], [20, 5]]
+[[moments]]
+on = "2"
+over = "3 along frame"
+values = [[-200, 1], [-60, 2], [-200, 3]]
+[balance]
+link = "1"
+[find]
+velocity = "all"
+acceleration = "all"
+reactions = "all"
+"""
 NODE = """
 const found = {};
 for (const [name, { data, tape, travels, drags }] of Object.entries(cases)) {
@@ -143,6 +195,7 @@ def constructions() -> Iterator[Construction]:
     for name in packaged():
         yield gp.construct(gp.load(name), checked=False)
     yield gp.construct(parse(PARALLELOGRAM, "parallelogram"), checked=False)
+    yield gp.construct(parse(LOADED, "loaded"), checked=False)
     for name, text in higher.TEXTS.items():
         yield gp.construct(parse(text, name), checked=False)
     for seed in range(LINKAGES):
@@ -186,7 +239,7 @@ def test_poses() -> None:
             assert not any(pose["results"] for pose in case.found["poses"]), name  # one mark cannot serve both
             continue
         try:
-            poses = case.drawing.evaluate(turn.points | together, turn.guides)
+            poses = case.drawing.evaluate(turn.points | together, turn.guides, loads=turn.loads)
         except Refused:  # two guides are one line in the given pose
             continue
         for k, pose in enumerate(case.found["poses"]):
@@ -202,6 +255,25 @@ def test_poses() -> None:
                         value = pose["results"][part][of][key]
                         gap = abs((complex(*value) if isinstance(value, list) else value) - true)
                         assert gap <= NINE * size, (name, case.travels[k], kind, of)
+
+
+def test_loads_that_change() -> None:
+    """Loads follow the pose: balances are those of the cycle, with either stroke's loads, and copied poses have them."""
+    strokes = set()
+    for name in ("ozols-13-6", "loaded"):
+        case = cases()[name]
+        ends = min(0.0, *case.travels) * case.unit, max(0.0, *case.travels) * case.unit
+        turn = RangeOfMotion(case.scene, *ends, False).turn(np.array(case.travels) * case.unit)
+        moments = case.drawing.evaluate(turn.points, turn.guides, loads=turn.loads).named("balance moment")["1"]
+        strokes |= {int(np.sign(turn.loads["P_3"].real[k])) for k in range(len(moments))}
+        for pose, moment in zip(case.found["poses"], moments, strict=True):
+            assert pose["results"]["balance"]["moment"] == pytest.approx(moment, rel=NINE), name
+            assert pose["results"]["check"]["force"] < NINE, name
+        for drag in case.found["drags"]:
+            if drag["results"]:
+                told = printed(report(parse(drag["toml"], "drag")))["balance"]["moment"]
+                assert drag["results"]["balance"]["moment"] == pytest.approx(told, rel=1e-7), name
+    assert strokes >= {-1, 1}
 
 
 def test_poles() -> None:

@@ -17,7 +17,7 @@ import pytest
 from laid_out import laid_out
 from objects import NAMES, PLACES, drafted_plates, farthest, gap, loose, programs
 
-from graphplan.cycle.turn import under
+from graphplan.cycle.turn import follow, under
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.scene import packaged
 from graphplan.output.exports.jsxgraph import LIBRARY, jsxgraph, ways
@@ -130,6 +130,21 @@ def test_a_drag_breaks_nothing(opened: Callable[[str], Any], name: str) -> None:
             assert farthest(one, points_of(page, one), drawn.values) < CLOSE, (point, goal)
         else:
             assert found["stopped"] or not any(posed(one.plans.drawing, places, guides) for one in every)
+
+
+def test_loads_follow_the_pose(opened: Callable[[str], Any]) -> None:
+    """Where a load has another value in another pose, its force and what follows from it are drawn so."""
+    _, plates = laid_out("ozols-13-6")
+    page = opened(jsxgraph(plates))
+    turn = follow(plates.scene, 3, (100.0, 280.0))
+    assert {*turn.loads["P_3"].real} == {-1000, 1000}
+    for k, travel in enumerate((100, 190, 280)):
+        page.evaluate(f"figure.travel = {travel}")
+        points, guides, loads = ({name: z[k].item() for name, z in own.items()}
+                                 for own in (turn.points, turn.guides, turn.loads))
+        drawn = posed(plates.plans.drawing, points, guides, loads)
+        assert drawn
+        assert farthest(plates, points_of(page, plates), drawn.values) < CLOSE
 
 
 def test_the_mouse_turns_the_crank(opened: Callable[[str], Any]) -> None:

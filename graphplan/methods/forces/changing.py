@@ -19,23 +19,21 @@ def given_loads(program: Program, scene: Scene, phi: Number, loads: Mapping[str,
 
     Forces are complex numbers or arrays of them, moments real ones; `phi` is how long a unit of force is drawn.
     """
-    found: Given = {}
-    for name, steps in changing_steps(program, scene).items():
-        for step, parts in steps if name in loads else ():
-            value = loads[name]
-            numbers = [value.real, value.imag] if len(parts) == 2 else [value * float(metre(scene.units))]
-            found[step] = {part: number * float(phi) for part, number in zip(parts, numbers, strict=True)}
-    return found
+    def components(value: Any, name: str) -> dict[str, Any]:
+        parts = drawn_components(scene, phi, name)
+        numbers = [value.real, value.imag] if len(parts) == 2 else [value]
+        return {part: number * times for (part, times), number in zip(parts.items(), numbers, strict=True)}
+
+    return {step: components(loads[name], name) for step, name in changing_steps(program).items() if name in loads}
 
 
-def changing_steps(program: Program, scene: Scene) -> dict[str, list[tuple[int, tuple[str, ...]]]]:
-    """The steps that lay off each load that changes, by its letter, with the parameters that are its components."""
-    known = changing_loads(scene.loads)
-    if not known:
-        return {}
-    found: dict[str, list[tuple[int, tuple[str, ...]]]] = {name: [] for name in known}
-    for step in program.steps:
-        if step.quantity and step.quantity.changing:
-            force = isinstance(known[step.quantity.written], Force)
-            found[step.quantity.written].append((step.index, ("dx", "dy") if force else ("moment",)))
-    return found
+def changing_steps(program: Program) -> dict[int, str]:
+    """The steps that lay off loads that change, each with the load's letter."""
+    return {step.index: step.quantity.written for step in program.steps if step.quantity and step.quantity.changing}
+
+
+def drawn_components(scene: Scene, phi: Number, name: str) -> dict[str, float]:
+    """The parameters that lay off a load that changes, each with how long a unit of its component is drawn."""
+    if isinstance(changing_loads(scene.loads)[name], Force):
+        return {"dx": float(phi), "dy": float(phi)}
+    return {"moment": float(phi * metre(scene.units))}

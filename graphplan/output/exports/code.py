@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from graphplan.kernel.tape.written import JAVASCRIPT, C, Language, Writer, shaped
+from graphplan.mechanism.order import changing_loads
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import kind_of
 from graphplan.methods.replay import Replay, moving
@@ -117,8 +118,10 @@ class Code:
                 yield from (Number(f"{kind} {name}{part}", unit, (place,)) for part, place in parts)
 
     def head(self) -> str:
-        """The first lines: the scene."""
-        texts = (self.scene.title, self.scene.source, "")
+        """The first lines: the scene, and of its loads those that stay as they are in its pose."""
+        changing = ", ".join(changing_loads(self.scene.loads))
+        kept = f"Loads that change over the cycle have the values of the given pose here: {changing}." * bool(changing)
+        texts = (self.scene.title, self.scene.source, *filter(None, [kept]), "")
         return "\n".join(f"// {' '.join(text.split())}".rstrip(" \\") for text in texts)
 
     def table(self, read: str, given: str) -> str:

@@ -14,7 +14,7 @@ units of each operand's own plan, so that a step may read from plans of any scal
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -36,8 +36,9 @@ class Formula:
 
 
 def formula(drawn: DrawnStep, coordinates: Sequence[Sequence[str]], language: Language, term: str = "",
-            deepest: float = math.inf) -> Formula:
-    """The coordinates of a mark, in mm, from those of its operands.
+            deepest: float = math.inf, given: Mapping[str, tuple[str, float]] | None = None) -> Formula:
+    """The coordinates of a mark, in mm, from those of its operands; `given` are parameters that something else tells:
+    what, and how many times it.
 
     A term that is used more than once, or holds as many operations within each other as are `deepest`, gets the name
     `term` with a number; without a `term` it stands where it is used.
@@ -45,10 +46,11 @@ def formula(drawn: DrawnStep, coordinates: Sequence[Sequence[str]], language: La
     domain, similar = Symbols(), _similar(drawn)
     read = [_local(domain, arg.kind, _window(arg, similar), texts)
             for arg, texts in zip(drawn.args, coordinates, strict=True)]  # fmt: skip
-    value = drawn.step.op.rule(domain, *read, **drawn.step.params)
-    told = [domain.tape.place(part) for part in _told(domain, drawn.kind, _window(drawn, similar), value)]
+    told = {name: domain.tape.input(text) * times for name, (text, times) in (given or {}).items()}
+    value = drawn.step.op.rule(domain, *read, **{**drawn.step.params, **told})
+    places = [domain.tape.place(part) for part in _told(domain, drawn.kind, _window(drawn, similar), value)]
     writer = Writer(domain.tape, language, prefix=term, deepest=deepest)
-    return Formula(tuple(writer.terms(told)), tuple(writer.text[place] for place in told))
+    return Formula(tuple(writer.terms(places)), tuple(writer.text[place] for place in places))
 
 
 def _similar(drawn: DrawnStep) -> bool:

@@ -134,7 +134,12 @@ class _GeoGebraWriter(Elements):
         for plate in self.given:
             self._mechanism(plate)
             self._caption(plate)
-        self._walked(said("The mechanism as it is given; nothing is drawn yet."), 0)
+        begun = said("The mechanism as it is given; nothing is drawn yet.")
+        changing = dict.fromkeys(step.quantity.written for step in self.plates.plans.drawing.drawn.steps
+                                 if step.quantity and step.quantity.changing)
+        kept = said("Loads that change over the cycle have the values of the given pose here: {0}.",
+                    joined([*changing], ", "))
+        self._walked(joined((begun, kept), " ") if changing else begun, 0)
         for drawn in self.plates.pose.values():
             self._due(drawn)
         for drawn in self.plates.drawn:

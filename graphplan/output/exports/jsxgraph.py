@@ -22,6 +22,7 @@ from graphplan.accuracy.reach import constructions
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.kernel.stages import staged
 from graphplan.kernel.tape.written import JAVASCRIPT
+from graphplan.methods.forces.changing import drawn_components
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.exports.formula import formula
@@ -247,10 +248,18 @@ class _JsxGraphWriter(Elements):
     def _formulated(self, drawn: DrawnStep) -> tuple[str, list[str]]:
         """An element where its formula says, with its parents."""
         read = [[text.format(self.names[arg]) for text in COORDINATES[arg.kind]] for arg in drawn.args]
-        found = formula(drawn, read, JAVASCRIPT, "t")
+        found = formula(drawn, read, JAVASCRIPT, "t", given=self._loaded(drawn))
         terms = "".join(f"const {name} = {text}; " for name, text in found.terms)
         element, texts = RESULTS[drawn.kind]
         return element, [f"() => {{ {terms}return {text.format(*found.results)}; }}" for text in texts]
+
+    def _loaded(self, drawn: DrawnStep) -> dict[str, tuple[str, float]]:
+        """The components of a load that changes, as the page tells them, and how long each is drawn."""
+        quantity, drawing = drawn.step.quantity, self.plates.plans.drawing
+        if not quantity or not quantity.changing:
+            return {}
+        return {part: (f"load({_json(quantity.written)}, {k})", times) for k, (part, times) in enumerate(
+            drawn_components(drawing.scene, drawing.phi, quantity.written).items())}
 
     # ---- what is seen of them ----------------------------------------------------------------------------------
 

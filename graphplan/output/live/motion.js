@@ -191,7 +191,7 @@ class Motion {
     if (program < 0) program = programs.findIndex((_, k) => serves(k));
     const { values, rules, why } = tried(Math.max(0, program));
     if (program >= 0) this._program = program;
-    const drawn = { program: this._program, values: program < 0 ? null : values, why: program < 0 ? why : "" };
+    const drawn = { program: this._program, loads, values: program < 0 ? null : values, why: program < 0 ? why : "" };
     return { ...drawn, results: this.stop || !rules ? null : this.checked(rules.results, points, guides) };
   }
 

@@ -15,13 +15,12 @@ from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Program, Step, error_at, evaluate
 from graphplan.kernel.tape.record import Symbol, Symbols, Tape
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer, asked_of
-from graphplan.mechanism.model import FRAME, Force, Scene
+from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides
-from graphplan.mechanism.units import metre
 from graphplan.methods.batch import apart
 from graphplan.methods.construction import Construction
-from graphplan.methods.forces.changing import changing_steps
+from graphplan.methods.forces.changing import changing_steps, drawn_components
 from graphplan.methods.replay import guided
 
 SOLVED = ("check", "bounds", "arithmetic", "method", "steps")
@@ -103,8 +102,7 @@ class PosedTapes:
         self.points = [name for name in scene.points if name in given]
         self.guides = {name: guide for name, guide in guides(scene).items()
                        if guide.through is None and guide.along != FRAME}
-        self.loads = {name: ("dx", "dy") if isinstance(load, Force) else ("moment",)
-                      for name, load in changing_loads(scene.loads).items()}
+        self.loads = {name: drawn_components(scene, drawing.phi, name) for name in changing_loads(scene.loads)}
         drawn, rules = self._told(drawing.drawn), self._told(drawing.program)
         self.wanted = [(i, j) for i, j in zip(drawing.drawn.wanted, drawing.program.wanted, strict=True)
                        if drawing.drawn.steps[i].op.gives == POINT]
@@ -128,17 +126,11 @@ class PosedTapes:
         for name, guide in self.guides.items():
             way = {part: number(f"{name}.{part}") for part in ("dx", "dy")}
             given |= dict.fromkeys(guided(program, guide), way)
-        for name, steps in changing_steps(program, self.drawing.scene).items():
-            given |= {step: {part: number(f"{name}.{part}") * factor for part, factor in self._scales(parts).items()}
-                      for step, parts in steps}
+        for step, name in changing_steps(program).items():
+            given[step] = {part: number(f"{name}.{part}") * times for part, times in self.loads[name].items()}
         values = evaluate(program, domain, given,
                           lambda step: asked.extend([step] * (len(domain.tape.questions) - len(asked))))
         return _Told(domain, values, asked)
-
-    def _scales(self, parts: Iterable[str]) -> dict[str, float]:
-        """How long components of a load are drawn: for a unit of force, or of a moment's force times length."""
-        phi, long = float(self.drawing.phi), float(metre(self.drawing.scene.units))
-        return {part: phi * (long if part == "moment" else 1.0) for part in parts}
 
     def _reasons(self, program: Program, told: _Told) -> list[str]:
         """Why each question's step cannot be drawn where its answer is no."""

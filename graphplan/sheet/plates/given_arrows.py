@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from graphplan.mechanism.model import FRAME, Drive, Loads, Pair
-from graphplan.mechanism.order import named_forces
+from graphplan.mechanism.order import named_forces, named_moments
 from graphplan.phrases import digits, joined, unit
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
@@ -57,9 +57,9 @@ class GivenArrows:
             if any(force.value):
                 value = self._value(letter, math.hypot(*force.value), units.force)
                 yield self._arrow(force.at, force.value, load, value)
-        for moment in loads.moments:
+        for letter, moment in named_moments(loads).items():
             if moment.value:
-                value = self._value(f"M_{moment.on}", abs(float(moment.value)), f"{units.force}·m")
+                value = self._value(letter, abs(float(moment.value)), f"{units.force}·m")
                 yield self._turn(self.mechanism.middle(moment.on), math.copysign(1.0, moment.value), value)
 
     def _value(self, letter: str, value: float, of: str) -> Runs:

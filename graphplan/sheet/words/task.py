@@ -9,8 +9,8 @@ from functools import partial
 from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PROTRACTOR, SCALE, SET_SQUARES, STRAIGHTEDGE
-from graphplan.mechanism.model import Balance, Contact, Drive, Gear, Loads, Pair, Scene
-from graphplan.mechanism.order import named_forces
+from graphplan.mechanism.model import Balance, Contact, Drive, Force, Gear, Loads, Moment, Pair, Scene
+from graphplan.mechanism.order import named_forces, named_moments
 from graphplan.methods.kinds import (
     CENTRE,
     CONTACT_REACTION,
@@ -218,16 +218,21 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
         yield said("Gravity: {0}.", joined(("g =", _pair(loads.gravity), unit("m/s²")), " "))
     for letter, force in named_forces(loads).items():
         value = joined((f"{letter} =", _pair(force.value), unit(units.force), said("at {0}", force.at)), " ")
-        yield said("Force on {0}: {1}.", link_named(force.on), value)
-    for moment in loads.moments:
-        value = _with_unit(f"M_{moment.on}", moment.value, f"{units.force}·m")
-        yield said("Moment on {0}: {1}.", link_named(moment.on), value)
+        yield said("Force on {0}: {1}.", link_named(force.on), _here(value, force))
+    for letter, moment in named_moments(loads).items():
+        value = _with_unit(letter, moment.value, f"{units.force}·m")
+        yield said("Moment on {0}: {1}.", link_named(moment.on), _here(value, moment))
     slides = {(slide.link, slide.along): slide for slide in scene.slides}
     for friction in loads.frictions:
         where = (slide_named(slides[friction.slide]) if friction.slide
                  else both(friction.links) if friction.links else said("at {0}", friction.at))
         radius = [] if friction.links else [_with_unit("r", friction.radius, units.length)]
         yield said("Friction {0}: {1}.", where, joined((arranged("mu = {0}", _figure(friction.coefficient)), *radius)))
+
+
+def _here(value: Said, load: Force | Moment) -> Said:
+    """The value of a load; of one that changes it is said that it does."""
+    return said("{0} in this pose; it changes over the cycle", value) if load.table else value
 
 
 def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[Said]:

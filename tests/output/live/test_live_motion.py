@@ -258,7 +258,7 @@ def test_poses() -> None:
 
 
 def test_loads_that_change() -> None:
-    """Loads follow the pose: balances are those of the cycle, with either stroke's loads, and copied poses have them."""
+    """Loads follow the pose: balances are those of the cycle, on either stroke, and copied poses have them."""
     strokes = set()
     for name in ("ozols-13-6", "loaded"):
         case = cases()[name]

@@ -16,6 +16,10 @@ Results are a table with x and y, or value:
   quantity,of,x,y,value,unit
   velocity,A,-1100,200,,mm/s
   omega,2,,,-5.2,rad/s
+Of a task with [rotor] they are the numbers that balance it: correction and angle of I and II, static unbalance, moment:
+  quantity,of,value,unit
+  correction,I,58,kg·mm
+  angle,I,276.5,°
 
 examples:
   graphplan verify four-bar points.csv
@@ -80,6 +84,14 @@ def run(options: argparse.Namespace) -> int:
 
         return verify_stack.run(options)
     _no_stack(options)
+    if os.path.isfile(options.scene):
+        from graphplan.mechanism.scene import source_text, tables_of
+
+        text = source_text(options.scene, options.scene)
+        if "rotor" in tables_of(text, options.scene):
+            from graphplan.commands import verify_answers
+
+            return verify_answers.run(options, text)
     path, weighed = Path(options.drawing), weights(options.weights)
     ending = _reported(options.report, path, options.scene)
     desk = Desk(on_paper(options), weighed, options)

@@ -11,7 +11,7 @@ from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
@@ -25,6 +25,7 @@ from graphplan.marking.traces import Number, PlanFrame, Spot, Submission, Trace
 LARGEST_CSV, LARGEST_TOML = 4 * MB, MB // 2
 DOTS = 3000  # in a line of TOML, or as many squared: the time that dotted keys take grows so
 LONGEST = 40  # characters of a mark's name
+NUMBERED = "value", "size", "angle"  # columns of answers with numbers
 COARSEST = 1.0  # mm, to which anybody can measure; with a blur without bounds any mark would pass
 TABLES = {"marks": POINT, "lines": LINE, "circles": CIRCLE}
 SHAPES = {POINT: "[x, y]", LINE: "[[x1, y1], [x2, y2]]", CIRCLE: "[x, y, r], or points along its rim, three at least"}
@@ -34,6 +35,36 @@ def read_csv(path: Path, panels: Collection[str]) -> Submission:
     """Measured points, with the columns mark, x and y, and also x2 and y2, r, panel and precision; or results, with the
     columns quantity, of and unit, and x and y, size and angle, or value. Comments begin with #."""
     return _CsvReader(path, panels).read()
+
+
+class Answer(NamedTuple):
+    """A single number of a table of answers: what it is, and of what, its unit, the standard deviation of its rounding,
+    and where it stands."""
+
+    quantity: str
+    of: str
+    value: float
+    unit: str
+    rounding: float
+    where: str
+
+
+def read_answers(path: Path) -> list[Answer]:
+    """The answers of a table with the columns quantity, of, value and unit; size and angle are two answers."""
+    return [answer for where, row in _CsvReader(path, ()).rows({"quantity"}) for answer in _answers(where, row)]
+
+
+def _answers(where: str, row: Mapping[str, str]) -> Iterator[Answer]:
+    """The numbers of a row, none where it is not filled in."""
+    for column, quantity, unit in (("value", row["quantity"], row["unit"]), ("size", row["quantity"], row["unit"]),
+                                   ("angle", "angle", "")):
+        if row[column]:
+            try:
+                value = written(row[column])
+            except ValueError as error:
+                raise Refused(f"{where}: {column}", str(error), "a decimal number such as 12.5") from None
+            yield Answer(" ".join(quantity.casefold().split()), " ".join(row["of"].split()), float(value), unit,
+                         unit_of(value) / UNIFORM, where)
 
 
 def read_toml(path: Path, panels: Collection[str]) -> Submission:
@@ -148,16 +179,7 @@ class _CsvReader(_Reader):
     separator = ","
 
     def read(self) -> Submission:
-        lines = text(self.path, LARGEST_CSV).splitlines()
-        Budget(self.path, TRACES, "lines").spend(len(lines))
-        said = [(f"line {i}", line) for i, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] != "#"]
-        self.separator = next((mark for mark in "\t;" if said and mark in said[0][1]), ",")
-        cells = self._cells(said)
-        where, first = next(cells, ("", []))
-        header = [cell.casefold() for cell in first]
-        if twice := [name for name in header if name and header.count(name) > 1]:
-            raise self.fault(where, f"two columns are called {twice[0][:40]!r}", "each name once")
-        rows = self._rows(header, cells)
+        header, rows = self._table()
         if {"mark", "x", "y"} <= set(header):
             traces = [trace for where, row in rows if (trace := self._marked(where, row))]
             stated = any(trace.blur for trace in traces)
@@ -168,6 +190,30 @@ class _CsvReader(_Reader):
             return Submission(self.path.name, numbers=tuple(numbers))
         raise Refused(f"{self.path}", "its first line names no columns that are read",
                       "mark,x,y for measured points or quantity,of,x,y,unit for results")
+
+    def rows(self, wanted: Collection[str]) -> Iterator[tuple[str, Mapping[str, str]]]:
+        """The rows of a table that has these columns, with their places."""
+        header, rows = self._table()
+        if not {*wanted} <= {*header}:
+            raise Refused(f"{self.path}", "its first line names no columns that are read",
+                          "quantity,of,value,unit for answers")
+        for where, row in rows:
+            decimal = row if self.separator == "," else {name: cell.replace(",", ".", 1) if name in NUMBERED else cell
+                                                         for name, cell in row.items()}
+            yield f"{self.path}: {where}", defaultdict(str, decimal)
+
+    def _table(self) -> tuple[list[str], Iterator[tuple[str, Mapping[str, str]]]]:
+        """The names of the columns, and the rows that say something."""
+        lines = text(self.path, LARGEST_CSV).splitlines()
+        Budget(self.path, TRACES, "lines").spend(len(lines))
+        said = [(f"line {i}", line) for i, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] != "#"]
+        self.separator = next((mark for mark in "\t;" if said and mark in said[0][1]), ",")
+        cells = self._cells(said)
+        where, first = next(cells, ("", []))
+        header = [cell.casefold() for cell in first]
+        if twice := [name for name in header if name and header.count(name) > 1]:
+            raise self.fault(where, f"two columns are called {twice[0][:40]!r}", "each name once")
+        return header, self._rows(header, cells)
 
     def _cells(self, lines: Iterable[tuple[str, str]]) -> Iterator[tuple[str, list[str]]]:
         """The cells of each row that says something, with its place."""

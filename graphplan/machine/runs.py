@@ -80,14 +80,16 @@ def _reduced(scene: Scene, travel: float | None) -> Reduction:
     said, or where a flywheel is asked for; else over the travel."""
     if travel is not None and travel <= 0:
         raise Refused("--travel", f"{travel:g} leads nowhere", "degrees (lengths of a sliding drive) above 0")
+    if scene.drives and scene.drives[0].slides and travel is None:
+        raise Refused("the motion", "the first drive slides, and how far is not said", "--travel, or travel in [run]")
     whole = scene.flywheel is not None or travel is None or travel >= TURN_TOLD
-    if bool(scene.drives) and not scene.drives[0].slides and whole:
+    if scene.drives and not scene.drives[0].slides and whole:
         try:
             return reduction(scene)
         except Refused:
             if scene.flywheel is not None:
                 raise
-    return reduction(scene, None if scene.drives[0].slides and travel is None else (0.0, travel or TURN_TOLD))
+    return reduction(scene, (0.0, travel or TURN_TOLD))
 
 
 def _end(machine: Driven, travel: float | None, stops: bool) -> float:

@@ -166,8 +166,8 @@ def _in_its_pose(scene: Scene, given: int, told: str, faults: Faults) -> Scene |
     return replace(scene, redundant=found.redundant, repeating=found.repeating)
 
 
-def check_loads(scene: Scene, faults: Faults) -> None:
-    """What can be said against the loads only when all of the scene is known."""
+def check_loads(scene: Scene, faults: Faults, by_drive: bool = False) -> None:
+    """What can be said against the loads only when all of the scene is known; held `by_drive` they need no balance."""
     loads = scene.loads
     if loads is None:
         if scene.find.reactions:
@@ -177,6 +177,8 @@ def check_loads(scene: Scene, faults: Faults) -> None:
     if scene.motions:
         faults.add("motion", "what moves these points is no link, so nothing is known of its force",
                    "drives, where forces are asked for")
+    elif by_drive and scene.drives and not loads.balances:
+        return
     elif len(loads.balances) < len(scene.drives):
         faults.add("balance", f"{counts}: nothing keeps the prescribed motion",
                    '[balance] with link = "1" for a moment, or with at, on and direction for a force')

@@ -184,7 +184,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
     counting = _counting(scene)
     rounded = [f"points.{quoted(point)}: {placements[point].how} placement" for point in placements
                if point in names.placed and point in counting and not is_exact(names.placed[point])]
-    scene = _checked(replace(scene, irrational=(*rounded, *names.irrational)), names.placed, faults)
+    scene = _checked(replace(scene, irrational=(*rounded, *names.irrational)), names.placed, faults, by_drive)
     if not len(faults):
         try:
             scene = filled_in(scene)
@@ -236,7 +236,7 @@ def _asked(names: Names) -> Find:
     return Find(moving, moving, links=names.moving)
 
 
-def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults) -> Scene:
+def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults, by_drive: bool) -> Scene:
     """The scene after the checks of the whole, each where what it rests on has no faults of its own."""
     if not faults.none_in("links"):
         return scene
@@ -251,7 +251,7 @@ def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults) -> Scene:
         if faults.none_in("links"):
             scene = check_mobility(scene, faults)
         if faults.none_in("links", "gears", "drive", *sections.LOADS):
-            check_loads(scene, faults)
+            check_loads(scene, faults, by_drive)
     check_joints(scene, placed, faults)
     return scene
 

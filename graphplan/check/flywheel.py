@@ -7,7 +7,6 @@ solver's rates, not from the reduction. The speeds that come of it have to be th
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,8 +16,6 @@ from graphplan.check.reduction import checked as reduction_checked
 from graphplan.errors import BrokenClaim, Disagreement
 from graphplan.kernel.claims import broken
 from graphplan.machine.flywheel import FlywheelResult
-from graphplan.machine.reduction import Reduction, reduction
-from graphplan.mechanism.load_tables import LoadTable
 
 SUBSTEPS = (2, 4, 8)  # of one step, whose results are extrapolated to none
 STEPS, MOST = 48, 1536  # of the whole cycle, at first and at most
@@ -68,7 +65,7 @@ class _Motion:
 
     def __init__(self, result: FlywheelResult):
         self.result, cycle = result, result.cycle
-        self.reduction = _scaled(result.reduction, cycle.factor) if cycle.factor != 1 else result.reduction
+        self.reduction = result.reduction.scaled(cycle.factor)
         first, last = cycle.ends
         self.breaks = [first, *(at for at in self.reduction.breaks if first < at < last), last]
         self.begin = float(result.omega(first)) ** 2
@@ -172,17 +169,3 @@ def _midpoints(push: Any, drag: Any, width: Any) -> Any:
     for k in range(1, last):
         before, value = value, before + 2 * width * rate(k, value)
     return (value + before + width * rate(last, value)) / 2
-
-
-def _scaled(reduced: Reduction, factor: float) -> Reduction:
-    """The same machine, its loads that change multiplied by a factor."""
-    scene = reduced.scene
-    assert scene.loads is not None
-    forces = tuple(replace(load, table=_times(load.table, factor)) for load in scene.loads.forces)
-    moments = tuple(replace(load, table=_times(load.table, factor)) for load in scene.loads.moments)
-    return reduction(replace(scene, loads=replace(scene.loads, forces=forces, moments=moments)))
-
-
-def _times(table: LoadTable | None, factor: float) -> LoadTable | None:
-    return table and replace(table, rows=tuple((place, float(value) * factor) for place, value in table.rows),
-                             powers=tuple(float(power) * factor for power in table.powers))

@@ -27,6 +27,7 @@ LENGTH, WIDE, CUT = 0.66, 0.22, 0.6  # of what is free: the axis of travel, the 
 SLOWEST = 8.0  # times the least 1/omega: what is larger goes off the paper
 FAR = 0.5  # of the largest energy: where the least is more the origin is off the paper
 MARGIN = 0.08  # of a range, beyond it
+LEAST = 1e-3  # of the largest value: a smaller range is shown as one of this size
 STEPS = 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0  # of the scale of travel, which fills its room
 
 
@@ -109,7 +110,7 @@ class Layout:
     def _span(self, values: Reals) -> float:
         """What of some values is shown: from nothing on, or their range alone."""
         top = float(values.max())
-        return max(top - self._low(values), 1e-6 * top)
+        return max(top - self._low(values), LEAST * top)
 
     def _low(self, values: Reals) -> float:
         """The least value that is shown."""

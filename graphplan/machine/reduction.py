@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -152,6 +152,15 @@ class Reduction:
         values = self.values.values(self.motion, turn, rates, np.array([float(travel)]), 1)
         given = {name: complex(value[0]) for name, value in self.values.in_units(values, turn).items()}
         return lever_drawing(in_pose(self.motion.scene, turn, 0), loads_with(self.loads, given))
+
+    def scaled(self, factor: float) -> Reduction:
+        """The same machine, its loads that change so many times as large."""
+        if factor == 1:
+            return self
+        forces = tuple(replace(load, table=load.table and load.table.times(factor)) for load in self.loads.forces)
+        moments = tuple(replace(load, table=load.table and load.table.times(factor)) for load in self.loads.moments)
+        scene = replace(self.scene, loads=replace(self.loads, forces=forces, moments=moments))
+        return Reduction(scene, self.motion.motion, self.ends, self.motion.compiled)
 
     def projections(self, travel: Any) -> dict[str, Array]:
         """The moments of the weights by another form: each weight by the projection of the orthogonal velocity of its

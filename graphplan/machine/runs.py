@@ -8,7 +8,6 @@ cycle. A run, or what is said otherwise, has the first say.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 from graphplan.cycle.travel import TURN
 from graphplan.errors import Refused
@@ -17,7 +16,7 @@ from graphplan.machine.characteristics import TURNS, RunUp, limit_cycle, nominal
 from graphplan.machine.driven import Driven, driven
 from graphplan.machine.reduction import Reduction, reduction
 from graphplan.machine.true_motion import TrueMotion, moved
-from graphplan.mechanism.model import Loads, Scene
+from graphplan.mechanism.model import Scene
 
 TURN_TOLD = 360.0  # degrees
 
@@ -110,23 +109,8 @@ def _with_wheel(scene: Scene, found: Reduction) -> tuple[Reduction, Driven]:
     cycle = energy.steady(found, speed, wanted.closes, found.changing)
     wheel = (wittenbauer.turning(cycle, float(wanted.inertia or 0)) if wanted.unevenness is None
              else wittenbauer.sized(cycle, float(wanted.unevenness)))
-    if cycle.factor != 1:
-        found = reduction(replace(scene, loads=_scaled(scene.loads, cycle.factor)))
+    found = found.scaled(cycle.factor)
     return found, driven(found, wheel.inertia, cycle.closing)
-
-
-def _scaled(loads: Loads | None, factor: float) -> Loads:
-    """Loads of which those that change are so many times as large."""
-    def scaled(load: Any) -> Any:
-        table = load.table
-        if table is None:
-            return load
-        rows = tuple((place, float(value) * factor) for place, value in table.rows)
-        powers = tuple(float(power) * factor for power in table.powers)
-        return replace(load, table=replace(table, rows=rows, powers=powers))
-
-    assert loads is not None
-    return replace(loads, forces=tuple(map(scaled, loads.forces)), moments=tuple(map(scaled, loads.moments)))
 
 
 def _compared(found: Run, speed: float) -> Run:

@@ -8,7 +8,7 @@ At a jump, and at the end of a stroke, the load is that into which the motion go
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -80,6 +80,11 @@ class LoadTable:
     def length(self) -> Number:
         """From its lowest place to its highest."""
         return max(self.corners) - min(self.corners)
+
+    def times(self, factor: Number) -> LoadTable:
+        """The same loads, so many times as large."""
+        return replace(self, rows=tuple((place, value * factor) for place, value in self.rows),
+                       powers=tuple(power * factor for power in self.powers))
 
     def value(self, place: Number, sense: int = 1, after: bool = True) -> Number:
         """The load at a place that changes in this sense, 1 or -1; at a jump that after it, or before it.

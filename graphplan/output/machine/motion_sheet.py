@@ -106,8 +106,8 @@ class MotionSheet(Panelled):
         if run.run_up is not None:
             yield said("Run up in {0} turns, {1} s", digits(run.run_up.turns), digits(run.run_up.place.time))
         errors = self.drawing.errors
-        yield said("The drawing is off by {0} % in the speed, {1} % in the time", digits(100 * errors["omega"]),
-                   digits(100 * errors["time"]))
+        yield said("The drawing is off by {0} % in the speed, {1} % in the time",
+                   *(digits(round(100 * errors[what], 4)) for what in ("omega", "time")))
         yield self._table()
 
     def _table(self) -> list[list[Said | str]]:

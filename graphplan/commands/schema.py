@@ -8,6 +8,7 @@ examples:
   graphplan schema solve
   graphplan schema steps
   graphplan schema verify
+  graphplan schema flywheel
   graphplan schema motion
   graphplan schema cam > cam.schema.json  of the tasks of graphplan cam
   graphplan schema rotor                 of the rotors of graphplan balance
@@ -21,15 +22,15 @@ from importlib import import_module
 
 from graphplan.commands.output import as_json, write
 
-RESULTS = ("solve", "steps", "verify", "motion")
+RESULTS = ("solve", "steps", "verify", "flywheel", "motion")
 TASKS = {"cam": "graphplan.cams.task", "rotor": "graphplan.machine.rotor"}  # and where their tables are
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("of", metavar="OF", nargs="?", default="scene",
                          choices=("scene", *TASKS, *RESULTS, "keys", *(f"{task}-keys" for task in TASKS)),
-                         help="scene (default), cam, rotor, solve, steps, verify, or motion; keys, cam-keys or "
-                         "rotor-keys for the table")
+                         help="scene (default), cam, rotor, solve, steps, verify, flywheel, or motion; keys, "
+                         "cam-keys or rotor-keys for the table")
 
 
 def run(options: argparse.Namespace) -> int:

@@ -43,6 +43,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--positions", type=count("--positions", FEWEST, MOST), metavar="N",
         help=f"in how many plans it is drawn and tabled ({POSITIONS})")
     add_pencil(command)
+    add("--task", action="store_true", help="the sheet with what is given alone, and tables to fill in")
     add_diagrams(command)
 
 
@@ -65,7 +66,8 @@ def run(options: argparse.Namespace) -> int:
     if ending in SHEETS:
         from graphplan.output.machine.flywheel_sheet import sheets
 
-        write_sheets(sheets(result, scene.sheet.paper or None), options.output, ending[1:], options.dpi)
+        pages = sheets(result, scene.sheet.paper or None, options.task)
+        write_sheets(pages, options.output, ending[1:], options.dpi)
     else:
         error = _pencil_error(result, options)
         write(table(result) if ending == ".csv" else as_json(numbers(result, error), rows=True), options.output)

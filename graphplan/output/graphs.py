@@ -229,7 +229,8 @@ class Figures:
         """Round abscissae, or those that are told, with their numbers under the diagram."""
         y, size = graph.rect.bottom, self.letters.text
         if not values:
-            widest = max(width(sentence_runs(digits(end)), size) for end in graph.x)
+            values = divisions(*graph.x, graph.rect.width / APART, turns)
+            widest = max(width(sentence_runs(digits(value)), size) for value in values)
             values = divisions(*graph.x, graph.rect.width / max(APART, 1.6 * widest), turns)
         for x in values:
             at = graph.at(x, 0.0)[0]
@@ -238,11 +239,12 @@ class Figures:
 
     def numbered_y(self, graph: Graph, right: bool = False, turns: bool = False,
                    level: float = 0.0) -> Iterator[Item]:
-        """Round ordinates, with their numbers left of the diagram, or right of it, where the abscissa's head stands."""
+        """Round ordinates, with their numbers left of the diagram, or right of it but for where the head of the
+        abscissa and its last number stand."""
         size, x, way = self.letters.text, graph.rect.right if right else graph.rect.left, 1.0 if right else -1.0
         for value in divisions(*graph.y, graph.rect.height / (0.8 * APART), turns):
             y = graph.at(0.0, value)[1]
-            if right and abs(y - graph.at(0.0, level)[1]) < size:
+            if right and min(abs(y - graph.at(0.0, level)[1]), y - graph.rect.bottom) < size:
                 continue
             yield Polyline(AXIS, "ruling", None, ((x + way * TICK, y), (x, y)))
             at = x + way * (TICK + 0.8), y - CAPS * size / 2

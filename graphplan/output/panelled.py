@@ -35,6 +35,7 @@ from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Text
 from graphplan.sheet.words.lengths import Lengths, Measure
 from graphplan.sheet.words.rows import Cell, Placed, TextRow, fill, hung, lettered
+from graphplan.sheet.words.tables import answer_rows
 from graphplan.sheet.words.tables import rows as table_rows
 from graphplan.words.tongue import Tongue, tongue
 
@@ -42,6 +43,12 @@ PAPERS = ("A3", "A2", "A1")
 COLUMN, GAP, CAPTION, SCALES, AROUND, SIDE = 96.0, 4.0, 7.0, 3.5, 3.0, 2.5  # mm: of words, captions and panels
 FEW = 2  # steps that are told rather than counted
 INDENT, LEAD = 8.0, 3.0  # mm: of what hangs from a step's number, and over a heading
+
+
+
+class Blank(list[Sequence[Said | str]]):
+    """The rows of a table to be filled in by hand: where there are numbers, or any words, there are empty boxes."""
+
 
 Words = Said | str | Sequence[Sequence[Said | str]]  # a paragraph; or the rows of a table, its head first
 
@@ -270,7 +277,8 @@ class Panelled(ABC):
         if isinstance(words, str):
             yield from hung(sentence_runs(self.tongue(words), self._names), COLUMN, INDENT, number, step)
         else:
-            yield from table_rows([[sentence_runs(self.tongue(cell), self._names) for cell in row] for row in words])
+            table = [[sentence_runs(self.tongue(cell), self._names) for cell in row] for row in words]
+            yield from answer_rows(table, COLUMN) if isinstance(words, Blank) else table_rows(table)
 
     @cached_property
     def _names(self) -> tuple[str, ...]:

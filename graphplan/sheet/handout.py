@@ -65,7 +65,7 @@ def _pages(composition: Composition, document: Said) -> list[Sheet]:
     composition = _worded(composition, document == GUIDED)
     items = [*framed(composition), *captions(composition)]
     for plate in composition.plates:
-        items += _begun(plate)
+        items += begun(plate)
     first = sheet(composition, items, document)
     pages, own = [first, *words_pages(first, composition, document)], code(composition)
     return [_marked(page, page_code(own, number)) for number, page in enumerate(pages, 1)]
@@ -91,7 +91,7 @@ def _worded(composition: Composition, guided: bool) -> Composition:
     return replace(composition, arrangement=replace(arrangement, rows=()), protocol=apart)
 
 
-def _begun(plate: Plate) -> Iterator[Item]:
+def begun(plate: Plate) -> Iterator[Item]:
     """What a plan has before its first step: the mechanism with what drives and loads it, or crosses to measure by; and
     where it begins."""
     rect, begins = plate.view.rect, plate.beginnings

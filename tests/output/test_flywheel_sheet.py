@@ -84,3 +84,16 @@ def test_formats(tmp_path: Path) -> None:
     assert main(["flywheel", "ozols-13-6", "-q", "-o", str(tmp_path / "sheet.tex")]) == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == ["sheet-protocol.tex", "sheet.tex"]
     assert r"\begin{tikzpicture}" in (tmp_path / "sheet.tex").read_text()
+
+
+def test_tasks_have_what_is_given_alone(result: FlywheelResult, pages: list[Sheet]) -> None:
+    """A task has the panels and axes of the solution, boxes for its numbers, and no vector, curve or step."""
+    task, = sheets(result, task=True)
+    assert task.panels == pages[0].panels
+    words = [plain(item.runs) for item in task.items if isinstance(item, Text)]
+    assert digits(result.wheel.inertia) not in " ".join(words)
+    assert sum(item.layer == "blanks" for item in task.items) >= 4 * (result.positions + 1)
+    scales = [word for word in words if "k" in word and "/mm" in word]
+    assert scales == [word for page in pages for item in page.items if isinstance(item, Text)
+                      for word in (plain(item.runs),) if word in scales]
+    assert not any(isinstance(item, Polyline) and item.layer == "links" and len(item.spots) > 20 for item in task.items)

@@ -124,9 +124,13 @@ class FlywheelFigure:
         return Graph(rect, (x - frame.x.datum / frame.x.unit, y - frame.y.datum / frame.y.unit), frame.x.unit,
                      frame.y.unit)
 
+    def begun(self) -> list[Item]:
+        """What is given of it: the axes with their scales."""
+        return list(self._axes())
+
     def items(self) -> list[Item]:
         """All of it, its letters off its lines."""
-        drawn = [*self._areas(), *self._curves(), *self._level(), *self._tangents(), *self._axes()]
+        drawn = [*self._areas(), *self._curves(), *self._level(), *self._tangents(), *self._origin(), *self._axes()]
         return self.ink.lettered(FLYWHEEL, drawn, self._wishes(), self._named)
 
     # ---- steps -----------------------------------------------------------------------------------------------------
@@ -160,6 +164,16 @@ class FlywheelFigure:
             slope, far = touch.slope * graph.k_x / graph.k_y, graph.rect.right + BEYOND - cut[0]
             line = Polyline(pen, "plates", place, (cut, (cut[0] + far, cut[1] + far * slope)))
             yield from clipped(line, Rect(self.rect.left, self.rect.bottom, self.rect.right, graph.rect.top + HEAD / 4))
+
+    def _origin(self) -> Iterator[Item]:
+        """The origin in which the tangents meet, if it lies on the panel: so far left of the axis is the flywheel."""
+        wheel = self.result.wheel
+        O = self.graphs["energy-mass"].at(-wheel.inertia, wheel.origin)
+        if self.rect.holds(O):
+            for which, letter in (("upper", "m"), ("lower", "n")):
+                (place,), cut = self._steps(which), self.window(self.drawing.spots(letter)[0])
+                yield Polyline(TANGENTS[which], "plates", place, (O, cut))
+            yield from self.paper.marked(O, "O", (-1.2, 0.8))
 
     # ---- curves ----------------------------------------------------------------------------------------------------
 

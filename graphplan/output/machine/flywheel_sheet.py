@@ -23,11 +23,13 @@ from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import Figures
 from graphplan.output.machine.flywheel_figure import FlywheelFigure, room_in
 from graphplan.output.machine.lever_figures import LEVERS, LeverFigures
-from graphplan.output.panelled import Panelled, Recorded, Words, beside, pages, under
+from graphplan.output.panelled import Blank, Panelled, Recorded, Words, beside, pages, under
 from graphplan.phrases import Said, arranged, digits, joined, phrase, said, unit
+from graphplan.sheet.frames.title import TASK
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.display import Item, Rect, Sheet
 from graphplan.sheet.plates.plate import Plates
+from graphplan.sheet.words.rows import TextRow
 
 DOCUMENT = said("Flywheel sheet")
 PAPERS = ("A2", "A1")
@@ -36,10 +38,12 @@ NAMES = {"gutjahr": said("Gutjahr"), "area vectors": said("area vectors"), "powe
          "characteristic": said("characteristic")}
 
 
-def sheets(result: FlywheelResult, paper: str | None = None) -> list[Sheet]:
+def sheets(result: FlywheelResult, paper: str | None = None, task: bool = False) -> list[Sheet]:
     """The sheet of a flywheel on the paper named, or on the smallest on which its words have room; see :func:`pages`.
+
+    As a `task` it has what is given alone: the mechanism in its positions, axes and scales, and tables to fill in.
     """
-    return pages(lambda name: FlywheelSheet(name, result), paper, PAPERS)
+    return pages(lambda name: FlywheelSheet(name, result, task), paper, PAPERS)
 
 
 @dataclass(frozen=True)
@@ -47,10 +51,14 @@ class FlywheelSheet(Panelled):
     """One flywheel on one paper."""
 
     result: FlywheelResult
-    document = DOCUMENT
+    task: bool = False
     told_scales = apart = True
     again = phrase("Steps {0} to {1}: the same for the others.")
     letters_of = "phi", "psi", "delta", "omega_max", "omega_min", "k_phi", "k_M", "k_E", "k_I"
+
+    @property
+    def document(self) -> Said:
+        return TASK if self.task else DOCUMENT
 
     @property
     def scene(self) -> Scene:
@@ -123,11 +131,13 @@ class FlywheelSheet(Panelled):
     def figure(self, panel: Panel, rect: Rect) -> Iterable[Item]:
         """The plans, the other levers, or the diagrams."""
         if panel == LEVERS:
-            return self.levers.small(rect)
+            return self.levers.small(rect, drawn=not self.task)
         if panel == FLYWHEEL:
             recorded, places = self._joined
-            return FlywheelFigure(self.result, self.drawing, recorded, places[1], self._figures, rect).items()
-        return [self._placed(item) for item in self.levers.picture(self._windows[1], panel)]
+            figure = FlywheelFigure(self.result, self.drawing, recorded, places[1], self._figures, rect)
+            return figure.begun() if self.task else figure.items()
+        drawn = self.levers.begun if self.task else self.levers.picture
+        return [self._placed(item) for item in drawn(self._windows[1], panel)]
 
     def _placed(self, item: Item) -> Item:
         """An item of the lever, its step that of the sheet."""
@@ -159,8 +169,13 @@ class FlywheelSheet(Panelled):
         return ("N m", "kg m²", "rad/s") if self.result.turns else ("N", "kg", "m/s")
 
     def found(self) -> Iterator[Words]:
-        """What closes the cycle, the flywheel, the speeds, what other methods find, and the plans as a table."""
+        """What closes the cycle, the flywheel, the speeds, and what other methods find; of a task boxes for these."""
         result, (M, I, rate) = self.result, self._units
+        if self.task:
+            yield Blank([["", ""], *([joined((name, unit(measure))), "?"] for name, measure in (
+                (said("Closing moment"), M), ("mn", "mm"), (said("Flywheel"), I), ("omega_max", rate),
+                ("omega_min", rate)))])
+            return
         cycle, wheel = result.cycle, result.wheel
         if cycle.closing:
             yield said("Closing moment: {0} {1}", digits(cycle.closing), unit(M))
@@ -199,8 +214,17 @@ class FlywheelSheet(Panelled):
         columns = [result.told_travels, *(result.plans[name] for name in ("inertia", "moment", "energy", "omega"))]
         letters = ("phi", "I", "M", "E", "omega") if result.turns else ("s", "m", "F", "E", "v")
         units = self._travel, I, M, "J", rate
-        head = ["", *(arranged("{0}, {1}", letter, unit(one)) for letter, one in zip(letters, units, strict=True))]
         size = [float(abs(column).max()) or 1.0 for column in columns]
-        yield [head, *([str(k), *(digits(float(x) if abs(x) > 1e-9 * most else 0.0)
-                                   for x, most in zip(row, size, strict=True))]
-                        for k, row in enumerate(zip(*columns, strict=True)))]
+        head = ["", *(arranged("{0}, {1}", letter, unit(one)) for letter, one in zip(letters, units, strict=True))]
+        rows = [[str(k), *(digits(float(x) if abs(x) > 1e-9 * most else 0.0)
+                           for x, most in zip(row, size, strict=True))]
+                for k, row in enumerate(zip(*columns, strict=True))]
+        if self.task:  # the travels are given
+            yield Blank([joined((one, two), " "), *rest] for one, two, *rest in (head, *rows))
+        else:
+            yield [head, *rows]
+
+    @cached_property
+    def steps(self) -> list[TextRow]:
+        """The construction in words; a task has none."""
+        return [] if self.task else super().steps

@@ -18,6 +18,7 @@ from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.output.graphs import Figures
 from graphplan.phrases import Said, joined, said
+from graphplan.sheet.handout import begun
 from graphplan.sheet.layout.composition import windows
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import LetterSizes
@@ -34,7 +35,7 @@ from graphplan.words.tongue import Tongue
 LEVERS = Panel("levers", said("levers"), said("Orthogonal velocities in the other positions"))
 RAY, IMAGE = Pen(0.18, pens.BLUE), Pen(0.25)
 FREE, NUMBER = 1.0, 1.4  # mm about a small figure; of the height of letters, for its number
-MOST = 36  # small figures, and faint positions of the mechanism
+POLE, MOST = 0.4, 36  # mm: the radius of a pole; small figures, and faint positions of the mechanism
 
 
 @dataclass(frozen=True)
@@ -88,6 +89,11 @@ class LeverFigures:
         """A plan of the given pose with its letters."""
         return pictured(plates[panel]).items
 
+    def begun(self, plates: Plates, panel: Panel) -> list[Item]:
+        """What of a plan is given: the mechanism with its loads in its positions, or where it begins."""
+        given = list(begun(plates[panel]))
+        return [*given, *plates[panel].positions(given)]
+
     # ---- the other positions ---------------------------------------------------------------------------------------
 
     @cached_property
@@ -112,8 +118,9 @@ class LeverFigures:
         found = [[name for name in links[link] if name in self._ends] for link in self.reduction.scene.moving]
         return [names for names in found if len(names) > 1]
 
-    def small(self, rect: Rect) -> Iterator[Item]:
-        """The orthogonal velocities of the other positions, or some of them, each beside its number, at one scale."""
+    def small(self, rect: Rect, drawn: bool = True) -> Iterator[Item]:
+        """The orthogonal velocities of the other positions, or some of them, each beside its number, at one scale; or
+        where these are not `drawn` their poles alone."""
         shown = range(1, self.count, 1 + self.count // MOST)
         cells, number = _grid(rect, len(shown)), NUMBER * self.letters.text
         rooms = [cell.inset(FREE, FREE, FREE, FREE + number) for cell in cells]
@@ -122,7 +129,9 @@ class LeverFigures:
         paper = Figures(self.letters, self.tongue)
         for k, cell, room, box in zip(shown, cells, rooms, boxes, strict=True):
             yield paper.text((cell.left + FREE, cell.top - number), str(k))
-            yield from self._plan(k, view(box, room, scale))
+            window = view(box, room, scale)
+            yield from self._plan(k, window) if drawn else ()
+            yield Circle(pens.ORIGIN, "links", None, window((0.0, 0.0)), POLE)
 
     def _spots(self, k: int) -> list[Spot]:
         """The ends of the velocities of a position."""
@@ -137,7 +146,6 @@ class LeverFigures:
                 yield Polyline(RAY, "links", None, (pole, end))
         for names in self._images:
             yield Polyline(IMAGE, "links", None, tuple(ends[name] for name in names))
-        yield Circle(pens.ORIGIN, "links", None, pole, 0.4)
 
 
 def _grid(rect: Rect, count: int) -> list[Rect]:

@@ -6,6 +6,7 @@ links, the shaking force and its moment with what the frame bears by the solver'
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -87,7 +88,8 @@ def mass_motion(scene: Scene, positions: int, links: LinkMotion | None = None) -
 @dataclass(frozen=True)
 class Balancing:
     """A scene before and after it is balanced: `way` says how, `weights` by which counterweights; `engine` if it is a
-    slider-crank. Without counterweights there is nothing `after`. `note` says why there are none."""
+    slider-crank whose crank is driven. Without counterweights there is nothing `after`; `note` says why there are none.
+    """
 
     before: MassMotion
     way: str
@@ -117,11 +119,12 @@ def balancing(scene: Scene, positions: int, way: str = "", keep: Sequence[str] =
         weights, note = (), f"{refused.what}: {refused.why}"
     way = way or (NONE if note else FULL)
     after = mass_motion(balanced(scene, weights), positions, before.links) if weights else None
-    check = {**before.check, **_held(after or before, way), **(_by_orders(before, found) if found else {})}
+    driven = found if found and found.omega else None
+    check = {**before.check, **_held(after or before, way), **(_by_orders(before, driven) if driven else {})}
     for what, gap in check.items():
         if not gap <= CLOSE:
             raise Disagreement(scene.name, what, "otherwise", "by the solver", gap)
-    return Balancing(before, way, weights, after, found, check, note)
+    return Balancing(before, way, weights, after, driven, check, note)
 
 
 def _weights(scene: Scene, way: str, keep: Sequence[str], radii: Mapping[str, float], share: float,
@@ -173,10 +176,8 @@ def _compared(motion: MassMotion) -> dict[str, float]:
     reach = max(abs(z - points[centre.base]).max() for z in points.values())
     found = {"path": _gap(motion.path[there], [parts[link] * points[mass.centre] for link, mass
                                                in centre.masses.items()], reach)}
-    turning, changing = ([array[there] for array in named.values()] for named in (motion.links.omega,
-                                                                                  motion.links.alpha))
-    speed = reach * max(float(abs(omega).max()) for omega in turning)
-    sharp = reach * max(float((abs(alpha) + omega**2).max()) for omega, alpha in zip(turning, changing, strict=True))
+    rate = _fastest(motion, there)
+    speed, sharp = reach * rate, reach * rate**2
     for kind, ours, theirs, size in (("velocity", motion.velocity, rates.velocity, speed),
                                      ("acceleration", motion.acceleration, rates.acceleration, sharp)):
         terms = [parts[link] * _complex(theirs[mass.centre], there.size) for link, mass in centre.masses.items()]
@@ -189,6 +190,16 @@ def _compared(motion: MassMotion) -> dict[str, float]:
         found["shaking moment"] = _gap(motion.shaking.moment[there], [moment for _, moment in borne],
                                        size * metre * reach)
     return found
+
+
+def _fastest(motion: MassMotion, there: Any) -> float:
+    """The largest rate of turning in these poses, in rad/s, or what a link's acceleration comes to from rest; one where
+    the drives stand still: beside it rates are compared."""
+    if not any(drive.rate or drive.change for drive in motion.centre.scene.drives):
+        return 1.0
+    rates = [float(abs(omega[there]).max()) for omega in motion.links.omega.values()]
+    rates += [math.sqrt(float(abs(alpha[there]).max())) for alpha in motion.links.alpha.values()]
+    return max(rates)
 
 
 def _gap(ours: Any, terms: list[Any], size: float = 0.0) -> float:

@@ -25,7 +25,7 @@ from graphplan.mechanism.directions import points_of
 from graphplan.mechanism.fields import Field, Names, Table
 from graphplan.mechanism.items import Faults, Item, perhaps, quoted
 from graphplan.mechanism.load_values import filled_in
-from graphplan.mechanism.model import FRAME, Balance, Contact, Find, Gear, Pair, Presentation, Scene, Slide
+from graphplan.mechanism.model import FRAME, Balance, Contact, Drive, Find, Gear, Pair, Presentation, Scene, Slide
 from graphplan.mechanism.numerals import decimal, is_exact
 from graphplan.mechanism.pairs import fields
 from graphplan.mechanism.pairs.pair import KinematicPair
@@ -194,14 +194,20 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
 
 
 def _kept_by_its_drive(scene: Scene) -> Scene:
-    """The scene; where it has no balance, that is what its drive does."""
+    """The scene; where it has no balance, that is what each of its drives does.
+
+    Of a drive between two moving links the counterpart on the other is left out, so there must be no friction then.
+    """
+    def balance(drive: Drive) -> Balance:
+        if not drive.slides:
+            return Balance(drive.link)
+        slide = scene.driven_slide(drive)
+        return Balance(slide.link, slide.at, slide.direction, slide.written)
+
     loads, drives = scene.loads, scene.drives
-    if not loads or loads.balances or len(drives) != 1 or drives[0].on != FRAME:
+    if not loads or loads.balances or (loads.frictions and any(drive.on != FRAME for drive in drives)):
         return scene
-    slide = scene.driven_slide(drives[0]) if drives[0].slides else None
-    balance = (Balance(slide.link, slide.at, slide.direction, slide.written) if slide
-               else Balance(drives[0].link))
-    return replace(scene, loads=replace(loads, balances=(balance,)))
+    return replace(scene, loads=replace(loads, balances=tuple(map(balance, drives))))
 
 
 def _told_apart(pairs: tuple[KinematicPair, ...]) -> tuple[KinematicPair, ...]:

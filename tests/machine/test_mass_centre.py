@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
+from fractions import Fraction
+from itertools import count
 from pathlib import Path
 
 import numpy as np
 import pytest
 from linkages_with_masses import four_bar, slider_crank
 
-from graphplan.check.balance import mass_motion
+from graphplan.check.balance import balancing, mass_motion
 from graphplan.commands import main
 from graphplan.errors import Refused
 from graphplan.kernel.claims import broken
 from graphplan.machine.mass_centre import mass_centre
+from graphplan.mechanism.model import Loads, Mass
 from graphplan.mechanism.scene import load, parse
 
 OFFSET = [(2, 0.06, 0.02), (3, 0.2, -0.03), (4, 0.12, 0.01)]
@@ -48,13 +52,6 @@ def test_opinions_agree_over_the_cycle(scene: object) -> None:
     assert np.abs(found.shaking.force + m * found.acceleration).max() < 1e-12 * np.abs(found.shaking.force).max()
 
 
-@pytest.mark.parametrize("name", ["rosenauer-loaded", "class-four-loaded", "walschaerts-loaded", "triad-loaded",
-                                  "kinytskyi", "ozols-10-1", "ozols-10-2", "ozols-9-1"])
-def test_other_linkages(name: str) -> None:
-    """Linkages of several loops, with slides and cylinders, have a mass centre, constructed as the solver has it."""
-    assert max(mass_motion(load(name), 12).check.values()) < 1e-9
-
-
 def test_travel_counts_as_the_drive_moves() -> None:
     """A crank that turns clockwise goes through the same poses the other way round, with the same forces."""
     given = four_bar(OFFSET)
@@ -64,6 +61,52 @@ def test_travel_counts_as_the_drive_moves() -> None:
     assert there.closed
     assert np.abs(there.path - np.roll(back.path[::-1], 1)).max() < 1e-15
     assert np.abs(there.shaking.force - np.roll(back.shaking.force[::-1], 1)).max() < 1e-11
+
+
+ARM = """
+[points]
+O = [0, 0]
+A = [60, 80]
+T = [100, 100]
+[links]
+arm = "O A"
+0 = "A T"
+frame = "O"
+[[drive]]
+link = "arm"
+omega = 3
+[[drive]]
+link = "0"
+omega = -6
+relative_to = "arm"
+[masses.arm]
+mass = 2
+centre = "A"
+[masses.0]
+mass = 1.5
+centre = "T"
+"""
+
+
+def test_open_chains_and_drives_at_rest() -> None:
+    """Open chains with a drive in each joint are followed, too, and drives that stand still shake nothing."""
+    assert max(mass_motion(parse(ARM, "arm", by_drive=True), 12).check.values()) < 1e-12
+    still = mass_motion(parse(four_bar(OFFSET).text.replace("omega = 10", "omega = 0"), "still"), 12)
+    assert max(still.check.values()) < 1e-12
+    assert np.abs(still.shaking.force).max() < 1e-12
+
+
+@pytest.mark.parametrize("name", ["walschaerts-loaded", "jaanimets-10", "slotted-link", "wheel-on-rail", "geneva",
+                                  "racks", "planetary", "plough-lift", "ozols-5-5", "gear-linkage"])
+def test_masses_anywhere(name: str) -> None:
+    """Linkages with slides, gears and contacts are followed with masses on all links, and balanced where they can be.
+    """
+    given, number = load(name), count(1)
+    masses = {link: Mass(Fraction(next(number)), Fraction(1, 100), given.links[link][-1]) for link in given.moving}
+    loads = replace(given.loads, frictions=()) if given.loads else Loads((0, 0), {}, (), (), ())
+    found = balancing(replace(given, loads=replace(loads, masses=masses)), 4)
+    assert max(found.check.values()) < 1e-9
+    assert found.weights or "cannot be balanced" in found.note
 
 
 def test_no_masses() -> None:

@@ -52,6 +52,7 @@ BEFORE, AFTER, FIRST, SECOND = CURVES[0], CURVES[2], CURVES[1], CURVES[4]
 WEIGHT, ARM = Pen(0.35, pens.RED, fill="#e8c4c6"), Pen(0.35, pens.RED, (2.4, 1.0))
 OUTSIDE = 6.0  # mm about the mechanism
 MANY_TIMES = 8.0  # the middle size of a force: between limits what is larger may lie off its diagram
+NOTHING = 1e-9  # of a size: what is less is rounding
 MOST, LEAST = 12, 5  # numbered positions at most; mm that the radius of a drawn counterweight is at most
 
 
@@ -211,7 +212,7 @@ class BalanceSheet(Panelled):
 
     def polar(self, rect: Rect) -> Polar:
         """The polar diagram of the shaking force, before and after."""
-        forces = np.concatenate([self._usual(motion.shaking.force) for motion, _ in self.motions])
+        forces = np.concatenate([self._usual(self._force(motion)) for motion, _ in self.motions])
         return Polar.fitted(rect.inset(4.0, 4.0, 4.0, 8.0), forces.real.tolist(), forces.imag.tolist())
 
     def _polar(self, rect: Rect) -> Iterator[Item]:
@@ -219,13 +220,17 @@ class BalanceSheet(Panelled):
         polar = self.polar(rect)
         yield from self.figures.rings(polar, "N")
         for motion, pen in self.motions:
-            spots = [polar.at(float(z.real), float(z.imag)) for z in motion.shaking.force]
+            spots = [polar.at(float(z.real), float(z.imag)) for z in self._force(motion)]
             yield from clipped(Polyline(pen, "links", None, tuple(self._smooth(motion, spots))), polar.rect)
             for number, k in ((number, k) for number, k in enumerate(self.places) if polar.rect.holds(spots[k])):
                 yield Circle(pen.filled(pen.colour), "links", None, spots[k], 0.5)
                 if motion is self.before:
                     yield self._outwards(polar.centre, spots[k], str(number))
         yield from self._legend(rect, [("J", BEFORE), *([("J'", AFTER)] if self.balancing.after else [])])
+
+    def _force(self, motion: MassMotion) -> Any:
+        """The shaking force, zero where it is rounding alone."""
+        return _cleaned(motion.shaking.force, self._sizes[0])
 
     def _usual(self, values: Any) -> Any:
         """The values for which a diagram must have room: all of a motion that closes; between limits, where forces grow
@@ -252,7 +257,9 @@ class BalanceSheet(Panelled):
 
     def _cycle(self, rect: Rect) -> Iterator[Item]:
         """The size of the shaking force, of an engine its parts along the guide, and the moment, over the travel."""
-        forces, moments = self._forces, [(np.asarray(motion.shaking.moment), pen) for motion, pen in self.motions]
+        force, moment = self._sizes
+        forces = [(_cleaned(values, force), pen) for values, pen in self._forces]
+        moments = [(_cleaned(motion.shaking.moment, moment), pen) for motion, pen in self.motions]
         slides = self.scene.drives[0].slides
         travel = self.before.travel if slides else np.degrees(self.before.travel)
         ends = (0.0, 360.0 * max(1, round(travel[-1] / 360))) if self._whole else (travel[0], travel[-1])
@@ -311,9 +318,9 @@ class BalanceSheet(Panelled):
                                                        for key in ("s", "offset"))])
         yield said("Masses of the links, and their centres: s along the link from its first joint, k to its left:")
         yield rows
-        drive = self.scene.drives[0]
-        rate = arranged("{0} {1}", digits(float(drive.rate)), unit(f"{length}/s" if drive.slides else "rad/s"))
-        yield said("Drive of link {0}: {1}", drive.link, rate)
+        for drive in self.scene.drives:
+            rate = arranged("{0} {1}", digits(float(drive.rate)), unit(f"{length}/s" if drive.slides else "rad/s"))
+            yield said("Drive of link {0}: {1}", drive.link, rate)
 
     def found(self) -> Iterator[Words]:
         """Principal vectors, counterweights, the largest forces before and after, and the checks."""
@@ -338,6 +345,14 @@ class BalanceSheet(Panelled):
             yield from self._engine_told()
         parts = [joined((OPINIONS[name], digits(size, 2)), " ") for name, size in self.balancing.check.items()]
         yield said("Second opinions differ by: {0}", joined(parts))
+
+    @cached_property
+    def _sizes(self) -> tuple[float, float]:
+        """The size of the links' own forces, and of their moments: what is nothing beside them is rounding."""
+        metre, scene = float(METRES[self.scene.units.length]), self.scene
+        least = NOTHING * float(KILOGRAMS[scene.units.mass] * self.before.centre.mass) * scene.extent * metre
+        force = max(least, *(float(np.nanmax(np.abs(part))) for part in self.before.shaking.parts.values()))
+        return force, force * scene.extent * metre
 
     @property
     def _posed(self) -> int | None:
@@ -364,11 +379,9 @@ class BalanceSheet(Panelled):
         rows: list[list[Said | str]] = [["", arranged("J, {0}", unit("N")), arranged("M, {0}", unit("N m"))]]
         for words, motion in ((said("before"), self.before), (said("balanced"), self.balancing.after)):
             if motion is not None:
-                size = max(float(np.nanmax(np.abs(part))) for part in motion.shaking.parts.values()) or 1.0
-                reach = size * self.scene.extent * float(METRES[self.scene.units.length])
-                force, moment = (float(np.nanmax(np.abs(values))) for values in (motion.shaking.force,
-                                                                                motion.shaking.moment))
-                rows.append([words, digits(_clean(force, size), 5), digits(_clean(moment, reach), 5)])
+                found = zip((motion.shaking.force, motion.shaking.moment), self._sizes, strict=True)
+                largest = (_clean(float(np.nanmax(np.abs(values))), size) for values, size in found)
+                rows.append([words, *(digits(one, 5) for one in largest)])
         yield said("Largest shaking force, and moment about {0}:", self.before.centre.base)
         yield rows
 
@@ -389,5 +402,10 @@ def _span(curves: list[Any]) -> tuple[float, float]:
 
 
 def _clean(value: float, size: float) -> float:
-    """A value that is nothing beside a size."""
-    return 0.0 if abs(value) < 1e-9 * size else value
+    """A value, or zero where it is nothing beside a size."""
+    return float(_cleaned(np.asarray(value), size))
+
+
+def _cleaned(values: Any, size: float) -> Any:
+    """Values, zero where they are nothing beside a size."""
+    return np.where(np.abs(values) < NOTHING * size, 0.0, values)

@@ -9,25 +9,24 @@ Source: Ozols 1974, 16-2 to 16-4 with figs. 16-4 to 16-12.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from graphplan.check.balance import FULL, GUIDED, NONE, SHARED, Balancing, MassMotion
+from graphplan.check.balance import Balancing, MassMotion
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.units import KILOGRAMS, METRES
 from graphplan.methods.panels import MECHANISM
-from graphplan.output.graphs import CURVES, Figures, Graph, Polar, scale_words, smoothed, stacked, through
-from graphplan.output.machine.balance_numbers import links, principal_vectors, variant, weight_told
+from graphplan.output.graphs import CURVES, Figures, Graph, Polar, Span, scale_words, smoothed, stacked, through
+from graphplan.output.machine.balance_words import BalanceWords, cleaned
 from graphplan.output.panelled import Panelled, Recorded, Words, beside, pages, under
 from graphplan.output.step_ink import HEAD, StepInk
-from graphplan.phrases import Said, arranged, digits, joined, said, unit
+from graphplan.phrases import Said, joined, said
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.letters import of_mechanism
@@ -41,18 +40,12 @@ from graphplan.sheet.plates.view import View, least, view
 
 FORCE = Panel("shaking force", said("shaking force"), said("Shaking force: its polar diagram"))
 CYCLE = Panel("cycle", said("cycle"), said("Shaking force and moment over the travel"))
-WAYS = {FULL: said("fully: the mass centre stands still"),
-        GUIDED: said("partly: the mass centre moves along the guide"),
-        SHARED: said("partly: what rotates, and a share of what reciprocates"), NONE: said("not")}
-OPINIONS = {"path": said("path"), "velocity": said("velocity"), "acceleration": said("acceleration"),
-            "shaking force": said("shaking force"), "shaking moment": said("shaking moment"),
-            "counterweights": said("counterweights"), "orders": said("orders")}
 VECTOR, PATH = Pen(0.5, pens.BLUE, fill=pens.BLUE), Pen(0.35)
 BEFORE, AFTER, FIRST, SECOND = CURVES[0], CURVES[2], CURVES[1], CURVES[4]
 WEIGHT, ARM = Pen(0.35, pens.RED, fill="#e8c4c6"), Pen(0.35, pens.RED, (2.4, 1.0))
 OUTSIDE = 6.0  # mm about the mechanism
 MANY_TIMES = 8.0  # the middle size of a force: between limits what is larger may lie off its diagram
-NOTHING = 1e-9  # of a size: what is less is rounding
+SHARES = 0.7, 0.85, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4  # of the height that forces may have, moments having 1
 MOST, LEAST = 12, 5  # numbered positions at most; mm that the radius of a drawn counterweight is at most
 
 
@@ -230,7 +223,7 @@ class BalanceSheet(Panelled):
 
     def _force(self, motion: MassMotion) -> Any:
         """The shaking force, zero where it is rounding alone."""
-        return _cleaned(motion.shaking.force, self._sizes[0])
+        return cleaned(motion.shaking.force, self.words.sizes[0])
 
     def _usual(self, values: Any) -> Any:
         """The values for which a diagram must have room: all of a motion that closes; between limits, where forces grow
@@ -257,14 +250,14 @@ class BalanceSheet(Panelled):
 
     def _cycle(self, rect: Rect) -> Iterator[Item]:
         """The size of the shaking force, of an engine its parts along the guide, and the moment, over the travel."""
-        force, moment = self._sizes
-        forces = [(_cleaned(values, force), pen) for values, pen in self._forces]
-        moments = [(_cleaned(motion.shaking.moment, moment), pen) for motion, pen in self.motions]
+        force, moment = self.words.sizes
+        forces = [(cleaned(values, force), pen) for values, pen in self._forces]
+        moments = [(cleaned(motion.shaking.moment, moment), pen) for motion, pen in self.motions]
         slides = self.scene.drives[0].slides
         travel = self.before.travel if slides else np.degrees(self.before.travel)
         ends = (0.0, 360.0 * max(1, round(travel[-1] / 360))) if self._whole else (travel[0], travel[-1])
         spans = [_span([self._usual(values) for values, _ in curves]) for curves in (forces, moments)]
-        upper, lower = stacked(rect.inset(2.0, 2.0, 4.0, 5.0), ends, spans, (1.4, 1.0))
+        upper, lower = _stacked(rect.inset(2.0, 2.0, 4.0, 5.0), ends, spans)
         unit_x = self.scene.units.length if slides else "°"
         yield from through([upper, lower], self._uprights(travel))
         words = "s" if slides else "φ"
@@ -307,105 +300,28 @@ class BalanceSheet(Panelled):
 
     # ---- words -----------------------------------------------------------------------------------------------------
 
+    @cached_property
+    def words(self) -> BalanceWords:
+        """What the sheet says."""
+        return BalanceWords(self.balancing)
+
     def given(self) -> Iterator[Words]:
-        """The masses, and where their centres are."""
-        length = self.scene.units.length
-        told = links(self.before)
-        rows: list[list[Said | str]] = [[said("link"), arranged("m, {0}", unit("kg")), arranged("s, {0}", unit(length)),
-                                         arranged("k, {0}", unit(length))]]
-        for name, link in told.items():
-            rows.append([name, digits(link["mass"]), *(digits(_clean(link.get(key, 0.0), link.get("length", 1.0)))
-                                                       for key in ("s", "offset"))])
-        yield said("Masses of the links, and their centres: s along the link from its first joint, k to its left:")
-        yield rows
-        for drive in self.scene.drives:
-            rate = arranged("{0} {1}", digits(float(drive.rate)), unit(f"{length}/s" if drive.slides else "rad/s"))
-            yield said("Drive of link {0}: {1}", drive.link, rate)
+        return self.words.given()
 
     def found(self) -> Iterator[Words]:
-        """Principal vectors, counterweights, the largest forces before and after, and the checks."""
-        scene, length = self.scene, unit(self.scene.units.length)
-        mass = digits(float(KILOGRAMS[scene.units.mass] * self.before.centre.mass))
-        yield said("Mass of the moving links: {0} {1}", mass, unit("kg"))
-        for letter, z, per in (("v", self.before.velocity, "/s"), ("a", self.before.acceleration, "/s²")):
-            if self._posed is not None:
-                x, y = (digits(float(part), 5) for part in (z[self._posed].real, z[self._posed].imag))
-                yield arranged("{0}_S = ({1}, {2}) {3}", letter, x, y, unit(f"{scene.units.length}{per}"))
-        heads: list[Said | str] = [said("link"), arranged("h, {0}", length), arranged("ξ, {0}", length)]
-        rows = [[name, digits(one["h"], 5), digits(_clean(one["offset"], one["length"]), 4)]
-                for name, one in principal_vectors(self.before).items()]
-        yield said("Principal vectors, along the links and square to them:")
-        yield [heads, *rows]
-        yield arranged("{0}: {1}", said("Balanced"), WAYS[self.balancing.way])
-        if self.balancing.note:
-            yield self.balancing.note
-        yield from self._weights_told()
-        yield from self._largest()
-        if self.balancing.engine:
-            yield from self._engine_told()
-        parts = [joined((OPINIONS[name], digits(size, 2)), " ") for name, size in self.balancing.check.items()]
-        yield said("Second opinions differ by: {0}", joined(parts))
+        return self.words.found()
 
-    @cached_property
-    def _sizes(self) -> tuple[float, float]:
-        """The size of the links' own forces, and of their moments: what is nothing beside them is rounding."""
-        metre, scene = float(METRES[self.scene.units.length]), self.scene
-        least = NOTHING * float(KILOGRAMS[scene.units.mass] * self.before.centre.mass) * scene.extent * metre
-        force = max(least, *(float(np.nanmax(np.abs(part))) for part in self.before.shaking.parts.values()))
-        return force, force * scene.extent * metre
 
-    @property
-    def _posed(self) -> int | None:
-        """The place of the given pose among the positions."""
-        there = np.flatnonzero(self.before.travel == 0)
-        return int(there[0]) if there.size and np.isfinite(self.before.path[there[0]]) else None
-
-    def _weights_told(self) -> Iterator[Words]:
-        """The counterweights in a table, and which variant they make."""
-        if not self.balancing.weights:
-            return
-        rows: list[list[Said | str]] = [[said("link"), arranged("m r, {0}", unit("kg m")), "°", arranged(
-            "r, {0}", unit(self.scene.units.length)), arranged("m, {0}", unit("kg"))]]
-        for weight in self.balancing.weights:
-            one = weight_told(self.scene, weight)
-            rows.append([one["link"], *(digits(one[key], 5) for key in ("mass_radius", "angle", "radius", "mass"))])
-        yield said("Counterweights, where they stand in this pose:")
-        yield rows
-        if self.balancing.after is not None and (name := variant(self.balancing.after)):
-            yield said("Variant {0} of table 16-1", name)
-
-    def _largest(self) -> Iterator[Words]:
-        """The largest shaking force and moment."""
-        rows: list[list[Said | str]] = [["", arranged("J, {0}", unit("N")), arranged("M, {0}", unit("N m"))]]
-        for words, motion in ((said("before"), self.before), (said("balanced"), self.balancing.after)):
-            if motion is not None:
-                found = zip((motion.shaking.force, motion.shaking.moment), self._sizes, strict=True)
-                largest = (_clean(float(np.nanmax(np.abs(values))), size) for values, size in found)
-                rows.append([words, *(digits(one, 5) for one in largest)])
-        yield said("Largest shaking force, and moment about {0}:", self.before.centre.base)
-        yield rows
-
-    def _engine_told(self) -> Iterator[Words]:
-        """The reduced masses and orders of an engine."""
-        engine = self.balancing.engine
-        assert engine is not None
-        yield said("Engine: rotating mass {0} {2}, reciprocating mass {1} {2}", digits(engine.rotating),
-                   digits(engine.reciprocating), unit("kg"))
-        yield said("Forces of what rotates {0}, of the first order {1}, of the second {2} {3}",
-                   *(digits(abs(force)) for force in (engine.centrifugal, engine.order(1), engine.order(2))), unit("N"))
+def _stacked(room: Rect, x: Span, spans: Sequence[Span]) -> list[Graph]:
+    """Two diagrams, each as high as its ordinates are at its round scale, in the shares in which they take most room.
+    """
+    tried = [stacked(room, x, spans, (share, 1.0)) for share in SHARES]
+    fitted = [[replace(graph, rect=replace(graph.rect, top=graph.at(0.0, high)[1]))
+               for graph, (_, high) in zip(graphs, spans, strict=True)] for graphs in tried]
+    return max(fitted, key=lambda graphs: sum(graph.rect.height for graph in graphs))
 
 
 def _span(curves: list[Any]) -> tuple[float, float]:
     """From the least of some values to the largest, and a little more; zero among them."""
     low, high = (float(end([end([0.0, *values]) for values in curves])) for end in (min, max))
     return (1.05 * low, 1.05 * high) if high > low else (-1.0, 1.0)
-
-
-def _clean(value: float, size: float) -> float:
-    """A value, or zero where it is nothing beside a size."""
-    return float(_cleaned(np.asarray(value), size))
-
-
-def _cleaned(values: Any, size: float) -> Any:
-    """Values, zero where they are nothing beside a size."""
-    return np.where(np.abs(values) < NOTHING * size, 0.0, values)

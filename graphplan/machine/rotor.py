@@ -17,7 +17,7 @@ from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Ta
 from graphplan.mechanism.items import Faults, Item, described
 from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.numerals import heading, shown
-from graphplan.mechanism.tasks import read_task, task_table, task_text
+from graphplan.mechanism.tasks import read_task, task_table
 from graphplan.mechanism.units import KILOGRAMS, METRES, Units
 from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER
 
@@ -235,11 +235,6 @@ TASK = task_table(
 
 
 # ---- reading --------------------------------------------------------------------------------------------------------
-
-
-def load(source: str) -> RotorTask:
-    """The task in a file or on standard input (`-`); fails with `SceneError`, one line a fault."""
-    return parse(task_text(source, "balance"), source)
 
 
 def parse(text: str, name: str) -> RotorTask:

@@ -36,6 +36,7 @@ from graphplan.mechanism.values import TEXT, VECTOR
 from graphplan.mechanism.variation import VARY
 
 FOLDER = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
+TASKS = {"rotor": "balance", "law": "cam"}  # tables of tasks, and the commands that read these
 PAIRS = fields()
 PAIR_KEYS = tuple(field.name for field in PAIRS)
 SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and what is asked of it", (
@@ -118,8 +119,13 @@ def parse(text: str, name: str, by_drive: bool = False) -> Scene:
     """
     faults = Faults()
     folder = FOLDER if name in packaged() and not os.path.exists(name) else os.path.dirname(name)
-    scene, files = _read(tables_of(text, name), name, faults, folder, by_drive)
+    tables = tables_of(text, name)
+    scene, files = _read(tables, name, faults, folder, by_drive)
     if len(faults):
+        for key, command in TASKS.items():
+            if key in tables:
+                fault = Fault(key, "this is a task, no scene", f"graphplan {command} {name}")
+                raise SceneError(name, (fault,))
         from graphplan.mechanism.slips import slips_in_vectors  # few scenes have faults
 
         for slip in slips_in_vectors(text):

@@ -185,10 +185,12 @@ def test_sheets_show_the_views_and_what_balances(tmp_path: Path) -> None:
     assert "Steps " not in svg  # each is told
 
 
-def test_options_of_linkages_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A rotor has no use for the options of a linkage, numbers have none for paper."""
+def test_rotors_are_no_linkages(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A rotor is no scene and has no use for the options of a linkage; numbers have none for paper."""
     task = tmp_path / "rotor.toml"
     task.write_text(THREE)
+    assert main(["solve", str(task)]) == 2
+    assert "rotor: this is a task, no scene; graphplan balance" in capsys.readouterr().err
     for given in (["--positions", "12"], ["--paper", "A2"], ["-o", "rotor.gif"]):
         assert main(["balance", str(task), *given]) == 2
         assert len(capsys.readouterr().err.splitlines()) == 1

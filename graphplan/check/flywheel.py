@@ -37,7 +37,7 @@ def checked(result: FlywheelResult) -> dict[str, float]:
     apart = np.linspace(first, last, POSES, endpoint=False)
     found = {f"reduced {what}": gap for what, gap in reduction_checked(result.reduction, apart).items()}
     found |= _motion(result)
-    if (rubbing := result.reduction.friction) and not any(one.contact for one in rubbing.frictions):
+    if result.reduction.friction:
         found["friction"] = result.reduction.losses.apart
     gutjahr = next((method.inertia for method in result.methods if method.name == "gutjahr"), None)
     if gutjahr is not None and not result.given:

@@ -13,7 +13,8 @@ from graphplan.check.arithmetics import FLOATS
 from graphplan.check.compared import CLOSE, NOTHING, compared, drawn_sizes, each, plain, sliding, weight
 from graphplan.check.report import by_part, opinion
 from graphplan.errors import GraphplanError
-from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
+from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import (
@@ -192,9 +193,12 @@ def _sound(pose: Round, drawing: Construction, ours: Results, worst: float) -> b
 
 def alone(scene: Scene) -> Scene:
     """A scene in one pose, its floats taken as they are."""
-    slides = (replace(slide, written=None) for slide in scene.slides)
-    drives = (drive.driven_at(*drive.rates) for drive in scene.drives)
-    return replace(scene, irrational=(), placements={}, written=(*slides, *drives))
+    def plain(pair: KinematicPair) -> KinematicPair:
+        if isinstance(pair, Drive):
+            return pair.driven_at(*pair.rates)
+        return replace(pair, written=None) if isinstance(pair, Slide) else pair
+
+    return replace(scene, irrational=(), placements={}, written=tuple(map(plain, scene.written)))
 
 
 def _plain(number: Any) -> Any:

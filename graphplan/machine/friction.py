@@ -260,8 +260,8 @@ class FrictionOverCycle:
 
 @dataclass(frozen=True)
 class CycleLosses:
-    """Friction over a cycle, in J: the work that is `lost`, and the `pairs`' shares; the work `given` by all that
-    drives, the drive and the loads whose works are positive."""
+    """Friction over a cycle, in J: the work that is `lost`, and the `pairs`' shares, of contacts what the others
+    leave over; the work `given` by all that drives, the drive and the loads whose works are positive."""
 
     lost: float
     given: float
@@ -274,7 +274,7 @@ class CycleLosses:
 
     @property
     def apart(self) -> float:
-        """How far the pairs' shares are from all that is lost, beside that: what contacts take is no share."""
+        """How far the pairs' shares are from all that is lost, beside that; contacts have what is left over."""
         return abs(sum(self.pairs.values()) - self.lost) / self.lost if self.lost else 0.0
 
 
@@ -294,6 +294,8 @@ def cycle_losses(friction: FrictionOverCycle, moments: Callable[[Array], Mapping
     done = dict(zip(names, map(float, works), strict=True))
     pairs = {name: -done.pop(name) for name in friction.pairs}
     lost = -done.pop(M_F)
+    if any(one.contact for one in friction.frictions):
+        pairs["contacts"] = lost - sum(pairs.values())
     return CycleLosses(lost, sum(max(0.0, work) for work in done.values()), pairs)
 
 

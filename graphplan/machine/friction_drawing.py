@@ -6,7 +6,7 @@ from graphplan.mechanism import units
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
 from graphplan.methods.forces.free_bodies import DrawnForces, reaction_on
-from graphplan.methods.forces.friction import journals
+from graphplan.methods.forces.friction import rubbing
 from graphplan.methods.forces.groups import ForceTransfer
 from graphplan.methods.forces.loaded import Loaded
 from graphplan.methods.forces.loading import Loading
@@ -26,13 +26,13 @@ class RubbedForces(Loaded):
     def note_rubbed(self, loading: Loading, forces: DrawnForces) -> None:
         """Keep the balances with friction, and the reactions of journals and slides that rub."""
         super().note_rubbed(loading, forces)
-        for journal in journals(loading.net.scene):
+        for journal in rubbing(loading.net.scene, forces):
             point = journal.point if journal.point in forces.scene.points else journal.friction.at
             self.read(RUBBED_REACTION, JointForce(journal.friction.at, journal.link).name,
                       *reaction_on(forces, self.board, point, journal.link))
-        rubbing = {frozenset(friction.links) for friction in self.loads.frictions if friction.coefficient}
+        leaning = {frozenset(friction.links) for friction in self.loads.frictions if friction.coefficient}
         for slide in self.scene.slides:
-            if frozenset(slide.links) in rubbing and slide in forces.slides:
+            if frozenset(slide.links) in leaning and slide in forces.slides:
                 self.read(RUBBED_REACTION, slide.name, *forces.slides[slide])
 
 

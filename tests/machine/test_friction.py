@@ -119,6 +119,32 @@ def test_the_mean_efficiency_of_a_piston() -> None:
         _ = reduction(gp.load("ozols-10-1")).losses
 
 
+TABLED = """
+[[forces]]
+on = "3"
+at = "B"
+direction = [1, 0]
+over = "3 along frame"
+values = [[-1000, 0], [1000, 0], [1000, -500], [0, -300], [-1000, -200]]
+"""
+
+
+def test_loads_by_tables_rub_too() -> None:
+    """The moment of friction follows loads that change, jumps with them, and the pairs take all that is lost."""
+    found = reduction(parse(PISTON.replace("[balance]", f"{TABLED}[balance]"), "piston"))
+    assert friction_gap(found, np.linspace(0.1, 6.2, 7)) < 1e-11
+    assert found.losses.apart < 1e-10
+
+
+def test_a_roller_rubs_on_its_pin() -> None:
+    """The pin of a roller that rolls on a cam is a journal like any other, wherever the roller touches."""
+    text = gp.load("roller-cam").text
+    rough = '[[moments]]\non = "2"\nvalue = 3\n[balance]\nlink = "1"\n[[friction]]\nat = "A"\n' \
+            "radius = 2\ncoefficient = 0.1\n[masses.2]\nmass = 3\ncentre = \"A\"\n[find]"
+    found = reduction(parse(text.replace("[find]", rough), "roller-cam"))
+    assert friction_gap(found, np.linspace(0.1, 6.2, 7)) < 1e-11
+
+
 def test_a_mechanism_that_locks_itself_is_refused() -> None:
     """Where friction is so large that no balance keeps up the motion, it is said at which travel."""
     found = reduction(parse(PISTON.replace("coefficient = 0.1", "coefficient = 6"), "piston"))

@@ -53,6 +53,11 @@ def journals(scene: Scene) -> Iterator[Journal]:
                 yield Journal(friction, f"{friction.at} of {link}", link, pin)
 
 
+def rubbing(scene: Scene, forces: DrawnForces) -> Iterator[Journal]:
+    """The journals that rub, but for those of links that stand for rolling."""
+    return (journal for journal in journals(scene) if journal.link in forces.scene.links)
+
+
 def rough(scene: Scene) -> Scene:
     """The scene with a joint of two links for each journal that rubs: their forces act at points of their own."""
     named: dict[str, dict[str, list[str]]] = {}
@@ -73,7 +78,7 @@ class Rubbed:
     def __init__(self, velocity: Velocity, loading: Loading, forces: DrawnForces):
         self.velocity, self.loading, self.forces, self.board = velocity, loading, forces, loading.board
         self.posed = posed_for(loading.pose, forces.scene)
-        self.touching = {journal: self._touching(journal) for journal in journals(loading.net.scene)}
+        self.touching = {journal: self._touching(journal) for journal in rubbing(loading.net.scene, forces)}
         coefficients = {frozenset(friction.links): friction.coefficient for friction in loading.loads.frictions}
         self.leaning = {slide: self._leaning(slide, coefficients[frozenset(slide.links)])
                         for slide in forces.scene.slides if coefficients.get(frozenset(slide.links))

@@ -56,8 +56,10 @@ def run(options: argparse.Namespace) -> int:
     drawing = drawn(found.motion, min(positions, MOST))
     check = checked(found, drawing)
     if (stop := found.motion.stop) is not None:
-        messages.remark(f"{found.scene.name}: the machine stops at {found.machine.told(stop.travel)}, after "
-                        f"{stop.time:.6g} s")
+        when = f"after {stop.time:.6g} s" if math.isfinite(stop.time) else "and nears it for ever"
+        messages.remark(f"{scene.name}: the machine stops at {found.machine.told(stop.travel)}, {when}")
+    if found.reduction.friction is not None:
+        messages.remark(f"{scene.name}: friction is taken as it is at the speed of the drive in the scene")
     if ending in SHEETS:
         from graphplan.output.machine.motion_sheet import sheets
 

@@ -19,6 +19,7 @@ from graphplan.machine.true_motion import TrueMotion, moved
 from graphplan.mechanism.model import Scene
 
 TURN_TOLD = 360.0  # degrees
+FARTHEST = 1000  # turns that a motion is followed
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +80,8 @@ def _reduced(scene: Scene, travel: float | None) -> Reduction:
     said, or where a flywheel is asked for; else over the travel."""
     if travel is not None and travel <= 0:
         raise Refused("--travel", f"{travel:g} leads nowhere", "degrees (lengths of a sliding drive) above 0")
+    if travel is not None and travel > FARTHEST * TURN_TOLD and not (scene.drives and scene.drives[0].slides):
+        raise Refused("--travel", f"{travel:g} degrees are more than {FARTHEST} turns", "a shorter travel, or --steady")
     if scene.drives and scene.drives[0].slides and travel is None:
         raise Refused("the motion", "the first drive slides, and how far is not said", "--travel, or travel in [run]")
     whole = scene.flywheel is not None or travel is None or travel >= TURN_TOLD

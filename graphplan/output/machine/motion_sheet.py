@@ -96,8 +96,10 @@ class MotionSheet(Panelled):
         run, motion, machine = self.found_run, self.found_run.motion, self.found_run.machine
         rate = self._unit("omega")
         if motion.stop is not None:
-            yield said("It stops at {0} {1}, after {2} s", digits(motion.stop.travel / machine.degree),
-                       self._unit("travel"), digits(motion.stop.time))
+            at = digits(motion.stop.travel / machine.degree), self._unit("travel")
+            known = math.isfinite(motion.stop.time)
+            yield (said("It stops at {0} {1}, after {2} s", *at, digits(motion.stop.time)) if known
+                   else said("It comes to rest at {0} {1}, for ever nearing it", *at))
         for words, place in zip((said("Least speed"), said("Largest speed")), motion.extremes, strict=True):
             yield said("{0}: {1} {2} at {3} {4}", words, digits(place.omega / machine.pace), rate,
                        digits(place.travel / machine.degree), self._unit("travel"))

@@ -189,6 +189,15 @@ class Figures:
         runs = sentence_runs(self.tongue(words), names) if isinstance(words, str) else words
         return Text(pen, "letters", None, at, runs, size or self.letters.text, anchor)
 
+    def quantity(self, at: Spot, letter: str, measure: str, k: float, convention: str = "real", anchor: str = "start",
+                 scale: str = "") -> Text:
+        """What a diagram shows, its unit and its scale; the scale is called by another letter where that is told."""
+        name = scale or letter
+        told = self.tongue(arranged("{0}, {1};  ", letter, unit(measure)))
+        k_told = self.tongue(scale_words(name, abs(k), measure, convention))
+        return self.text(at, (*sentence_runs(told, (letter,)), *sentence_runs(k_told, (f"k_{name}", f"mu_{name}"))),
+                         anchor)
+
     def marked(self, at: Spot, words: str, off: Spot = (1.2, 0.8)) -> Iterator[Item]:
         """A point with its letter."""
         yield Circle(pens.DOT, "plates", None, at, 0.6)

@@ -21,12 +21,11 @@ from graphplan.machine.flywheel import FlywheelResult
 from graphplan.machine.flywheel_drawing import FLYWHEEL, FlywheelDrawing
 from graphplan.machine.flywheel_frames import HEAD, Frame, Room, laid_out, plans_of
 from graphplan.machine.integrals import Piecewise
-from graphplan.output.graphs import AXIS, HEADED, Figures, Graph, scale_words
+from graphplan.output.graphs import AXIS, HEADED, Figures, Graph
 from graphplan.output.panelled import Recorded
 from graphplan.output.step_ink import StepInk
-from graphplan.phrases import arranged, unit
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.lettering import CAPS, Runs, name_runs, sentence_runs
+from graphplan.sheet.lettering.lettering import CAPS, name_runs, sentence_runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.clip import clipped
 from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Spot
@@ -214,17 +213,10 @@ class FlywheelFigure:
             return {"M": ("M", "N m"), "E": ("E", "J"), "I": ("I", "kg m²"), "phi": ("phi", "°")}
         return {"M": ("F", "N"), "E": ("E", "J"), "I": ("m", "kg"), "phi": ("s", self.result.scene.units.length)}
 
-    def _scale(self, what: str, k: float) -> Runs:
-        """A scale, set."""
-        letter, measure = self._measures[what]
-        told = scale_words(letter, k, measure, self.result.scene.sheet.convention)
-        return sentence_runs(self.paper.tongue(told), (f"k_{letter}", f"mu_{letter}"))
-
     def _told(self, what: str, k: float, at: Spot, anchor: str = "start") -> Item:
         """Letter, unit and scale of a quantity."""
-        letter, measure = self._measures[what]
-        told = self.paper.tongue(arranged("{0}, {1};  ", letter, unit(measure)))
-        return self.paper.text(at, (*sentence_runs(told, (letter,)), *self._scale(what, k)), anchor)
+        convention = self.result.scene.sheet.convention
+        return self.paper.quantity(at, *self._measures[what], k, convention, anchor)
 
     def _axes(self) -> Iterator[Item]:
         """Axes, round divisions with numbers, and scales."""

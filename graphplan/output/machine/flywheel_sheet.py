@@ -220,7 +220,7 @@ class FlywheelSheet(Panelled):
                            for x, most in zip(row, size, strict=True))]
                 for k, row in enumerate(zip(*columns, strict=True))]
         if self.task:  # the travels are given
-            yield Blank([joined((one, two), " "), *rest] for one, two, *rest in (head, *rows))
+            yield Blank([joined(filter(None, (one, two)), ": "), *rest] for one, two, *rest in (head, *rows))
         else:
             yield [head, *rows]
 

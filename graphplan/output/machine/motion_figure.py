@@ -18,10 +18,9 @@ from graphplan.kernel.program import Step
 from graphplan.machine.motion_drawing import MOTION, MotionDrawing
 from graphplan.machine.motion_frames import POLE, Room
 from graphplan.machine.runs import Run
-from graphplan.output.graphs import AXIS, FOOT, HEADED, Figures, Graph, scale_words
+from graphplan.output.graphs import AXIS, FOOT, HEADED, Figures, Graph
 from graphplan.output.panelled import Recorded
 from graphplan.output.step_ink import StepInk
-from graphplan.phrases import arranged, unit
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates import pens
@@ -122,11 +121,8 @@ class MotionFigure:
     def _told(self, what: str, k: float, at: Spot, anchor: str = "start") -> Item:
         """Letter, unit and scale of a quantity."""
         letter, measure = self._measures[what]
-        name = {"1/omega": "u", "1/v": "u"}.get(letter, letter)
-        told = self.paper.tongue(arranged("{0}, {1};  ", letter, unit(measure)))
-        scale = self.paper.tongue(scale_words(name, abs(k), measure, self.found.scene.sheet.convention))
-        runs = *sentence_runs(told, (letter,)), *sentence_runs(scale, (f"k_{name}", f"mu_{name}"))
-        return self.paper.text(at, runs, anchor)
+        scale, convention = {"1/omega": "u", "1/v": "u"}.get(letter, letter), self.found.scene.sheet.convention
+        return self.paper.quantity(at, letter, measure, k, convention, anchor, scale)
 
     def _axes(self) -> Iterator[Item]:
         """Axes, round divisions with numbers, and scales."""

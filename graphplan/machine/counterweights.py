@@ -137,10 +137,11 @@ class _Balancing:
     def solved(self, keep: Collection[str], radii: Mapping[str, float]) -> tuple[Counterweight, ...]:
         """The counterweights on as few links as will do."""
         able = [link for link in self.scene.moving if self.turning[link] != FRAME]
-        for link in (*keep, *radii):
-            if link not in able:
-                raise Refused(f"{self.scene.name}: counterweights", said("link {0} does not turn", link),
-                              f"one of {', '.join(able)}")
+        where, moving = f"{self.scene.name}: counterweights", self.scene.moving
+        if unknown := next((link for link in keep if link not in moving), ""):
+            raise Refused(where, said("there is no moving link {0}", unknown), f"one of {', '.join(moving)}")
+        if unable := next((link for link in radii if link not in able), ""):
+            raise Refused(where, said("link {0} does not turn", unable), f"one of {', '.join(able)}")
         able = [link for link in able if link not in keep]
         grounded = [link for link in able if self.grounded(link)]
         chosen = [*grounded]

@@ -79,6 +79,15 @@ def test_a_share_of_what_reciprocates() -> None:
     assert 2 * np.array([force.real @ np.cos(phase), force.imag @ np.sin(phase)]) / 360 == pytest.approx([half, -half])
 
 
+def test_wheels_against_each_other() -> None:
+    """Two wheels that turn against each other with the crank balance the first order, two at twice its speed the
+    second; Ozols (16.19)."""
+    found = engine(load("ozols-16-1"))
+    assert found is not None
+    for speed, moment in found.counter_rotating:
+        assert 2 * moment * (speed * found.omega) ** 2 == pytest.approx(abs(found.order(speed)))
+
+
 def test_cylinders_in_line() -> None:
     """Of two cylinders the second order is left and a couple of the first; of four the second; of six the sixth, as
     there are no odd orders but the first."""

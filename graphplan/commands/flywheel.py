@@ -24,6 +24,7 @@ from graphplan.commands.output import SHEETS, Messages, as_json, kind, write, wr
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
+    from graphplan.accuracy.pencil import Pencil
     from graphplan.machine.flywheel import FlywheelResult
     from graphplan.mechanism.model import Scene
 
@@ -69,7 +70,7 @@ def run(options: argparse.Namespace) -> int:
         pages = sheets(result, scene.sheet.paper or None, options.task)
         write_sheets(pages, options.output, ending[1:], options.dpi)
     else:
-        error = _pencil_error(result, options)
+        error, _ = pencil_errors(result, pencil(options))
         write(table(result) if ending == ".csv" else as_json(numbers(result, error), rows=True), options.output)
     return 0
 
@@ -102,13 +103,14 @@ def _amount(name: str, text: str) -> Fraction:
     return found
 
 
-def _pencil_error(result: FlywheelResult, options: argparse.Namespace) -> float:
-    """The standard deviation of the drawn flywheel, or unevenness, by the pencil."""
+def pencil_errors(result: FlywheelResult, pencil: Pencil) -> tuple[float, float]:
+    """The standard deviations by the pencil of the drawn flywheel, or unevenness, and of the mean moment."""
     from graphplan.accuracy.first_order import deviation
     from graphplan.accuracy.hand import program_hand
 
     drawing = result.drawing
-    hand = program_hand(drawing.program, drawing.values, lambda step: 1.0, pencil(options))
-    (m,), (n,) = drawing.marks["m"], drawing.marks["n"]
+    hand = program_hand(drawing.program, drawing.values, lambda step: 1.0, pencil)
+    (m,), (n,), (mean,) = (drawing.marks[role] for role in ("m", "n", "mean"))
     off = deviation(hand, lambda values: values[m][1] - values[n][1]) * drawing.frames["energy"].y.unit
-    return off * drawing.change(result.given)
+    return (off * drawing.change(result.given),
+            deviation(hand, lambda values: values[mean][1]) * drawing.frames["moment"].y.unit)

@@ -20,6 +20,7 @@ Of a task with [rotor] they are the numbers that balance it: correction and angl
   quantity,of,value,unit
   correction,I,58,kg·mm
   angle,I,276.5,°
+and of a scene with [flywheel] they may be its flywheel (or unevenness) and closing moment.
 
 examples:
   graphplan verify four-bar points.csv
@@ -84,14 +85,8 @@ def run(options: argparse.Namespace) -> int:
 
         return verify_stack.run(options)
     _no_stack(options)
-    if os.path.isfile(options.scene):
-        from graphplan.mechanism.scene import source_text, tables_of
-
-        text = source_text(options.scene, options.scene)
-        if "rotor" in tables_of(text, options.scene):
-            from graphplan.commands import verify_answers
-
-            return verify_answers.run(options, text)
+    if (status := _of_answers(options)) is not None:
+        return status
     path, weighed = Path(options.drawing), weights(options.weights)
     ending = _reported(options.report, path, options.scene)
     desk = Desk(on_paper(options), weighed, options)
@@ -102,6 +97,22 @@ def run(options: argparse.Namespace) -> int:
     say = desk.on_sheet.composition.plans.tongue
     write(as_json(found.data) if options.json else "".join(f"{say(line)}\n" for line in found.lines))
     return 0 if found.judged else 2
+
+
+def _of_answers(options: argparse.Namespace) -> int | None:
+    """The verdict on single numbers, where the scene is the task of a rotor, or they are of its flywheel."""
+    if options.scene == STANDARD:
+        return None
+    from graphplan.commands import verify_answers
+    from graphplan.mechanism.scene import source_text, tables_of
+
+    text = source_text(options.scene, options.scene)
+    tables = tables_of(text, options.scene)
+    if "rotor" in tables:
+        return verify_answers.of_rotor(options, text)
+    asked = "flywheel" in tables and options.drawing.endswith(".csv")
+    return verify_answers.of_flywheel(options, text) if asked and verify_answers.of_a_flywheel(
+        Path(options.drawing)) else None
 
 
 def _no_stack(options: argparse.Namespace) -> None:

@@ -1,4 +1,4 @@
-"""Verify the answers to a rotor's task: each number by the true one, as far as a pencil allows."""
+"""Verify answers, of a rotor or a flywheel: each number by the true one, as far as a pencil allows."""
 
 from __future__ import annotations
 
@@ -17,28 +17,70 @@ if TYPE_CHECKING:
     from graphplan.output.machine.rotor_sheet import RotorSheet
 
 
-def run(options: argparse.Namespace, text: str) -> int:
-    """Judge a table of answers, or each in a folder, and print the verdicts."""
+FLYWHEEL = "flywheel", "unevenness", "closing moment"  # what is asked of a machine
+
+
+def of_rotor(options: argparse.Namespace, text: str) -> int:
+    """Judge the answers to the task of a rotor."""
     from graphplan.check.rotors import checked
     from graphplan.machine.rotor import parse
     from graphplan.machine.rotor_balance import balanced
     from graphplan.output.machine.rotor_sheet import one_sheet
+
+    found = balanced(parse(text, options.scene))
+    sheet = one_sheet(found, checked(found), pencil(options))
+    return _judge(options, [_expected(sheet, answer) for answer in found.answers], found.task.sheet.language)
+
+
+def of_flywheel(options: argparse.Namespace, text: str) -> int:
+    """Judge the flywheel and the closing moment of a scene."""
+    from graphplan.check.flywheel import checked
+    from graphplan.commands.flywheel import POSITIONS, pencil_errors
+    from graphplan.machine.flywheel import flywheel
+    from graphplan.marking.answers import Expected
+    from graphplan.mechanism.scene import parse
+    from graphplan.mechanism.units import Dimension
+
+    result = flywheel(parse(text, options.scene, by_drive=True), POSITIONS)
+    checked(result)
+    wheel, mean = pencil_errors(result, pencil(options))
+    off, arm = result.strip_error + 2 * wheel, 1 if result.turns else 0
+    size = Expected("flywheel", "", result.wheel.inertia, off, "kg·m²" if arm else "kg", 1.0,
+                    Dimension(2 * arm - 1, 2, 1, "I", "kg*m^2" if arm else "kg"))
+    if result.given:
+        size = Expected("unevenness", "", result.unevenness, off, "1", 1.0, Dimension(0, 0, 0, "delta", "1"))
+    closing = result.cycle.closing
+    moment = Expected("closing moment", "", closing, abs(result.drawing.mean + closing) + 2 * mean,
+                      "N·m" if arm else "N", 1.0, Dimension(arm, 0, 1, "M", "N*m" if arm else "N"))
+    return _judge(options, [[size, moment] if closing else [size]], result.scene.sheet.language)
+
+
+def of_a_flywheel(path: Path) -> bool:
+    """Whether a table has answers that are asked of a flywheel."""
+    from graphplan.marking.tables.reader import read_answers
+
+    try:
+        return any(answer.quantity in FLYWHEEL for answer in read_answers(path))
+    except Refused:  # it has other columns
+        return False
+
+
+def _judge(options: argparse.Namespace, choices: Sequence[Sequence[Expected]], language: str) -> int:
+    """Judge a table of answers, or each in a folder, by the nearest of the choices, and print the verdicts."""
     from graphplan.words.tongue import tongue
 
     if options.report:
-        raise Refused(f"--report {options.report}", "answers to a rotor's task are judged in a few lines", "--json")
-    found = balanced(parse(text, options.scene))
-    sheet = one_sheet(found, checked(found), pencil(options))
+        raise Refused(f"--report {options.report}", "answers are judged in a few lines", "--json")
     path = Path(options.drawing)
     files = sorted(path.glob("*.csv")) if path.is_dir() else [path]
     if not files:
         raise Refused(f"{path}", "there is no table of answers in it", "files that end in .csv")
-    verdicts = {file.name: _judged(sheet, file) for file in files}
+    verdicts = {file.name: _judged(choices, file) for file in files}
     if options.json:
         write(as_json([_record(name, each) for name, each in verdicts.items()] if path.is_dir() else
                       _record(path.name, verdicts[path.name]), rows=True))
         return 0
-    say, lines = tongue(options.language or found.task.sheet.language), []
+    say, lines = tongue(options.language or language), []
     for name, each in verdicts.items():
         lines += [name] if path.is_dir() else []
         lines += [str(say(one.told)) for one in each]
@@ -46,13 +88,12 @@ def run(options: argparse.Namespace, text: str) -> int:
     return 0
 
 
-def _judged(sheet: RotorSheet, path: Path) -> list[AnswerVerdict]:
-    """The verdicts on one table, by the answer of the task that it is nearest to."""
+def _judged(choices: Sequence[Sequence[Expected]], path: Path) -> list[AnswerVerdict]:
+    """The verdicts on one table, by the choice that it is nearest to."""
     from graphplan.marking.answers import judged, right
     from graphplan.marking.tables.reader import read_answers
 
     answers = read_answers(path)
-    choices = [_expected(sheet, answer) for answer in sheet.balanced.answers]
     for given in answers:
         if not any(one.matches(given) for one in choices[0]):
             known = ", ".join(f"{one.quantity},{one.of}" for one in choices[0])
@@ -60,7 +101,7 @@ def _judged(sheet: RotorSheet, path: Path) -> list[AnswerVerdict]:
     try:
         return max((judged(choice, answers) for choice in choices), key=right)
     except ValueError as error:
-        raise Refused(f"{path}", str(error), "a unit such as kg·mm, and degrees of angles") from None
+        raise Refused(f"{path}", str(error), f"a unit such as {choices[0][0].written}") from None
 
 
 def _expected(sheet: RotorSheet, answer: Answer) -> list[Expected]:

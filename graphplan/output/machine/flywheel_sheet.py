@@ -22,6 +22,7 @@ from graphplan.machine.flywheel_methods import NEGLECTS_NOTHING
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import Figures
 from graphplan.output.machine.flywheel_figure import FlywheelFigure, room_in
+from graphplan.output.machine.given_words import masses_and_loads
 from graphplan.output.machine.lever_figures import LEVERS, LeverFigures
 from graphplan.output.panelled import Blank, Panelled, Recorded, Words, beside, pages, under
 from graphplan.phrases import Said, arranged, digits, joined, phrase, said, unit
@@ -147,21 +148,12 @@ class FlywheelSheet(Panelled):
 
     def given(self) -> Iterator[Words]:
         """The speed and how even it is to be, the masses and the loads."""
-        result, loads = self.result, self.scene.loads
+        result = self.result
         yield arranged("omega = {0} {1}" if result.turns else "v = {0} {1}", digits(result.cycle.speed),
                        unit(self._units[2]))
         if not result.given:
             yield arranged("delta = {0}", digits(result.unevenness))
-        names = self.scene.units
-        for link, mass in loads.masses.items() if loads else ():
-            parts = [arranged("m_{0} = {1} {2}", link, digits(float(mass.mass)), unit(names.mass))] if mass.mass else []
-            if mass.inertia:
-                parts.append(arranged("I_{0} = {1} {2}", link, digits(float(mass.inertia)), unit(f"{names.mass} m²")))
-            if parts:
-                yield joined(parts)
-        tables = [*(f.table for f in loads.forces), *(m.table for m in loads.moments)] if loads else []
-        for table in dict.fromkeys(filter(None, tables)):
-            yield said("A load over {0}, in {1} rows", table.over, len(table.rows))
+        yield from masses_and_loads(self.scene)
 
     @property
     def _units(self) -> tuple[str, str, str]:

@@ -17,6 +17,7 @@ from graphplan.machine.motion_drawing import MOTION, MotionDrawing, drawn
 from graphplan.machine.runs import Run
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import Figures
+from graphplan.output.machine.given_words import masses_and_loads
 from graphplan.output.machine.motion_figure import MotionFigure, room_in
 from graphplan.output.machine.motion_numbers import units
 from graphplan.output.panelled import Panelled, Recorded, Words, pages
@@ -79,7 +80,7 @@ class MotionSheet(Panelled):
     # ---- words -----------------------------------------------------------------------------------------------------
 
     def given(self) -> Iterator[Words]:
-        """The speed at the beginning, the flywheel and what closes the cycle."""
+        """The speed at the beginning, the flywheel and what closes the cycle, masses and loads."""
         run, measures = self.found_run, units(self.found_run)
         first = float(run.motion.at([run.motion.start]).omega[0]) / run.machine.pace
         yield said("At the beginning: {0} {1}", digits(first), unit(measures["omega"]))
@@ -87,6 +88,7 @@ class MotionSheet(Panelled):
             yield said("Flywheel: {0} {1}", digits(run.machine.wheel), self._unit("inertia"))
         if run.machine.closing:
             yield said("Closing moment: {0} {1}", digits(run.machine.closing), self._unit("moment"))
+        yield from masses_and_loads(self.scene)
 
     def _unit(self, what: str) -> Said:
         return unit(units(self.found_run)[what].replace("*", " ").replace("^2", "²").replace("deg", "°"))

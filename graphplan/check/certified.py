@@ -23,11 +23,13 @@ from graphplan.check.trusted import first_sound, report
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, precision
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.order import changing_loads
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.solver import solve
 
 MOST = 10_000  # digits
+FLOAT = 15  # digits that a float has in any case
 ENOUGH = 1 << 14  # bits, to which the precision is doubled at most; for many digits it is doubled once in any case
 OPEN = "the bounds of a number do not close, as where a pair with friction may stand still"
 SPARE = 12  # digits beyond the last that are known before it is rounded: it is off by half a unit and 10^-12 at most
@@ -137,6 +139,11 @@ def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "", in
     """
     if not 1 <= digits <= MOST:
         raise Refused(f"--digits {digits}", "there are no such digits", f"a number from 1 to {MOST}")
+    for load in changing_loads(scene.loads).values():
+        where = load.table.where if load.table else ""
+        if digits > FLOAT and any(why.startswith(f"{where}:") for why in scene.irrational):
+            raise Refused(f"--digits {digits}", f"{where} has its value in this pose to the digits of a float",
+                          f"at most {FLOAT}, or a load that is a fraction in this pose")
     how = {"method": method, "plan": plan, "inertia": inertia}
     least = bits = math.ceil((digits + SPARE) * math.log2(10)) + 64
     doubt = Undecided(OPEN)

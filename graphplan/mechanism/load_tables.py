@@ -106,6 +106,12 @@ class LoadTable:
         part = min(max((place - p) / (q - p), 0 * place), 0 * place + 1)
         return one + part * (other - one)
 
+    def level(self, place: Number, sense: int) -> bool:
+        """Whether the load is the same all about a place, so that rounding of the place does not change it."""
+        near = 1000 * self.length * ROUNDING
+        ends = (min(max(place + k * near, min(self.corners)), max(self.corners)) for k in (-1, 1))
+        return len({self.value(end, sense) for end in (*ends, place)}) == 1
+
     def at(self, places: Any, senses: Any = 1, after: bool = True) -> Any:
         """The same at many places, an array of shape (n,) of floats; `senses` is 1 or -1, or an array of them.
 

@@ -107,7 +107,9 @@ class OwnPose:
         away = less(*ends) if origin else ends[0]
         place = Fraction(dot(away, exactly(slide.direction))) / length
         exact = rational and is_exact(slide.direction, *(self.scene.points[p] for p in (slide.at, origin) if p))
-        return Fraction(table.value(place, self._stroke(slide, table))), exact
+        stroke = self._stroke(slide, table)
+        value = Fraction(table.value(place, stroke))
+        return value, exact or table.level(place, stroke)
 
     @property
     def exact(self) -> bool:

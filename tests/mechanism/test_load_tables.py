@@ -84,6 +84,18 @@ def test_a_drive_the_other_way_takes_the_other_stroke() -> None:
             assert parse(text, "yoke").loads.forces[0].value == (0, along)  # type: ignore[union-attr]
 
 
+def test_what_rounding_leaves_exact() -> None:
+    """In a rounded pose a load is exact where its table is level, and known to a float's digits where it is not."""
+    polar = (YOKE + ALONG).replace("A = [120, 160]", 'A = { from = "O", distance = 200, angle = 50 }').replace(
+        "A3 = [120, 160]", 'A3 = { from = "O", distance = 200, angle = 50 }')
+    told = "forces.1: its value in this pose"
+    assert told in parse(polar + ROUND, "yoke").irrational
+    level = parse(polar + "values = [[200, 50], [-200, 50], [-200, -10], [200, -50]]\n", "yoke")
+    assert told not in level.irrational
+    assert level.loads is not None
+    assert level.loads.forces[0].value == (0, 50)
+
+
 def test_at_a_dead_point_the_stroke_is_that_which_begins() -> None:
     """Where the slide stands still it takes the stroke into which the drive leads, by rounding or not."""
     for places, along in [(("[200, 0]", "[200, 0]"), 50), (("[-200, 0]", "[-200, 0]"), -10),

@@ -270,7 +270,8 @@ class CycleLosses:
     @property
     def efficiency(self) -> float:
         """The mean efficiency: how much of the work that is given does not go into friction (Ozols 1974, 14-1)."""
-        return 1 - self.lost / self.given if self.given else 0.0
+        share = 1 - self.lost / self.given if self.given else 0.0
+        return share if abs(share) > STANDS else 0.0
 
     @property
     def apart(self) -> float:

@@ -180,6 +180,11 @@ class FlywheelSheet(Panelled):
             yield said("{0} = {1} {2} at {3}", name, digits(speed), unit(rate), at)
         for note in result.notes:
             yield arranged("{0:capital}", note)
+        if result.reduction.friction:
+            losses = result.reduction.losses
+            yield said("Friction takes {0} {1} of the {2} {1} given in a cycle: mean efficiency {3}",
+                       digits(losses.lost), unit("J"), digits(losses.given), digits(losses.efficiency))
+            yield joined(arranged("{0}: {1} {2}", name, digits(lost), unit("J")) for name, lost in losses.pairs.items())
         yield from self._methods()
 
     @property

@@ -218,8 +218,9 @@ class Figures:
     # ---- axes ------------------------------------------------------------------------------------------------------
 
     def abscissa(self, graph: Graph, words: str = "", level: float = 0.0) -> Iterator[Item]:
-        """The axis to the right at an ordinate, with what it stands for at its head."""
-        y, end = graph.at(0.0, level)[1], graph.rect.right + ON
+        """The axis to the right at an ordinate, or at the edge beyond which it lies, with its quantity at its head."""
+        rect, end = graph.rect, graph.rect.right + ON
+        y = min(max(graph.at(0.0, level)[1], rect.bottom), rect.top)
         yield Arrow(AXIS, "ruling", None, (graph.rect.left, y), (end, y), HEAD)
         if words:
             yield self.text((end, y + 1.2), words, "end")

@@ -7,8 +7,10 @@ from itertools import pairwise
 
 import pytest
 
-from graphplan.output.graphs import Graph, Polar, divisions, scale_words, smoothed, stacked
-from graphplan.sheet.plates.display import Rect
+from graphplan.output.graphs import Figures, Graph, Polar, divisions, scale_words, smoothed, stacked
+from graphplan.sheet.lettering.lettering import SMALL_SHEET
+from graphplan.sheet.plates.display import Arrow, Rect
+from graphplan.words.tongue import ENGLISH
 
 
 @pytest.mark.parametrize(("low", "high", "most", "turns", "first", "step"), [
@@ -56,3 +58,11 @@ def test_scales_are_told_by_either_convention() -> None:
     """A scale is told as real quantity a mm, or as mm a unit."""
     assert scale_words("M", 10.0, "N m") == "k_M = 10 N m/mm"
     assert scale_words("M", 10.0, "N m", "drawn") == "mu_M = 0.1 mm/(N m)"
+
+
+def test_axes_stay_at_their_diagram() -> None:
+    """Where the zero of the ordinates lies far below a diagram, the abscissa is drawn at its edge."""
+    graph = Graph.fitted(Rect(10.0, 10.0, 110.0, 60.0), (0.0, 360.0), (9500.0, 9600.0))
+    paper = Figures(SMALL_SHEET, ENGLISH)
+    arrows = [item for item in paper.axes(graph, "phi", "E") if isinstance(item, Arrow)]
+    assert {end[1] for arrow in arrows for end in (arrow.start, arrow.end)} <= {10.0, 62.5}

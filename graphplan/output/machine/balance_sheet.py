@@ -318,7 +318,7 @@ def _stacked(room: Rect, x: Span, spans: Sequence[Span]) -> list[Graph]:
     tried = [stacked(room, x, spans, (share, 1.0)) for share in SHARES]
     fitted = [[replace(graph, rect=replace(graph.rect, top=graph.at(0.0, high)[1]))
                for graph, (_, high) in zip(graphs, spans, strict=True)] for graphs in tried]
-    return max(fitted, key=lambda graphs: sum(graph.rect.height for graph in graphs))
+    return max(fitted, key=lambda graphs: math.prod(graph.rect.height for graph in graphs))
 
 
 def _span(curves: list[Any]) -> tuple[float, float]:

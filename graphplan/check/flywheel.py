@@ -19,7 +19,7 @@ from graphplan.machine.flywheel import FlywheelResult
 
 SUBSTEPS = (2, 4, 8)  # of one step, whose results are extrapolated to none
 STEPS, MOST = 48, 1536  # of the whole cycle, at first and at most
-SETTLED, CLOSE = 1e-12, 1e-9  # of omega^2, and of speeds: what halved steps may change, and opinions differ by
+SETTLED, CLOSE = 1e-11, 1e-9  # of omega^2, and of speeds: what halved steps may change, and opinions differ by
 FINER = 16  # steps in that with an extreme speed
 POSES = 12  # in which the reduction is compared
 
@@ -75,13 +75,18 @@ class _Motion:
         count = STEPS
         while True:
             self.edges = self._steps(count)
-            shift, factor, gap = self._carried(self.edges)
-            self.squares = [self.begin]
-            for k in range(len(shift)):
-                self.squares.append(shift[k] + factor[k] * self.squares[-1])
-            if np.max(gap) <= SETTLED * self.begin or count >= MOST:
-                return np.array(self.squares)
+            squares, self.rates, gap = self._squares(self.edges, self.begin)
+            if gap <= SETTLED * self.begin or count >= MOST:
+                return squares
             count *= 2
+
+    def _squares(self, edges: Any, begin: float) -> tuple[Any, Any, float]:
+        """The squares at the ends of steps, what drives them there, and what the last extrapolation changed."""
+        shift, factor, ends, gap = self._carried(edges)
+        squares = [begin]
+        for one, other in zip(shift, factor, strict=True):
+            squares.append(one + other * squares[-1])
+        return np.array(squares), ends, float(np.max(gap))
 
     def _steps(self, count: int) -> Any:
         """The ends of about so many steps of the cycle, those of a piece between breaks alike."""
@@ -92,33 +97,15 @@ class _Motion:
 
     def extreme(self, squares: Any, best: Any) -> float:
         """The largest or the least square: the step in which it lies is taken in finer ones."""
-        k = int(best(self._tops(self.edges, squares, best)))
+        k = int(best(_tops(self.edges, squares, self.rates, best)))
         edges = np.linspace(self.edges[k], self.edges[k + 1], FINER + 1)
-        shift, factor, _ = self._carried(edges)
-        inner = [squares[k]]
-        for j in range(FINER):
-            inner.append(shift[j] + factor[j] * inner[-1])
-        tops = self._tops(edges, np.array(inner), best)
+        inner, rates, _ = self._squares(edges, squares[k])
+        tops = _tops(edges, inner, rates, best)
         return float(tops[best(tops)])
 
-    def _tops(self, edges: Any, squares: Any, best: Any) -> Any:
-        """The largest or least square within each step, of the cubic with its slopes at both ends."""
-        push, drag = self._coefficients(np.stack([edges[:-1], edges[1:]], axis=1))
-        widths, ends = np.diff(edges), np.stack([squares[:-1], squares[1:]], axis=1)
-        one, two = ((push - drag * ends) * widths[:, None]).T
-        rise = ends[:, 1] - ends[:, 0]
-        cubic, square = one + two - 2 * rise, 3 * rise - 2 * one - two
-        root = np.sqrt(np.maximum(square**2 - 3 * cubic * one, 0))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            places = [np.nan_to_num((sign * root - square) / (3 * cubic)) for sign in (1, -1)]
-            places.append(np.nan_to_num(-one / (2 * square)))
-        places = [np.clip(place, 0, 1) for place in (*places, np.zeros(len(widths)), np.ones(len(widths)))]
-        values = np.array([ends[:, 0] + t * (one + t * (square + t * cubic)) for t in places])
-        return values[best(values, axis=0), np.arange(len(widths))]
-
-    def _carried(self, edges: Any) -> tuple[Any, Any, Any]:
-        """Over each step: the square at its end is shift + factor * square at its beginning; and what the last
-        extrapolation changed."""
+    def _carried(self, edges: Any) -> tuple[Any, Any, Any, Any]:
+        """Over each step: the square at its end is shift + factor * square at its beginning; push, drag at both ends;
+        what the last extrapolation changed."""
         finest = SUBSTEPS[-1]
         places = edges[:-1, None] + np.diff(edges)[:, None] * np.arange(finest + 1) / finest
         places[:, -1] = edges[1:]
@@ -132,7 +119,7 @@ class _Motion:
                 row.append(row[j] + (row[j] - before) / (ratio - 1))
             table.append(row)
         (shift, factor), (off, apart) = table[-1][-1], abs(table[-1][-1] - table[-1][-2])
-        return shift, factor, off + apart * self.begin
+        return shift, factor, (push[:, [0, -1]], drag[:, [0, -1]]), off + apart * self.begin
 
     def _coefficients(self, places: Any) -> tuple[Any, Any]:
         """Of d(omega^2)/dphi = push - drag omega^2 at places of steps, the last of each step from before it."""
@@ -154,6 +141,22 @@ class _Motion:
         """The moments of the loads over a speed, at the mean speed."""
         loads = self.reduction.at(travel, side).speed_loads if self.result.reduction.changing else ()
         return sum((load.moment(self.result.cycle.speed) for load in loads), np.zeros(travel.shape))
+
+
+def _tops(edges: Any, squares: Any, rates: Any, best: Any) -> Any:
+    """The largest or least square within each step, of the cubic with its slopes at both ends."""
+    push, drag = rates
+    widths, ends = np.diff(edges), np.stack([squares[:-1], squares[1:]], axis=1)
+    one, two = ((push - drag * ends) * widths[:, None]).T
+    rise = ends[:, 1] - ends[:, 0]
+    cubic, square = one + two - 2 * rise, 3 * rise - 2 * one - two
+    root = np.sqrt(np.maximum(square**2 - 3 * cubic * one, 0))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        places = [np.nan_to_num((sign * root - square) / (3 * cubic)) for sign in (1, -1)]
+        places.append(np.nan_to_num(-one / (2 * square)))
+    places = [np.clip(place, 0, 1) for place in (*places, np.zeros(len(widths)), np.ones(len(widths)))]
+    values = np.array([ends[:, 0] + t * (one + t * (square + t * cubic)) for t in places])
+    return values[best(values, axis=0), np.arange(len(widths))]
 
 
 def _midpoints(push: Any, drag: Any, width: Any) -> Any:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
 
 ENDINGS = (".json", ".csv", *SHEETS)
-POSITIONS, FEWEST, MOST = 24, 12, 360
+FEWEST, MOST = 12, 360
 AMOUNTS = {"speed": "the mean speed of the first drive, in rad/s (or lengths/s)", "inertia": "of a flywheel that is "
            "given, in mass * m2 (mass of a drive that slides)", "unevenness": "(omega_max - omega_min) / mean"}
 
@@ -42,7 +42,7 @@ def options(command: argparse.ArgumentParser) -> None:
         add(f"--{name}", metavar="X", help=f"{told}; without it the scene's")
     add("--closes", choices=("drive", "load"), help="what closes the cycle; without it the scene has a say")
     add("--positions", type=count("--positions", FEWEST, MOST), metavar="N",
-        help=f"in how many plans it is drawn and tabled ({POSITIONS})")
+        help="in how many plans of the cycle it is drawn and tabled (24 of each turn)")
     add_pencil(command)
     add("--task", action="store_true", help="the sheet with what is given alone, and tables to fill in")
     add_diagrams(command)
@@ -58,7 +58,7 @@ def run(options: argparse.Namespace) -> int:
     text = source_text(options.scene, options.scene)
     scene = on_sheet(options, _asked(parse(text, options.scene, by_drive=True), options))
     messages.progress("reduction and energy")
-    found = flywheel(scene, options.positions or POSITIONS)
+    found = flywheel(scene, options.positions)
     messages.progress("second opinion")
     result = replace(found, check=checked(found))
     messages.progress("")

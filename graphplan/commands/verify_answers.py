@@ -35,13 +35,13 @@ def of_rotor(options: argparse.Namespace, text: str) -> int:
 def of_flywheel(options: argparse.Namespace, text: str) -> int:
     """Judge the flywheel and the closing moment of a scene."""
     from graphplan.check.flywheel import checked
-    from graphplan.commands.flywheel import POSITIONS, pencil_errors
+    from graphplan.commands.flywheel import pencil_errors
     from graphplan.machine.flywheel import flywheel
     from graphplan.marking.answers import Expected
     from graphplan.mechanism.scene import parse
     from graphplan.mechanism.units import Dimension
 
-    result = flywheel(parse(text, options.scene, by_drive=True), POSITIONS)
+    result = flywheel(parse(text, options.scene, by_drive=True))
     checked(result)
     wheel, mean = pencil_errors(result, pencil(options))
     off, arm = result.strip_error + 2 * wheel, 1 if result.turns else 0

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.cycle.travel import told_travels
+from graphplan.cycle.travel import TURN, told_travels
 from graphplan.errors import Refused
 from graphplan.machine.energy import SteadyCycle, reduced_rows, steady
 from graphplan.machine.flywheel_drawing import FlywheelDrawing, drawn
@@ -22,6 +22,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import KILOGRAMS
 from graphplan.phrases import Said, digits, said
 
+PLANS, MANY = 24, 120  # of a turn, and of many turns, where nothing is said
 STEADY = 1e-9  # of the larger: a motor's arm and rate vary by no more over the cycle
 
 
@@ -112,8 +113,8 @@ class FlywheelResult:
         return self.drawing.unevenness if self.given else self.drawing.inertia
 
 
-def flywheel(scene: Scene, positions: int = 24, *, what: str = "flywheel") -> FlywheelResult:
-    """The flywheel that a scene's table asks for.
+def flywheel(scene: Scene, positions: int | None = None, *, what: str = "flywheel") -> FlywheelResult:
+    """The flywheel that a scene's table asks for, drawn with so many plans of the cycle, or with 24 of each turn.
 
     Fails with `Refused` where there is no such table, the cycle does not close, or no flywheel is needed.
     """
@@ -134,7 +135,8 @@ def flywheel(scene: Scene, positions: int = 24, *, what: str = "flywheel") -> Fl
         unevenness = float(wish.unevenness or 0)
         wheel = sized(cycle, unevenness, what)
     found = tuple(methods(cycle, unevenness, motor(reduced))) if unevenness > 0 else ()
-    return FlywheelResult(reduced, cycle, wheel, unevenness, wish.inertia is not None, found, positions)
+    plans = positions or min(PLANS * max(1, round(cycle.span / TURN)), MANY)
+    return FlywheelResult(reduced, cycle, wheel, unevenness, wish.inertia is not None, found, plans)
 
 
 def motor(reduced: Reduction) -> Speeds | None:

@@ -244,7 +244,8 @@ class _Sheet:
         round_trip = len(self.points) - 1
         cuts = [self.board.meet(self.axis, self.board.parallel(guide, self.points[j % round_trip]),
                                 name=f"{letter}_{self.numbers[j % round_trip]}") for j in three]
-        A, B, C = (self._over(cut, j) for cut, j in zip(cuts, three, strict=True))
+        A, B, C = (self.board.named(self._over(cut, j), f"{name}_{letter}")
+                   for name, cut, j in zip("ABC", cuts, three, strict=True))
         first, middle, last = self.plans.around(self.told, three)
         return self._vertex(A, B, C, float((middle - first) / (last - first)), letter)
 
@@ -271,16 +272,17 @@ class _Sheet:
         """
         board = self.board
         chord = board.meet(board.line(A, C), board.parallel(self.upright, B))
-        D = board.step_off(chord, B, board.midpoint(A, C), ratio=1 / (2 * part * (1 - part)),
+        D = board.step_off(chord, B, board.midpoint(A, C), ratio=1 / (2 * part * (1 - part)), name=f"D_{letter}",
                            why=said("the tangents at the outer points meet here"))
-        F = board.transfer(A, D, D)
-        G = board.meet(board.line(F, C), board.parallel(self.level, D))
+        F = board.transfer(A, D, D, name=f"F_{letter}")
+        G = board.meet(board.line(F, C), board.parallel(self.level, D), name=f"G_{letter}")
         side, other = board.line(A, D), board.line(D, C)
-        K = board.meet(other, board.parallel(side, G), why=said("the level tangent goes through it"))
+        K = board.meet(other, board.parallel(side, G), name=f"K_{letter}",
+                       why=said("the level tangent goes through it"))
         tangent = board.parallel(self.level, K)
-        L = board.meet(side, tangent)
+        L = board.meet(side, tangent, name=f"L_{letter}")
         cut = board.meet(self.axis, tangent, name=letter)
-        return cut, board.divide(F, C, G, L, K)
+        return cut, board.divide(F, C, G, L, K, name=f"T_{letter}")
 
 
 def _straight(travels: Reals, heights: Reals) -> bool:

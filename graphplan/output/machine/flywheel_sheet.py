@@ -151,7 +151,9 @@ class FlywheelSheet(Panelled):
         result = self.result
         yield arranged("omega = {0} {1}" if result.turns else "v = {0} {1}", digits(result.cycle.speed),
                        unit(self._units[2]))
-        if not result.given:
+        if result.given:
+            yield arranged("I_s = {0} {1}", digits(result.wheel.inertia), unit(self._units[1]))
+        else:
             yield arranged("delta = {0}", digits(result.unevenness))
         yield from masses_and_loads(self.scene)
 
@@ -171,7 +173,12 @@ class FlywheelSheet(Panelled):
         cycle, wheel = result.cycle, result.wheel
         if cycle.closing:
             yield said("Closing moment: {0} {1}", digits(cycle.closing), unit(M))
-        yield said("Flywheel: {0} {1}; drawn {2} {1}", digits(wheel.inertia), unit(I), digits(self.drawing.inertia))
+        if result.given:
+            yield arranged("delta = {0}", digits(result.unevenness))
+            yield arranged("k_E·mn/((I_s + {0} {1})·ω²) = {2}", digits(self.drawing.axis), unit(I),
+                           digits(self.drawing.unevenness))
+        else:
+            yield said("Flywheel: {0} {1}; drawn {2} {1}", digits(wheel.inertia), unit(I), digits(self.drawing.inertia))
         yield arranged("mn = {0} {1}, {2} {3}", digits(self._intercept), unit("mm"),
                        digits(wheel.intercept(self.drawing.axis)), unit("J"))
         for name, speed, touch in (("omega_max", wheel.omega_max, wheel.upper), ("omega_min", wheel.omega_min,

@@ -24,7 +24,8 @@ from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage
 from graphplan.machine.energy import SteadyCycle
-from graphplan.machine.flywheel_frames import Frame, Room, laid_out, plans_of
+from graphplan.machine.flywheel_frames import Room, laid_out, plans_of
+from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Reals
 from graphplan.machine.wittenbauer import Flywheel, Touch
 from graphplan.phrases import Said, digits, said

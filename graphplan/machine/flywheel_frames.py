@@ -10,12 +10,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from graphplan.cycle.curves import round_scale
 from graphplan.machine.energy import SteadyCycle
+from graphplan.machine.frames import AxisScale, Frame
 from graphplan.machine.integrals import Reals
 from graphplan.machine.wittenbauer import Flywheel
 
@@ -36,36 +37,6 @@ class Room:
     energy: float = 130.0
     inertia: float = 60.0
     turned: float = 75.0
-
-
-class AxisScale(NamedTuple):
-    """What one mm of an axis stands for, and the value in its origin."""
-
-    unit: float
-    datum: float = 0.0
-
-    def mm(self, value: Any) -> Any:
-        """Where values stand, in mm from the origin."""
-        return (np.asarray(value, dtype=float) - self.datum) / self.unit
-
-    def value(self, mm: Any) -> Any:
-        """What stands at so many mm."""
-        return self.datum + np.asarray(mm, dtype=float) * self.unit
-
-
-class Frame(NamedTuple):
-    """One diagram: its origin, the scales of what lies level and of what stands upright, and how far both go from the
-    origin, to the left and right and down and up, in mm."""
-
-    origin: tuple[float, float]
-    x: AxisScale
-    y: AxisScale
-    level: tuple[float, float]
-    upright: tuple[float, float]
-
-    def at(self, x: Any, y: Any) -> tuple[Any, Any]:
-        """Where values of both axes stand, in mm of the drawing."""
-        return self.origin[0] + self.x.mm(x), self.origin[1] + self.y.mm(y)
 
 
 @dataclass(frozen=True)

@@ -25,8 +25,9 @@ from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage
 from graphplan.machine.driven import Driven
+from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Reals
-from graphplan.machine.motion_frames import Frame, Layout, Room
+from graphplan.machine.motion_frames import Layout, Room
 from graphplan.machine.strips import parabola
 from graphplan.machine.true_motion import TrueMotion
 from graphplan.phrases import Said, digits, said
@@ -58,7 +59,7 @@ class MotionDrawing:
         frame, found = self.frames[name], np.full(len(self.travel), np.nan)
         heights = [self.values[step][1] for step in self.marks[name]]
         start = len(self.travel) - len(heights)
-        found[start:] = (np.array(heights) - frame.y) * frame.k_y
+        found[start:] = frame.y.value(np.array(heights) - frame.origin[1])
         if start and name != "slowness":
             found[0] = 0.0
         return found
@@ -152,7 +153,7 @@ class _Drawing:
         x, lay, count = self.x, self.lay, len(self.x)
         self.origins = {name: self._given(name, 0.0, 0.0, f"O_{letter}") for name, letter in ORIGINS.items()}
         low = self.frames["omega"]
-        self.base = self.board.given(x=low.left, y=low.bottom, name="O_ω")
+        self.base = self.board.given(x=low.origin[0], y=low.origin[1], name="O_ω")
         self.start = self._given("energy", 0.0, float(lay.energies[0]), "E_0")
         self.divisions = [self._given("moment", float(x[k]), 0.0, f"D_{k}") for k in range(count)]
         middles = (x[1:] + x[:-1]) / 2
@@ -190,7 +191,7 @@ class _Drawing:
         low, omegas = self.frames["omega"], self.lay.omegas
         base = self.board.parallel(self.rate.abscissas, self.base, why=said("the axis of travel"))
         self.under = self._axes("slowness", "u", self.lay.poles[1])
-        heights = low.at(0.0, omegas)[1] - low.bottom, 1 / omegas / self.frames["slowness"].k_y
+        heights = low.y.mm(omegas), self.frames["slowness"].y.mm(1 / omegas)
         axes = base, self.under.abscissas
         for (name, letter), axis, rows in zip((("omega", "omega"), ("slowness", "u")), axes, heights, strict=True):
             self.found[name] = []
@@ -273,5 +274,5 @@ class _Drawing:
             spent = curve.time * float(x[k] / x[2]) ** (1 - curve.n)
             told = said("the first two strips as a parabola omega = {0} phi^{1}: {2} s", digits(curve.k),
                         digits(curve.n), digits(spent))
-            length = spent / self.frames["time"].k_y
+            length = float(self.frames["time"].y.mm(spent))
             self.found["time"].append(board.lay_off(self._foot(k, axis), dx=0, dy=length, name=f"t_{k}", why=told))

@@ -12,11 +12,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from graphplan.cycle.curves import round_scale
+from graphplan.machine.frames import AxisScale, Frame
 from graphplan.machine.integrals import Reals
 from graphplan.machine.strips import times
 
@@ -47,23 +48,6 @@ class Room(NamedTuple):
         """The heights of the diagrams under each other."""
         free = self.height - (len(SHARES) - 1) * BETWEEN
         return {name: share * free for name, share in SHARES.items()}
-
-
-class Frame(NamedTuple):
-    """A diagram on the panel: where its quantities are nothing, how much of each a mm is, and its window, in mm."""
-
-    x: float
-    y: float
-    k_x: float
-    k_y: float
-    left: float
-    bottom: float
-    right: float
-    top: float
-
-    def at(self, x: Any, y: Any) -> tuple[Any, Any]:
-        """Where values lie, in mm."""
-        return self.x + x / self.k_x, self.y + y / self.k_y
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,21 +125,22 @@ class Layout:
 
     @cached_property
     def frames(self) -> dict[str, Frame]:
-        """The diagrams by name; `reciprocal` is where 1/omega is constructed."""
+        """The diagrams by name, in SI; `reciprocal` is where 1/omega is constructed."""
         found, top, k = dict[str, Frame](), 0.0, self.k
-        length = self.whole / k["travel"]
+        travel, level = AxisScale(k["travel"]), (0.0, self.whole / k["travel"])
         lowest = {"moment": min(float(self.moments.min()), 0.0) * (1 + MARGIN), "energy": self._low(self.energies),
                   "omega": self._low(self.omegas)}
         for name, height in self.room.heights.items():
-            low = top - height
-            found[name] = Frame(0.0, low - lowest.get(name, 0.0) / k[name], k["travel"], k[name], 0.0, low, length, top)
-            top = low - BETWEEN
-        right, energy, moment, omega = length + BESIDE, found["energy"], found["moment"], found["omega"]
-        zero, end = right - self._low(self.inertias) / k["inertia"], right + WIDE * self.room.free
-        found["energy-mass"] = Frame(zero, energy.y, k["inertia"], k["energy"], right, energy.bottom, end, energy.top)
-        down = -self.whole / (moment.top - moment.bottom)
-        found["inertia"] = Frame(zero, moment.top, k["inertia"], down, right, moment.bottom, end, moment.top)
-        found["reciprocal"] = Frame(right, omega.y, 1.0, 1.0, right, omega.bottom, end, omega.top)
+            upright = AxisScale(k[name], lowest.get(name, 0.0))
+            found[name] = Frame((0.0, top - height), travel, upright, level, (0.0, height))
+            top -= height + BETWEEN
+        right, wide = level[1] + BESIDE, (0.0, WIDE * self.room.free)
+        inertia, energy, omega = AxisScale(k["inertia"], self._low(self.inertias)), found["energy"], found["omega"]
+        low, high = found["moment"].upright
+        down = AxisScale(-self.whole / (high - low))
+        found["energy-mass"] = Frame((right, energy.origin[1]), inertia, energy.y, wide, energy.upright)
+        found["inertia"] = Frame((right, 0.0), inertia, down, wide, (low - high, 0.0))
+        found["reciprocal"] = Frame((right, omega.origin[1]), AxisScale(1.0), AxisScale(1.0), wide, omega.upright)
         return found
 
 

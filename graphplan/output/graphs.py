@@ -9,10 +9,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from graphplan.machine.frames import Frame
 from graphplan.phrases import Said, arranged, digits, unit
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import CAPS, DEPTH, LetterSizes, Runs, name_runs, sentence_runs, width
@@ -71,6 +72,14 @@ class Graph:
         k_x = float(round_up(k_x)) if round_x else k_x
         k_y = k_y or float(round_up((y[1] - y[0]) / rect.height))
         return cls(rect, (rect.left - x[0] / k_x, rect.bottom - y[0] / k_y), k_x, k_y)
+
+    @classmethod
+    def framed(cls, frame: Frame, window: Callable[[Spot], Spot]) -> Graph:
+        """The diagram of a frame that a construction has, through a window that leaves it as large."""
+        x, y = window(frame.origin)
+        rect = Rect(x + frame.level[0], y + frame.upright[0], x + frame.level[1], y + frame.upright[1])
+        zero = x - frame.x.datum / frame.x.unit, y - frame.y.datum / frame.y.unit
+        return cls(rect, zero, frame.x.unit, frame.y.unit)
 
     def at(self, x: float, y: float) -> Spot:
         """Where a value lies on paper."""

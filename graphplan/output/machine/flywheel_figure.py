@@ -19,7 +19,8 @@ from graphplan.kernel.kinds import LINE
 from graphplan.kernel.program import Step
 from graphplan.machine.flywheel import FlywheelResult
 from graphplan.machine.flywheel_drawing import FLYWHEEL, FlywheelDrawing
-from graphplan.machine.flywheel_frames import HEAD, Frame, Room, laid_out, plans_of
+from graphplan.machine.flywheel_frames import HEAD, Room, laid_out, plans_of
+from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Piecewise
 from graphplan.output.graphs import AXIS, HEADED, Figures, Graph
 from graphplan.output.panelled import Recorded
@@ -112,16 +113,10 @@ class FlywheelFigure:
     @cached_property
     def graphs(self) -> dict[str, Graph]:
         """The diagrams by name."""
-        found = {name: self._graph(frame) for name, frame in self.drawing.frames.items()}
+        found = {name: Graph.framed(frame, self.window) for name, frame in self.drawing.frames.items()}
         energy, spots = found["energy"], self.drawing.spots("energies")
         low = self.window(min(spots, key=lambda spot: spot[1]))[1] - FREE  # m and n may lie far below
         return found | {"energy": replace(energy, rect=replace(energy.rect, bottom=max(low, energy.rect.bottom)))}
-
-    def _graph(self, frame: Frame) -> Graph:
-        x, y = self.window(frame.origin)
-        rect = Rect(x + frame.level[0], y + frame.upright[0], x + frame.level[1], y + frame.upright[1])
-        return Graph(rect, (x - frame.x.datum / frame.x.unit, y - frame.y.datum / frame.y.unit), frame.x.unit,
-                     frame.y.unit)
 
     def begun(self) -> list[Item]:
         """What is given of it: the axes with their scales."""

@@ -7,7 +7,7 @@ that are carried across, under the inertias that are carried down.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -60,15 +60,12 @@ class MotionFigure:
     @cached_property
     def graphs(self) -> dict[str, Graph]:
         """The diagrams by name; travel is in degrees, or in lengths."""
-        degree, found = self.found.machine.degree, dict[str, Graph]()
+        machine, found = self.found.machine, dict[str, Graph]()
         for name, frame in self.drawing.frames.items():
-            left, low = self.window((frame.left, frame.bottom))
-            right, top = self.window((frame.right, frame.top))
-            k_x, k_y = (frame.k_x, frame.k_y / degree) if name == "inertia" else (frame.k_x / degree, frame.k_y)
-            k_x = frame.k_x if name == "energy-mass" else k_x
-            pace = self.found.machine.pace
-            k_y = {"omega": k_y / pace, "slowness": k_y * pace}.get(name, k_y)
-            found[name] = Graph(Rect(left, low, right, top), self.window((frame.x, frame.y)), k_x, k_y)
+            graph = Graph.framed(frame, self.window)
+            across = 1.0 if name in ("inertia", "energy-mass") else machine.degree
+            up = {"inertia": machine.degree, "omega": machine.pace, "slowness": 1 / machine.pace}.get(name, 1.0)
+            found[name] = replace(graph, k_x=graph.k_x / across, k_y=graph.k_y / up)
         return found
 
     def items(self) -> list[Item]:

@@ -11,7 +11,6 @@ from itertools import pairwise
 from graphplan.machine.trial import ThreeRuns, TrialWeights
 from graphplan.machine.trial_runs import Effect, angle_of, harmonic
 from graphplan.output.graphs import CURVES, Graph, stacked
-from graphplan.output.machine.letter_places import LetterPlaces
 from graphplan.output.machine.rotor_views import CORRECTIONS, DIMENSION, MASS, OTHER, RotorViews
 from graphplan.phrases import Said, arranged, digits, unit
 from graphplan.sheet.layout.scales import round_up
@@ -24,6 +23,7 @@ from graphplan.sheet.plates.view import View, least, view
 HEAD, LETTERED, SEEN = 3.5, 3.0, 0.1  # mm: heads of vectors; a side with letters, and one that is drawn, is longer
 AROUND = 8.0  # mm about a figure, for its letters
 MANY = 8  # corners of a polygon that bear letters at most
+ALONG = 0.5, 0.4, 0.6, 0.3, 0.7  # of a side: its letters stand beside one of these
 Side = tuple[complex, complex, str, Pen, int | None]  # from where to where, what it is, its pen and step
 
 
@@ -41,22 +41,21 @@ class RotorFigures(RotorViews):
         """The scale of a plan, in the corner of its panel."""
         return self.text((rect.left, rect.bottom), words, names=("k_mra", "mu_mra", "k_mr", "mu_mr"))
 
-    def sides(self, plan: View, sides: Sequence[Side], middle: complex, corners: Mapping[str, tuple[complex, int]],
-              further: Sequence[tuple[Spot, Spot]] = ()) -> Iterator[Item]:
-        """Vectors with what they are, and the letters of corners, off all lines and away from the middle."""
-        places = LetterPlaces(self.letters.text, [*further])
-        places.lines += [(plan((a.real, a.imag)), plan((b.real, b.imag))) for a, b, *_ in sides]
+    def sides(self, plan: View, sides: Sequence[Side], corners: Mapping[str, tuple[complex, int]],
+              further: Sequence[Item] = (), named: Mapping[str, tuple[Spot, Spot]] | None = None) -> Iterator[Item]:
+        """Vectors with what they are, and the letters of corners, and of `further` lines those that are `named`."""
+        items, wishes = [*further], [self.wish(name, _along(*line)) for name, line in (named or {}).items()]
         for name, (z, step) in corners.items():
-            spot = plan((z.real, z.imag))
-            yield Circle(pens.DOT, "plates", step, spot, 0.5)
-            yield places.at_point(spot, (z - middle) or 1j, self.runs(name))
+            items.append(Circle(pens.DOT, "plates", step, plan((z.real, z.imag)), 0.5))
+            wishes.append(self.wish(name, (plan((z.real, z.imag)),), 0.9, step))
         for start, end, name, pen, side_step in sides:
             foot, tip = plan((start.real, start.imag)), plan((end.real, end.imag))
             long = math.dist(foot, tip)
             if long >= SEEN:
-                yield Arrow(pen, "links", side_step, foot, tip, min(HEAD, 0.6 * long))
+                items.append(Arrow(pen, "links", side_step, foot, tip, min(HEAD, 0.6 * long)))
             if name and long >= LETTERED:
-                yield places.at_line(foot, tip, (start + end) / 2 - middle, self.runs(name))
+                wishes.append(self.wish(name, _along(foot, tip), 0.8, side_step))
+        return self.lettered(items, wishes, plan.rect)
 
     # ---- polygons --------------------------------------------------------------------------------------------------
 
@@ -76,7 +75,7 @@ class RotorFigures(RotorViews):
             sides.append((corners[-1], corners[0], closing, CORRECTIONS[index], step))
         shown = names if len(names) <= MANY else [names[0], names[-1]]
         lettered = {name: (drawing.at(name), drawing.marks[name]) for name in shown}
-        yield from self.sides(self.window(rect, corners), sides, sum(corners) / len(corners), lettered)
+        yield from self.sides(self.window(rect, corners), sides, lettered)
         yield self.scaled(rect, scale)
 
     # ---- trials ----------------------------------------------------------------------------------------------------
@@ -103,19 +102,15 @@ class RotorFigures(RotorViews):
         sides: list[Side] = [(z["C"], z["D"], "A_1", MASS, steps["D"]), (z["C"], z["G"], "A_2", MASS, steps["G"]),
                              (z["D"], z["G"], "A", CORRECTIONS[0], steps["G"])]
         thin = [(spot["D"], spot["E"]), (spot["E"], spot["G"])] if isinstance(effect.trial, ThreeRuns) else []
-        for line in thin:
-            yield Polyline(pens.THIN, "links", steps["G"], line)
+        further: list[Item] = [Polyline(pens.THIN, "links", steps["G"], line) for line in thin]
         for centre, end in (("C", "G"), ("C", "H"), ("E", "G"), ("E", "H")):
             if thin and end in z:
-                yield self._arc(spot[centre], spot[end], steps[end])
+                further.append(self._arc(spot[centre], spot[end], steps[end]))
         if "H" in z and len(effect.turns) > 1:
             sides.append((z["D"], z["H"], "", OTHER, steps["H"]))
-        yield from self._turned(plan, z)
+        further += self._turned(plan, z)
         corners = {name if name != "H" else "G'": (one, steps[name]) for name, one in z.items()}
-        yield from self.sides(plan, sides, sum(z.values()) / len(z), corners, thin)
-        if thin:
-            places = LetterPlaces(self.letters.text, [(spot["C"], spot["G"]), (spot["D"], spot["G"])])
-            yield places.at_line(*thin[1], z["E"] - z["D"], self.runs("A_3"))
+        return self.sides(plan, sides, corners, further, {"A_3": thin[1]} if thin else {})
 
     def _arc(self, centre: Spot, end: Spot, step: int) -> Item:
         """The stroke of the compasses through a mark."""
@@ -143,7 +138,7 @@ class RotorFigures(RotorViews):
             sides += [(z["W_0"], z[names[-1]], "", OTHER, steps[names[-1]]),
                       (z["W_0"], z["p"], "p", CORRECTIONS[0], steps["p"])]
         corners = {name: (z[name], steps[name]) for name in (names[0], names[-1])}
-        yield from self.sides(plan, sides, sum(z[name] for name in names) / len(names), corners)
+        return self.sides(plan, sides, corners)
 
     def curve(self, rect: Rect, trial: TrialWeights) -> Iterator[Item]:
         """The weights over the turn, with the cosine that runs through them."""
@@ -167,3 +162,8 @@ class RotorFigures(RotorViews):
         place = start + (math.degrees(cmath.phase(first)) - start) % 360
         yield from graph.uprights([place], pens.PRODUCED)
         yield from self.backed((graph.at(place, 0.0)[0] + 0.8, rect.bottom + 1.5), f"{digits(place % 360)}°")
+
+
+def _along(start: Spot, end: Spot) -> tuple[Spot, ...]:
+    """Spots of a line beside which its letters may stand."""
+    return tuple((start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])) for part in ALONG)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from graphplan.machine.polygons import Correction, free_radius
@@ -13,8 +13,9 @@ from graphplan.machine.rotor_balance import Balanced
 from graphplan.machine.trial import TrialWeights
 from graphplan.machine.trial_runs import Effect, angle_of
 from graphplan.output.graphs import Figures
-from graphplan.output.machine.letter_places import LetterPlaces
 from graphplan.phrases import Said, said
+from graphplan.sheet.lettering.label_candidates import Wish
+from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polyline, Rect, Spot
@@ -73,24 +74,32 @@ class RotorViews(Figures):
     def end_view(self, rect: Rect, k: float, level: float) -> Iterator[Item]:
         """The rotor along its axis, from plane II: radii, masses, and corrections with their angles."""
         plan = View(rect, 1 / k, (rect.centre[0], level))
-        places, (x, y), far = LetterPlaces(self.letters.text), plan.origin, self.reach / k + BEYOND
+        (x, y), far = plan.origin, self.reach / k + BEYOND
         axes = ((x - far, y), (x + far, y)), ((x, y - far), (x, y + far))
-        for ends in axes:
-            yield Polyline(pens.PATH, "ruling", None, ends)
-        yield Circle(Pen(0.25), "pairs", None, (x, y), SHAFT)
-        radii = [*self._radii()]
-        places.lines += [*axes, *(((x, y), plan((z.real, z.imag))) for z, *_ in radii)]
-        yield places.at_point(axes[0][1], 1j, self.runs("x"))
-        yield places.at_point(axes[1][1], 1 + 0j, self.runs("y"))
-        for z, name, pen, step in radii:
+        items: list[Item] = [Polyline(pens.PATH, "ruling", None, ends) for ends in axes]
+        items.append(Circle(Pen(0.25), "pairs", None, (x, y), SHAFT))
+        wishes = [self.wish("x", (axes[0][1],)), self.wish("y", (axes[1][1],))]
+        for z, name, pen, step in self._radii():
             spot = plan((z.real, z.imag))
-            yield Polyline(Pen(0.25, pen.colour, pen.dash), "links", step, (plan.origin, spot))
-            yield Circle(Pen(0.25, pen.colour, fill=pens.PAPER if pen.dash else pen.colour), "links", step, spot, DISC)
-            yield places.at_point(spot, z, self.runs(name), DISC + 1.0)
+            items += [Polyline(Pen(0.25, pen.colour, pen.dash), "links", step, (plan.origin, spot)), Circle(
+                Pen(0.25, pen.colour, fill=pens.PAPER if pen.dash else pen.colour), "links", step, spot, DISC)]
+            wishes.append(self.wish(name, (spot,), DISC + 0.5, step))
         for one, _ in self.corrections:
-            yield from self._angle(plan, one, self.found.drawing.marks[f"P_{one.letter}"])
+            items += self._angle(plan, one, self.found.drawing.marks[f"P_{one.letter}"])
         for index, effect in enumerate(self.found.effects):
-            yield from self._trial_masses(plan, effect, index, places)
+            for spot, name in self._trial_masses(plan, effect, index):
+                items.append(Circle(Pen(0.25, fill=pens.PAPER), "links", None, spot, 0.8 * DISC))
+                wishes.append(self.wish(name, (spot,), DISC + 0.3))
+        return self.lettered(items, wishes, rect)
+
+    def wish(self, name: str, spots: tuple[Spot, ...], clear: float = 0.8, step: int | None = None) -> Wish:
+        """A name that wants a place beside a spot, or beside a line that has several."""
+        return Wish(self.runs(name), spots, clear, True, step=step, label=name, free=len(spots) > 1)
+
+    def lettered(self, items: Sequence[Item], wishes: Sequence[Wish], rect: Rect) -> Iterator[Item]:
+        """A figure with its letters, each where it can be read."""
+        yield from items
+        yield from placed(wishes, items, [wish.spots[0] for wish in wishes if not wish.free], rect, self.letters)
 
     def _radii(self) -> Iterator[tuple[complex, str, Pen, int]]:
         """Masses and corrections across the axis: place, name, pen and step; of other answers dashed."""
@@ -113,8 +122,8 @@ class RotorViews(Figures):
         yield from self.backed(arc.at(one.angle / 2 if one.angle < 180 else one.angle - 30), f"alpha_{one.letter}",
                                middle=True)
 
-    def _trial_masses(self, plan: View, effect: Effect, index: int, places: LetterPlaces) -> Iterator[Item]:
-        """Where trial masses were put."""
+    def _trial_masses(self, plan: View, effect: Effect, index: int) -> Iterator[tuple[Spot, str]]:
+        """Where trial masses were put, and what they are called."""
         trial = effect.trial
         far = float(trial.radius or free_radius(self.found.task.rotor, self.found.masses))
         angles = [float(trial.angle)]
@@ -122,9 +131,7 @@ class RotorViews(Figures):
             angles = [angle_of(trial, k) for k in range(len(trial.weights))]
         for k, angle in enumerate(angles):
             z = cmath.rect(far, math.radians(angle))
-            spot = plan((z.real, z.imag))
-            yield Circle(Pen(0.25, fill=pens.PAPER), "links", None, spot, 0.8 * DISC)
-            yield places.at_point(spot, z, self.runs(f"p_{k}" if len(angles) > 1 else "m" + "'" * index), DISC + 1.0)
+            yield plan((z.real, z.imag)), f"p_{k}" if len(angles) > 1 else "m" + "'" * index
 
     # ---- across the axis -------------------------------------------------------------------------------------------
 
@@ -134,38 +141,35 @@ class RotorViews(Figures):
         start = rect.centre[0] - (low + high) / 2 / k_z
         plan = View(rect, 1 / k, (start, level))
         ends = start + low / k_z - 2 * BEYOND, start + high / k_z + 2 * BEYOND
-        yield Polyline(pens.PATH, "ruling", None, ((ends[0] - 3.0, level), (ends[1] + 3.0, level)))
-        places = LetterPlaces(self.letters.text)
-        for y in (level - SHAFT, level + SHAFT):
-            places.lines.append(((ends[0], y), (ends[1], y)))
-            yield Polyline(Pen(0.35), "links", None, places.lines[-1])
+        items: list[Item] = [Polyline(pens.PATH, "ruling", None, ((ends[0] - 3.0, level), (ends[1] + 3.0, level)))]
+        items += [Polyline(Pen(0.35), "links", None, ((ends[0], y), (ends[1], y)))
+                  for y in (level - SHAFT, level + SHAFT)]
         for plane, letter in zip(rotor.planes, PLANES, strict=False):
             x = start + float(rotor.arm(plane)) / k_z
-            places.lines.append(((x, level - far), (x, level + far)))
-            yield Polyline(PLANE, "links", None, places.lines[-1])
-            yield self.text((x, level + far + 1.2), said("plane {0}", letter), "middle")
+            items.append(Polyline(PLANE, "links", None, ((x, level - far), (x, level + far))))
+            items.append(self.text((x, level + far + 1.2), said("plane {0}", letter), "middle"))
         for bearing in rotor.bearings:
             x, y = start + float(rotor.arm(bearing)) / k_z, level - SHAFT
             corners = (x - 2.0, y - 3.4), (x, y), (x + 2.0, y - 3.4), (x - 2.0, y - 3.4)
-            yield Polyline(pens.GROUND, "ground", None, corners)
-        yield from self._sticks(plan, k_z, places)
+            items.append(Polyline(pens.GROUND, "ground", None, corners))
+        wishes = []
+        for foot, top, name, pen, step in self._sticks(plan, k_z):
+            items += [Polyline(Pen(0.25, pen.colour), "links", step, (foot, top)),
+                      Circle(Pen(0.25, pen.colour, fill=pen.colour), "links", step, top, DISC)]
+            wishes.append(self.wish(name, (top,), DISC + 0.5, step))
         spans = ((start, start + place / k_z, name) for place, name in self._spans())
-        yield from self._dimensions(spans, level - far)
+        return self.lettered([*items, *self._dimensions(spans, level - far)], wishes, rect)
 
-    def _sticks(self, plan: View, k_z: float, places: LetterPlaces) -> Iterator[Item]:
-        """Masses and corrections at their heights over the axis."""
+    def _sticks(self, plan: View, k_z: float) -> Iterator[tuple[Spot, Spot, str, Pen, int]]:
+        """Masses and corrections at their heights over the axis: foot, top, name, pen and step."""
         rotor, drawing = self.found.task.rotor, self.found.drawing
         pieces = [(mass.at, f"P_{number}", MASS) for number, mass in enumerate(self.found.masses, 1)]
         pieces += [(one.at, f"P_{one.letter}", CORRECTIONS[one.index]) for one in self.found.corrections]
         for at, name, pen in pieces:
-            if name not in drawing.marks or at is None:
-                continue
-            height, step = drawing.at(name).imag, drawing.marks[name]
-            foot = plan.origin[0] + float(rotor.arm(at)) / k_z, plan.origin[1]
-            top = foot[0], plan((0.0, height))[1]
-            yield Polyline(Pen(0.25, pen.colour), "links", step, (foot, top))
-            yield Circle(Pen(0.25, pen.colour, fill=pen.colour), "links", step, top, DISC)
-            yield places.at_point(top, 1 + (0.8j if height >= 0 else -0.8j), self.runs(f"m_{name[2:]}"), DISC + 0.6)
+            if name in drawing.marks and at is not None:
+                foot = plan.origin[0] + float(rotor.arm(at)) / k_z, plan.origin[1]
+                top = foot[0], plan((0.0, drawing.at(name).imag))[1]
+                yield foot, top, f"m_{name[2:]}", pen, drawing.marks[name]
 
     def _spans(self) -> list[tuple[float, str]]:
         """What is dimensioned, the nearest first: the places of the masses, if they are few, and that of plane II."""

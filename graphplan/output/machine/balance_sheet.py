@@ -29,6 +29,7 @@ from graphplan.output.step_ink import HEAD, StepInk
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish
+from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.letters import of_mechanism
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.clip import clipped
@@ -45,6 +46,7 @@ BEFORE, AFTER, FIRST, SECOND = CURVES[0], CURVES[2], CURVES[1], CURVES[4]
 WEIGHT, ARM = Pen(0.35, pens.RED, fill="#e8c4c6"), Pen(0.35, pens.RED, (2.4, 1.0))
 OUTSIDE = 6.0  # mm about the mechanism
 MANY_TIMES = 8.0  # the middle size of a force: between limits what is larger may lie off its diagram
+APART = 1.5  # mm: positions that lie nearer to each other have one number
 SHARES = 0.7, 0.85, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4  # of the height that forces may have, moments having 1
 MOST, LEAST = 12, 5  # numbered positions at most; mm that the radius of a drawn counterweight is at most
 
@@ -146,7 +148,8 @@ class BalanceSheet(Panelled):
         drawn = DrawnMechanism(self.scene, window)
         ink = StepInk(self.recorded, {MECHANISM: window}, self.letters)
         others = [*self._weights(window), *self._paths(window), *drawn.items(), *self._vectors(ink)]
-        wishes = [*of_mechanism(drawn), *self._numbers(window)]
+        path = [window((float(z.real), float(z.imag))) for z in self.before.path[self.places]]
+        wishes = [*of_mechanism(drawn), *self._numbers(path, window.rect)]
         yield from ink.lettered(MECHANISM, others, wishes, lambda step: step.op.movement is not Movement.GIVEN)
 
     def _vectors(self, ink: StepInk) -> Iterator[Item]:
@@ -174,12 +177,13 @@ class BalanceSheet(Panelled):
             if window.rect.holds(spot):
                 yield Circle(WEIGHT, "links", None, spot, max(1.0, LEAST * (weight.mass / heaviest) ** 0.5))
 
-    def _numbers(self, window: View) -> Iterator[Wish]:
-        """The numbers of positions on the path."""
-        for number, k in enumerate(self.places):
-            z = self.before.path[k]
-            if np.isfinite(z):
-                yield Wish(self._runs(str(number)), (window((float(z.real), float(z.imag))),), 0.8, True, pens.FAINT)
+    def _numbers(self, spots: Sequence[Spot], rect: Rect) -> Iterator[Wish]:
+        """The numbers of positions at their spots; of such as lie on each other the first alone."""
+        shown = list[Spot]()
+        for number, spot in enumerate(spots):
+            if rect.holds(spot) and all(math.dist(spot, other) > APART for other in shown):
+                shown.append(spot)
+                yield Wish(self._runs(str(number)), (spot,), 0.8, True, pens.FAINT)
 
     def _runs(self, text: str) -> Any:
         return self.figures.text((0.0, 0.0), text).runs
@@ -209,17 +213,18 @@ class BalanceSheet(Panelled):
         return Polar.fitted(rect.inset(4.0, 4.0, 4.0, 8.0), forces.real.tolist(), forces.imag.tolist())
 
     def _polar(self, rect: Rect) -> Iterator[Item]:
-        """The curves of the ends of the shaking force, with numbered positions, and that of the given pose."""
+        """The curves of the ends of the shaking force, with numbered positions."""
         polar = self.polar(rect)
-        yield from self.figures.rings(polar, "N")
+        ink, ends = [*self.figures.rings(polar, "N")], list[Spot]()
+        ink += self._legend(rect, [("J", BEFORE), *([("J'", AFTER)] if self.balancing.after else [])])
         for motion, pen in self.motions:
             spots = [polar.at(float(z.real), float(z.imag)) for z in self._force(motion)]
-            yield from clipped(Polyline(pen, "links", None, tuple(self._smooth(motion, spots))), polar.rect)
-            for number, k in ((number, k) for number, k in enumerate(self.places) if polar.rect.holds(spots[k])):
-                yield Circle(pen.filled(pen.colour), "links", None, spots[k], 0.5)
-                if motion is self.before:
-                    yield self._outwards(polar.centre, spots[k], str(number))
-        yield from self._legend(rect, [("J", BEFORE), *([("J'", AFTER)] if self.balancing.after else [])])
+            ink += clipped(Polyline(pen, "links", None, tuple(self._smooth(motion, spots))), polar.rect)
+            shown = [spots[k] for k in self.places if polar.rect.holds(spots[k])]
+            ink += [Circle(pen.filled(pen.colour), "links", None, spot, 0.5) for spot in shown]
+            ends += shown
+        spots = [polar.at(float(z.real), float(z.imag)) for z in self._force(self.before)[self.places]]
+        yield from (*ink, *placed([*self._numbers(spots, polar.rect)], ink, ends, polar.rect, self.letters))
 
     def _force(self, motion: MassMotion) -> Any:
         """The shaking force, zero where it is rounding alone."""
@@ -231,12 +236,6 @@ class BalanceSheet(Panelled):
         known = values[np.isfinite(values)]
         most = MANY_TIMES * np.median(np.abs(known))
         return known if self.before.closed or not most else known[np.abs(known) <= most]
-
-    def _outwards(self, centre: Spot, spot: Spot, words: str) -> Item:
-        """A number beside a spot, away from the middle."""
-        far, size = math.dist(centre, spot) or 1.0, self.letters.text
-        x, y = (at + (0.9 + 0.6 * size) * (at - mid) / far for at, mid in zip(spot, centre, strict=True))
-        return self.figures.text((x, y - 0.35 * size), words, "middle", pen=pens.FAINT)
 
     def _legend(self, rect: Rect, curves: list[tuple[str, Pen]]) -> Iterator[Item]:
         """Which curve is which, in the upper left corner."""

@@ -117,6 +117,7 @@ def _students(options: argparse.Namespace, messages: Messages) -> list[str]:
 def _files(options: argparse.Namespace, own: Composition, variants: Sequence[Variant], students: Sequence[str],
            shared_out: SharedOut, messages: Messages) -> dict[str, str | bytes]:
     """All that is written, by name."""
+    from graphplan.commands.cycle_results import key_rows
     from graphplan.marking.classroom.booklet import Exercise, Printed, printed
     from graphplan.marking.classroom.key import key_table, overview
     from graphplan.marking.classroom.register import FILE, Register, TaskSheet
@@ -125,8 +126,8 @@ def _files(options: argparse.Namespace, own: Composition, variants: Sequence[Var
     exercises = [Exercise(variant, student, f"variant-{variant.number:0{max(2, digits)}}.toml")
                  for variant, student in zip(variants, students, strict=True)]
     pages, sheets = list[Printed](), list[TaskSheet]()
-    for exercise, found in zip(exercises, shared_out(partial(printed, draw=partial(drafted, options)), exercises),
-                               strict=True):
+    work = partial(printed, draw=partial(drafted, options), further=key_rows)
+    for exercise, found in zip(exercises, shared_out(work, exercises), strict=True):
         page = 1 + sum(len(one.task) for one in pages)
         sheets.append(TaskSheet(found.code, exercise.variant.number, exercise.student, exercise.file, page))
         pages.append(found)

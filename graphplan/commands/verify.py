@@ -37,6 +37,7 @@ import os
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -47,6 +48,7 @@ from graphplan.output import back_end
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
+    from graphplan.commands.cycle_results import CycleResults
     from graphplan.marking.classroom.class_list import Marked
     from graphplan.marking.judge.score import Weights
     from graphplan.marking.traces import Frames, Submission
@@ -175,6 +177,13 @@ class Desk:
         others = () if asked else (N_PLAN, VELOCITY_PLAN, ACCELERATION_PLAN)
         return list(dict.fromkeys([*self.on_sheet.composition.views, *others]))
 
+    @cached_property
+    def _cycle(self) -> CycleResults:
+        """What is expected of numbers over the machine's cycle."""
+        from graphplan.commands.cycle_results import CycleResults
+
+        return CycleResults(self.on_sheet.drawing.scene, self.on_sheet.pencil)
+
     @property
     def frames(self) -> Frames:
         """Where the plans lie on the sheet that was printed."""
@@ -187,13 +196,14 @@ class Desk:
         """A drawing judged by what was read of it."""
         from graphplan.check.trusted import construct
         from graphplan.marking.classroom.class_list import Marked
+        from graphplan.marking.judge.cycle_numbers import with_cycle
         from graphplan.marking.judge.judge import judge, judge_any_method
         from graphplan.marking.judge.score import score
 
         work = self.on_sheet.drawing, self.on_sheet.composition, submission, self.on_sheet.pencil
         found = (judge(*work) if self.options.method
                  else judge_any_method(*work, self.options.plan, self.options.inertia, construct))
-        judgement = replace(found, name=printable(submission.name))
+        judgement = replace(with_cycle(found, self._cycle.expected), name=printable(submission.name))
         return Marked(judgement, score(judgement, self.weights))
 
 

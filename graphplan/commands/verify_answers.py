@@ -56,11 +56,11 @@ def of_flywheel(options: argparse.Namespace, text: str) -> int:
 
 
 def of_a_flywheel(path: Path) -> bool:
-    """Whether a table has answers that are asked of a flywheel."""
+    """Whether all answers of a table are those that are asked of a flywheel, and none is read off plans."""
     from graphplan.marking.tables.reader import read_answers
 
     try:
-        return any(answer.quantity in FLYWHEEL for answer in read_answers(path))
+        return all(answer.quantity in FLYWHEEL for answer in read_answers(path))
     except Refused:  # it has other columns
         return False
 

@@ -70,13 +70,17 @@ class FlywheelResult:
 
     @cached_property
     def plans(self) -> dict[str, Reals]:
-        """What there is at each plan: inertia, moment of the loads, whole moment, energy and speed."""
-        cycle, travels = self.cycle, self.travels
+        """What there is at each plan."""
+        return self.at(self.travels)
+
+    def at(self, travels: Reals) -> dict[str, Reals]:
+        """What there is at some travels: inertia, moment of the loads, whole moment, energy and speed."""
+        cycle = self.cycle
         names, (inertia, _, *moments) = reduced_rows(self.reduction, travels, cycle.speed)
         moment = sum((row * (cycle.factor if name in cycle.changing else 1.0)
                       for name, row in zip(names, moments, strict=True)), np.zeros(len(travels)))
         return {"inertia": inertia, "moment": moment, "whole": moment + cycle.closing,
-                "energy": cycle.energy.at(travels) - cycle.energy.at(travels[0]), "omega": self.omega(travels)}
+                "energy": cycle.energy.at(travels) - cycle.energy.at(cycle.ends[0]), "omega": self.omega(travels)}
 
     def told(self, travel: Any) -> Any:
         """Travels as they are told: degrees, or lengths."""

@@ -34,7 +34,7 @@ class Dimension(NamedTuple):
 
     def unit(self, units: Units) -> str:
         """The unit of such a quantity, as files write it."""
-        return self.pattern.format(length=units.length, force=units.force)
+        return self.pattern.format(length=units.length, force=units.force, mass=units.mass)
 
 
 SPEED, ACCELERATING = Dimension(1, -1, 0, "v", "{length}/s"), Dimension(1, -2, 0, "a", "{length}/s^2")
@@ -43,6 +43,7 @@ FORCE, MOMENT = Dimension(0, 0, 1, "F", "{force}"), Dimension(1, 0, 1, "M", "{fo
 LENGTH = Dimension(1, 0, 0, "r", "{length}")
 PLACE, HEADING = Dimension(1, 0, 0, "P", "{length}"), Dimension(0, 0, 0, "d", "1")  # one at infinity has a heading
 CURVING = Dimension(-1, 0, 0, "k", "1/{length}")
+INERTIA = Dimension(1, 2, 1, "I", "{mass}*m^2")
 
 BY_QUANTITY = {"length": METRES, "force": NEWTONS, "mass": KILOGRAMS}  # the first unit of each is the default
 

@@ -43,7 +43,7 @@ class ResultKind(str):
     @property
     def single(self) -> bool:
         """Whether it is one number; else it is a vector."""
-        return self.dimension in (units.TURNING, units.TURNING_FASTER, units.MOMENT)
+        return self.dimension in (units.TURNING, units.TURNING_FASTER, units.MOMENT, units.INERTIA)
 
     @property
     def turning(self) -> bool:
@@ -91,18 +91,23 @@ KINDS: Mapping[str, ResultKind] = {kind: kind for kind in (
     ResultKind(said("balance moment with friction"), units.MOMENT, way=RUBBED),
     ResultKind(said("lever"), units.FORCE, way=BY_LEVER), ResultKind(said("lever moment"), units.MOMENT, way=BY_LEVER),
 )}
+# Of a machine over its cycle, reduced to the drive: no reading of one pose, the first two of a travel in degrees.
+CYCLE: Mapping[str, ResultKind] = {kind: kind for kind in (
+    ResultKind(said("reduced moment"), units.MOMENT), ResultKind(said("reduced inertia"), units.INERTIA),
+    ResultKind(said("closing moment"), units.MOMENT), ResultKind(said("flywheel"), units.INERTIA),
+)}
 # A third opinion, which is never read off a drawing.
 POWER, POWER_MOMENT = ResultKind("power balance", units.FORCE), ResultKind("power balance moment", units.MOMENT)
 MOTION = {VELOCITY: (VELOCITY, OMEGA, SLIDE_VELOCITY), ACCELERATION: (ACCELERATION, ALPHA, SLIDE_ACCELERATION),
           POLES: (POLE, POLE_HEADING), CURVES: PATHS}
 ORDER = {kind: place for place, kind in enumerate(kind for kinds in MOTION.values() for kind in kinds)}  # as told
-WORDS = {**{name: kind.words for name, kind in KINDS.items()}, FORCES: said("force"), POLES: said("poles"),
+WORDS = {**{name: kind.words for name, kind in {**KINDS, **CYCLE}.items()}, FORCES: said("force"), POLES: said("poles"),
          CURVES: said("curvature"), "curves": said("curves"), "position": said("position")}
 
 
 def kind_of(name: str) -> ResultKind:
     """The kind of this public name."""
-    return KINDS.get(name) or (POWER if name == POWER else POWER_MOMENT)
+    return KINDS.get(name) or CYCLE.get(name) or (POWER if name == POWER else POWER_MOMENT)
 
 
 def balance_kind(way: str, balance: Balance) -> ResultKind:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 from graphplan.accuracy.drafted import Drafted
 from graphplan.marking.classroom.flaws import Draw
 from graphplan.marking.classroom.key import Row, key_rows
 from graphplan.marking.classroom.variants import Variant
+from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 from graphplan.sheet.handout import code, solution, task
 from graphplan.sheet.plates.display import Sheet
@@ -32,11 +34,12 @@ class Printed:
     rows: tuple[Row, ...]
 
 
-def printed(exercise: Exercise, draw: Draw) -> Printed:
-    """An exercise on paper. Fails as the drawing of its scene does."""
+def printed(exercise: Exercise, draw: Draw, further: Callable[[Scene], Iterable[Row]]) -> Printed:
+    """An exercise on paper; `further` are results of its scene that no drawing of one pose has. Fails as the drawing of
+    its scene does."""
     scene = parse(exercise.variant.text, exercise.file)
     sheet = replace(scene.sheet, student=exercise.student, variant=str(exercise.variant.number))
     drafted: Drafted = draw(replace(scene, sheet=sheet))
     composition = drafted.composition
     return Printed(code(composition), tuple(task(composition)), tuple(solution(composition)),
-                   tuple(key_rows(composition.plans.drawing)))
+                   (*key_rows(composition.plans.drawing), *further(scene)))

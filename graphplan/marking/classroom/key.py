@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.mechanism.model import Units
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import KINDS, ResultKind
 from graphplan.phrases import said
@@ -49,6 +50,11 @@ def key_rows(drawing: Construction) -> Iterator[Row]:
         for of, value in values.items():
             x, y, one = ("", "", value) if kind.single else (*value, "")
             yield Row(name, of, _figure(x, largest), _figure(y, largest), _figure(one, largest), unit)
+
+
+def single_row(kind: ResultKind, at: str, value: float, largest: float, units: Units) -> Row:
+    """A single number over the cycle, at a travel if it has one."""
+    return Row(f"{kind} at {at}" if at else str(kind), "", "", "", _figure(value, largest), kind.dimension.unit(units))
 
 
 def _figure(value: float | str, largest: float) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, UNSURE, WRONG, Judgement
 from graphplan.methods.construction import Construction
-from graphplan.methods.kinds import ResultKind
+from graphplan.methods.kinds import CYCLE, ResultKind
 from graphplan.methods.recorded import Reading
 
 
@@ -38,6 +38,9 @@ def results(judgement: Judgement) -> Iterator[AskedResult]:
             state = _shown(shown) if judgement.drawn else MISSING
         if state != UNSEEN and (reading.given is None or state == WRONG):
             yield AskedResult(reading.kind, reading.of, state)
+    for kind, of in numbers:
+        if kind in CYCLE:  # asked for as far as it is handed in
+            yield AskedResult(CYCLE[kind], of, numbers[kind, of])
 
 
 def _shown(states: Collection[str]) -> str:

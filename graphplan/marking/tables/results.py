@@ -14,8 +14,8 @@ from functools import cache
 from graphplan.marking.spelling import LOW
 from graphplan.marking.traces import Number
 from graphplan.mechanism.model import Units
-from graphplan.mechanism.units import KILOGRAMS, METRES, MOMENT, NEWTONS, Dimension
-from graphplan.methods.kinds import KINDS
+from graphplan.mechanism.units import INERTIA, KILOGRAMS, METRES, MOMENT, NEWTONS, Dimension
+from graphplan.methods.kinds import CYCLE, KINDS
 from graphplan.phrases import UNITS
 from graphplan.words import LANGUAGES
 from graphplan.words.tongue import catalogue
@@ -24,6 +24,8 @@ ALSO = {"angular velocity": "omega", "angular acceleration": "alpha", "ω": "ome
 LETTERS = {"v": "velocity", "a": "acceleration", "ω": "omega", "omega": "omega", "w": "omega", "α": "alpha",
            "alpha": "alpha", "ε": "alpha", "epsilon": "alpha"}
 SYMBOL = re.compile(rf"({'|'.join(sorted(LETTERS, key=len, reverse=True))})[\s_]*[({{]?\s*([^\W_][\w'’]*)\s*[)}}]?")
+AT = re.compile(r"(.+?) at ([-+]?\d+(?:[.,]\d+)?)\s*°?")  # a quantity at a travel of the drive
+QUANTITIES = {**KINDS, **CYCLE}
 LARGEST = 1e60  # beyond it squares leave the range of a float
 
 
@@ -33,22 +35,24 @@ def entry(quantity: str, of: str, value: Sequence[float], unit: str, rounding: f
     Fails with `ValueError` where there is no such quantity, or its unit or number of components is another.
     """
     kind, of = _named(quantity, of)
-    if kind not in KINDS:
+    if kind not in QUANTITIES:
         raise ValueError(f"{quantity!r} is no quantity")
-    if len(value) != (1 if KINDS[kind].single else 2):
-        raise ValueError(f"{kind} is {'one number' if KINDS[kind].single else 'a vector'}")
+    if len(value) != (1 if QUANTITIES[kind].single else 2):
+        raise ValueError(f"{kind} is {'one number' if QUANTITIES[kind].single else 'a vector'}")
     if any(abs(part) > LARGEST for part in value):
         raise ValueError("a number is too large")
     if unit:
-        factor(unit, KINDS[kind].dimension, Units())
+        factor(unit, QUANTITIES[kind].dimension, Units())
     return Number(kind, " ".join(of.split()), tuple(value), unit, rounding)
 
 
 def _named(quantity: str, of: str) -> tuple[str, str]:
     """The kind of a quantity and what it is of, whether it is written as words or as a symbol."""
     name = " ".join(quantity.translate(LOW).casefold().split())
+    if (at := AT.fullmatch(name)) and at[1] in CYCLE:
+        name, of = at[1], at[2].replace(",", ".")
     kind = LETTERS.get(ALSO.get(name, name), ALSO.get(name, name))
-    if kind in KINDS:
+    if kind in QUANTITIES:
         return kind, of
     symbol = SYMBOL.fullmatch(" ".join(quantity.translate(LOW).split())) if not of.strip() else None
     return (LETTERS[symbol[1]], symbol[2]) if symbol else (kind, of)
@@ -62,10 +66,10 @@ def turned(size: float, angle: float) -> tuple[float, float]:
 def wanted(quantity: str, of: str = "") -> str:
     """What would be right for this quantity."""
     kind, _ = _named(quantity, of)
-    if kind not in KINDS:
-        return f"one of {', '.join(KINDS)}"
-    parts = "value" if KINDS[kind].single else "x and y, or size and angle"
-    return f"{parts}, in a unit such as {example(KINDS[kind].dimension)}"
+    if kind not in QUANTITIES:
+        return f"one of {', '.join(QUANTITIES)}"
+    parts = "value" if QUANTITIES[kind].single else "x and y, or size and angle"
+    return f"{parts}, in a unit such as {example(QUANTITIES[kind].dimension)}"
 
 
 def in_scene_units(number: Number, units: Units) -> tuple[float, ...]:
@@ -76,7 +80,7 @@ def in_scene_units(number: Number, units: Units) -> tuple[float, ...]:
 
 def scene_unit(number: Number, units: Units) -> float:
     """What one of a result's unit is in the scene's units."""
-    return factor(number.unit, KINDS[number.kind].dimension, units) if number.unit else 1.0
+    return factor(number.unit, QUANTITIES[number.kind].dimension, units) if number.unit else 1.0
 
 
 BASES: dict[str, tuple[float, tuple[int, int, int]]] = {
@@ -110,6 +114,8 @@ def factor(written: str, dimension: Dimension, units: Units) -> float:
         powers = [total + power * base for total, base in zip(powers, bases, strict=True)]
     if tuple(powers) != dimension[:3]:
         raise ValueError(f"{written!r} is no such unit as {example(dimension)}")
+    if dimension == INERTIA:
+        return size / float(KILOGRAMS[units.mass])
     force = float(NEWTONS[units.force]) ** dimension.force  # the scene's; its moments are in forces times metres
     return size / (force if dimension == MOMENT else force * float(METRES[units.length]) ** dimension.length)
 

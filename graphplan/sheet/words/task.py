@@ -259,6 +259,14 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
         yield said("Reactions: {0}.", joined(told))
     if scene.loads and any(kind_of(kind).way for kind in values):
         yield from map(_keeping, scene.loads.balances)
+    if wish := scene.flywheel:
+        speed = digits(float(wish.speed)), unit(f"{scene.units.length}/s" if scene.drives[0].slides else "rad/s")
+        yield said("Reduced moment and reduced inertia over the cycle, and the moment that closes it.")
+        yield (said("The unevenness at a mean speed of {0} {1} with the flywheel {2}.", *speed,
+                    _with_unit("I", wish.inertia, f"{scene.units.mass}·m²"))
+               if wish.inertia is not None else
+               said("The flywheel for an unevenness of {2} at a mean speed of {0} {1}.", *speed,
+                    digits(float(wish.unevenness or 0))))
 
 
 def _keeping(balance: Balance) -> Said:

@@ -1,0 +1,94 @@
+"""What a scene's flywheel gives beside the results of its pose: in keys of variants, and expected of students."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from graphplan.accuracy.pencil import Pencil
+from graphplan.commands.flywheel import pencil_errors
+from graphplan.marking.classroom.key import Row, single_row
+from graphplan.marking.judge.cycle_numbers import Expected
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.units import KILOGRAMS, NEWTONS
+from graphplan.methods.kinds import CYCLE
+
+if TYPE_CHECKING:
+    from graphplan.machine.flywheel import FlywheelResult
+
+MOMENT, INERTIA, CLOSING, FLYWHEEL = CYCLE
+PLACES = {MOMENT: "moment", INERTIA: "inertia"}  # by their names among what there is at a plan
+
+
+@dataclass(frozen=True)
+class CycleResults:
+    """The results over the cycle of a scene whose flywheel is asked for and whose first drive turns, else none."""
+
+    scene: Scene
+    pencil: Pencil
+
+    @cached_property
+    def flywheel(self) -> FlywheelResult | None:
+        if self.scene.flywheel is None or self.scene.drives[0].slides:
+            return None
+        from graphplan.machine.flywheel import flywheel
+
+        return flywheel(self.scene)
+
+    def expected(self, kind: str, of: str) -> Expected | None:
+        """What is expected of a number, if it is one of these: a travel in degrees is any of the cycle."""
+        found = self.flywheel
+        if found is None or (kind == FLYWHEEL and found.given):
+            return None
+        if kind in PLACES:
+            try:
+                travel = math.radians(float(of))
+            except ValueError:
+                return None
+            return self._at(found, kind, travel) if found.cycle.ends[0] <= travel <= found.cycle.ends[1] else None
+        if of:
+            return None
+        one, (wheel, mean) = self._unit(kind), pencil_errors(found, self.pencil)
+        if kind == CLOSING:
+            closing = found.cycle.closing
+            return Expected(closing / one, mean / one, abs(found.drawing.mean + closing) / one)
+        return Expected(found.wheel.inertia / one, wheel / one, found.strip_error / one)
+
+    def _at(self, found: FlywheelResult, kind: str, travel: float) -> Expected:
+        import numpy as np
+
+        value = float(found.at(np.array([travel]))[PLACES[kind]][0])
+        return Expected(value / self._unit(kind), self._read(found, kind))
+
+    def _unit(self, kind: str) -> float:
+        """The scene's unit, in kg m^2 or N m."""
+        units = self.scene.units
+        return float(NEWTONS[units.force] if kind in (MOMENT, CLOSING) else KILOGRAMS[units.mass])
+
+    def _read(self, found: FlywheelResult, kind: str) -> float:
+        """The standard deviation of an ordinate that is plotted and read off."""
+        frame = found.drawing.frames[PLACES[kind]]
+        scale = frame.y.unit if kind == MOMENT else frame.x.unit
+        return math.sqrt(2) * self.pencil.point * scale / self._unit(kind)
+
+    @property
+    def rows(self) -> Iterator[Row]:
+        """The rows of a key: moment and inertia at each plan, the closing moment, and the flywheel."""
+        found, units = self.flywheel, self.scene.units
+        if found is None:
+            return
+        for kind, name in PLACES.items():
+            values = found.plans[name] / self._unit(kind)
+            for travel, value in zip(found.told_travels, values, strict=True):
+                yield single_row(CYCLE[kind], f"{travel:g}", float(value), float(abs(values).max()), units)
+        for kind in (CLOSING, FLYWHEEL):
+            if expected := self.expected(kind, ""):
+                yield single_row(CYCLE[kind], "", expected.value, abs(expected.value), units)
+
+
+def key_rows(scene: Scene) -> Iterator[Row]:
+    """The further rows of the key of a variant."""
+    yield from CycleResults(scene, Pencil()).rows

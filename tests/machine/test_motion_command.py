@@ -9,11 +9,14 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from graphplan.commands import main
 from graphplan.commands.result_schemas import printed
-from graphplan.mechanism.scene import parse, source_text
+from graphplan.machine.driven import driven
+from graphplan.machine.reduction import reduction
+from graphplan.mechanism.scene import load, parse, source_text
 
 jsonschema = pytest.importorskip("jsonschema")
 
@@ -92,6 +95,28 @@ def test_steady_cycle_with_its_flywheel(tmp_path: Path) -> None:
     rows = list(csv.reader(file.read_text().splitlines()))
     assert rows[0][:3] == ["travel [deg]", "omega [rad/s]", "time [s]"]
     assert [float(row[0]) for row in rows[1:]] == pytest.approx([0, 60, 120, 180, 240, 300, 360])
+
+
+def test_driving_moments_of_the_yoke(tmp_path: Path) -> None:
+    """The moments that example 13-6 asks of the drive, running up at 35.8 rad/s^2 and at 15 rad/s; and with the former
+    as a table over the travel the yoke runs up so."""
+    machine = driven(reduction(load("ozols-13-6")))
+    degrees = np.arange(0, 181, 30)
+    travel = np.radians((degrees - 60) % 360)  # the scene stands at 60 degrees
+
+    def needed(at: Any, change: float, square: Any) -> Any:
+        return machine.inertia(at) * change + machine.slope(at) * square / 2 - machine.moment(at, 0 * at)
+
+    up = needed(travel, 35.8, 2 * 35.8 * np.radians(degrees))
+    assert up == pytest.approx([358.0, 558.7, 768.5, 701.2, 378.9, 169.1, 358.0], abs=0.06)
+    assert needed(travel, 0, 225) == pytest.approx([0, 489.7, 562.9, 200, -216.5, -289.7, 0], abs=0.06)
+    fine = np.arange(0, 361, 5)
+    values = needed(np.radians((fine - 60) % 360), 35.8, 2 * 35.8 * np.radians(fine))
+    rows = ", ".join(f"[{at}, {value:.9g}]" for at, value in zip(fine, values, strict=True))
+    table = f'[[moments]]\non = "1"\nover = "travel"\nvalues = [{rows}]\n[balance]'
+    found = motion(tmp_path, yoke(tmp_path, table), "--travel", "180", "--positions", "12")
+    assert found["acceleration"] == pytest.approx([35.8] * 13, abs=0.4)
+    assert (found["omega"][-1], found["time"][-1]) == pytest.approx((14.998, 0.4190), abs=4e-3)
 
 
 def test_stopping(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

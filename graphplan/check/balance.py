@@ -155,9 +155,10 @@ def _held(motion: MassMotion, way: str) -> dict[str, float]:
 
 
 def _by_orders(motion: MassMotion, found: Engine) -> dict[str, float]:
-    """By how much all orders together differ from the shaking force, where the crank turns evenly."""
+    """By how much all orders together differ from the shaking force, where the crank turns evenly and is short enough
+    for its orders to come to an end."""
     scene, there = motion.centre.scene, np.isfinite(motion.path)
-    if any(drive.change for drive in scene.drives) or not there.all():
+    if any(drive.change for drive in scene.drives) or not there.all() or found.orders[-1] > len(found.series) // 2:
         return {}
     crank = motion.points[found.pin(scene)] - motion.points[found.hinge]
     force = found.force(np.angle(crank / found.ahead), found.orders) * found.ahead

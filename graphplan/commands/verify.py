@@ -20,7 +20,6 @@ Of a task with [rotor] they are the numbers that balance it: correction and angl
   quantity,of,value,unit
   correction,I,58,kg·mm
   angle,I,276.5,°
-and of a scene with [flywheel] they may be its flywheel (or unevenness) and closing moment.
 
 examples:
   graphplan verify four-bar points.csv
@@ -102,19 +101,17 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _of_answers(options: argparse.Namespace) -> int | None:
-    """The verdict on single numbers, where the scene is the task of a rotor, or they are of its flywheel."""
+    """The verdict on single numbers, where the scene is the task of a rotor."""
     if options.scene == STANDARD:
         return None
-    from graphplan.commands import verify_answers
     from graphplan.mechanism.scene import source_text, tables_of
 
     text = source_text(options.scene, options.scene)
-    tables = tables_of(text, options.scene)
-    if "rotor" in tables:
-        return verify_answers.of_rotor(options, text)
-    asked = "flywheel" in tables and options.drawing.endswith(".csv")
-    return verify_answers.of_flywheel(options, text) if asked and verify_answers.of_a_flywheel(
-        Path(options.drawing)) else None
+    if "rotor" not in tables_of(text, options.scene):
+        return None
+    from graphplan.commands import verify_answers
+
+    return verify_answers.of_rotor(options, text)
 
 
 def _no_stack(options: argparse.Namespace) -> None:

@@ -1,4 +1,4 @@
-"""Verify answers, of a rotor or a flywheel: each number by the true one, as far as a pencil allows."""
+"""Verify the answers to a rotor's task: each number by the true one, as far as a pencil allows."""
 
 from __future__ import annotations
 
@@ -17,9 +17,6 @@ if TYPE_CHECKING:
     from graphplan.output.machine.rotor_sheet import RotorSheet
 
 
-FLYWHEEL = "flywheel", "unevenness", "closing moment"  # what is asked of a machine
-
-
 def of_rotor(options: argparse.Namespace, text: str) -> int:
     """Judge the answers to the task of a rotor."""
     from graphplan.check.rotors import checked
@@ -30,39 +27,6 @@ def of_rotor(options: argparse.Namespace, text: str) -> int:
     found = balanced(parse(text, options.scene))
     sheet = one_sheet(found, checked(found), pencil(options))
     return _judge(options, [_expected(sheet, answer) for answer in found.answers], found.task.sheet.language)
-
-
-def of_flywheel(options: argparse.Namespace, text: str) -> int:
-    """Judge the flywheel and the closing moment of a scene."""
-    from graphplan.check.flywheel import checked
-    from graphplan.commands.flywheel import pencil_errors
-    from graphplan.machine.flywheel import flywheel
-    from graphplan.marking.answers import Expected
-    from graphplan.mechanism.scene import parse
-    from graphplan.mechanism.units import Dimension
-
-    result = flywheel(parse(text, options.scene, by_drive=True))
-    checked(result)
-    wheel, mean = pencil_errors(result, pencil(options))
-    off, arm = result.strip_error + 2 * wheel, 1 if result.turns else 0
-    size = Expected("flywheel", "", result.wheel.inertia, off, "kg·m²" if arm else "kg", 1.0,
-                    Dimension(2 * arm - 1, 2, 1, "I", "kg*m^2" if arm else "kg"))
-    if result.given:
-        size = Expected("unevenness", "", result.unevenness, off, "1", 1.0, Dimension(0, 0, 0, "delta", "1"))
-    closing = result.cycle.closing
-    moment = Expected("closing moment", "", closing, abs(result.drawing.mean + closing) + 2 * mean,
-                      "N·m" if arm else "N", 1.0, Dimension(arm, 0, 1, "M", "N*m" if arm else "N"))
-    return _judge(options, [[size, moment] if closing else [size]], result.scene.sheet.language)
-
-
-def of_a_flywheel(path: Path) -> bool:
-    """Whether all answers of a table are those that are asked of a flywheel, and none is read off plans."""
-    from graphplan.marking.tables.reader import read_answers
-
-    try:
-        return all(answer.quantity in FLYWHEEL for answer in read_answers(path))
-    except Refused:  # it has other columns
-        return False
 
 
 def _judge(options: argparse.Namespace, choices: Sequence[Sequence[Expected]], language: str) -> int:

@@ -61,17 +61,3 @@ def test_other_answers_are_refused(row: str, line: str, tmp_path: Path, capsys: 
     told = capsys.readouterr().err
     assert line in told
     assert len(told.splitlines()) == 1
-
-
-@pytest.mark.parametrize(("rows", "states"), [
-    (("flywheel,,49.5,kg·m²", "closing moment,,127,N·m"), ["right", "right"]),
-    (("flywheel,,11.2,kg·m²", "closing moment,,-127,N·m"), ["wrong", "wrong"]),
-    (("flywheel,,49.5,",), ["right", "missing"]),
-])  # fmt: skip
-def test_flywheels_are_judged(rows: tuple[str, ...], states: list[str], tmp_path: Path,
-                              capsys: pytest.CaptureFixture[str]) -> None:
-    """Flywheel and closing moment of a scene are judged as its drawing allows."""
-    table = tmp_path / "answers.csv"
-    table.write_text("\n".join(["quantity,of,value,unit", *rows, ""]))
-    assert main(["verify", "ozols-13-6", str(table), "--json"]) == 0
-    assert [one["state"] for one in json.loads(capsys.readouterr().out)["answers"]] == states

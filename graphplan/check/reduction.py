@@ -105,7 +105,7 @@ def friction_gap(reduction: Reduction, travel: Any) -> float:
     turn = reduction.motion.turn(travel)
     rates = reduction.motion.velocities(turn)
     found, values = rubbing.at(travel), rubbing.loads(travel, turn, rates)
-    worst = 0.0
+    worst, usual = 0.0, Opinion(reduction, travel[:1], 1).usual["moment"]
     for k in range(travel.size):
         assert rubbing.scene.loads is not None
         acting = loads_with(rubbing.scene.loads, {name: complex(z[k]) for name, z in values.items()})
@@ -114,7 +114,7 @@ def friction_gap(reduction: Reduction, travel: Any) -> float:
         told = with_friction(alone(own.posed))
         work = float(delivered(told)) * rubbing.power
         size = max(abs(float(found.balance[k])), abs(work), -sum(float(loss[k]) for loss in found.losses.values()))
-        gap = abs(work - float(found.balance[k] - found.moment[k])) / size if size else 0.0
+        gap = abs(work - float(found.balance[k] - found.moment[k])) / size if size > CLOSE * usual else 0.0
         if gap > max(FRICTION, SAFETY * EPSILON * told.condition):
             where = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
             drawn = f"{float(found.balance[k] - found.moment[k]):.15g}"

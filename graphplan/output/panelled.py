@@ -351,8 +351,8 @@ def told_once(steps: Sequence[Step]) -> Iterator[tuple[Sequence[Step], Sequence[
 
 
 def kind_of(step: Step) -> tuple[Any, str]:
-    """What a step does, and why."""
-    return step.op, getattr(step.why, "key", "")
+    """What a step does, and why, whatever is put into that."""
+    return step.op, getattr(step.why, "key", step.why)
 
 
 def first_figure(steps: Sequence[Step]) -> tuple[Sequence[Step], Sequence[Step]]:

@@ -10,7 +10,7 @@ import pytest
 from graphplan.commands import main
 from graphplan.machine.flywheel import FlywheelResult, flywheel
 from graphplan.machine.flywheel_drawing import FLYWHEEL
-from graphplan.mechanism.scene import load
+from graphplan.mechanism.scene import load, parse, source_text
 from graphplan.output.machine.flywheel_sheet import FlywheelSheet, sheets
 from graphplan.output.machine.lever_figures import LEVERS
 from graphplan.output.svg import svg
@@ -77,6 +77,15 @@ def test_words_have_the_numbers(result: FlywheelResult, pages: list[Sheet]) -> N
     assert f"Closing moment: {digits(result.cycle.closing)} N m" in words
     assert all(digits(value) in words for value in (result.wheel.inertia, *(one.inertia for one in result.methods)))
     assert all(str(k) in lines for k in range(result.positions + 1))
+
+
+def test_curves_are_numbered_as_the_table() -> None:
+    """Where a load has corners between plans, the numbers at the curve are still those of the table's rows."""
+    load_over = '[[moments]]\non = "1"\nover = "travel"\nvalues = [[0, 50], [40, 50], [40, -50], [360, 50]]\n'
+    found = flywheel(parse(source_text("ozols-13-6", "") + load_over, "yoke"), 12)
+    assert len(found.drawing.travels) > 13
+    labels = [item.label for item in sheets(found)[0].items if isinstance(item, Text)]
+    assert sorted(label for label in labels if label.startswith("P ")) == sorted(f"P {k}" for k in range(12))
 
 
 def test_formats(tmp_path: Path) -> None:

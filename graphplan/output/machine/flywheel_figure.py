@@ -39,7 +39,7 @@ TANGENTS = {"upper": Pen(0.35, pens.RED), "lower": Pen(0.35, pens.BLUE)}
 MOMENT, ENERGY, INERTIA, MASS = Pen(0.5), Pen(0.5, pens.BLUE), Pen(0.5, pens.RED), Pen(0.5, pens.VIOLET)
 SIDE, RIGHT, OVER = 4.0, 14.0, 9.0  # mm beside the pole, right of the diagrams for numbers, and over and under them
 PARTS, LOW = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9), (0.15, 0.2, 0.25, 0.3, 0.4)  # of the room that are tried for a diagram
-NUMBERED, SAMPLES = 36, 360  # plans that have numbers; places of a curve
+NUMBERED, SAMPLES, SAME = 36, 360, 1e-9  # plans that have numbers; places of a curve; of the cycle: one travel
 PIECES, BEYOND, FREE = 6, 10.0, 4.0  # strokes of a piece of a curve; mm by which tangents go on; under curves
 
 
@@ -242,9 +242,12 @@ class FlywheelFigure:
 
     def _wishes(self) -> Iterator[Wish]:
         """The numbers of the plans along the energy-mass curve and over the abscissa, and the letters of angles."""
-        points = [*map(self.window, self.drawing.spots("points"))]
-        for k, spot in [*enumerate(points)][:: 1 + len(points) // NUMBERED]:
-            yield Wish(sentence_runs(str(k)), (spot,), 0.5, minor=True, pen=pens.FAINT, label=f"P {k}")
+        told = self.result.told_travels
+        every = 1 + self.result.positions // NUMBERED
+        for spot, travel in zip(self.drawing.spots("points"), self.drawing.travels, strict=False):
+            k = int(np.argmin(abs(told - travel)))
+            if k % every == 0 and abs(told[k] - travel) < SAME * np.ptp(told):  # others are corners of the loads
+                yield Wish(sentence_runs(str(k)), (self.window(spot),), 0.5, minor=True, pen=pens.FAINT, label=f"P {k}")
         graph, bounds = self.graphs["energy-mass"], self.rect
         for which, name in (("upper", "psi_max"), ("lower", "psi_min")):
             touch = getattr(self.result.wheel, which)

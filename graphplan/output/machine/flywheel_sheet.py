@@ -55,7 +55,7 @@ class FlywheelSheet(Panelled):
     task: bool = False
     told_scales = apart = True
     again = phrase("Steps {0} to {1}: the same for the others.")
-    letters_of = "phi", "psi", "delta", "omega_max", "omega_min", "k_phi", "k_M", "k_E", "k_I"
+    letters_of = "phi", "psi", "delta", "omega", "omega_max", "omega_min", "k_phi", "k_M", "k_E", "k_I"
 
     @property
     def document(self) -> Said:

@@ -238,7 +238,7 @@ class FlywheelFigure:
 
     def _named(self, step: Step) -> bool:
         """Whether a step's letter stands on the sheet: those of the divisions stand as numbers at the curve alone."""
-        return "_" not in step.name
+        return not step.name.rpartition("_")[2].isdigit()
 
     def _wishes(self) -> Iterator[Wish]:
         """The numbers of the plans along the energy-mass curve and over the abscissa, and the letters of angles."""

@@ -175,8 +175,9 @@ class FlywheelSheet(Panelled):
             yield said("Closing moment: {0} {1}", digits(cycle.closing), unit(M))
         if result.given:
             yield arranged("delta = {0}", digits(result.unevenness))
-            yield arranged("k_E·mn/((I_s + {0} {1})·ω²) = {2}", digits(self.drawing.axis), unit(I),
-                           digits(self.drawing.unevenness))
+            if wheel.inertia + self.drawing.axis > 0:  # else m and n are one point
+                yield arranged("k_E·mn/((I_s + {0} {1})·ω²) = {2}", digits(self.drawing.axis), unit(I),
+                               digits(self.drawing.unevenness))
         else:
             yield said("Flywheel: {0} {1}; drawn {2} {1}", digits(wheel.inertia), unit(I), digits(self.drawing.inertia))
         yield arranged("mn = {0} {1}, {2} {3}", digits(self._intercept), unit("mm"),

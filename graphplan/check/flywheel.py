@@ -134,8 +134,7 @@ class _Motion:
             for k, row in enumerate(rows):
                 found[k][own] = np.reshape(row, places[own].shape)
         inertia, slope, moment = found
-        unit = self.result.cycle.unit
-        return 2 * moment * unit / inertia, slope * unit / inertia
+        return 2 * moment / inertia, slope / inertia
 
     def _over_speed(self, travel: Any, side: int) -> Any:
         """The moments of the loads over a speed, at the mean speed."""

@@ -3,7 +3,7 @@
 SCENE has masses, loads, and a table [flywheel] with the mean speed and the unevenness; options say otherwise. Over the
 cycle of the first drive all is reduced to it, a constant moment or a factor of the loads closes the cycle, and the
 tangents of the energy-mass diagram give the flywheel. Other methods are tabled beside it with what they neglect. JSON
-has kg m2, N m and J (kg and N of a drive that slides), travel in degrees (or lengths) in the sense of motion, from the
+has kg m2, N m and J, travel in degrees in the sense of motion, from the
 given pose. With --inertia the flywheel is given, and the unevenness found.
 
 examples:
@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 ENDINGS = (".json", ".csv", *SHEETS)
 FEWEST, MOST = 12, 360
-AMOUNTS = {"speed": "the mean speed of the first drive, in rad/s (or lengths/s)", "inertia": "of a flywheel that is "
-           "given, in mass * m2 (mass of a drive that slides)", "unevenness": "(omega_max - omega_min) / mean"}
+AMOUNTS = {"speed": "the mean speed of the first drive, in rad/s", "inertia": "of a flywheel that is "
+           "given, in mass * m2", "unevenness": "(omega_max - omega_min) / mean"}
 
 
 def options(command: argparse.ArgumentParser) -> None:

@@ -34,12 +34,10 @@ class SteadyCycle:
 
     `inertia` in kg m^2 and its `slope` by travel, the moments of the `loads` by their names, all together in `moment`;
     the `closing` moment on the drive, and the `factor` of the `changing` loads, which the moments contain. Between the
-    `corners` all is smooth. Travel is in radians, or in lengths of `unit` metres, inertias then in kg, moments in N and
-    slopes by metres.
+    `corners` all is smooth. Travel is in radians.
     """
 
     speed: float
-    unit: float
     inertia: Piecewise
     slope: Piecewise
     loads: Mapping[str, Piecewise]
@@ -61,12 +59,7 @@ class SteadyCycle:
     @cached_property
     def energy(self) -> Piecewise:
         """The kinetic energy beyond that at the beginning of the cycle, in J."""
-        return self.whole.integral() * self.unit
-
-    @cached_property
-    def rates(self) -> tuple[Piecewise, Piecewise]:
-        """By how much energy and inertia change with the travel in its own unit."""
-        return self.whole * self.unit, self.slope * self.unit
+        return self.whole.integral()
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -85,20 +78,20 @@ class SteadyCycle:
 
     def work(self, name: str) -> float:
         """The work of a load over the cycle, in J."""
-        return float(self.loads[name].whole) * self.unit
+        return float(self.loads[name].whole)
 
 
 def steady(reduction: Reduction, speed: float, closes: str = DRIVE, changing: Collection[str] = (),
            what: str = "flywheel") -> SteadyCycle:
-    """The steady cycle of a machine at a mean speed, in rad/s or m/s.
+    """The steady cycle of a machine at a mean speed, in rad/s.
 
     Reads what closes it, the `drive` or the `load`, and the names of the loads that change. Loads over a speed have the
     moment of the mean speed. Fails with `Refused` where no cycle closes, or the loads that change can't close it.
     """
     if not reduction.closed:
         low, high = (math.degrees(end) for end in reduction.ends)
-        where = f"its first drive goes from {low:.4g}° to {high:.4g}°" if reduction.unit == 1 else "its drive slides"
-        raise Refused(what, f"the cycle does not close: {where}", "a first drive that goes round")
+        raise Refused(what, f"the cycle does not close: its first drive goes from {low:.4g}° to {high:.4g}°",
+                      "a first drive that goes round")
     inertia, slope, loads = _reduced(reduction, speed)
     works = {name: float(moment.whole) for name, moment in loads.items()}
     _weights(loads, works, what)
@@ -110,7 +103,7 @@ def steady(reduction: Reduction, speed: float, closes: str = DRIVE, changing: Co
         closing = -sum(works.values()) / span
     first, last = reduction.ends
     corners = np.array([at for at in reduction.breaks if first < at < last])
-    return SteadyCycle(speed, reduction.unit, inertia, slope, loads, closing, factor, tuple(changing), corners)
+    return SteadyCycle(speed, inertia, slope, loads, closing, factor, tuple(changing), corners)
 
 
 def _reduced(reduction: Reduction, speed: float) -> tuple[Piecewise, Piecewise, dict[str, Piecewise]]:

@@ -60,12 +60,12 @@ class FlywheelResult:
 
     @property
     def travels(self) -> Reals:
-        """The travels of the plans, in radians or lengths, the end of the cycle included."""
+        """The travels of the plans, in radians, the end of the cycle included."""
         return np.linspace(*self.cycle.ends, self.positions + 1)
 
     @property
     def told_travels(self) -> Any:
-        """The same in degrees, or in lengths."""
+        """The same in degrees."""
         return self.told(self.travels)
 
     @cached_property
@@ -83,7 +83,7 @@ class FlywheelResult:
                 "energy": cycle.energy.at(travels) - cycle.energy.at(cycle.ends[0]), "omega": self.omega(travels)}
 
     def told(self, travel: Any) -> Any:
-        """Travels as they are told: degrees, or lengths."""
+        """Travels in degrees."""
         return told_travels(self.scene, travel)
 
     def omega(self, travel: Any) -> Any:
@@ -130,8 +130,7 @@ def flywheel(scene: Scene, positions: int | None = None, *, what: str = "flywhee
         reduced = reduction(scene)
     except Refused as fault:
         raise Refused(what, f"the cycle does not close: {fault.why}", "a first drive that goes round") from None
-    speed = float(wish.speed) * (reduced.unit if scene.drives[0].slides else 1.0)
-    cycle = steady(reduced, speed, wish.closes, reduced.changing, what)
+    cycle = steady(reduced, float(wish.speed), wish.closes, reduced.changing, what)
     if wish.inertia is not None:
         wheel = turning(cycle, float(wish.inertia) * float(KILOGRAMS[scene.units.mass]), what)
         unevenness = wheel.unevenness

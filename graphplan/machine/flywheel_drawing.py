@@ -39,7 +39,7 @@ STRAIGHT = 1e-6  # mm: three points so near to a line lie on it
 class FlywheelDrawing:
     """The program that draws the flywheel, its diagrams by name, and its marks by their role, in steps of the program.
 
-    `travels` are those of the plans, in degrees or lengths, and those at which the moment jumps. `pole` is its distance
+    `travels` are those of the plans, in degrees, and those at which the moment jumps. `pole` is its distance
     in mm: k_E = pole k_M k_phi. The tangents are cut at the inertia `axis`; their intercept is off by `strip_error` J
     at most, as the moment of a strip is no straight line and the curve no parabola.
     """
@@ -130,7 +130,7 @@ class _Sheet:
         self.scales = laid_out(cycle, wheel, self.plans, room)
         self.frames, self.board = self.scales.frames, Board()
         self.found: dict[str, list[Mark]] = {}
-        self.told = np.degrees(self.plans.travels) if cycle.unit == 1.0 else self.plans.travels
+        self.told = np.degrees(self.plans.travels)
         even = (self.plans.travels - cycle.ends[0]) / cycle.span * positions
         self.numbers = np.floor(even + 1e-6).astype(int).tolist()  # a corner has that of the plan before it, primed
 

@@ -41,11 +41,9 @@ class Room:
 
 @dataclass(frozen=True)
 class Plans:
-    """What the plans give: travels in radians or lengths of `unit` metres, the moments on either side of each, and the
-    inertias."""
+    """What the plans give: travels in radians, the moments on either side of each, and the inertias."""
 
     travels: Reals
-    unit: float
     left: Reals
     right: Reals
     inertias: Reals
@@ -63,7 +61,7 @@ class Plans:
     @cached_property
     def energies(self) -> Reals:
         """The energy at each plan by the strips, where the mean closes the cycle."""
-        return np.append(0.0, np.cumsum((self.strips - self.mean) * np.diff(self.travels)) * self.unit)
+        return np.append(0.0, np.cumsum((self.strips - self.mean) * np.diff(self.travels)))
 
     def gaps(self, cycle: SteadyCycle) -> Reals:
         """By how much the work of each strip is off, as its chord is no curve."""
@@ -123,7 +121,7 @@ def _plans_at(cycle: SteadyCycle, even: Reals, corners: Reals | None = None) -> 
     travels = np.sort(np.concatenate([even[~near], corners]))
     left, right = cycle.moment.at(travels, -1), cycle.moment.at(travels)
     left[0], right[-1] = left[-1], right[0]  # the cycle goes on as it began
-    return Plans(travels, cycle.unit, left, right, cycle.inertia.at(travels))
+    return Plans(travels, left, right, cycle.inertia.at(travels))
 
 
 class Layout(NamedTuple):
@@ -140,32 +138,28 @@ def laid_out(cycle: SteadyCycle, wheel: Flywheel, plans: Plans, room: Room) -> L
     The distance of the pole follows from them. Of the tangents' intercepts those on the axis I = 0 are drawn if they
     have room, else those on a parallel left of the curve.
     """
-    turns = cycle.unit == 1.0
-    first, last = cycle.ends
-    per = math.radians(1) if turns else cycle.unit  # of a degree or a length: rad or m
-    k_phi, k_turned = (float(round_scale((last - first) / (per if turns else 1) / size))
-                       for size in (room.travel, room.turned))
+    begin, degrees, degree = math.degrees(cycle.ends[0]), math.degrees(cycle.span), math.radians(1)
+    k_phi, k_turned = (float(round_scale(degrees / size)) for size in (room.travel, room.turned))
     axis, k_I = _parallel(plans, room)
     spans = {at: _span(plans, wheel, at) for at in (0.0, axis)}
     if np.ptp(spans[0.0]) <= OFF * np.ptp(spans[axis]) and plans.inertias.max() <= OFF * room.inertia * k_I:
         axis = 0.0
     k_E = float(round_scale(np.ptp(spans[axis]) / room.energy))
     moments = np.array([0.0, plans.mean, *plans.left, *plans.right])
-    k_M = float(round_scale(max(np.ptp(moments) / room.moment, k_E / (FARTHEST * k_phi * per))))
-    if k_E < NEAREST * k_M * k_phi * per:
-        k_E = float(round_scale(NEAREST * k_M * k_phi * per))
-    begin = math.degrees(first) if turns else first
-    length, width = (last - first) / (per if turns else 1) / k_phi, float(plans.inertias.max() - axis) / k_I
+    k_M = float(round_scale(max(np.ptp(moments) / room.moment, k_E / (FARTHEST * k_phi * degree))))
+    if k_E < NEAREST * k_M * k_phi * degree:
+        k_E = float(round_scale(NEAREST * k_M * k_phi * degree))
+    length, width = degrees / k_phi, float(plans.inertias.max() - axis) / k_I
     low, high = spans[axis][0] / k_E, spans[axis][1] / k_E
     M = Frame((0.0, 0.0), AxisScale(k_phi, begin), AxisScale(k_M), (0.0, length),
               (float(moments.min()) / k_M, float(moments.max()) / k_M))
     drop, beside = M.upright[0] - HEAD - high, length + GAP
     E = Frame((0.0, drop), M.x, AxisScale(k_E), (0.0, length), (low, high))
     I = Frame((beside, drop + high + HEAD), AxisScale(k_I, axis), AxisScale(k_turned, begin), (0.0, width),
-              (0.0, (last - first) / (per if turns else 1) / k_turned))
+              (0.0, degrees / k_turned))
     return Layout({"moment": M, "energy": E, "inertia": I,
                     "energy-mass": Frame((beside, drop), I.x, E.y, (0.0, width), (low, high))},
-                   k_E / (k_M * k_phi * per), axis)
+                   k_E / (k_M * k_phi * degree), axis)
 
 
 def _parallel(plans: Plans, room: Room) -> tuple[float, float]:

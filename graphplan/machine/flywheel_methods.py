@@ -27,7 +27,7 @@ NOTHING = 1e-10  # of all areas: no area
 
 @dataclass(frozen=True)
 class Found:
-    """A flywheel as one method finds it, in kg m^2 (kg); the energy A that it stores, in J; and what is neglected."""
+    """A flywheel as one method finds it, in kg m^2; the energy A that it stores, in J; and what is neglected."""
 
     name: str
     inertia: float
@@ -110,10 +110,10 @@ def gutjahr(cycle: SteadyCycle, unevenness: float) -> Found:
     The first has its maximum where the speed is largest, the second its minimum where it is least.
     """
     (_, least), _ = cycle.inertia.extremes(cycle.slope)
-    (energies, inertias), square, ends = cycle.rates, cycle.speed**2 / 2, list[tuple[float, float]]()
+    square, ends = cycle.speed**2 / 2, list[tuple[float, float]]()
     for way in (1, -1):
         squared = (1 + way * unevenness / 2) ** 2 * square
-        curve, rate = cycle.energy + (cycle.inertia + -least) * -squared, energies + inertias * -squared
+        curve, rate = cycle.energy + (cycle.inertia + -least) * -squared, cycle.whole + cycle.slope * -squared
         ends.append(curve.extremes(rate)[way > 0])
     (fast, most), (slow, lowest) = ends
     inertia = (most - lowest) / _divisor(cycle, unevenness) - least
@@ -143,9 +143,8 @@ def power(cycle: SteadyCycle, unevenness: float) -> Found:
     The stroke is the longest run of travel over which energy is taken from the flywheel.
     """
     taken = min(areas(cycle), key=lambda area: area.work, default=Area(0.0, cycle.span, 0.0))
-    span, speed = taken.end - taken.start, cycle.speed / cycle.unit
-    drive = cycle.closing * cycle.speed
-    strokes = [(-work / cycle.unit / length * cycle.speed if length else 0.0, length / speed)
+    span, drive = taken.end - taken.start, cycle.closing * cycle.speed
+    strokes = [(-work / length * cycle.speed if length else 0.0, length / cycle.speed)
                for work, length in ((taken.work, span), (-taken.work, cycle.span - span))]
     (work, work_time), (idle, idle_time) = strokes
     found = rectangles(work + drive, work_time, idle + drive, idle_time)
@@ -167,9 +166,9 @@ def characteristic(cycle: SteadyCycle, unevenness: float, motor: Speeds) -> Foun
     """
     rest, (first, _) = cycle.whole + -motor(cycle.speed), cycle.ends
     levels = [motor((1 + way * unevenness / 2) * cycle.speed) for way in (1, -1)]
-    (slow, _), (fast, _) = cycle.energy.extremes(cycle.rates[0])
+    (slow, _), (fast, _) = cycle.energy.extremes(cycle.whole)
     start, end = (_nearest(cycle, (rest + level).roots(), at) for level, at in zip(levels, (fast, slow), strict=True))
-    load, middle, worked = rest.integral() * cycle.unit, sum(levels) / 2 * cycle.unit, (end - start) % cycle.span
+    load, middle, worked = rest.integral(), sum(levels) / 2, (end - start) % cycle.span
     works = [_between(load, low, low + length) + middle * length
              for low, length in ((start, worked), (first + (end - first) % cycle.span, cycle.span - worked))]
     stored = max(map(abs, works))

@@ -37,7 +37,7 @@ class Touch(NamedTuple):
 class Flywheel:
     """A flywheel on the first drive, and the speeds with it: the `upper` and the `lower` tangent meet in the origin.
 
-    `inertia` is beside that of the machine, in kg m^2 (kg of a sliding drive); `origin` is the energy there, in J.
+    `inertia` is beside that of the machine, in kg m^2; `origin` is the energy there, in J.
     """
 
     inertia: float
@@ -66,8 +66,7 @@ class Flywheel:
 def touch(cycle: SteadyCycle, slope: float, above: bool) -> Touch:
     """The tangent of a slope to the energy-mass curve, from above or from below."""
     over = cycle.energy + cycle.inertia * -slope
-    energies, inertias = cycle.rates
-    rate = energies + inertias * -slope
+    rate = cycle.whole + cycle.slope * -slope
     travel, cut = over.extremes(rate)[above]
     return Touch(slope, cut, travel, float(cycle.inertia.at(travel)), float(cycle.energy.at(travel)))
 
@@ -122,7 +121,7 @@ def by_mean_energy(cycle: SteadyCycle, inertia: float, what: str = "flywheel") -
 
     So (15.7) finds the origin; the mean of the two speeds is then not quite that of the cycle.
     """
-    (_, least), (_, most) = cycle.energy.extremes(cycle.rates[0])
+    (_, least), (_, most) = cycle.energy.extremes(cycle.whole)
     origin = (least + most) / 2 - (cycle.mean_inertia + inertia) * cycle.speed**2 / 2
     if least <= origin:
         raise Refused(f"{what}: inertia {inertia:g}", "the energy at the mean speed is less than its change",

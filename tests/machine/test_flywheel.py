@@ -41,7 +41,7 @@ def test_closing_moment_and_energy(cycle):
     phi = np.array([0.3, 1.5, 3.0])
     assert cycle.energy.at(phi) == pytest.approx(400 / math.pi * phi - 200 * (1 - np.cos(phi)), abs=1e-10)
     assert cycle.energy.at(TURN) == pytest.approx(0, abs=1e-10)
-    (low, least), (high, most) = cycle.energy.extremes(cycle.rates[0])
+    (low, least), (high, most) = cycle.energy.extremes(cycle.whole)
     assert (math.degrees(low) % 180, math.degrees(high) % 180) == pytest.approx((140.46, 39.54), abs=0.005)
     assert most - least == pytest.approx(84.205, abs=5e-4)
 

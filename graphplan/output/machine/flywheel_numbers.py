@@ -11,28 +11,24 @@ from graphplan.machine.flywheel_methods import NEGLECTS_NOTHING
 from graphplan.machine.friction import M_F
 from graphplan.machine.wittenbauer import Flywheel, Touch
 
-HEADINGS = ("I [kg*m^2]", "M_r [N*m]", "M [N*m]", "E [J]", "omega [rad/s]")
-SLIDING = ("m [kg]", "F_r [N]", "F [N]", "E [J]", "v [m/s]")
+HEADINGS = ("travel [deg]", "I [kg*m^2]", "M_r [N*m]", "M [N*m]", "E [J]", "omega [rad/s]")
 
 
 def numbers(result: FlywheelResult, pencil_error: float) -> dict[str, Any]:
-    """All of it, plain data for JSON: kg m^2, N m, J and rad/s, or kg, N, J and m/s of a drive that slides; travels in
-    degrees or lengths, in the sense of motion.
+    """All of it, plain data for JSON: kg m^2, N m, J and rad/s; travels in degrees, in the sense of motion.
 
     `pencil_error` is the standard deviation of the drawn flywheel, or of the drawn unevenness with one that is given.
     """
     cycle = result.cycle
-    (least_at, least), (most_at, most) = cycle.energy.extremes(cycle.rates[0])
+    (least_at, least), (most_at, most) = cycle.energy.extremes(cycle.whole)
     pairs = {name: np.stack([result.told_travels, row + 0.0], 1).tolist() for name, row in result.plans.items()}
     found: dict[str, Any] = {
         "title": result.scene.title,
-        "units": {"travel": "deg" if result.turns else result.scene.units.length,
-                  "inertia": "kg m2" if result.turns else "kg", "moment": "N m" if result.turns else "N",
-                  "energy": "J", "speed": "rad/s" if result.turns else "m/s"},
+        "units": {"travel": "deg", "inertia": "kg m2", "moment": "N m", "energy": "J", "speed": "rad/s"},
         "speed": cycle.speed, "unevenness": result.unevenness,
         "reduced_inertia": pairs["inertia"], "reduced_moment": pairs["moment"],
         "closing_moment": cycle.closing, "load_factor": cycle.factor,
-        "work": {name: cycle.work(name) for name in cycle.loads} | {"closing": cycle.closing * cycle.span * cycle.unit},
+        "work": {name: cycle.work(name) for name in cycle.loads} | {"closing": cycle.closing * cycle.span},
         "energy": pairs["energy"], "omega": pairs["omega"],
         "energy_extremes": {"least_at": _told(result, least_at), "most_at": _told(result, most_at),
                             "range": most - least},
@@ -58,8 +54,7 @@ def _friction(result: FlywheelResult) -> dict[str, Any]:
 
 def table(result: FlywheelResult) -> str:
     """Comma-separated text: a heading, then a line for each plan."""
-    lines = [",".join((f"travel [{'deg' if result.turns else result.scene.units.length}]",
-                       *(HEADINGS if result.turns else SLIDING)))]
+    lines = [",".join(HEADINGS)]
     columns = np.stack([result.told_travels, *result.plans.values()], 1) + 0.0
     return "\n".join([*lines, *(",".join(map(repr, row)) for row in columns.tolist()), ""])
 

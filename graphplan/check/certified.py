@@ -22,6 +22,7 @@ from graphplan.check.report import Opinion, Report, opinion
 from graphplan.check.trusted import first_sound, report
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, precision
+from graphplan.mechanism.load_values import IRRATIONAL
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.order import changing_loads
 from graphplan.methods import kinds
@@ -141,7 +142,7 @@ def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "", in
         raise Refused(f"--digits {digits}", "there are no such digits", f"a number from 1 to {MOST}")
     for load in changing_loads(scene.loads).values():
         where = load.table.where if load.table else ""
-        if digits > FLOAT and any(why.startswith(f"{where}:") for why in scene.irrational):
+        if digits > FLOAT and IRRATIONAL.format(where) in scene.irrational:
             raise Refused(f"--digits {digits}", f"{where} has its value in this pose to the digits of a float",
                           f"at most {FLOAT}, or a load that is a fraction in this pose")
     how = {"method": method, "plan": plan, "inertia": inertia}

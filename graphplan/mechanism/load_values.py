@@ -20,6 +20,7 @@ from graphplan.mechanism.numerals import exactly, is_exact, root
 from graphplan.mechanism.pairs.pair import FRAME, Along, Rate, Side, Sides, Statement
 from graphplan.mechanism.plane import Number, Pair, dot, less, times
 
+IRRATIONAL = "{}: its value in this pose"  # of a table whose value fractions do not hold
 STANDING = 1e-9
 """A slide is at a dead point where its speed is less than this part of what the drives make at the mechanism's reach.
 """
@@ -62,7 +63,7 @@ def filled_in(scene: Scene, travel: Number = Fraction(0)) -> Scene:
         else:
             filled = replace(load, value=found if exact else float(found))
         if not exact:
-            irrational.append(f"{table.where}: its value in this pose")
+            irrational.append(IRRATIONAL.format(table.where))
         return filled
 
     forces, moments = tuple(map(value, loads.forces)), tuple(map(value, loads.moments))

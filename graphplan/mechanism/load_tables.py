@@ -66,7 +66,7 @@ class LoadTable:
         back = next(i for i in reversed(range(len(places))) if places[i] == places[turn])
         return {sense: self.rows[: turn + 1], -sense: self.rows[back:]}
 
-    @property
+    @cached_property
     def corners(self) -> tuple[Number, ...]:
         """The places between which it is straight."""
         return tuple(dict.fromkeys(place for place, _ in self.rows))
@@ -76,10 +76,17 @@ class LoadTable:
         """All numbers of its rows, or its powers."""
         return self.powers or tuple(number for row in self.rows for number in row)
 
-    @property
+    @cached_property
     def length(self) -> Number:
         """From its lowest place to its highest."""
         return max(self.corners) - min(self.corners)
+
+    @cached_property
+    def _floats(self) -> dict[int, Any]:
+        """The rows by the sense as arrays of floats, shape (k, 2)."""
+        import numpy as np
+
+        return {sense: np.array(rows, float) for sense, rows in self.strokes.items()}
 
     def times(self, factor: Number) -> LoadTable:
         """The same loads, so many times as large."""
@@ -134,7 +141,7 @@ class LoadTable:
         """The loads at places that change in one sense."""
         import numpy as np
 
-        rows = np.array(self.strokes[sense], float)
+        rows = self._floats[sense]
         ways, at, slack = sense * rows[:, 0], sense * places, float(self.length * ROUNDING)
         outside = (at < ways[0] - slack) | (at > ways[-1] + slack)
         if outside.any():

@@ -164,31 +164,44 @@ def _touching(scene: Scene, truth: Results, kind: str, name: str) -> Any:
 
 
 def sound(part: Round, drawing: Construction, results: Results, apart: Mapping[str, Any]) -> Any:
-    """In which poses the results are there, and differ from the solver's by no more than rounding."""
+    """In which poses the results are there, and differ from the solver's by no more than rounding.
+
+    Where that is proven of a pose, `apart` has the differences beside what is proven to cancel there.
+    """
     worst = np.max(list(apart.values()), axis=0)
     worst[np.isnan(worst)] = np.inf
     kept = worst <= CLOSE
     for k in np.flatnonzero(~kept & np.isfinite(worst)):
         ours = {kind: {name: _plain(z[k]) for name, z in named.items()} for kind, named in results.items()}
-        kept[k] = _sound(part.some(k), drawing, ours, worst[k])
+        if proven := _sound(part.some(k), drawing, ours, worst[k]):
+            kept[k] = True
+            for group, gap in proven.items():
+                apart[group][k] = gap
     return kept
 
 
-def _sound(pose: Round, drawing: Construction, ours: Results, worst: float) -> bool:
-    """Whether one pose is sound: beside the bounds that are proven there, or where none are, beside the condition."""
+def _sound(pose: Round, drawing: Construction, ours: Results, worst: float) -> dict[str, float]:
+    """The differences of one pose that is sound, by group: beside the bounds that are proven there, or where none are,
+    beside the condition; nothing of one that is not."""
     scene = alone(pose.posed)
     try:
         told = opinion(scene, FLOATS)
         truth = told.truth(ours)
     except Unproven:
         try:
-            return bool(worst <= SAFETY * EPSILON * solve(scene).condition)
+            holds = worst <= SAFETY * EPSILON * solve(scene).condition
         except GraphplanError:
-            return False
+            holds = False
+        return {kind_of(kind).group: float(worst) for kind in ours} if holds else {}
     numbers = compared(drawing, ours, truth, lambda part, name: max(
         float(_read_from(scene, truth, part, name)), float(_rolling(scene, told.rates, part))))
-    return all(number.close or number.gap <= SAFETY * (number.bound - number.gap)
-               for named in numbers.values() for vector in named.values() for number in vector)
+    found = dict.fromkeys(groups(drawing), 0.0)
+    for kind, named in numbers.items():
+        for number in (number for vector in named.values() for number in vector):
+            if not (number.close or number.gap <= SAFETY * (number.bound - number.gap)):
+                return {}
+            found[kind_of(kind).group] = max(found[kind_of(kind).group], float(number.beside("gap")))
+    return found
 
 
 def alone(scene: Scene) -> Scene:

@@ -16,11 +16,11 @@ import numpy as np
 from graphplan.check.link_motion import LinkMotion, link_motion
 from graphplan.check.trusted import construct
 from graphplan.errors import Disagreement, Refused
-from graphplan.machine.added_dyads import Dyads, added_dyads
-from graphplan.machine.counterweights import Counterweight, along_guide, balanced, full
-from graphplan.machine.engine import Engine, engine
-from graphplan.machine.mass_centre import MassCentre, mass_centre
-from graphplan.machine.shaking import Shaking, shaking
+from graphplan.machine.linkages.added_dyads import Dyads, added_dyads
+from graphplan.machine.linkages.counterweights import Counterweight, along_guide, balanced, full
+from graphplan.machine.linkages.engine import Engine, engine
+from graphplan.machine.linkages.mass_centre import MassCentre, mass_centre
+from graphplan.machine.linkages.shaking import Shaking, shaking
 from graphplan.mechanism.model import FRAME, Balance, Drive, Loads, Scene
 from graphplan.mechanism.plane import times
 from graphplan.mechanism.scene import parse

@@ -15,7 +15,7 @@ from graphplan.check.reduction import Opinion
 from graphplan.check.reduction import checked as reduction_checked
 from graphplan.errors import BrokenClaim, Disagreement
 from graphplan.kernel.claims import broken
-from graphplan.machine.flywheel import FlywheelResult
+from graphplan.machine.flywheel.found import FlywheelResult
 
 SUBSTEPS = (2, 4, 8)  # of one step, whose results are extrapolated to none
 STEPS, MOST = 48, 1536  # of the whole cycle, at first and at most

@@ -14,7 +14,7 @@ from graphplan.cycle.loop import whole_motion
 from graphplan.cycle.rates import Moved
 from graphplan.cycle.turn import followed
 from graphplan.errors import Disagreement, Refused
-from graphplan.machine.spanning import spanning_tree
+from graphplan.machine.linkages.spanning import spanning_tree
 from graphplan.mechanism.model import FRAME, Find, Scene
 
 

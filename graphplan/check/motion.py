@@ -21,9 +21,9 @@ from graphplan.check import reduction as solved
 from graphplan.errors import BrokenClaim, Disagreement
 from graphplan.kernel.claims import broken
 from graphplan.machine.integrals import Reals
-from graphplan.machine.motion_drawing import MotionDrawing
-from graphplan.machine.reduction import Reduction
-from graphplan.machine.runs import Run
+from graphplan.machine.motion.drawing import MotionDrawing
+from graphplan.machine.motion.runs import Run
+from graphplan.machine.reduced.reduction import Reduction
 from graphplan.mechanism.load_tables import SPEED, LoadTable
 from graphplan.mechanism.model import FRAME, Force
 from graphplan.mechanism.units import NEWTONS

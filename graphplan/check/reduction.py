@@ -17,10 +17,10 @@ import numpy as np
 from graphplan.check.compared import CLOSE
 from graphplan.check.poses import BLOCK, EPSILON, SAFETY, Round, alone
 from graphplan.errors import Disagreement, GraphplanError
-from graphplan.machine.friction import M_F
-from graphplan.machine.reduced_loads import loads_with
-from graphplan.machine.reduction import Reduced, Reduction
-from graphplan.machine.unit_motion import at_unit_rate
+from graphplan.machine.reduced.friction import M_F
+from graphplan.machine.reduced.reduced_loads import loads_with
+from graphplan.machine.reduced.reduction import Reduced, Reduction
+from graphplan.machine.reduced.unit_motion import at_unit_rate
 from graphplan.mechanism.load_tables import LoadTable
 from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.model import FRAME, Force, Loads

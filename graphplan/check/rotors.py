@@ -15,11 +15,11 @@ import numpy as np
 
 from graphplan.errors import BrokenClaim, Disagreement
 from graphplan.kernel.claims import broken
-from graphplan.machine.polygons import Correction
-from graphplan.machine.rotor import Eccentric, Rotor
-from graphplan.machine.rotor_balance import Answer, Balanced
-from graphplan.machine.trial import Marked, ThreeRuns, TrialWeights
-from graphplan.machine.trial_runs import Effect, angle_of
+from graphplan.machine.rotors.polygons import Correction
+from graphplan.machine.rotors.rotor import Eccentric, Rotor
+from graphplan.machine.rotors.rotor_balance import Answer, Balanced
+from graphplan.machine.rotors.trial import Marked, ThreeRuns, TrialWeights
+from graphplan.machine.rotors.trial_runs import Effect, angle_of
 
 Pair = tuple[tuple[Eccentric, ...], Answer]  # unbalances, and what balances them
 CLOSE = 1e-9  # of the size of what is compared

@@ -17,8 +17,8 @@ ENDINGS = (*NUMBERS, ".svg", ".pdf", ".png", ".tex", ".dxf")
 def run(options: argparse.Namespace, text: str) -> int:
     """Balance the rotor of a task's text and write what is asked for."""
     from graphplan.check.rotors import checked
-    from graphplan.machine.rotor import parse
-    from graphplan.machine.rotor_balance import balanced
+    from graphplan.machine.rotors.rotor import parse
+    from graphplan.machine.rotors.rotor_balance import balanced
     from graphplan.output.machine.rotor_numbers import numbers, table
     from graphplan.output.machine.rotor_sheet import one_sheet, sheets
 

@@ -25,7 +25,7 @@ from graphplan.errors import Refused
 
 if TYPE_CHECKING:
     from graphplan.accuracy.pencil import Pencil
-    from graphplan.machine.flywheel import FlywheelResult
+    from graphplan.machine.flywheel.found import FlywheelResult
     from graphplan.mechanism.model import Scene
 
 ENDINGS = (".json", ".csv", *SHEETS)
@@ -50,7 +50,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.check.flywheel import checked
-    from graphplan.machine.flywheel import flywheel
+    from graphplan.machine.flywheel.found import flywheel
     from graphplan.mechanism.scene import parse, source_text
     from graphplan.output.machine.flywheel_numbers import numbers, table
 

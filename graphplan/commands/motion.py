@@ -41,8 +41,8 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.check.motion import checked
-    from graphplan.machine.motion_drawing import drawn
-    from graphplan.machine.runs import run as motion_of
+    from graphplan.machine.motion.drawing import drawn
+    from graphplan.machine.motion.runs import run as motion_of
     from graphplan.mechanism.scene import parse, source_text
     from graphplan.output.machine import motion_numbers
 

@@ -23,7 +23,7 @@ from importlib import import_module
 from graphplan.commands.output import as_json, write
 
 RESULTS = ("solve", "steps", "verify", "flywheel", "motion")
-TASKS = {"cam": "graphplan.cams.task", "rotor": "graphplan.machine.rotor"}  # and where their tables are
+TASKS = {"cam": "graphplan.cams.task", "rotor": "graphplan.machine.rotors.rotor"}  # and where their tables are
 
 
 def options(command: argparse.ArgumentParser) -> None:

@@ -12,7 +12,7 @@ from graphplan.commands.output import as_json, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
-    from graphplan.machine.rotor_balance import Answer
+    from graphplan.machine.rotors.rotor_balance import Answer
     from graphplan.marking.answers import AnswerVerdict, Expected
     from graphplan.output.machine.rotor_sheet import RotorSheet
 
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 def of_rotor(options: argparse.Namespace, text: str) -> int:
     """Judge the answers to the task of a rotor."""
     from graphplan.check.rotors import checked
-    from graphplan.machine.rotor import parse
-    from graphplan.machine.rotor_balance import balanced
+    from graphplan.machine.rotors.rotor import parse
+    from graphplan.machine.rotors.rotor_balance import balanced
     from graphplan.output.machine.rotor_sheet import one_sheet
 
     found = balanced(parse(text, options.scene))

@@ -13,7 +13,7 @@ from linkages_with_masses import four_bar, scene, slider_crank
 from graphplan.check.balance import balancing, mass_motion
 from graphplan.commands import main
 from graphplan.errors import Refused
-from graphplan.machine.counterweights import along_guide, balanced, full
+from graphplan.machine.linkages.counterweights import along_guide, balanced, full
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
 from graphplan.output.machine.balance_numbers import links, variant

@@ -9,7 +9,7 @@ import pytest
 from linkages_with_masses import four_bar, slider_crank
 
 from graphplan.check.balance import balancing
-from graphplan.machine.engine import engine, in_line, path_series
+from graphplan.machine.linkages.engine import engine, in_line, path_series
 from graphplan.mechanism.scene import load
 
 KGF = 9.81

@@ -10,10 +10,10 @@ import pytest
 
 from graphplan.errors import Refused
 from graphplan.kernel.claims import broken
-from graphplan.machine.energy import steady
-from graphplan.machine.flywheel_drawing import drawn
-from graphplan.machine.flywheel_methods import methods, rectangles
-from graphplan.machine.wittenbauer import by_mean_energy, sized, turning
+from graphplan.machine.flywheel.drawing import drawn
+from graphplan.machine.flywheel.energy import steady
+from graphplan.machine.flywheel.other_methods import methods, rectangles
+from graphplan.machine.flywheel.wittenbauer import by_mean_energy, sized, turning
 
 TURN = 2 * math.pi
 SPEED, UNEVENNESS = 15.0, 1 / 30

@@ -10,8 +10,8 @@ import pytest
 import graphplan as gp
 from graphplan.check.reduction import checked, friction_gap
 from graphplan.errors import Refused
-from graphplan.machine.friction import Rubbed
-from graphplan.machine.reduction import Reduction, reduction
+from graphplan.machine.reduced.friction import Rubbed
+from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 

@@ -16,7 +16,7 @@ from graphplan.check.balance import balancing, mass_motion
 from graphplan.commands import main
 from graphplan.errors import Refused
 from graphplan.kernel.claims import broken
-from graphplan.machine.mass_centre import mass_centre
+from graphplan.machine.linkages.mass_centre import mass_centre
 from graphplan.mechanism.model import Loads, Mass
 from graphplan.mechanism.scene import load, parse
 

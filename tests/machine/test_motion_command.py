@@ -14,8 +14,8 @@ import pytest
 
 from graphplan.commands import main
 from graphplan.commands.result_schemas import printed
-from graphplan.machine.driven import driven
-from graphplan.machine.reduction import reduction
+from graphplan.machine.motion.driven import driven
+from graphplan.machine.reduced.reduction import reduction
 from graphplan.mechanism.scene import load, parse, source_text
 
 jsonschema = pytest.importorskip("jsonschema")

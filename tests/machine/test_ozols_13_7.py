@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from graphplan.check.motion import checked
-from graphplan.machine.runs import Run, run
-from graphplan.machine.strips import by_energy, parabola, times
+from graphplan.machine.motion.runs import Run, run
+from graphplan.machine.motion.strips import by_energy, parabola, times
 from graphplan.mechanism.scene import load
 from graphplan.mechanism.units import NEWTONS
 

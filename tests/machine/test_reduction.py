@@ -12,7 +12,7 @@ import pytest
 import graphplan as gp
 from graphplan.check.reduction import checked, lever_gap
 from graphplan.errors import Disagreement, Refused, SceneError
-from graphplan.machine.reduction import Reduction, reduction
+from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.mechanism.model import Force, Loads, Mass, Moment, Scene
 from graphplan.mechanism.scene import parse
 

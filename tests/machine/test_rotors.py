@@ -14,9 +14,9 @@ import pytest
 from graphplan.check.rotors import checked, equilibrium, reactions
 from graphplan.commands import main
 from graphplan.errors import Refused, SceneError
-from graphplan.machine.polygons import State
-from graphplan.machine.rotor import parse
-from graphplan.machine.rotor_balance import Balanced, balanced
+from graphplan.machine.rotors.polygons import State
+from graphplan.machine.rotors.rotor import parse
+from graphplan.machine.rotors.rotor_balance import Balanced, balanced
 
 THREE = """
 [rotor]

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from graphplan.errors import Refused
-from graphplan.machine.characteristics import nominal, run_up, steady
-from graphplan.machine.driven import Driven, SpeedLaw
 from graphplan.machine.integrals import Reals, settled
-from graphplan.machine.strips import baranov, by_energy, parabola, times
-from graphplan.machine.true_motion import moved
+from graphplan.machine.motion.characteristics import nominal, run_up, steady
+from graphplan.machine.motion.driven import Driven, SpeedLaw
+from graphplan.machine.motion.strips import baranov, by_energy, parabola, times
+from graphplan.machine.motion.true_motion import moved
 
 TURN = 2 * math.pi
 Curve = Callable[[Reals], Reals]

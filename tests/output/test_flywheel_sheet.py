@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from graphplan.commands import main
-from graphplan.machine.flywheel import FlywheelResult, flywheel
-from graphplan.machine.flywheel_drawing import FLYWHEEL
+from graphplan.machine.flywheel.drawing import FLYWHEEL
+from graphplan.machine.flywheel.found import FlywheelResult, flywheel
 from graphplan.mechanism.scene import load, parse, source_text
 from graphplan.output.machine.flywheel_sheet import FlywheelSheet, sheets
 from graphplan.output.machine.lever_figures import LEVERS

@@ -17,7 +17,7 @@ from graphplan.check.reduction import checked
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import GraphplanError, Refused
 from graphplan.machine.integrals import settled
-from graphplan.machine.reduction import Reduction, reduction
+from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.mechanism.model import Scene
 from graphplan.solver import poses
 from graphplan.solver.friction import delivered

@@ -10,9 +10,9 @@ import numpy as np
 
 from graphplan.check.balance import Balancing, MassMotion
 from graphplan.cycle.travel import told_travels
-from graphplan.machine.counterweights import Counterweight
-from graphplan.machine.engine import Engine
-from graphplan.machine.spanning import as_multiple
+from graphplan.machine.linkages.counterweights import Counterweight
+from graphplan.machine.linkages.engine import Engine
+from graphplan.machine.linkages.spanning import as_multiple
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.plane import less
 from graphplan.mechanism.units import KILOGRAMS, METRES

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.balance import FULL, GUIDED, NONE, SHARED, Balancing, MassMotion
-from graphplan.machine.engine import Engine
+from graphplan.machine.linkages.engine import Engine
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.units import KILOGRAMS, METRES
 from graphplan.output.machine.balance_numbers import links, principal_vectors, variant, weight_told

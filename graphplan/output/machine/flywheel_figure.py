@@ -17,9 +17,9 @@ import numpy as np
 
 from graphplan.kernel.kinds import LINE
 from graphplan.kernel.program import Step
-from graphplan.machine.flywheel import FlywheelResult
-from graphplan.machine.flywheel_drawing import FLYWHEEL, FlywheelDrawing
-from graphplan.machine.flywheel_frames import HEAD, Room, laid_out, plans_of
+from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing
+from graphplan.machine.flywheel.found import FlywheelResult
+from graphplan.machine.flywheel.room import HEAD, Room, laid_out, plans_of
 from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Piecewise
 from graphplan.output.graphs import AXIS, HEADED, Figures, Graph

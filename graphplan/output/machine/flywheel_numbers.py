@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.machine.flywheel import FlywheelResult
-from graphplan.machine.flywheel_methods import NEGLECTS_NOTHING
-from graphplan.machine.friction import M_F
-from graphplan.machine.wittenbauer import Flywheel, Touch
+from graphplan.machine.flywheel.found import FlywheelResult
+from graphplan.machine.flywheel.other_methods import NEGLECTS_NOTHING
+from graphplan.machine.flywheel.wittenbauer import Flywheel, Touch
+from graphplan.machine.reduced.friction import M_F
 
 HEADINGS = ("travel [deg]", "I [kg*m^2]", "M_r [N*m]", "M [N*m]", "E [J]", "omega [rad/s]")
 

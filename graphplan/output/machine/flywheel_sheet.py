@@ -16,9 +16,9 @@ from functools import cached_property
 
 from graphplan.kernel.passes import put_together
 from graphplan.kernel.program import Panel
-from graphplan.machine.flywheel import FlywheelResult
-from graphplan.machine.flywheel_drawing import FLYWHEEL, FlywheelDrawing, drawn
-from graphplan.machine.flywheel_methods import NEGLECTS_NOTHING
+from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing, drawn
+from graphplan.machine.flywheel.found import FlywheelResult
+from graphplan.machine.flywheel.other_methods import NEGLECTS_NOTHING
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import Figures
 from graphplan.output.machine.flywheel_figure import FlywheelFigure, room_in

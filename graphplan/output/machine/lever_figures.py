@@ -12,8 +12,8 @@ import numpy as np
 
 from graphplan.cycle.turn import Turn
 from graphplan.kernel.program import Panel
-from graphplan.machine.reduction import Reduction
-from graphplan.machine.unit_motion import UnitMotion, moving_points
+from graphplan.machine.reduced.reduction import Reduction
+from graphplan.machine.reduced.unit_motion import UnitMotion, moving_points
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.output.graphs import Figures

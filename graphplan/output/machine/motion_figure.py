@@ -15,9 +15,9 @@ import numpy as np
 
 from graphplan.kernel.kinds import CIRCLE, LINE
 from graphplan.kernel.program import Step
-from graphplan.machine.motion_drawing import MOTION, MotionDrawing
-from graphplan.machine.motion_frames import POLE, Room
-from graphplan.machine.runs import Run
+from graphplan.machine.motion.drawing import MOTION, MotionDrawing
+from graphplan.machine.motion.room import POLE, Room
+from graphplan.machine.motion.runs import Run
 from graphplan.output.graphs import AXIS, FOOT, HEADED, Figures, Graph
 from graphplan.output.panelled import Recorded
 from graphplan.output.step_ink import StepInk

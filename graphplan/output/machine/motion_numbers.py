@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.machine.motion_drawing import MotionDrawing
-from graphplan.machine.runs import Run
-from graphplan.machine.strips import baranov, by_energy, times
-from graphplan.machine.true_motion import Place
+from graphplan.machine.motion.drawing import MotionDrawing
+from graphplan.machine.motion.runs import Run
+from graphplan.machine.motion.strips import baranov, by_energy, times
+from graphplan.machine.motion.true_motion import Place
 
 
 def numbers(found: Run, drawing: MotionDrawing | None, check: dict[str, float], positions: int) -> dict[str, Any]:

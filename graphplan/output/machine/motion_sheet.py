@@ -13,8 +13,8 @@ from functools import cached_property
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
-from graphplan.machine.motion_drawing import MOTION, MotionDrawing, drawn
-from graphplan.machine.runs import Run
+from graphplan.machine.motion.drawing import MOTION, MotionDrawing, drawn
+from graphplan.machine.motion.runs import Run
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import Figures
 from graphplan.output.machine.given_words import masses_and_loads

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from graphplan.machine.trial import ThreeRuns, TrialWeights
-from graphplan.machine.trial_runs import Effect, angle_of, harmonic
+from graphplan.machine.rotors.trial import ThreeRuns, TrialWeights
+from graphplan.machine.rotors.trial_runs import Effect, angle_of, harmonic
 from graphplan.output.graphs import CURVES, Graph, stacked
 from graphplan.output.machine.rotor_views import CORRECTIONS, DIMENSION, MASS, OTHER, RotorViews
 from graphplan.phrases import Said, arranged, digits, unit

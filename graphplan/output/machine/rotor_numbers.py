@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 from graphplan.check.rotors import reactions
-from graphplan.machine.polygons import Correction
-from graphplan.machine.rotor import direction
-from graphplan.machine.rotor_balance import Answer, Balanced
+from graphplan.machine.rotors.polygons import Correction
+from graphplan.machine.rotors.rotor import direction
+from graphplan.machine.rotors.rotor_balance import Answer, Balanced
 from graphplan.mechanism.units import KILOGRAMS
 from graphplan.output.machine.rotor_sheet import RotorSheet
 

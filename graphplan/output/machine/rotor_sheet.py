@@ -14,11 +14,11 @@ from graphplan.accuracy.pencil import Pencil
 from graphplan.check.rotors import reactions
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Panel
-from graphplan.machine.polygons import END_VIEW, FORCES, MOMENTS, Correction
-from graphplan.machine.rotor import PLANES, direction
-from graphplan.machine.rotor_balance import Answer, Balanced
-from graphplan.machine.trial import Marked, ThreeRuns, TrialWeights
-from graphplan.machine.trial_runs import AMPLITUDE, TRIAL_PLANS, Effect
+from graphplan.machine.rotors.polygons import END_VIEW, FORCES, MOMENTS, Correction
+from graphplan.machine.rotors.rotor import PLANES, direction
+from graphplan.machine.rotors.rotor_balance import Answer, Balanced
+from graphplan.machine.rotors.trial import Marked, ThreeRuns, TrialWeights
+from graphplan.machine.rotors.trial_runs import AMPLITUDE, TRIAL_PLANS, Effect
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.units import NEWTONS
 from graphplan.output.machine.rotor_figures import AROUND, MANY, RotorFigures

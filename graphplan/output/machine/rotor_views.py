@@ -7,11 +7,11 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from graphplan.machine.polygons import Correction, free_radius
-from graphplan.machine.rotor import PLANES
-from graphplan.machine.rotor_balance import Balanced
-from graphplan.machine.trial import TrialWeights
-from graphplan.machine.trial_runs import Effect, angle_of
+from graphplan.machine.rotors.polygons import Correction, free_radius
+from graphplan.machine.rotors.rotor import PLANES
+from graphplan.machine.rotors.rotor_balance import Balanced
+from graphplan.machine.rotors.trial import TrialWeights
+from graphplan.machine.rotors.trial_runs import Effect, angle_of
 from graphplan.output.graphs import Figures
 from graphplan.phrases import Said, said
 from graphplan.sheet.lettering.label_candidates import Wish

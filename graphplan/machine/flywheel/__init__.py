@@ -1,0 +1,1 @@
+"""The steady cycle: energy, Wittenbauer's diagram, the flywheel, and how it is drawn."""

@@ -1,0 +1,158 @@
+"""The flywheel that a scene asks for: its steady cycle, the wheel, what other methods find, and its drawing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from graphplan.cycle.travel import TURN, told_travels
+from graphplan.errors import Refused
+from graphplan.machine.flywheel.drawing import FlywheelDrawing, drawn
+from graphplan.machine.flywheel.energy import SteadyCycle, reduced_rows, steady
+from graphplan.machine.flywheel.other_methods import Found, Speeds, methods
+from graphplan.machine.flywheel.wittenbauer import Flywheel, by_mean_energy, sized, turning
+from graphplan.machine.integrals import Reals
+from graphplan.machine.reduced.reduction import Reduction, reduction
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.units import KILOGRAMS
+from graphplan.phrases import Said, digits, said
+
+PLANS, MANY = 24, 120  # of a turn, and of many turns, where nothing is said
+STEADY = 1e-9  # of the larger: a motor's arm and rate vary by no more over the cycle
+
+
+@dataclass(frozen=True, eq=False)
+class FlywheelResult:
+    """The flywheel of a scene. `unevenness` is that asked for, or that with the inertia that is `given`; `check` tells
+    by how much the second opinions differ."""
+
+    reduction: Reduction
+    cycle: SteadyCycle
+    wheel: Flywheel
+    unevenness: float
+    given: bool
+    methods: tuple[Found, ...]
+    positions: int
+    check: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def scene(self) -> Scene:
+        return self.reduction.scene
+
+    @property
+    def notes(self) -> Iterator[Said]:
+        """What is to be said of it: how the cycle closes, and what is taken as constant."""
+        cycle = self.cycle
+        if cycle.factor != 1:
+            yield said("the loads that change are multiplied by {0}, so that the cycle closes", digits(cycle.factor, 6))
+        if self.reduction.at(self.travels[:1]).speed_loads:
+            yield said("loads over a speed are taken as they are at the mean speed")
+
+    @property
+    def turns(self) -> bool:
+        """Whether the first drive turns: travels are then told in degrees, else in lengths."""
+        return not self.scene.drives[0].slides
+
+    @property
+    def travels(self) -> Reals:
+        """The travels of the plans, in radians, the end of the cycle included."""
+        return np.linspace(*self.cycle.ends, self.positions + 1)
+
+    @property
+    def told_travels(self) -> Any:
+        """The same in degrees."""
+        return self.told(self.travels)
+
+    @cached_property
+    def plans(self) -> dict[str, Reals]:
+        """What there is at each plan."""
+        return self.at(self.travels)
+
+    def at(self, travels: Reals) -> dict[str, Reals]:
+        """What there is at some travels: inertia, moment of the loads, whole moment, energy and speed."""
+        cycle = self.cycle
+        names, (inertia, _, *moments) = reduced_rows(self.reduction, travels, cycle.speed)
+        moment = sum((row * (cycle.factor if name in cycle.changing else 1.0)
+                      for name, row in zip(names, moments, strict=True)), np.zeros(len(travels)))
+        return {"inertia": inertia, "moment": moment, "whole": moment + cycle.closing,
+                "energy": cycle.energy.at(travels) - cycle.energy.at(cycle.ends[0]), "omega": self.omega(travels)}
+
+    def told(self, travel: Any) -> Any:
+        """Travels in degrees."""
+        return told_travels(self.scene, travel)
+
+    def omega(self, travel: Any) -> Any:
+        """The drive's speed at travels, with the flywheel, in rad/s (m/s)."""
+        stored = self.cycle.energy.at(travel) - self.wheel.origin
+        return np.sqrt(2 * stored / (self.cycle.inertia.at(travel) + self.wheel.inertia))
+
+    @property
+    def own(self) -> Flywheel | None:
+        """The speeds without a flywheel; none where the machine then does not come round."""
+        return _if_it_comes_round(turning, self.cycle)
+
+    @property
+    def by_mean_energy(self) -> Flywheel | None:
+        """The speeds without a flywheel, the origin found by the mean energy, as the textbook has it."""
+        return _if_it_comes_round(by_mean_energy, self.cycle)
+
+    @cached_property
+    def drawing(self) -> FlywheelDrawing:
+        """The drawing with as many plans."""
+        return drawn(self.cycle, self.wheel, self.positions)
+
+    @cached_property
+    def strip_error(self) -> float:
+        """How far the drawn flywheel, or the unevenness with a given one, may be off by the width of the strips."""
+        return self.drawing.strip_error * self.drawing.change(self.given)
+
+    @property
+    def measured(self) -> float:
+        """The drawn flywheel, in kg m^2 (kg), or the drawn unevenness with a given one."""
+        return self.drawing.unevenness if self.given else self.drawing.inertia
+
+
+def flywheel(scene: Scene, positions: int | None = None, *, what: str = "flywheel") -> FlywheelResult:
+    """The flywheel that a scene's table asks for, drawn with so many plans of the cycle, or with 24 of each turn.
+
+    Fails with `Refused` where there is no such table, the cycle does not close, or no flywheel is needed.
+    """
+    wish = scene.flywheel
+    if wish is None:
+        raise Refused(what, "the scene does not say how evenly it is to run",
+                      "a table [flywheel] with speed and unevenness, or --speed and --unevenness")
+    try:
+        reduced = reduction(scene)
+    except Refused as fault:
+        raise Refused(what, f"the cycle does not close: {fault.why}", "a first drive that goes round") from None
+    cycle = steady(reduced, float(wish.speed), wish.closes, reduced.changing, what)
+    if wish.inertia is not None:
+        wheel = turning(cycle, float(wish.inertia) * float(KILOGRAMS[scene.units.mass]), what)
+        unevenness = wheel.unevenness
+    else:
+        unevenness = float(wish.unevenness or 0)
+        wheel = sized(cycle, unevenness, what)
+    found = tuple(methods(cycle, unevenness, motor(reduced))) if unevenness > 0 else ()
+    plans = positions or min(PLANS * max(1, round(cycle.span / TURN)), MANY)
+    return FlywheelResult(reduced, cycle, wheel, unevenness, wish.inertia is not None, found, plans)
+
+
+def motor(reduced: Reduction) -> Speeds | None:
+    """The moment at a speed of the loads over the drive's speed, whatever the travel; none where there are none."""
+    first, last = reduced.ends
+    loads = [load for load in reduced.at(np.linspace(first, last, 7)[:-1]).speed_loads
+             if all(np.ptp(part) <= STEADY * np.abs(part).max() for part in (load.arm, load.rate))]
+    return (lambda omega: math.fsum(float(np.ravel(load.moment(omega))[0]) for load in loads)) if loads else None
+
+
+def _if_it_comes_round(find: Any, cycle: SteadyCycle) -> Flywheel | None:
+    try:
+        found: Flywheel = find(cycle, 0.0)
+    except Refused:
+        return None
+    return found

@@ -1,0 +1,1 @@
+"""Mass centre and balancing of linkages: principal vectors, shaking forces, counterweights, engines."""

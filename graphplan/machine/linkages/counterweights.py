@@ -1,0 +1,291 @@
+"""Counterweights that hold the mass centre of a linkage still, or let it move along a guide alone.
+
+Every point of a linkage is a sum of vectors that turn with its links, so the first moment of mass is one, too: each
+link's turning, and each free sliding, with a factor. Where chains close, such sums of vectors are constant; so the mass
+centre stands still if its factors are those of closed chains, each times any number, and nothing is left over. That is
+linear in the first moments of the counterweights. Of a four-bar linkage it says that the polygon of principal vectors
+is similar to that of the links, of a slider-crank that its principal vectors vanish. To move along a guide alone, also
+what keeps a slider's point on such a guide may be used.
+
+A link may be given a counterweight if it turns. Those hinged on the frame come first: their counterweights load no
+other link. A linkage can be balanced so if joints lead from every link to the frame.
+
+Source: Ozols 1974, 16-3, (16.10) to (16.12), table 16-1; R. S. Berkof and G. G. Lowen, A new method for completely
+force balancing simple linkages, 1969; F. R. Tepper and G. G. Lowen, General theorems concerning full force balancing of
+planar linkages by internal mass redistribution, 1972.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from graphplan.errors import Refused
+from graphplan.machine.linkages.spanning import spanning_tree
+from graphplan.mechanism.model import FRAME, Mass, Placement, Scene, Slide
+from graphplan.mechanism.units import METRES
+from graphplan.phrases import said
+
+BALANCED = 1e-11  # of what is to be balanced: what is left over is rounding
+ROUNDS, SETTLED = 100, 2.0**-44  # in which the masses of counterweights must settle that load each other's links
+LONGER = (1, 2, 4, 8)  # times the length of the link: radii that are tried where none is given
+
+Form = dict[str, complex]
+"""A sum of vectors: of each link that tells how others turn, or of each free sliding, the factor; lengths complex."""
+
+
+@dataclass(frozen=True)
+class Counterweight:
+    """A mass on a link, at a `radius` from its `pivot`, in scene units; `moment` is mass times radius, as a complex
+    number in the scene's pose."""
+
+    link: str
+    pivot: str
+    moment: complex
+    radius: float
+
+    @property
+    def mass(self) -> float:
+        """Its mass."""
+        return abs(self.moment) / self.radius
+
+    def place(self, scene: Scene) -> complex:
+        """Where it is in the scene's pose."""
+        return _at(scene, self.pivot) + self.radius * self.moment / abs(self.moment)
+
+
+def full(scene: Scene, keep: Collection[str] = (), radii: Mapping[str, float] | None = None,
+         ) -> tuple[Counterweight, ...]:
+    """The counterweights with which the mass centre stands still in every pose, as few as will do.
+
+    Reads the links that `keep` their masses, and the radii, in scene lengths, of counterweights; without one it is the
+    length of the link. Fails with `Refused` where no counterweights can do it.
+    """
+    return _Balancing(scene, None).solved(keep, radii or {})
+
+
+def along_guide(scene: Scene, keep: Collection[str] = (), radii: Mapping[str, float] | None = None,
+                ) -> tuple[Counterweight, ...]:
+    """The same so that the mass centre moves parallel to the first guide on the frame alone."""
+    guide = next((slide for slide in scene.slides if FRAME in slide.links), None)
+    if guide is None:
+        raise Refused(f"{scene.name}: counterweights", said("no slide is guided on the frame, so there is no direction "
+                      "in which the mass centre may move"), "--counterweights full")
+    return _Balancing(scene, guide).solved(keep, radii or {})
+
+
+class _Balancing:
+    """The linear conditions of one scene."""
+
+    def __init__(self, scene: Scene, guide: Slide | None):
+        self.scene, self.guide, self.tree = scene, guide, spanning_tree(scene)
+        self.masses: dict[str, Mass] = scene.loads.masses if scene.loads else {}
+        self.turning = {link: next((one for one in (FRAME, *scene.moving) if one in scene.turning_alike(link)), link)
+                        for link in scene.moving}
+        self.reach = scene.extent
+
+    # ---- sums of vectors ---------------------------------------------------------------------------------------------
+
+    def form(self, link: str, point: str) -> Form:
+        """Where a point of a link is, but for what is constant."""
+        if link == FRAME:
+            return {}
+        hanging = self.tree.entry[link]
+        found = {f"sliding of {link}": 1 + 0j} if not hanging.on else self.form(hanging.on, hanging.at)
+        arm = _at(self.scene, point) - _at(self.scene, hanging.at)
+        return _sum([(1, found), (1, {self.turning[link]: arm})])
+
+    @cached_property
+    def chains(self) -> list[Form]:
+        """The sums that are constant as chains close: of each joint as a point of one link less as one of another."""
+        closed = [_sum([(1, self.form(joint.links[0], joint.at)), (-1, self.form(link, joint.at))])
+                  for joint in self.scene.revolutes for link in joint.links[1:]]
+        return [chain for chain in closed if any(abs(factor) > 1e-12 * self.reach for factor in chain.values())]
+
+    @cached_property
+    def guided(self) -> list[Form]:
+        """The sums of which the real multiples do not move across the guide."""
+        if self.guide is None:
+            return []
+        ahead, found = _way(self.guide), list[Form]()
+        for slide in self.scene.slides:
+            if FRAME in slide.links and slide.link != FRAME:
+                turn = (_way(slide) / ahead).conjugate()
+                found.append(_sum([(turn, self.form(slide.link, slide.at))]))
+        return found
+
+    def moving(self, weights: Mapping[str, float]) -> Form:
+        """The first moment of all masses, and of counterweights with these masses as if in their pivots."""
+        terms = [(float(mass.mass), self.form(link, mass.centre)) for link, mass in self.masses.items()]
+        terms += [(mass, self.form(link, self.pivot(link))) for link, mass in weights.items()
+                  if not self.grounded(link)]
+        return _sum(terms)
+
+    def pivot(self, link: str) -> str:
+        """The point of a link about which its counterweight is laid off: on the frame where it is hinged there."""
+        hinges = (p for p in self.scene.links[link] if p in self.scene.links.get(FRAME, ()))
+        return next(hinges, self.tree.entry[link].at)
+
+    def grounded(self, link: str) -> bool:
+        """Whether a link is hinged on the frame."""
+        return self.pivot(link) in self.scene.links.get(FRAME, ())
+
+    # ---- the conditions ----------------------------------------------------------------------------------------------
+
+    def solved(self, keep: Collection[str], radii: Mapping[str, float]) -> tuple[Counterweight, ...]:
+        """The counterweights on as few links as will do."""
+        able = [link for link in self.scene.moving if self.turning[link] != FRAME]
+        where, moving = f"{self.scene.name}: counterweights", self.scene.moving
+        if unknown := next((link for link in keep if link not in moving), ""):
+            raise Refused(where, said("there is no moving link {0}", unknown), f"one of {', '.join(moving)}")
+        if unable := next((link for link in radii if link not in able), ""):
+            raise Refused(where, said("link {0} does not turn", unable), f"one of {', '.join(able)}")
+        able = [link for link in able if link not in keep]
+        grounded = [link for link in able if self.grounded(link)]
+        chosen = [*grounded]
+        for link in (*(link for link in able if link not in grounded), ""):
+            if not self.left_over(chosen, {}):
+                break
+            chosen += [link] if link else []
+        if left := self.left_over(chosen, {}):
+            raise self.refused(chosen, left)
+        for link in chosen[::-1]:
+            fewer = [one for one in chosen if one != link]
+            if not self.left_over(fewer, {}):
+                chosen = fewer
+        return self.settled(chosen, radii)
+
+    def settled(self, links: Sequence[str], radii: Mapping[str, float]) -> tuple[Counterweight, ...]:
+        """The counterweights on these links, whose own masses load the links that bear them.
+
+        A link may bear them in vain at its own length: a mass in its next joint loads that. Then the radius is longer.
+        """
+        for longer in LONGER:
+            own = {link: radii.get(link) or self.length(link) * (1 if self.grounded(link) else longer)
+                   for link in links}
+            weights = dict.fromkeys(links, 0.0)
+            for _ in range(ROUNDS):
+                moments = self.moments(links, weights)[0]
+                found = [Counterweight(link, self.pivot(link), moment, own[link]) for link, moment in moments.items()]
+                before, weights = weights, {one.link: one.mass for one in found}
+                if all(abs(mass - before[link]) <= SETTLED * mass for link, mass in weights.items()):
+                    return tuple(one for one in found if abs(one.moment) > BALANCED * self.size)
+        raise Refused(f"{self.scene.name}: counterweights", said("their own masses ask for ever more of them"),
+                      said("a larger radius"))
+
+    def left_over(self, links: Sequence[str], weights: Mapping[str, float]) -> list[str]:
+        """What of the first moment counterweights on these links cannot balance, by turnings and slidings."""
+        _, left = self.moments(links, weights)
+        return [key for key, factor in left.items() if abs(factor) > BALANCED * self.size]
+
+    @cached_property
+    def size(self) -> float:
+        """The size of what is to be balanced."""
+        return max((float(mass.mass) for mass in self.masses.values()), default=0.0) * self.reach
+
+    def moments(self, links: Sequence[str], weights: Mapping[str, float]) -> tuple[dict[str, complex], Form]:
+        """The moments of counterweights on these links that leave the least over, and what that is."""
+        import numpy as np
+
+        first = self.moving(weights)
+        keys = [key for key in dict.fromkeys((*first, *(key for chain in self.chains for key in chain),
+                                              *(self.turning[link] for link in links))) if not self.free(key)]
+        freely = [{self.turning[link]: complex(self.reach)} for link in links] + self.chains
+        columns = [[sense * form.get(key, 0j) for key in keys] for form in freely for sense in (1, 1j)]
+        columns += [[form.get(key, 0j) for key in keys] for form in self.guided]
+        right = -np.array([first.get(key, 0j) for key in keys])
+        matrix = np.array(columns, dtype=complex).reshape(len(columns), len(keys)).T
+        found = np.linalg.lstsq(_real(matrix), _real(right), rcond=1e-12)[0]
+        left = matrix @ found - right
+        moments = {link: self.reach * complex(found[2 * k], found[2 * k + 1]) for k, link in enumerate(links)}
+        return moments, dict(zip(keys, left.tolist(), strict=True))
+
+    def free(self, key: str) -> bool:
+        """Whether what goes with it does not count: what is constant, and a sliding along the guide."""
+        if key == FRAME:
+            return True
+        if self.guide is None or not key.startswith("sliding of "):
+            return False
+        ways = [_way(slide) / _way(self.guide) for slide in self.scene.slides if FRAME in slide.links
+                and key == f"sliding of {slide.link}" and self.turning[slide.link] == FRAME]
+        return any(abs(way.imag) < 1e-12 for way in ways)
+
+    def length(self, link: str) -> float:
+        """The length of a link: how far its farthest joint is from the pivot, or its farthest point."""
+        here = _at(self.scene, self.pivot(link))
+        points = [p for p in self.scene.links[link] if p in self.scene.joints] or self.scene.links[link]
+        far = max(abs(_at(self.scene, point) - here) for point in points)
+        return far or max(abs(_at(self.scene, point) - here) for point in self.scene.links[link]) or self.reach
+
+    def refused(self, links: Sequence[str], left: Sequence[str]) -> Refused:
+        """Why it cannot be done: what stays unbalanced."""
+        slides = [key.removeprefix("sliding of ") for key in left if key.startswith("sliding of ")]
+        where = f"{self.scene.name}: counterweights"
+        if slides:
+            return Refused(where, said("link {0} slides, and no joints lead from it to the frame: what slides with it "
+                                       "cannot be balanced", slides[0]), "--counterweights none, or partial")
+        turning = [link for link in self.scene.moving if self.turning[link] in left]
+        on = ", ".join(links) or said("no link")
+        return Refused(where, said("what turns with {0} cannot be balanced by counterweights on {1}",
+                                   ", ".join(turning), on), "fewer links in --keep, or --counterweights partial")
+
+
+def _sum(terms: Sequence[tuple[complex, Form]]) -> Form:
+    """The sum of so many times these sums."""
+    total: Form = {}
+    for times, form in terms:
+        for key, factor in form.items():
+            total[key] = total.get(key, 0j) + times * factor
+    return total
+
+
+def _real(numbers: Any) -> Any:
+    """Complex equations as twice as many real ones."""
+    import numpy as np
+
+    return np.concatenate([numbers.real, numbers.imag])
+
+
+def _at(scene: Scene, point: str) -> complex:
+    return complex(*map(float, scene.points[point]))
+
+
+def _way(slide: Slide) -> complex:
+    way = complex(*map(float, slide.direction))
+    return way / abs(way)
+
+
+# ---- the linkage with its counterweights -----------------------------------------------------------------------------
+
+
+def balanced(scene: Scene, weights: Sequence[Counterweight]) -> Scene:
+    """The scene with these counterweights on its links: their masses, mass centres and moments of inertia changed."""
+    for weight in weights:
+        scene = _with(scene, weight)
+    return scene
+
+
+def _with(scene: Scene, weight: Counterweight) -> Scene:
+    """The scene with one counterweight."""
+    assert scene.loads is not None
+    own, there = scene.loads.masses.get(weight.link), weight.place(scene)
+    centre, mass, inertia = there, weight.mass, 0.0
+    if own is not None:
+        here = _at(scene, own.centre)
+        mass += float(own.mass)
+        centre = (float(own.mass) * here + weight.mass * there) / mass
+        metre = float(METRES[scene.units.length])
+        inertia = float(own.inertia) + metre**2 * (float(own.mass) * abs(here - centre) ** 2
+                                                   + weight.mass * abs(there - centre) ** 2)
+    name = own.centre if own else f"S_{weight.link}"
+    while name in scene.points:
+        name += "'"
+    spot = centre.real, centre.imag
+    masses = scene.loads.masses | {weight.link: Mass(mass, inertia, name)}
+    return replace(
+        scene, points={**scene.points, name: spot}, loads=replace(scene.loads, masses=masses),
+        links={**scene.links, weight.link: (*scene.links[weight.link], name)},
+        placements={**scene.placements, name: Placement("given", {"at": spot})},
+        irrational=(*scene.irrational, f"points.{name}: a mass centre with its counterweight"))

@@ -1,0 +1,173 @@
+"""The mass centre of the moving links as a construction: principal vectors laid off head to tail from a fixed hinge.
+
+A link's principal vector goes along with the link: h_i = [m_i s_i + (the mass that hangs on its next joint) l_i]/m,
+with a part square to the link where its mass centre lies off the line of its joints. The vectors are constant on their
+links, so the steps serve every pose, and laid off from the pole with the velocities of the points in their places they
+give the velocity of the mass centre, with the accelerations its acceleration.
+
+Source: Ozols 1974, 16-2, (16.8), (16.9), figs. 16-4, 16-5 (Fischer's method); the polygon of masses is his (2).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from graphplan.errors import Refused
+from graphplan.kernel.kinds import Quantity
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import Board, Mark, Program, evaluate
+from graphplan.kernel.stages import Stage
+from graphplan.machine.linkages.spanning import SpanningTree, as_multiple, moments_of_mass, spanning_tree
+from graphplan.mechanism.model import Mass, Number, Scene
+from graphplan.mechanism.plane import less
+from graphplan.methods.panels import MECHANISM
+from graphplan.phrases import Said, digits, said
+
+ROUNDING = 2.0**-45
+"""A part of a vector that is smaller, beside its mass times the length of its link, is rounding alone."""
+
+
+@dataclass(frozen=True)
+class PrincipalVector:
+    """The vector of one link: `along` times the line from `start` to `end`, and `across` times the same line turned a
+    quarter counter-clockwise. `link` is empty where it leads to a further hinge, and has no direction of a link.
+    """
+
+    link: str
+    start: str
+    end: str
+    along: Number
+    across: Number
+
+
+@dataclass(frozen=True)
+class MassCentre:
+    """The construction of a scene's mass centre: `mass` of the moving links in the scene's unit, from which point on
+    vectors are laid off, and the program, whose wanted marks are S, then of each vector its head H and the end of the
+    polygon behind it.
+    """
+
+    scene: Scene
+    tree: SpanningTree
+    mass: Number
+    base: str
+    vectors: tuple[PrincipalVector, ...]
+    program: Program
+
+    @property
+    def masses(self) -> dict[str, Mass]:
+        """The masses of the moving links."""
+        found = self.scene.loads.masses if self.scene.loads else {}
+        return {link: mass for link, mass in found.items() if link in self.scene.moving}
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The points that the construction is drawn from, and the mass centres of the links."""
+        given = (step.name for step in self.program.steps[:self.program.givens])
+        return tuple(dict.fromkeys((*given, *(mass.centre for mass in self.masses.values()))))
+
+    @cached_property
+    def values(self) -> list[Any]:
+        """The value of each step in the scene's pose."""
+        return evaluate(self.program, Floats())
+
+    def at(self, places: Mapping[str, Any]) -> Any:
+        """The mass centre where the points are so: complex arrays of shape (n,) by name.
+
+        Of the velocities of the points it is the velocity of the mass centre, of their accelerations its acceleration.
+        """
+        return self._ends(places)[0]
+
+    def principal_points(self, places: Mapping[str, Any]) -> dict[str, Any]:
+        """The principal points of the links in the same poses, by link."""
+        heads = self._ends(places)[1::2]
+        return {vector.link: head for vector, head in zip(self.vectors, heads, strict=True) if vector.link}
+
+    def _ends(self, places: Mapping[str, Any]) -> list[Any]:
+        from graphplan.kernel.numbers.arrays import Arrays
+
+        given = {step.name: {"x": z.real, "y": z.imag} for step in self.program.steps[:self.program.givens]
+                 for z in [places[step.name]]}
+        values = evaluate(self.program, Arrays(), given)
+        return [values[index][0] + 1j * values[index][1] for index in self.program.wanted]
+
+
+def mass_centre(scene: Scene) -> MassCentre:
+    """The construction of a scene's mass centre in its pose.
+
+    Fails with `Refused` where no moving link has a mass.
+    """
+    if scene.loads is None or not any(mass.mass for link, mass in scene.loads.masses.items() if link in scene.moving):
+        raise Refused(f"{scene.name}: masses", "no moving link has a mass, so there is no mass centre",
+                      "[masses.2] with mass and centre")
+    tree = spanning_tree(scene)
+    mass = sum(tree.beyond(root.link) for root in tree.roots)
+    vectors = tuple(_vectors(tree, mass))
+    return MassCentre(scene, tree, mass, tree.base, vectors, _program(scene, tree.base, vectors))
+
+
+def _vectors(tree: SpanningTree, mass: Number) -> Iterator[PrincipalVector]:
+    """The vectors in the order in which they are laid off: to further hinges first, then from link to link."""
+    scene = tree.scene
+    for root in tree.roots[1:]:
+        yield PrincipalVector("", tree.base, root.at, tree.beyond(root.link) / mass, Fraction(0))
+    for hanging in tree.hangings:
+        start, end = tree.line(hanging.link)
+        line = less(scene.points[end], scene.points[start])
+        if start == end:
+            continue
+        found = as_multiple(moments_of_mass(tree, hanging.link), line)
+        least = ROUNDING * float(tree.beyond(hanging.link))
+        along, across = (part / mass if abs(float(part)) > least else Fraction(0) for part in found)
+        if along or across:
+            yield PrincipalVector(hanging.link, start, end, along, across)
+
+
+def _program(scene: Scene, base: str, vectors: tuple[PrincipalVector, ...]) -> Program:
+    """The drawing steps: the principal point of each link, and the vectors to them, head to tail."""
+    board = Board()
+    needed = {base, *(point for vector in vectors for point in (vector.start, vector.end))}
+    with board.on(panel=MECHANISM):
+        points = {name: board.given(x=x, y=y, name=name) for name, (x, y) in scene.points.items() if name in needed}
+    heads, ends = list[Mark](), [points[base]]
+    for vector in vectors:
+        with board.on(panel=MECHANISM, links=(vector.link,) if vector.link else (), stage=_stage(vector)):
+            heads.append(_head(board, vector, points))
+            ends.append(board.transfer(points[vector.start], heads[-1], ends[-1], why=_laid(vector)))
+    board.named(ends[-1], "S")
+    for vector, head, end in zip(vectors, heads, ends[1:], strict=True):
+        board.named(head, f"H_{vector.link}" if vector.link else f"H_{vector.end}")
+        board.named(end, f"S_{vector.link}" if vector.link else f"S_{vector.end}")
+    return freeze(board, [ends[-1], *(mark for pair in zip(heads, ends[1:], strict=True) for mark in pair)])
+
+
+def _head(board: Board, vector: PrincipalVector, points: Mapping[str, Mark]) -> Mark:
+    """The principal point of a link: how far along its line, and how far beside it."""
+    P, Q = points[vector.start], points[vector.end]
+    head, name, line = P, vector.link or vector.end, f"{vector.start}{vector.end}"
+    if vector.along:
+        told = said("the principal point: h_{0} = {1} {2}", name, digits(float(vector.along), 5), line)
+        head = board.step_off(P, Q, P, ratio=vector.along, why=told, quantity=Quantity(f"h_{name}", "length"))
+    if vector.across:
+        told = said("its offset: xi_{0} = {1} {2}", name, digits(float(vector.across), 5), line)
+        head = board.step_across(P, Q, head, ratio=vector.across, why=told, quantity=Quantity(f"xi_{name}", "length"))
+    return head
+
+
+def _laid(vector: PrincipalVector) -> Said:
+    if not vector.link:
+        return said("the mass that hangs on {0}, by their part of the whole", vector.end)
+    return said("head to tail, as link {0} is directed", vector.link)
+
+
+def _stage(vector: PrincipalVector) -> Stage:
+    if not vector.link:
+        return Stage(said("Further hinge {0}", vector.end), said("the part of the mass that hangs on it"))
+    return Stage(said("Principal vector of link {0}", vector.link),
+                 said("the link's mass by the distance of its centre, and the masses beyond by the distance of their "
+                      "joint, over the whole mass"))

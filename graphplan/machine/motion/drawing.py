@@ -1,0 +1,278 @@
+"""The true motion as it is drawn: energy by graphical integration, speed by rays of the energy-mass diagram, and time.
+
+The work of the moments is drawn under their diagram, strip by strip. Each energy is projected across, each inertia down
+from its turned diagram: they meet in a point of the energy-mass diagram, whose ray from the origin has the slope psi,
+and omega^2 = 2 k_E/k_I tan psi. The root is drawn as a mean proportional: on the upright at a distance c the ray cuts
+off c tan psi, and a half circle over this length and another one, d below, cuts off omega on the axis. By similar
+triangles follows 1/omega, and by integration the time, from rest with two strips of a parabola first.
+
+Sources: Ozols 1974, 13-6 with fig. 13-9 and 13-10, (13.36) to (13.41); 15-2 (integration with a pole).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from graphplan.cycle.diagram_program import Axes, integrate
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
+from graphplan.kernel.stages import Stage
+from graphplan.machine.frames import Frame
+from graphplan.machine.integrals import Reals
+from graphplan.machine.motion.driven import Driven
+from graphplan.machine.motion.room import Layout, Room
+from graphplan.machine.motion.strips import parabola
+from graphplan.machine.motion.true_motion import TrueMotion
+from graphplan.phrases import Said, digits, said
+
+MOTION = Panel("motion", said("motion"), said("True motion: energy, speed and time over the travel"))
+STRIPS = 24
+CORRECTED = 3  # times that a load over a speed is taken anew, at the speed in the middle of a strip
+ORIGINS = {"moment": "M", "energy-mass": "I", "slowness": "u", "reciprocal": "r", "time": "t"}
+
+
+@dataclass(frozen=True, eq=False)
+class MotionDrawing:
+    """The recorded construction of a motion and what it finds at its divisions.
+
+    `travel` are the divisions in SI, `first` the place of the first whose time is integrated. `frames` are the
+    diagrams, by name; `marks` the steps that draw something, by what it is.
+    """
+
+    motion: TrueMotion
+    program: Program
+    values: list[Any]
+    frames: dict[str, Frame]
+    marks: dict[str, list[int]]
+    travel: Reals
+    first: int
+
+    def read(self, name: str) -> Reals:
+        """What the drawing says at the divisions: `energy`, `omega` or `time`, nan where it says nothing."""
+        frame, found = self.frames[name], np.full(len(self.travel), np.nan)
+        heights = [self.values[step][1] for step in self.marks[name]]
+        start = len(self.travel) - len(heights)
+        found[start:] = frame.y.value(np.array(heights) - frame.origin[1])
+        if start and name != "slowness":
+            found[0] = 0.0
+        return found
+
+    @cached_property
+    def errors(self) -> dict[str, float]:
+        """How far the drawing is from the true motion at most, as parts of the largest energy, speed and time."""
+        true = self.motion.at(self.travel)
+        pairs = {name: (self.read(name), getattr(true, name)) for name in ("energy", "omega", "time")}
+        return {name: float(np.nanmax(abs(drawn - exact)) / np.nanmax(abs(exact)))
+                for name, (drawn, exact) in pairs.items()}
+
+
+def drawn(motion: TrueMotion, strips: int = STRIPS, room: Room | None = None) -> MotionDrawing | None:
+    """The construction of a motion in so many strips; none where it stops within the first three.
+
+    Each strip has the moment of its middle, that of loads over a speed at the speed there.
+    """
+    machine = motion.machine
+    travel = np.linspace(motion.start, motion.last, strips + 1)
+    moments, energies = _chords(machine, travel, float(motion.at([motion.start]).energy[0]))
+    if len(moments) < 3:
+        return None
+    return _Drawing(motion, travel[:len(energies)], np.array(moments), np.array(energies), room or Room()).made
+
+
+def _chords(machine: Driven, travel: Reals, energy: float) -> tuple[list[float], list[float]]:
+    """The moment of each strip, and the energies at the divisions, as far as there is some."""
+    moments, energies = list[float](), [energy]
+    for here, there in pairwise(travel):
+        middle = np.array([(here + there) / 2])
+        inertia, half = float(machine.inertia(middle)[0]), energy
+        for _ in range(CORRECTED if machine.laws else 1):
+            rate = np.sqrt(2 * max(half, 0.0) / inertia)
+            moment = float(machine.moment(middle, np.array([rate]))[0])
+            half = energy + moment * (there - here) / 2
+        energy += moment * (there - here)
+        if not energy > 0:
+            break
+        moments.append(moment)
+        energies.append(energy)
+    return moments, energies
+
+
+class _Drawing:
+    """Draws one motion on the board."""
+
+    def __init__(self, motion: TrueMotion, travel: Reals, moments: Reals, energies: Reals, room: Room):
+        self.motion, self.travel, self.x = motion, travel, travel - motion.start
+        inertias, first = motion.machine.inertia(travel), 0 if energies[0] > 0 else 2
+        omegas = np.sqrt(2 * energies / inertias)
+        self.lay = Layout(self.x, moments, energies, inertias, omegas, first, motion.last - motion.start,
+                          motion.machine.degree, room)
+        self.first, self.frames = first, self.lay.frames
+        self.board, self.found = Board(), dict[str, list[Mark]]()
+
+    # ---- drawing ---------------------------------------------------------------------------------------------------
+
+    @property
+    def made(self) -> MotionDrawing:
+        """The finished program."""
+        stages: list[tuple[Said, Said, Callable[[], None]]] = [
+            (said("Energy"), said("its chords have the slope of the moment in the middle of each strip"), self._energy),
+            (said("Energy-mass diagram"), said("energies are projected across, inertias down"), self._mass),
+            *([(said("Speed"), said("omega² = 2 E/I"), self._computed)] if self.lay.far else [
+                (said("Speed"), said("omega² = 2 k_E/k_I tan psi: the root is a mean proportional"), self._speed),
+                (said("Slowness"), said("1/omega by similar triangles"), self._slowness)]),
+            *([(said("First strips"), said("from rest 1/omega has no end"), self._begun)] if self.first else []),
+            (said("Mean slowness"), said("of each strip"), self._means),
+            (said("Time"), said("its chords have the slope of the mean 1/omega of each strip"), self._time)]
+        with self.board.on(MOTION):
+            self._ruled()
+        for title, law, draw in stages:
+            with self.board.on(MOTION, stage=Stage(title, law)):
+                draw()
+        names = [(name, mark) for name, marks in self.found.items() for mark in marks]
+        program = freeze(self.board, [mark for _, mark in names])
+        found: dict[str, list[int]] = {name: [] for name in self.found}
+        for (name, _), step in zip(names, program.wanted, strict=True):
+            found[name].append(step)
+        return MotionDrawing(self.motion, program, evaluate(program, Floats()), self.frames, found, self.travel,
+                             self.first)
+
+    def _given(self, frame: str, x: float, y: float, name: str = "") -> Mark:
+        """A mark at values of a diagram."""
+        at = self.frames[frame].at(x, y)
+        return self.board.given(x=float(at[0]), y=float(at[1]), name=name)
+
+    def _ruled(self) -> None:
+        """What is given: origins, divisions, moments, inertias, and the energy at the beginning."""
+        x, lay, count = self.x, self.lay, len(self.x)
+        self.origins = {name: self._given(name, 0.0, 0.0, f"O_{letter}") for name, letter in ORIGINS.items()}
+        low = self.frames["omega"]
+        self.base = self.board.given(x=low.origin[0], y=low.origin[1], name="O_ω")
+        self.start = self._given("energy", 0.0, float(lay.energies[0]), "E_0")
+        self.divisions = [self._given("moment", float(x[k]), 0.0, f"D_{k}") for k in range(count)]
+        middles = (x[1:] + x[:-1]) / 2
+        self.found["moment"] = [self._given("moment", float(at), float(moment), f"M_{k}")
+                                for k, (at, moment) in enumerate(zip(middles, lay.moments, strict=True), 1)]
+        self.found["inertia"] = [self._given("inertia", float(lay.inertias[k]), float(x[k]), f"I_{k}")
+                                 for k in range(count)]
+
+    def _axes(self, frame: str, letter: str, pole: float) -> Axes:
+        """The axes of a diagram, and its pole."""
+        board, O = self.board, self.origins[frame]
+        t = board.guide(O, dx=1, dy=0, why=said("the axis of travel"))
+        y = board.perpendicular(t, O, why=said("the axis of {0}", letter))
+        H = board.lay_off(O, dx=-pole, dy=0, name=f"H_{letter}", why=said("the pole: its distance sets the scale"))
+        return Axes(O, t, y, H)
+
+    def _energy(self) -> None:
+        board, self.rate = self.board, self._axes("moment", "M", self.lay.poles[0])
+        names = [f"E_{k}" for k in range(1, len(self.travel))]
+        rays = integrate(board, self.found["moment"], self.start, self.divisions, self.rate, names)
+        self.found["energy"] = [self.start, *(ray.end for ray in rays)]
+        self.found["energy rays"] = [ray.cut for ray in rays]
+
+    def _mass(self) -> None:
+        board = self.board
+        self.O = self.origins["energy-mass"]
+        self.found["energy-mass"] = []
+        for k, (energy, inertia) in enumerate(zip(self.found["energy"], self.found["inertia"], strict=True)):
+            level = board.parallel(self.rate.abscissas, energy, why=said("carry the energy across"))
+            upright = board.parallel(self.rate.ordinates, inertia, why=said("carry the inertia down"))
+            self.found["energy-mass"].append(board.meet(level, upright, name=f"W_{k}"))
+
+    def _computed(self) -> None:
+        """Speeds and their reciprocals laid off as they are computed: the rays' origin is off the paper."""
+        low, omegas = self.frames["omega"], self.lay.omegas
+        base = self.board.parallel(self.rate.abscissas, self.base, why=said("the axis of travel"))
+        self.under = self._axes("slowness", "u", self.lay.poles[1])
+        heights = low.y.mm(omegas), self.frames["slowness"].y.mm(1 / omegas)
+        axes = base, self.under.abscissas
+        for (name, letter), axis, rows in zip((("omega", "omega"), ("slowness", "u")), axes, heights, strict=True):
+            self.found[name] = []
+            for k, height in enumerate(rows):
+                told = said("from the point {0}: omega = {1}", k, digits(float(omegas[k])))
+                self.found[name].append(self.board.lay_off(self._foot(k, axis), dx=0, dy=float(height),
+                                                           name=f"{letter}_{k}", why=told))
+
+    def _foot(self, k: int, axis: Mark) -> Mark:
+        """Where the upright at a division meets an axis."""
+        told = said("the upright at division {0}", k)
+        upright = self.board.parallel(self.rate.ordinates, self.divisions[k], why=told)
+        return self.board.meet(upright, axis)
+
+    def _speed(self) -> None:
+        board = self.board
+        axis = board.parallel(self.rate.abscissas, self.O, why=said("the axis of inertias"))
+        C = board.lay_off(self.O, dx=self.lay.c, dy=0, name="C", why=said("c: its length sets the scale"))
+        P = board.lay_off(C, dx=0, dy=-self.lay.d, name="P", why=said("d = 2 k_E/(k_I c k_ω²)"))
+        self.cutting = board.parallel(self.rate.ordinates, C, why=said("on it the rays cut off c tan psi"))
+        self.found["omega"] = []
+        base = board.parallel(self.rate.abscissas, self.base, why=said("the axis of travel"))
+        self.found["rays"], self.found["roots"] = [], []
+        for k in range(1 if self.first else 0, len(self.travel)):
+            ray = board.line(self.O, self.found["energy-mass"][k], why=said("its slope is that of omega²/2"))
+            T = board.meet(ray, self.cutting, name=f"T_{k}")
+            middle = board.midpoint(P, T)
+            half = board.circle(middle, board.opening(middle, T), why=said("the half circle over d and c tan psi"))
+            R = board.line_meets_circle(axis, half, way="on", name=f"R_{k}", why=said("the mean proportional"))
+            self._carried(k, base, C, R, "omega", f"omega_{k}")
+            self.found["rays"].append(T)
+            self.found["roots"].append(R)
+
+    def _carried(self, k: int, base: Mark, one: Mark, other: Mark, what: str, name: str) -> None:
+        """A length laid off upwards at a division of an axis."""
+        board = self.board
+        foot = self._foot(k, base)
+        arc = board.circle(foot, board.opening(one, other), why=said("carried there with dividers"))
+        upright = board.parallel(self.rate.ordinates, self.divisions[k])
+        self.found[what].append(board.line_meets_circle(upright, arc, way="on", name=name))
+
+    def _slowness(self) -> None:
+        board = self.board
+        corner = self.origins["reciprocal"]
+        right = board.lay_off(corner, dx=self.lay.q, dy=0, name="Q", why=said("q: its square sets the scale"))
+        above = board.lay_off(corner, dx=0, dy=self.lay.q, name="S", why=said("q upwards"))
+        wall = board.parallel(self.rate.ordinates, right, why=said("to it the speeds are projected"))
+        ceiling = board.parallel(self.rate.abscissas, above, why=said("on it the rays cut off q²/omega"))
+        self.found["slowness"], self.found["reciprocals"] = [], []
+        self.under = self._axes("slowness", "u", self.lay.poles[1])
+        for k, omega in self._from_first():
+            level = board.parallel(self.rate.abscissas, omega, why=said("carry the speed across"))
+            ray = board.line(corner, board.meet(level, wall), why=said("the ray of this speed"))
+            cut = board.meet(ray, ceiling, name=f"U_{k}")
+            self._carried(k, self.under.abscissas, above, cut, "slowness", f"u_{k}")
+            self.found["reciprocals"].append(cut)
+
+    def _from_first(self) -> list[tuple[int, Mark]]:
+        """The divisions from which on the time is integrated, and the speeds there."""
+        omegas = dict(enumerate(self.found["omega"], 1 if self.first else 0))
+        return [(k, omegas[k]) for k in range(self.first, len(self.travel))]
+
+    def _means(self) -> None:
+        self.means = [self.board.midpoint(P, Q, why=said("the mean 1/omega of the strip"))
+                      for P, Q in pairwise(self.found["slowness"])]
+
+    def _time(self) -> None:
+        starts = self.found.get("time") or [self.origins["time"]]
+        names = [f"t_{k}" for k in range(self.first + 1, len(self.x))]
+        rays = integrate(self.board, self.means, starts[-1], self.divisions[self.first:], self.under, names)
+        self.found["time"] = [*starts, *(ray.end for ray in rays)]
+        self.found["time rays"] = [ray.cut for ray in rays]
+
+    def _begun(self) -> None:
+        """The first points of the diagram of time, from rest: those of the parabola."""
+        curve, x, board = parabola(self.x, self.lay.omegas), self.x, self.board
+        axis = board.parallel(self.rate.abscissas, self.origins["time"], why=said("the axis of travel"))
+        self.found["time"] = []
+        for k in (1, 2):
+            spent = curve.time * float(x[k] / x[2]) ** (1 - curve.n)
+            told = said("the first two strips as a parabola omega = {0} phi^{1}: {2} s", digits(curve.k),
+                        digits(curve.n), digits(spent))
+            length = float(self.frames["time"].y.mm(spent))
+            self.found["time"].append(board.lay_off(self._foot(k, axis), dx=0, dy=length, name=f"t_{k}", why=told))

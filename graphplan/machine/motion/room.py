@@ -1,0 +1,148 @@
+"""Where the diagrams of a motion lie on paper, and their scales.
+
+Those over the travel stand under each other; the inertia, turned, and the energy-mass diagram stand right of moments
+and energies. Where the energy varies little its origin lies off the paper: energy, inertia and speed then show no more
+than the range of their values.
+
+Source: Ozols 1974, fig. 13-9, (13.36) and (13.37).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from graphplan.cycle.curves import round_scale
+from graphplan.machine.frames import AxisScale, Frame
+from graphplan.machine.integrals import Reals
+from graphplan.machine.motion.strips import times
+
+POLE, BESIDE, BETWEEN = 34.0, 22.0, 12.0  # mm: for poles, between the two columns of diagrams, and between their rows
+NEAREST, FARTHEST = 4.5, 30.0  # mm: poles from their axes
+SHARES = {"moment": 0.17, "energy": 0.28, "omega": 0.19, "slowness": 0.16, "time": 0.2}  # of what is free: heights
+LENGTH, WIDE, CUT = 0.66, 0.22, 0.6  # of what is free: the axis of travel, the largest inertia; of that, c at most
+SLOWEST = 8.0  # times the least 1/omega: what is larger goes off the paper
+FAR = 0.5  # of the largest energy: where the least is more the origin is off the paper
+MARGIN = 0.08  # of a range, beyond it
+LEAST = 1e-3  # of the largest value: a smaller range is shown as one of this size
+STEPS = 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0  # of the scale of travel, which fills its room
+
+
+class Room(NamedTuple):
+    """How large all diagrams together may be, in mm."""
+
+    width: float = 280.0
+    height: float = 250.0
+
+    @property
+    def free(self) -> float:
+        """What poles and gaps leave of the width."""
+        return self.width - POLE - BESIDE
+
+    @property
+    def heights(self) -> dict[str, float]:
+        """The heights of the diagrams under each other."""
+        free = self.height - (len(SHARES) - 1) * BETWEEN
+        return {name: share * free for name, share in SHARES.items()}
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """The diagrams of what is drawn: moments of the strips, and at the divisions travel (from the beginning), energies,
+    inertias and speeds, in SI; `first` is the division from which the time is integrated, `degree` the unit of travel.
+
+    The motion may end where there is no division any more: `whole` is its travel.
+    """
+
+    travel: Reals
+    moments: Reals
+    energies: Reals
+    inertias: Reals
+    omegas: Reals
+    first: int
+    whole: float
+    degree: float
+    room: Room
+
+    @cached_property
+    def far(self) -> bool:
+        """Whether the origin of the energy-mass diagram is off the paper."""
+        return bool(self.energies.min() > FAR * self.energies.max())
+
+    @cached_property
+    def k(self) -> dict[str, float]:
+        """What one mm stands for, round."""
+        high, span = self.room.heights, (1 + 2 * MARGIN) * float(np.ptp([*self.moments, 0.0]))
+        slowness = 1 / self.omegas[max(1, self.first):]
+        least = self.whole / self.degree / (LENGTH * self.room.free)
+        power = 10.0 ** math.floor(math.log10(least))
+        phi = self.degree * power * next(step for step in STEPS if step * power >= least * (1 - 1e-9))
+        energy = _scale(self._span(self.energies) / high["energy"])
+        moment = _scale(max(span / high["moment"], energy / phi / FARTHEST))
+        slow = min(slowness.max(), SLOWEST * slowness.min()) / high["slowness"]
+        time = _scale(float(np.nanmax(times(self.travel, self.omegas))) / high["time"])
+        slow = _scale(max(slow, time / phi / FARTHEST))
+        return {"travel": phi, "moment": moment, "energy": max(energy, _scale(NEAREST * moment * phi)),
+                "inertia": _scale(self._span(self.inertias) / (WIDE * self.room.free)),
+                "omega": _scale(self._span(self.omegas) / high["omega"]), "slowness": slow,
+                "time": max(time, _scale(NEAREST * slow * phi))}
+
+    def _span(self, values: Reals) -> float:
+        """What of some values is shown: from nothing on, or their range alone."""
+        top = float(values.max())
+        return max(top - self._low(values), LEAST * top)
+
+    def _low(self, values: Reals) -> float:
+        """The least value that is shown."""
+        low, high = float(values.min()), float(values.max())
+        return low - MARGIN * (high - low) if self.far else 0.0
+
+    @cached_property
+    def poles(self) -> tuple[float, float]:
+        """The distances of the poles of moments and of 1/omega, in mm."""
+        k = self.k
+        return k["energy"] / k["moment"] / k["travel"], k["time"] / k["slowness"] / k["travel"]
+
+    @cached_property
+    def c(self) -> float:
+        """Where rays of the energy-mass diagram are cut, in mm from its origin."""
+        steepest = float((self.energies / self.inertias).max()) * self.k["inertia"] / self.k["energy"]
+        return min(WIDE * self.room.free * CUT, self.room.heights["energy"] / steepest)
+
+    @cached_property
+    def d(self) -> float:
+        """The length that makes with c tan psi the mean proportional omega, in mm."""
+        return 2 * self.k["energy"] / (self.k["inertia"] * self.c * self.k["omega"] ** 2)
+
+    @cached_property
+    def q(self) -> float:
+        """The mean proportional of omega and 1/omega, in mm."""
+        return 1 / math.sqrt(self.k["omega"] * self.k["slowness"])
+
+    @cached_property
+    def frames(self) -> dict[str, Frame]:
+        """The diagrams by name, in SI; `reciprocal` is where 1/omega is constructed."""
+        found, top, k = dict[str, Frame](), 0.0, self.k
+        travel, level = AxisScale(k["travel"]), (0.0, self.whole / k["travel"])
+        lowest = {"moment": min(float(self.moments.min()), 0.0) * (1 + MARGIN), "energy": self._low(self.energies),
+                  "omega": self._low(self.omegas)}
+        for name, height in self.room.heights.items():
+            upright = AxisScale(k[name], lowest.get(name, 0.0))
+            found[name] = Frame((0.0, top - height), travel, upright, level, (0.0, height))
+            top -= height + BETWEEN
+        right, wide = level[1] + BESIDE, (0.0, WIDE * self.room.free)
+        inertia, energy, omega = AxisScale(k["inertia"], self._low(self.inertias)), found["energy"], found["omega"]
+        low, high = found["moment"].upright
+        down = AxisScale(-self.whole / (high - low))
+        found["energy-mass"] = Frame((right, energy.origin[1]), inertia, energy.y, wide, energy.upright)
+        found["inertia"] = Frame((right, 0.0), inertia, down, wide, (low - high, 0.0))
+        found["reciprocal"] = Frame((right, omega.origin[1]), AxisScale(1.0), AxisScale(1.0), wide, omega.upright)
+        return found
+
+
+def _scale(least: float) -> float:
+    return float(round_scale(float(least)))

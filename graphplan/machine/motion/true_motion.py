@@ -1,0 +1,228 @@
+"""The true motion of a machine: its speed over the travel and over time, under its loads, from rest or at any speed.
+
+What is constructed in many poses, the reduced inertia and the moments, is taken as polynomials between the breaks of
+the loads; on them the energy is integrated, E = E_0 + the work of all loads, omega^2 = 2E/I_r, and the time is the
+integral of 1/omega. Where the energy is used up the machine stops: beyond that travel nothing is known.
+
+Sources: Ozols 1974, 13-4 and 13-5, (13.16), (13.20), (13.33), (13.34); 15-1 (means of the speed).
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial.legendre import legval
+
+from graphplan.errors import Refused
+from graphplan.machine.integrals import Reals
+from graphplan.machine.motion.collocation import Stretch, stretch
+from graphplan.machine.motion.driven import Driven
+
+NARROWEST = 1e-13  # of the travel asked for: a stretch that must be narrower leads nowhere
+SEEN = 24  # places in a stretch between which a sign is seen to change
+HALVINGS = 52  # of an interval in which something changes its sign
+LEAVING = 1e-6  # of a speed: a table that ends so near it is left
+NOTHING = 1e-11  # of the largest moment: what is below it moves nothing from rest
+
+
+class State(NamedTuple):
+    """How the machine moves at travels: arrays of shape (n,), nan where it does not get."""
+
+    energy: Reals
+    omega: Reals
+    time: Reals
+    acceleration: Reals
+
+
+class Place(NamedTuple):
+    """A travel, the speed there and the time until then."""
+
+    travel: float
+    omega: float
+    time: float
+
+
+class Means(NamedTuple):
+    """Means of the speed: (max + min)/2, over the travel, over the time; and (max - min) over the first of them."""
+
+    arithmetic: float
+    planimetric: float
+    true: float
+    unevenness: float
+
+
+@dataclass(frozen=True, eq=False)
+class TrueMotion:
+    """The motion of a machine from one travel to another; `stop` is where it comes to rest before, if it does."""
+
+    machine: Driven
+    start: float
+    end: float
+    stretches: tuple[Stretch, ...]
+    stop: Place | None
+
+    @cached_property
+    def _starts(self) -> list[float]:
+        return [min(one.start, one.start + one.way) for one in self.stretches]
+
+    @property
+    def last(self) -> float:
+        """The last travel that is reached."""
+        return self.end if self.stop is None else self.stop.travel
+
+    def at(self, travel: Sequence[float] | Reals, side: int = 1) -> State:
+        """Energy, speed, time and acceleration; where loads jump, the acceleration right of it, or left with -1."""
+        x = np.asarray(travel, dtype=float)
+        energy, time = np.full(x.shape, np.nan), np.full(x.shape, np.nan)
+        inside = (x >= self.start) & (x <= self.last)
+        held = np.array([max(0, bisect_right(self._starts, value) - 1) for value in x], dtype=int)
+        for k in np.unique(held[inside]):
+            here, one = inside & (held == k), self.stretches[k]
+            place = one.place(x[here])
+            energy[here] = np.where((place == -1) & (one.power == 2), 0.0, legval(place, one.energy))
+            time[here] = legval(place, one.time)
+        time[x == self.start] = 0.0
+        energy = np.maximum(energy, 0.0)
+        inertia = self.machine.inertia(x)
+        omega = np.sqrt(2 * energy / inertia)
+        moment = self.machine.moment(x, omega, side)
+        return State(energy, omega, time, (moment - self.machine.slope(x, side) * omega**2 / 2) / inertia)
+
+    @cached_property
+    def seen(self) -> Reals:
+        """Travels that show the motion: the ends of all stretches, and places between."""
+        ends = [*self._starts, self.last]
+        parts = [np.linspace(a, b, SEEN, endpoint=False) for a, b in pairwise(ends)]
+        return np.concatenate([*parts, [self.last]])
+
+    @cached_property
+    def extremes(self) -> tuple[Place, Place]:
+        """The least and the largest speed: at an end, where a load jumps, or where nothing accelerates."""
+        places = np.union1d(self.seen, self.roots(lambda x: self.at(x).acceleration))
+        state = self.at(places)
+        least, most = int(np.argmin(state.omega)), int(np.argmax(state.omega))
+        return (Place(*(float(one[least]) for one in (places, state.omega, state.time))),
+                Place(*(float(one[most]) for one in (places, state.omega, state.time))))
+
+    def roots(self, function: Callable[[Reals], Reals]) -> Reals:
+        """The travels at which a function of the travel changes its sign."""
+        signs = np.sign(function(self.seen))
+        changed = np.flatnonzero(signs[:-1] * signs[1:] < 0)
+        low, high, left = self.seen[changed], self.seen[changed + 1], signs[changed]
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            same = np.sign(function(middle)) == left
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        return np.sort(np.concatenate([(low + high) / 2, self.seen[signs == 0]]))
+
+    @cached_property
+    def means(self) -> Means:
+        """The means of the speed over the whole motion (Ozols (15.1), (15.2), (15.4))."""
+        least, most = (place.omega for place in self.extremes)
+        nodes, weights = np.polynomial.legendre.leggauss(SEEN)
+        area = 0.0
+        for a, b in pairwise([*self._starts, self.last]):
+            area += (b - a) / 2 * float(weights @ self.at((a + b) / 2 + (b - a) / 2 * nodes).omega)
+        way, half = self.last - self.start, (least + most) / 2
+        elapsed = float(self.at([self.last]).time[0])
+        return Means(half, area / way, way / elapsed, (most - least) / half)
+
+
+def moved(machine: Driven, omega: float, start: float, end: float) -> TrueMotion:
+    """The motion from a travel, with a speed there (0: from rest), to another travel or until the machine stops.
+
+    Fails with `Refused` where it cannot start, or a span that does not close is left.
+    """
+    _inside(machine, start, end)
+    energy = float(machine.inertia(np.array([start]))[0]) * omega**2 / 2
+    if omega == 0:
+        _starts(machine, start)
+    waiting, found = machine.edges(start, end)[::-1], list[Stretch]()
+    here, elapsed = waiting.pop(), 0.0
+    while waiting:
+        way = waiting[-1] - here
+        one = stretch(machine, here, way, energy, elapsed, at_rest=energy == 0)
+        if one is None and (halt := _halted(machine, here, waiting[-1], energy, elapsed)) is not None:
+            return TrueMotion(machine, start, end, (*found, halt), Place(halt.start, 0.0, _first(halt.time)))
+        if one is None and way <= NARROWEST * (end - start):
+            _covered(machine, here, energy)
+            return TrueMotion(machine, start, end, tuple(found), Place(here, 0.0, math.inf))
+        if one is None:
+            waiting.append(here + way / 2)
+            continue
+        found.append(one)
+        here, energy, elapsed = waiting.pop(), float(one.energy.sum()), float(one.time.sum())
+    return TrueMotion(machine, start, end, tuple(found), None)
+
+
+def _inside(machine: Driven, start: float, end: float) -> None:
+    """Refuse a travel that leaves the span of a machine that does not turn."""
+    last = machine.begin + machine.period
+    if not machine.closed and not machine.begin <= start < end <= last * (1 + 1e-12):
+        raise Refused("the motion", f"it would go from {machine.told(start)} to {machine.told(end)}, and is known from "
+                      f"{machine.told(machine.begin)} to {machine.told(last)}", "a travel within (--travel)")
+
+
+def _starts(machine: Driven, start: float) -> None:
+    """Refuse to start where nothing drives the machine from rest."""
+    at, still = np.array([start]), np.zeros(1)
+    moment, size = float(machine.moment(at, still)[0]), float(abs(machine.reduced[2].terms[..., 0]).max())
+    if not moment > NOTHING * max(size, abs(machine.closing)):
+        why = "holds it" if moment < 0 else "is nothing"
+        raise Refused("the motion", f"it does not start: the reduced moment at rest, {moment:.6g}, {why}",
+                      "a speed at the beginning (--speed), or loads that drive it there")
+
+
+def _covered(machine: Driven, travel: float, energy: float) -> None:
+    """Let the tables over a speed refuse a motion that leaves what they cover."""
+    at = np.array([travel])
+    rate = np.sqrt(2 * energy / machine.inertia(at))
+    for law in machine.laws:
+        for beyond in (1 - LEAVING, 1 + LEAVING):
+            law.law(machine.curve(law.rate, at) * rate * beyond)
+
+
+def _first(terms: Reals) -> float:
+    """The value of a series at its beginning."""
+    return float(terms @ (-1.0) ** np.arange(len(terms)))
+
+
+def _halted(machine: Driven, here: float, end: float, energy: float, elapsed: float) -> Stretch | None:
+    """The stretch on which the machine comes to rest before the end, from where it does back to here, if it does so.
+
+    The farther it goes the more energy it has had here: the travel is found by the rule of false position.
+    """
+    if energy == 0:
+        return None
+
+    def back(far: float) -> Stretch | None:
+        return stretch(machine, far, here - far, 0.0, 0.0, at_rest=True)
+
+    one = back(end)
+    if one is None or (over := float(one.energy.sum()) - energy) < 0:
+        return None
+    low, under, high = here, -energy, end
+    for _ in range(100):
+        far = (low * over - high * under) / (over - under)
+        if not low < far < high or (one := back(far)) is None:
+            break
+        miss = float(one.energy.sum()) - energy
+        if abs(miss) <= 4e-16 * energy:
+            break
+        if miss > 0:
+            high, over, under = far, miss, under / 2
+        else:
+            low, under, over = far, miss, over / 2
+    if one is None:
+        return None
+    whole = float(one.time.sum())  # below zero: it was passed backwards
+    time = one.time.copy()
+    time[0] += elapsed - whole
+    return Stretch(one.start, one.way, one.power, one.energy, time)

@@ -1,0 +1,67 @@
+"""Zhukovsky's lever of a reduction: the loads of one pose at the ends of the orthogonal velocities, drawn step by step.
+
+The moment on the driven link, or of a sliding drive the force along its guide, that keeps the lever in balance is the
+opposite of the reduced one. All drives go in pace at a unit rate of the first, so one lever has the power of all
+(Ozols 1974, 13-3; method A2). Without accelerations masses have their weights alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from graphplan.kernel.program import Mark
+from graphplan.machine.reduced.unit_motion import moving_points
+from graphplan.mechanism.model import Balance, Find, Loads, Scene
+from graphplan.methods import kinds
+from graphplan.methods.construction import Construction
+from graphplan.methods.draughtsman import Draughtsman
+from graphplan.methods.forces.free_bodies import Shown, balance_letter
+from graphplan.methods.forces.lever import Lever
+from graphplan.methods.forces.loaded import force_arrows
+from graphplan.methods.forces.loading import Loading, force_scale
+from graphplan.methods.motion.acceleration import Normal
+from graphplan.methods.motion.alternatives import ways
+from graphplan.methods.motion.network import Network
+from graphplan.methods.motion.velocity import Velocity
+from graphplan.methods.panels import LeverPlan
+from graphplan.methods.styles import Style
+
+
+class LeverDraughtsman(Draughtsman):
+    """Draws the velocities of one scene, and one lever with all its loads."""
+
+    def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
+        """The velocities with the lever, and what it tells: the balance on the first drive."""
+        phi = force_scale(self.scene)
+        loading = Loading(self.board, self.net, self.pose, phi, self.tempo.unit, None)
+        (name, balance), = loading.loads.named_balances.items()
+        lever = Lever(velocity, loading, LeverPlan.of(), {}, balance_letter(balance))
+        marks = self._balanced(lever)
+        self.read(kinds.balance_kind(kinds.BY_LEVER, balance), name, *marks)
+        shown = force_arrows(self.board, self.marks, [*lever.shown, Shown("balance", lever.letter, *marks[-2:])])
+        drawn = super().finished(velocity, plan)
+        drawn.phi, drawn.shown = phi, shown
+        return drawn
+
+    def _balanced(self, lever: Lever) -> tuple[Mark, ...]:
+        """The moment on the link that turns, or the force on the one that slides, which balances all loads."""
+        drive = self.scene.drives[0]
+        if not drive.slides:
+            return lever.turning(*drive.links)
+        slide = self.scene.driven_slide(drive)
+        return lever.across(slide.at, *drive.links)
+
+
+def lever_drawing(scene: Scene, loads: Loads) -> Construction:
+    """The lever of these loads in the pose of a scene that moves at a unit rate, drawn by the best way.
+
+    Its velocities are those of the points at which loads act.
+    """
+    drive = scene.drives[0]
+    slide = scene.driven_slide(drive) if drive.slides else None
+    balance = Balance(drive.link, slide.at, slide.direction) if slide else Balance(drive.link)
+    acting = (*(force.at for force in loads.forces), *(mass.centre for mass in loads.masses.values()))
+    find = Find(moving_points(scene, acting), (), (), (), ())
+    given = replace(scene, loads=replace(loads, balances=(balance,), frictions=()), find=find)
+    found = ways(Network(given), "", lambda planner: LeverDraughtsman(given, planner, Style()).draw())
+    return next(found)[0]

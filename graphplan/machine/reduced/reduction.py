@@ -1,0 +1,225 @@
+"""Reduction to the first drive: the inertia and the moment that stand for all masses and loads, over the cycle.
+
+A mechanism with one freedom moves as one link would that has the reduced inertia, sum(m v^2 + I omega^2) with the
+velocities at a unit rate, and on which the reduced moment acts, which has the power of all loads: the moment of the
+forces about the pole of Zhukovsky's lever (Ozols 1974, 13-2 and 13-3; methods A1 to A3). Only ratios of velocities
+count: one construction with orthogonal velocities of any size, recorded in one pose, serves all. How the inertia
+changes comes of the accelerations at a constant unit rate: dI/dphi = 2 sum(m v.a + I omega alpha).
+
+Of a drive that slides it is a reduced mass and force. Travels count upwards in the sense in which the first drive
+moves, and a reduced moment is positive that way.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from graphplan.cycle.linkage import Array
+from graphplan.cycle.loop import whole_motion
+from graphplan.cycle.pose import in_pose
+from graphplan.cycle.travel import TURN, check_drives, told, travels
+from graphplan.cycle.turn import RangeOfMotion
+from graphplan.errors import Refused
+from graphplan.machine.reduced.breaks import breaks, common_period, in_order
+from graphplan.machine.reduced.friction import M_F, CycleLosses, FrictionOverCycle, cycle_losses
+from graphplan.machine.reduced.lever_drawing import lever_drawing
+from graphplan.machine.reduced.reduced_loads import LoadValues, SpeedLoad, acting, loads_with
+from graphplan.machine.reduced.unit_motion import ACCELERATIONS, VELOCITIES, Rates, UnitMotion, moving_points
+from graphplan.mechanism.model import FRAME, Find, Mass, Scene
+from graphplan.mechanism.units import KILOGRAMS
+from graphplan.methods import kinds
+from graphplan.methods.construction import Construction
+from graphplan.phrases import said
+
+
+@dataclass(frozen=True, eq=False)
+class Reduced:
+    """What a scene reduces to in n poses: arrays of shape (n,), in SI.
+
+    `travel` of the first drive, in radians or scene lengths; `inertia` in kg m^2 and `moment` in N m, of all loads that
+    do not depend on speed, positive in the sense of motion; of a sliding drive kg and N. `by` has each load's own
+    moment by its letter on sheets: forces P_3 and P_3', moments M_4, weights G_3, and M_F of friction. Those over a
+    speed are `speed_loads`, apart.
+    """
+
+    travel: Array
+    inertia: Array
+    moment: Array
+    by: dict[str, Array]
+    speed_loads: tuple[SpeedLoad, ...]
+    _accelerated: Callable[[], Array] = field(repr=False)
+
+    @cached_property
+    def slope(self) -> Array:
+        """How the inertia changes: dI/dphi in kg m^2, or by a metre of a sliding drive in kg/m."""
+        return self._accelerated()
+
+
+class Reduction:
+    """The reduced inertia and moment of a scene over its cycle, which is `closed` or goes between two `ends`.
+
+    `breaks` are the travels between which inertia and moment are smooth; `unit` and `sense` are those of
+    :class:`UnitMotion`.
+    """
+
+    def __init__(self, scene: Scene, motion: RangeOfMotion, ends: tuple[float, float], compiled: bool = False):
+        assert scene.loads is not None
+        self.scene, self.loads = scene, scene.loads
+        self.acting = [*acting(scene, scene.loads)]
+        self.values = LoadValues(scene, self.acting)
+        self.masses = {link: mass for link, mass in self.loads.masses.items()
+                       if link != FRAME and (mass.mass or mass.inertia)}
+        self.motion = UnitMotion(scene, motion, self._asked(), compiled)
+        self.sense, self.unit = self.motion.sense, self.motion.unit
+        self.closed = bool(self.motion.period)
+        if self.closed:
+            ends = 0.0, common_period(self.motion.period, [load.table for load in self.acting if load.table])
+        self.ends = ends
+        rubs = any(one.coefficient for one in scene.loads.frictions)
+        self.friction = FrictionOverCycle(scene, self.motion, ends) if rubs else None
+        found = breaks(self.values, self.motion, ends)
+        self.breaks = in_order([*found, *self.friction.edges.tolist()], ends) if self.friction else found
+
+    @property
+    def changing(self) -> tuple[str, ...]:
+        """The names of the loads that change over the cycle."""
+        return tuple(load.name for load in self.acting if load.table)
+
+    def _asked(self) -> Find:
+        """What is asked of the motion: the points of forces and masses, and the links of moments and inertias."""
+        points = moving_points(self.scene, (load.at for load in self.acting if load.at))
+        centres = moving_points(self.scene, (mass.centre for mass in self.masses.values() if mass.mass))
+        turning = {load.link for load in self.acting if not load.at}
+        turning |= {link for link, mass in self.masses.items() if mass.inertia}
+        links = tuple(link for link in self.scene.moving if link in turning)
+        return Find(tuple(dict.fromkeys((*points, *centres))), centres, (), links, tuple(self.values.slides))
+
+    def at(self, travel: Any, side: int = 1) -> Reduced:
+        """Inertia and moment at some travels, real numbers of shape (n,); of a closed cycle at any.
+
+        At a break it is the limit from one `side`, -1 or 1. Fails with `Refused` where a pose is not reached, or a
+        table does not cover it.
+        """
+        travel = np.atleast_1d(np.asarray(travel, dtype=float))
+        zero, turn = np.zeros(travel.shape), self.motion.turn(travel)
+        rates = self.motion.velocities(turn)
+        values = self.values.values(self.motion, turn, rates, travel, side)
+        by = {load.name: load.arm(rates, turn) * values.get(load.name, 1.0) + zero for load in self.acting
+              if not (load.table and load.table.over_speed)}
+        if self.friction:
+            by[M_F] = self.friction.at(travel, side).moment
+        return Reduced(travel, self._summed(rates, rates, VELOCITIES) + zero, sum(by.values(), zero), by,
+                       tuple(self.values.over_speed(self.motion, turn, rates)),
+                       lambda: self._slope(rates, self.motion.accelerations(turn)) + zero)
+
+    def _slope(self, velocities: Rates, accelerations: Rates) -> Any:
+        return 2 * self._summed(velocities, accelerations, ACCELERATIONS)
+
+    def _summed(self, velocities: Rates, others: Rates, of: tuple[kinds.ResultKind, ...]) -> Any:
+        """Over all masses m v.w + I omega epsilon, of velocities and other vectors and rates."""
+        total: Any = 0.0
+        unit = float(KILOGRAMS[self.scene.units.mass])
+        for link, mass in self.masses.items():
+            v, w = velocities.of(kinds.VELOCITY, mass.centre), others.of(of[0], mass.centre)
+            total = total + unit * float(mass.mass) * (np.conj(v) * w).real
+            if mass.inertia:
+                turning = velocities.of(kinds.OMEGA, link) * others.of(of[1], link)
+                total = total + unit * float(mass.inertia) * turning
+        return total
+
+    @cached_property
+    def losses(self) -> CycleLosses:
+        """What friction takes over the cycle; fails with `Refused` where nothing rubs."""
+        if self.friction is None:
+            raise Refused("friction", said("the scene has none"), "[[friction]] in a joint or a slide")
+
+        def moments(travel: Array) -> dict[str, Array]:
+            return {name: moment for name, moment in self.at(travel).by.items() if name != M_F}
+
+        return cycle_losses(self.friction, moments, self.breaks)
+
+    def drawing(self, travel: float = 0.0) -> Construction:
+        """The lever in the pose at a travel, drawn step by step; it balances with the opposite of the reduced moment.
+        """
+        turn = self.motion.turn(np.array([float(travel)]))
+        rates = self.motion.velocities(turn)
+        values = self.values.values(self.motion, turn, rates, np.array([float(travel)]), 1)
+        given = {name: complex(value[0]) for name, value in self.values.in_units(values, turn).items()}
+        return lever_drawing(in_pose(self.motion.scene, turn, 0), loads_with(self.loads, given))
+
+    def scaled(self, factor: float) -> Reduction:
+        """The same machine, its loads that change so many times as large."""
+        if factor == 1:
+            return self
+        forces = tuple(replace(load, table=load.table and load.table.times(factor)) for load in self.loads.forces)
+        moments = tuple(replace(load, table=load.table and load.table.times(factor)) for load in self.loads.moments)
+        scene = replace(self.scene, loads=replace(self.loads, forces=forces, moments=moments))
+        return Reduction(scene, self.motion.motion, self.ends, self.motion.compiled)
+
+    def projections(self, travel: Any) -> dict[str, Array]:
+        """The moments of the weights by another form: each weight by the projection of the orthogonal velocity of its
+        centre of mass across it, which is horizontal (Ozols 1974, 13-3; method A3)."""
+        travel = np.atleast_1d(np.asarray(travel, dtype=float))
+        rates = self.motion.velocities(self.motion.turn(travel))
+        gravity = complex(*map(float, self.loads.gravity))
+        across = 1j * gravity / abs(gravity) if gravity else 0j
+        unit = float(KILOGRAMS[self.scene.units.mass]) * abs(gravity)
+
+        def weighed(mass: Mass) -> Array:
+            orthogonal = 1j * rates.of(kinds.VELOCITY, mass.centre)
+            return unit * float(mass.mass) * (np.conj(across) * orthogonal).real + np.zeros(travel.shape)
+
+        return {f"G_{link}": weighed(mass) for link, mass in self.masses.items() if mass.mass and gravity}
+
+
+def reduction(scene: Scene, span: tuple[float, float] | None = None, *, compiled: bool = False) -> Reduction:
+    """The reduction of a scene's masses and loads to its first drive, over its cycle.
+
+    Without a `span` it is a full turn, or with gears as many turns as it takes until all is back; a span of travel, in
+    degrees or lengths of a drive that slides, counts in the sense in which the drive moves. `compiled`: positions and
+    plans by machine code. Fails with `Refused` where there is nothing to reduce, nothing drives the scene, or it does
+    not come so far.
+    """
+    check_drives(scene)
+    loads = scene.loads
+    if loads is None or not (loads.masses or loads.forces or loads.moments):
+        raise Refused("reduction", said("the scene has neither masses nor loads"),
+                      "give it [masses], [[forces]] or [[moments]]")
+    sense = -1 if scene.drives[0].rate < 0 else 1
+    if span is None:
+        motion = _whole(scene)
+        return Reduction(scene, motion, (0.0, float(motion.path.travel[-1])), compiled)
+    low, high = sorted(float(end) for end in travels(scene, 2, span))
+    if low == high:
+        raise Refused("the cycle", said("the span has no length"), "two different travels")
+    lower, upper = sorted((sense * low, sense * high))
+    motion = RangeOfMotion(scene, min(0.0, lower), max(0.0, upper), closed=False)
+    _reached(scene, motion, lower, upper)
+    return Reduction(scene, motion, (low, high), compiled)
+
+
+def _whole(scene: Scene) -> RangeOfMotion:
+    """The motion all the way round; fails with `Refused` where there is no such."""
+    if scene.drives[0].slides:
+        raise Refused("the cycle", said("the first drive slides, and no turn closes its travel"), "a span of lengths")
+    motion = whole_motion(scene)
+    if not motion.whole:
+        _reached(scene, motion, 0.0, math.inf)
+        turns = f"{motion.path.travel[-1] / TURN:.0f}"
+        raise Refused("the cycle", said("links are not back after turns of the drive: {0}", turns),
+                      "a span of degrees")
+    return motion
+
+
+def _reached(scene: Scene, motion: RangeOfMotion, low: float, high: float) -> None:
+    """Fail with `Refused` where a limit lies between the given pose and one of these travels, and say where it is."""
+    for limit, beyond in ((motion.path.lower, -low), (motion.path.upper, high)):
+        if limit and beyond >= abs(limit.travel):
+            raise Refused("the cycle", said("the mechanism stops at a {0} at {1}", limit.kind,
+                                            told(scene, limit.travel, 10)), "a span that ends before")

@@ -1,0 +1,113 @@
+"""The motion at a unit rate of the first drive: rates by its travel, from one recorded construction.
+
+Only ratios of velocities count where masses and forces are reduced, so the first drive goes at a rate of one and the
+others in pace, whatever their rates are; a scene that stands still is moved so, too (Ozols 1974, 13-2).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from graphplan.cycle.linkage import Array
+from graphplan.cycle.turn import RangeOfMotion, Turn
+from graphplan.errors import Refused
+from graphplan.machine.reduced.recordings import Recordings
+from graphplan.mechanism.model import FRAME, Find, Scene
+from graphplan.mechanism.units import METRES
+from graphplan.methods import kinds
+from graphplan.methods.construct import construct
+from graphplan.methods.construction import Construction
+
+VELOCITIES = kinds.VELOCITY, kinds.OMEGA, kinds.SLIDE_VELOCITY
+ACCELERATIONS = kinds.ACCELERATION, kinds.ALPHA, kinds.SLIDE_ACCELERATION
+
+
+@dataclass(frozen=True, eq=False)
+class Rates:
+    """Rates over n poses, by kind and name, in metres and radians for a unit of travel (a radian, or a metre of a
+    sliding drive): complex arrays of shape (n,) for points and slides, real ones for links. What is fixed has 0."""
+
+    found: Mapping[str, Mapping[str, Array]]
+
+    def of(self, kind: str, name: str) -> Any:
+        """The rates of one thing."""
+        return self.found.get(kind, {}).get(name, 0.0)
+
+
+class UnitMotion:
+    """The scene's motion as far as `motion` goes, at a unit rate in the sense in which its first drive moves.
+
+    `sense` is that sense, 1 or -1: travels here, in radians or scene lengths, count in it. `unit` is the size of a unit
+    of travel in SI: 1 of radians where the drive `turns`, else the `metres` of a length. `period` is the travel after
+    which all is back, 0 where that is never. `find` is what is asked of the motion.
+    """
+
+    def __init__(self, scene: Scene, motion: RangeOfMotion, find: Find, compiled: bool = False):
+        self.motion, self.compiled = motion, compiled
+        first = scene.drives[0]
+        self.sense = -1 if first.rate < 0 else 1
+        self.period = float(motion.path.travel[-1]) if motion.whole else 0.0
+        self.metres = float(METRES[scene.units.length])
+        self.turns = not first.slides
+        self.unit = 1.0 if self.turns else self.metres
+        self.scene = replace(at_unit_rate(scene), loads=None, find=find)
+        self.recordings = Recordings(self.scene, motion, _constructed, compiled)
+
+    def turn(self, travel: Array) -> Turn:
+        """Where everything is at these travels, of a closed motion at any; fails with `Refused` where a pose is not
+        reached."""
+        travel = self.sense * travel
+        if self.period:
+            travel = np.mod(travel, self.period)
+        found = self.motion.turn(travel, self.compiled)
+        if found.faults:
+            why = next(iter(found.faults.values()))
+            raise Refused("the cycle", why, "a span of travels that the mechanism reaches")
+        return found
+
+    def told(self, travel: Array) -> Array:
+        """Travels as scenes tell them: in degrees, or in lengths."""
+        return np.degrees(travel) if self.turns else travel
+
+    def velocities(self, turn: Turn) -> Rates:
+        """The velocities in the poses of a turn."""
+        return self._rates(turn, VELOCITIES)
+
+    def accelerations(self, turn: Turn) -> Rates:
+        """The accelerations in the poses of a turn, at a constant rate of the drive."""
+        return self._rates(turn, ACCELERATIONS)
+
+    def _rates(self, turn: Turn, wanted: tuple[kinds.ResultKind, ...]) -> Rates:
+        """The rates of some kinds in the poses of a turn."""
+        found = self.recordings.evaluate(turn, wanted)
+        return Rates({kind: {name: z * self._scale(kind) for name, z in named.items()}
+                      for kind, named in found.items()})
+
+    def _scale(self, kind: str) -> float:
+        """What turns a rate by lengths and seconds into one by metres and units of travel."""
+        dimension = kinds.kind_of(kind).dimension
+        return self.metres**dimension.length * self.unit**dimension.time
+
+
+def _constructed(scene: Scene, method: str) -> Construction:
+    return construct(scene, method=method)
+
+
+def at_unit_rate(scene: Scene) -> Scene:
+    """The scene with its first drive at a rate of one in its sense, or in the positive one from rest; others in pace.
+    """
+    first = scene.drives[0]
+    size = abs(Fraction(first.rate)) or Fraction(1)
+    one, *others = scene.drives
+    start = one.driven_at(Fraction(one.rate) / size or Fraction(1), Fraction(0))
+    return scene.with_drives((start, *(drive.driven_at(Fraction(drive.rate) / size, Fraction(0)) for drive in others)))
+
+
+def moving_points(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
+    """Those of some points that are not on the frame, each once."""
+    return tuple(name for name in dict.fromkeys(names) if FRAME not in scene.links_of[name])

@@ -1,0 +1,1 @@
+"""Balancing of rotors: polygons of forces and moments, and trial runs."""

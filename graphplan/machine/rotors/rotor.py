@@ -1,0 +1,268 @@
+"""Rotors: masses off the axis of rotation, given or to be found by trial runs, and the planes that correct them.
+
+All is in the units of the task, angles in degrees, counter-clockwise as one looks along the axis from plane II to
+plane I; mass times radius is a vector, the unbalance of a mass.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+from graphplan.machine.rotors.trial import TRIALS, Trial, TrialWeights
+from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
+from graphplan.mechanism.items import Faults, Item, described
+from graphplan.mechanism.model import Presentation
+from graphplan.mechanism.numerals import heading, shown
+from graphplan.mechanism.tasks import read_task, task_table
+from graphplan.mechanism.units import KILOGRAMS, METRES, Units
+from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER
+
+Vector = tuple[Fraction, Fraction]
+PLANES = "I", "II"
+LONGEST = 20  # letters of a mass's name
+
+
+@dataclass(frozen=True)
+class Eccentric:
+    """A mass off the axis: mass times its radius vector, where along the axis it is, and its mass where it is known.
+
+    `exact` says whether fractions hold the vector as it is written.
+    """
+
+    name: str
+    unbalance: Vector
+    at: Fraction | None
+    mass: Fraction | None = None
+    exact: bool = True
+
+    @property
+    def size(self) -> float:
+        """Mass times radius."""
+        return math.hypot(*self.unbalance)
+
+    @property
+    def radius(self) -> float | None:
+        """How far from the axis the mass is, where that is known."""
+        return self.size / float(self.mass) if self.mass else None
+
+    @property
+    def angle(self) -> float:
+        """Where it is, in degrees from 0 to 360."""
+        return direction(*self.unbalance)
+
+
+@dataclass(frozen=True)
+class Rotor:
+    """The correction planes in their places along the axis, the masses, what is given of corrections in each plane
+    (radius or mass), the bearings' places and the speed in rad/s where reactions are asked for."""
+
+    planes: tuple[Fraction, ...]
+    masses: tuple[Eccentric, ...]
+    radii: tuple[Fraction | None, ...]
+    weights: tuple[Fraction | None, ...]
+    bearings: tuple[Fraction, ...] = ()
+    omega: float = 0.0
+
+    @property
+    def dynamic(self) -> bool:
+        """Whether there are two planes, so that moments are balanced, too."""
+        return len(self.planes) > 1
+
+    def arm(self, at: Fraction) -> Fraction:
+        """How far from plane I a place on the axis is, towards plane II."""
+        return (at - self.planes[0]) * (-1 if self.planes[-1] < self.planes[0] else 1)
+
+    @property
+    def between(self) -> Fraction:
+        """How far apart the planes are; 0 of one alone."""
+        return self.arm(self.planes[-1])
+
+
+@dataclass(frozen=True)
+class RotorTask:
+    """What a task says; `name` is its file as the user wrote it. There are masses or trials, one for each plane."""
+
+    title: str
+    source: str
+    name: str
+    units: Units
+    rotor: Rotor
+    trials: tuple[Trial, ...]
+    sheet: Presentation
+
+    @property
+    def kg_m(self) -> Fraction:
+        """The task's mass times length in kg m."""
+        return KILOGRAMS[self.units.mass] * METRES[self.units.length]
+
+    @property
+    def metres(self) -> Fraction:
+        """The task's unit of length in metres."""
+        return METRES[self.units.length]
+
+
+def direction(x: Fraction | float, y: Fraction | float) -> float:
+    """The angle of a vector in degrees, from 0 up to 360; 0 where it has no length."""
+    return math.degrees(math.atan2(y, x)) % 360 % 360  # the first of a tiny negative angle is 360
+
+
+# ---- the masses -----------------------------------------------------------------------------------------------------
+
+
+def _name(item: Item, names: Names) -> str | None:
+    text = item.text("a name", 'a name in quotes, such as "fan"')
+    if text is not None and not (text.isprintable() and 0 < len(text.strip()) <= LONGEST):
+        return item.fault(f"{described(text)} is no name", f"a name of {LONGEST} letters or less")
+    return text
+
+
+def _polar(row: Row) -> Eccentric:
+    """A mass by its distance from the axis and its angle, or mass times radius with an angle."""
+    values = row.values
+    c, s, exact = heading(values["angle"])
+    size = values["mass"] * values["radius"] if "mass" in values else values["mass_radius"]
+    return Eccentric(values.get("name", ""), (size * c, size * s), values.get("at"), values.get("mass"), exact)
+
+
+def _placed(row: Row) -> Eccentric:
+    """A mass by its coordinates."""
+    mass, values = row["mass"], row.values
+    return Eccentric(values.get("name", ""), (mass * values["x"], mass * values["y"]), values.get("at"), mass)
+
+
+_NAME = Field("name", "what it is called in tables; without it its number",
+              Kind("text", _name, {"type": "string", "minLength": 1, "maxLength": LONGEST}))
+_AT = Field("at", "where along the axis it is; of a rotor with one plane in that, unless it is said", NUMBER)
+_MASS = Field("mass", "its mass", AMOUNT, "such as mass = 0.5")
+ANGLE = Field("angle", "its direction in degrees, counter-clockwise from x", NUMBER, "degrees, such as angle = 120")
+_ONCE: Callable[[Any], Any] = lambda mass: (mass.name or object(), f"mass {mass.name}")  # noqa: E731
+MASSES = Rows(Either((
+    Table("a mass by radius and angle", (
+        _NAME, _MASS, Field("radius", "its distance from the axis of rotation", AMOUNT, "such as radius = 100"), ANGLE,
+        _AT), _polar),
+    Table("a mass by coordinates", (
+        _NAME, _MASS, Field("x", "its place across the axis", NUMBER, "x and y, such as x = 60"),
+        Field("y", "the same", NUMBER, "x and y, such as y = -80"), _AT), _placed),
+    Table("an unbalance", (
+        _NAME, Field("mass_radius", "mass times radius, in the task's units", AMOUNT, "such as mass_radius = 50"),
+        ANGLE, _AT), _polar),
+)), once=_ONCE, remedy="another name")
+
+
+# ---- the rotor ------------------------------------------------------------------------------------------------------
+
+
+def _numbers(least: int, what: str, such: str, positive: str = "") -> Kind:
+    """A list of one number or two, at least so many; one alone may stand without brackets. Above 0 where that is what
+    is `positive`."""
+    def found(item: Item, names: Names) -> tuple[Fraction, ...] | None:
+        values = item.value if isinstance(item.value, list) else [item.value]
+        if not least <= len(values) <= 2:
+            return item.fault(f"{described(item.value)} where {what} wanted", such)
+        parts = [item.instead(value) for value in values]
+        numbers = tuple(part.positive(positive) if positive else part.number() for part in parts)
+        return None if None in numbers else tuple(number for number in numbers if number is not None)
+
+    entry = DISTANCE.schema if positive else NUMBER.schema
+    listed = {"type": "array", "items": entry, "minItems": least, "maxItems": 2}
+    return Kind("list of two numbers" if least == 2 else "number, or list of one or two", found,
+                listed if least == 2 else {"anyOf": [entry, listed]})
+
+
+def _rotor(row: Row) -> Rotor | None:
+    """The rotor, each mass named and in its place."""
+    values, planes = row.values, row["planes"]
+    if len(planes) == 2 and planes[0] == planes[1]:
+        return row.items["planes"].fault(f"both planes stand at {shown(planes[0])}", "two places, or one plane alone")
+    speed = math.pi * float(values["rpm"]) / 30 if "rpm" in values else float(values.get("omega", 0))
+    if "rpm" in values and "omega" in values:
+        row.items["rpm"].fault("omega tells the speed already", "omega or rpm, not both")
+    bearings = values.get("bearings", ())
+    if bool(speed) != bool(bearings):
+        row.item.fault("bearings and a speed belong together", "bearings = [-50, 650] with rpm = 1500, or neither")
+    if bearings and bearings[0] == bearings[1]:
+        row.items["bearings"].fault(f"both bearings stand at {shown(bearings[0])}", "two places")
+    return Rotor(planes, _in_place(row, planes), _each(row, "radius", planes), _each(row, "mass", planes), bearings,
+                 speed)
+
+
+def _in_place(row: Row, planes: tuple[Fraction, ...]) -> tuple[Eccentric, ...]:
+    """The masses by name, those of a rotor with one plane in it unless they stand elsewhere."""
+    found = []
+    for number, mass in enumerate(row.values.get("masses", ()), 1):
+        if mass.at is None and len(planes) == 2:
+            row.items["masses"].rows()[number - 1].fault("at is missing", "its place along the axis, such as at = 200")
+        at = planes[0] if mass.at is None else mass.at
+        found.append(replace(mass, name=mass.name or str(number), at=at))
+    return tuple(found)
+
+
+def _each(row: Row, key: str, planes: tuple[Fraction, ...]) -> tuple[Fraction | None, ...]:
+    """What is given of the correction in each plane, one number for both."""
+    given = row.values.get(key, (None,))
+    if len(given) > len(planes):
+        row.items[key].fault("two numbers for one plane", "one number")
+    if key == "mass" and key in row.values and "radius" in row.values:
+        row.items[key].fault("radius is given, too: each follows from the other", "one of them")
+    return tuple((given * 2)[:len(planes)])
+
+
+ROTOR = Table("the rotor", (
+    Field("planes", "where along the axis the planes of correction stand: two, or one for static balancing alone",
+          _numbers(1, "one place or two are", "planes = [0, 600], or [0] for static balancing"),
+          "where the correction planes stand, such as planes = [0, 600]"),
+    Field("masses", "what is out of balance", MASSES),
+    Field("radius", "how far from the axis correction masses are put, in both planes or in each: their masses follow",
+          _numbers(1, "one radius or two are", "such as radius = [80, 100]", "radius")),
+    Field("mass", "how heavy correction masses are: their radii follow",
+          _numbers(1, "one mass or two are", "such as mass = [0.5, 0.5]", "mass")),
+    Field("bearings", "where the bearings stand, for their rotating reactions before and after",
+          _numbers(2, "two places are", "two places, such as bearings = [-50, 650]")),
+    Field("omega", "the speed for these reactions, in rad/s", DISTANCE),
+    Field("rpm", "the same in turns a minute", DISTANCE),
+), _rotor)
+TASK = task_table(
+    "a rotor: its masses, or what was measured in trial runs, and the planes in which it is balanced",
+    ("length", "mass", "force"),
+    Field("rotor", "the rotor", ROTOR, "[rotor] with planes = [0, 600] and masses"),
+    Field("trial", "what was measured, for each plane one table: by three runs, by two with marks, or by trial weights",
+          TRIALS),
+)
+
+
+# ---- reading --------------------------------------------------------------------------------------------------------
+
+
+def parse(text: str, name: str) -> RotorTask:
+    """The task that a TOML text says; `name` stands in error lines."""
+    def made(read: dict[str, Any], units: Units, faults: Faults) -> RotorTask:
+        rotor, trials = read["rotor"], read.get("trial", ())
+        _fitting(rotor, trials, faults)
+        trials = tuple(replace(trial, at=rotor.planes[k] if trial.at is None else trial.at)
+                       for k, trial in enumerate(trials[:len(rotor.planes)]))
+        if trials and rotor.radii[0] is None and rotor.weights[0] is None:  # where the trial masses were put
+            rotor = replace(rotor, radii=tuple(trial.radius for trial in trials))
+        if len(trials) == 2 and trials[0].at == trials[1].at:
+            faults.add("trial", f"both trial masses were put at {shown(trials[0].at)}", "a place for each plane")
+        return RotorTask(read.get("title", ""), read.get("source", ""), name, units, rotor, trials,
+                         read.get("sheet") or Presentation())
+
+    return read_task(TASK, text, name, made)
+
+
+def _fitting(rotor: Rotor, trials: tuple[Trial, ...], faults: Faults) -> None:
+    """Note where masses, trials and planes do not fit each other."""
+    if not rotor.masses and not trials:
+        faults.add("rotor.masses", "there are no masses",
+                   "masses = [{ mass = 0.5, radius = 100, angle = 0, at = 200 }], or a [trial] in which they are found")
+    elif rotor.masses and trials:
+        faults.add("trial", "the masses are given already", "masses, or a [trial] in which they are found")
+    elif trials and len(trials) != len(rotor.planes):
+        faults.add("trial", f"trials: {len(trials)}, planes: {len(rotor.planes)}", "one [[trial]] for each plane")
+    elif rotor.dynamic and any(isinstance(trial, TrialWeights) for trial in trials):
+        faults.add("trial", "trial weights tell nothing of moments, which two planes balance",
+                   "one plane, or amplitudes")

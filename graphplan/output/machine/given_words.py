@@ -10,6 +10,8 @@ from graphplan.mechanism.order import named_forces, named_moments
 from graphplan.output.panelled import Words
 from graphplan.phrases import arranged, digits, joined, said, unit
 
+ROWS = 40  # of a table at most that are told: more are a curve
+
 
 def masses_and_loads(scene: Scene) -> Iterator[Words]:
     """The masses link by link, then the forces and moments by their letters, those that change by their tables."""
@@ -41,4 +43,8 @@ def _changing(name: str, table: Any, measure: str) -> Words | None:
     if table.powers:
         c = [digits(float(power)) for power in (*table.powers, 0, 0)][:3]
         return arranged("{0} = {1} + {2} v + {3} v |v| {4}; v: {5}", name, *c, unit(measure), table.over)
-    return arranged("{0}: {1}", name, said("A load over {0}, in {1} rows", table.over, len(table.rows)))
+    told = arranged("{0}: {1}", name, said("A load over {0}, in {1} rows", table.over, len(table.rows)))
+    if len(table.rows) > ROWS:
+        return told
+    rows = joined([arranged("({0}; {1})", *(digits(float(number)) for number in row)) for row in table.rows])
+    return arranged("{0}: {1} {2}", told, rows, unit(measure))

@@ -26,6 +26,7 @@ DRIVE, LOAD = "drive", "load"
 WEIGHT = "G_"  # what the names of weights begin with
 SAMPLES = 25  # travels that tell how large inertia and moments are
 NOTHING = 1e-9  # of the work that is done to and fro: no work
+ROUNDING = 1e-14  # of it: what is left of sums that cancel
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +101,8 @@ def steady(reduction: Reduction, speed: float, closes: str = DRIVE, changing: Co
         factor = _factor(loads, works, changing, what)
         loads = {name: moment * factor if name in changing else moment for name, moment in loads.items()}
     else:
-        closing = -sum(works.values()) / span
+        done, size = sum(works.values()), sum(map(_to_and_fro, loads.values()))
+        closing = -done / span if abs(done) > ROUNDING * size else 0.0
     first, last = reduction.ends
     corners = np.array([at for at in reduction.breaks if first < at < last])
     return SteadyCycle(speed, inertia, slope, loads, closing, factor, tuple(changing), corners)
@@ -129,10 +131,14 @@ def reduced_rows(reduction: Reduction, travel: Reals, speed: float) -> tuple[lis
 def _weights(loads: Mapping[str, Piecewise], works: Mapping[str, float], what: str) -> None:
     """Refuse weights that do work over a cycle."""
     for name, moment in loads.items():
-        to_and_fro = float(np.abs(moment.terms[..., 0]) @ np.diff(moment.edges))
-        if name.startswith(WEIGHT) and abs(works[name]) > NOTHING * to_and_fro:
+        if name.startswith(WEIGHT) and abs(works[name]) > NOTHING * _to_and_fro(moment):
             raise Refused(what, f"the weight {name} does the work {works[name]:.3g} over a turn, so that the machine "
                           "does not come back to where it began", "a drive whose turn is a whole cycle")
+
+
+def _to_and_fro(moment: Piecewise) -> float:
+    """The work that a moment does, whichever way, as its panels tell."""
+    return float(np.abs(moment.terms[..., 0]) @ np.diff(moment.edges))
 
 
 def _factor(loads: Mapping[str, Piecewise], works: Mapping[str, float], changing: Collection[str],

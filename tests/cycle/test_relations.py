@@ -12,6 +12,7 @@ import graphplan as gp
 from graphplan.cycle.relations import Relations, relations
 from graphplan.cycle.travel import paces
 from graphplan.cycle.turn import under
+from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import packaged, parse
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.view import View
@@ -45,6 +46,15 @@ def dragged(found: Relations, rng: Random) -> tuple[dict[str, complex], list[flo
     return {name: complex(x + rng.uniform(-far, far), y + rng.uniform(-far, far))}, travels(found, rng)
 
 
+def placed_from(found: Relations, pins: dict[str, complex]) -> dict[str, complex]:
+    """The pins of the frame that the scene lays off from a dragged one: they go as far as that."""
+    placements, at = found.scene.placements, found.scene.points
+    froms = {name: placements[name].data["from"] for name in found.scene.links.get(FRAME, ())
+             if name in placements and placements[name].how == "polar"}
+    return {name: pins[start] + complex(*map(float, at[name])) - complex(*map(float, at[start]))
+            for name, start in froms.items() if start in pins}
+
+
 @pytest.mark.parametrize("name", packaged())
 def test_the_linkage_follows(name: str) -> None:
     """Wherever a linkage can be led by its drives and a dragged pin, its relations put every point there."""
@@ -52,7 +62,7 @@ def test_the_linkage_follows(name: str) -> None:
     linkage, led = DraggedLinkage(found.scene), 0
     for _ in range(DRAGS):
         pins, drives = dragged(found, rng)
-        truth = linkage.dragged(pins, drives)
+        truth = linkage.dragged(pins | placed_from(found, pins), drives)
         if truth is None:
             continue
         led += 1

@@ -9,6 +9,7 @@ import pytest
 
 import graphplan as gp
 from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.units import metre
 from graphplan.solver import poses
 
 TURNS = np.exp(1j * np.array([0.0, 0.7, 4.0]))
@@ -37,7 +38,8 @@ def test_each_pose_is_solved_as_alone(name: str) -> None:
             assert np.abs((x + 1j * y) / TURNS - complex(*value)).max() < 1e-12 * alone.condition * size
     if scene.loads is not None:
         held, found = gp.analytic.reactions(scene), poses.reactions(turned, rates, len(TURNS))
-        size = max(abs(complex(*force)) for force in held.joints.values())
+        turning = [abs(float(moment)) / (scene.extent * metre(scene.units)) for moment in held.balances]
+        size = max(*turning, *(abs(complex(*force)) for force in held.joints.values()))
         for pair, force in held.joints.items():
             x, y = found.joints[pair]
             assert np.abs((x + 1j * y) / TURNS - complex(*force)).max() <= 1e-12 * held.condition * size

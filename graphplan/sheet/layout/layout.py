@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -12,7 +12,7 @@ from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.divisions import SIDE
-from graphplan.sheet.lettering.lettering import CAPS, HEADING, sentence_runs, width, wrap
+from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Run, Runs, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Sheet, Text
 from graphplan.sheet.plates.plans import Plans
@@ -110,12 +110,24 @@ def captions(composition: Composition) -> Iterator[Text]:
     for panel, head in heads.items():
         large = HEADING if len(fitting[HEADING]) == len(heads) else letters.mark
         size, room = large if panel in fitting[large] else letters.text, panels[panel].width - 2 * SIDE
-        told = plans.tongue(joined(composition.scales.said(panel, plans.kinds(panel)), ",  "))
+        told = [sentence_runs(plans.tongue(scale)) for scale in composition.scales.said(panel, plans.kinds(panel))]
         lines = [(line, size, True) for line in wrap(head, size, room, bold=True)[:2]]
         fine = letters.mark if len(lines) == 1 else letters.text
-        lines += [(line, fine, False) for line in wrap(sentence_runs(told), fine, room)]
+        lines += [(line, fine, False) for line in _scales(told, fine, room)]
         y = panels[panel].top - TOP
-        for runs, high, bold in lines[:3]:
+        for runs, high, bold in lines:
             y -= CAPS * high
             yield Text(pens.LETTERS, "text", None, (panels[panel].left + SIDE, y), runs, high, bold=bold)
             y -= APART
+
+
+def _scales(told: Sequence[Runs], size: float, room: float) -> list[Runs]:
+    """Scales in lines, none of them broken that has room on one."""
+    lines: list[Runs] = []
+    for number, scale in enumerate(told, 1):
+        part = (*scale, Run(",")) if number < len(told) else scale
+        if lines and width(longer := (*lines[-1], *SPACE, *part), size) <= room:
+            lines[-1] = longer
+        else:
+            lines += wrap(part, size, room)
+    return lines

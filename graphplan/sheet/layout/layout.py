@@ -126,8 +126,9 @@ def _scales(told: Sequence[Runs], size: float, room: float) -> list[Runs]:
     lines: list[Runs] = []
     for number, scale in enumerate(told, 1):
         part = (*scale, Run(",")) if number < len(told) else scale
-        if lines and width(longer := (*lines[-1], *SPACE, *part), size) <= room:
+        longer = (*lines[-1], *SPACE, *part) if lines else ()
+        if longer and len(wrap(longer, size, room)) == 1:
             lines[-1] = longer
         else:
-            lines += wrap(part, size, room)
-    return lines
+            lines.append(part)
+    return [line for runs in lines for line in wrap(runs, size, room)]

@@ -25,6 +25,7 @@ from graphplan.mechanism.load_tables import LoadTable
 from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.model import FRAME, Force, Loads
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
+from graphplan.methods.construction import Construction
 from graphplan.solver import poses, solve, with_friction
 from graphplan.solver.friction import delivered
 from graphplan.solver.poses import Sized, sized
@@ -69,14 +70,30 @@ def checked(reduction: Reduction, travel: Any, side: int = 1) -> dict[str, float
             elif not gap[k] <= SAFETY * EPSILON * opinion.condition:
                 where = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
                 raise Disagreement(where, f"reduced {what}", f"{ours:.15g}", f"{truth:.15g}", float(gap[k]))
-    rubbing = {} if reduction.friction is None else {"friction": friction_gap(reduction, travel)}
-    return {what: float(np.max(gap, initial=0.0)) for what, gap in found.items()} | rubbing
+    others = {} if reduction.friction is None else {"friction": friction_gap(reduction, travel)}
+    if any(reduction.loads.gravity):
+        others["weights"] = weights_gap(reduction, travel)
+    return {what: float(np.max(gap, initial=0.0)) for what, gap in found.items()} | others
 
 
-def lever_gap(reduction: Reduction, travel: float = 0.0) -> float:
-    """How far the drawn lever is from the reduced moment in one pose, beside the largest of the loads' own moments.
+def weights_gap(reduction: Reduction, travel: Any) -> float:
+    """How far the moments of the weights by the lever are from those by projections, beside the largest in any pose.
 
     Fails with `Disagreement` where that is more than rounding.
+    """
+    by, projected = reduction.at(travel).by, reduction.projections(travel)
+    size = max((float(np.max(np.abs(moment), initial=0.0)) for moment in projected.values()), default=0.0)
+    worst = max((float(np.max(np.abs(by[name] - moment))) for name, moment in projected.items()), default=0.0)
+    gap = worst / size if size else worst
+    if gap > CLOSE:
+        raise Disagreement(reduction.scene.name, "weights", "otherwise by the lever", "by their projections", gap)
+    return gap
+
+
+def lever(reduction: Reduction, travel: float = 0.0) -> tuple[Construction, float]:
+    """The lever drawn in one pose, and how far it is from the reduced moment beside the largest of the loads' own.
+
+    Fails with `Disagreement` where that is more than rounding, beside the condition of the solver's rates.
     """
     drawing, found = reduction.drawing(travel), reduction.at([travel])
     (balance,) = drawing.balances
@@ -88,9 +105,9 @@ def lever_gap(reduction: Reduction, travel: float = 0.0) -> float:
     size = max((abs(float(part[0])) for part in found.by.values()), default=0.0)
     told = float(smooth(found, "moment")[0])
     gap = abs(drawn - told) / size if size else abs(drawn)
-    if gap > CLOSE:
+    if gap > CLOSE and not gap <= SAFETY * EPSILON * Opinion(reduction, np.array([travel]), 1).condition:
         raise Disagreement(reduction.scene.name, "lever", f"{drawn:.15g}", f"{told:.15g}", gap)
-    return float(gap)
+    return drawing, float(gap)
 
 
 def friction_gap(reduction: Reduction, travel: Any) -> float:

@@ -65,11 +65,10 @@ class Graph:
     k_y: float
 
     @classmethod
-    def fitted(cls, rect: Rect, x: Span, y: Span, k_y: float = 0.0, round_x: bool = False) -> Graph:
+    def fitted(cls, rect: Rect, x: Span, y: Span, k_y: float = 0.0) -> Graph:
         """The diagram that fills a rectangle from left to right, its ordinates in a round scale or one that is given.
         """
         k_x = (x[1] - x[0]) / rect.width
-        k_x = float(round_up(k_x)) if round_x else k_x
         k_y = k_y or float(round_up((y[1] - y[0]) / rect.height))
         return cls(rect, (rect.left - x[0] / k_x, rect.bottom - y[0] / k_y), k_x, k_y)
 
@@ -118,13 +117,6 @@ class Graph:
         for spot in self.spots(xs, ys):
             if self.rect.holds(spot):
                 yield Circle(pen, "links", None, spot, radius)
-
-    def area(self, xs: Iterable[Any], ys: Iterable[Any], fill: str = pens.TINT) -> Iterator[Item]:
-        """The area between a curve and the axis of abscissae."""
-        spots = self.spots(xs, ys)
-        if spots:
-            corners = (spots[0][0], self.origin[1]), *spots, (spots[-1][0], self.origin[1])
-            yield Polygon(Pen(0.0, fill=fill), "paper", None, corners)
 
     def uprights(self, xs: Iterable[Any], pen: Pen = DIVISION) -> Iterator[Item]:
         """Thin lines through the whole diagram."""
@@ -178,11 +170,6 @@ class Polar:
         """The curve of the ends of vectors."""
         spots = [self.at(float(x), float(y)) for x, y in zip(xs, ys, strict=True)]
         yield from clipped(Polyline(pen, "links", None, tuple(spots)), self.rect)
-
-    def vector(self, x: float, y: float, pen: Pen) -> Iterator[Item]:
-        """A vector from the middle."""
-        end = self.at(x, y)
-        yield Arrow(pen, "links", None, self.centre, end, min(3.0, 0.6 * math.dist(self.centre, end)))
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import graphplan as gp
-from graphplan.check.reduction import checked, lever_gap
+from graphplan.check.reduction import checked, lever
 from graphplan.errors import Disagreement, Refused, SceneError
 from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.mechanism.model import Force, Loads, Mass, Moment, Scene
@@ -203,7 +203,7 @@ def test_closed_forms_of_the_scotch_yoke(omega: str) -> None:
     assert told.slope == pytest.approx(4 * np.sin(2 * phi), abs=1e-13)
     assert told.moment == pytest.approx(-200 * np.abs(np.sin(phi)), abs=1e-11)
     assert max(checked(found, phi).values()) < 1e-14
-    assert max(lever_gap(found, travel) for travel in (0.0, 1.0, 4.0)) < 1e-14
+    assert max(lever(found, travel)[1] for travel in (0.0, 1.0, 4.0)) < 1e-14
 
 
 def test_breaks_over_a_slide_are_where_it_passes_the_places() -> None:
@@ -319,7 +319,7 @@ def test_any_mechanism_reduces_as_the_solver_says(name: str) -> None:
     found = reduction(loaded(name))
     travel = np.linspace(*found.ends, 11)[:-1] + 0.01
     assert max(checked(found, travel).values()) < 1e-13
-    assert lever_gap(found, float(travel[3])) < 1e-13
+    assert lever(found, float(travel[3]))[1] < 1e-13
 
 
 REFUSED = {

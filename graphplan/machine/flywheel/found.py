@@ -54,11 +54,6 @@ class FlywheelResult:
             yield said("loads over a speed are taken as they are at the mean speed")
 
     @property
-    def turns(self) -> bool:
-        """Whether the first drive turns: travels are then told in degrees, else in lengths."""
-        return not self.scene.drives[0].slides
-
-    @property
     def travels(self) -> Reals:
         """The travels of the plans, in radians, the end of the cycle included."""
         return np.linspace(*self.cycle.ends, self.positions + 1)

@@ -83,11 +83,6 @@ class MassCentre:
         """
         return self._ends(places)[0]
 
-    def principal_points(self, places: Mapping[str, Any]) -> dict[str, Any]:
-        """The principal points of the links in the same poses, by link."""
-        heads = self._ends(places)[1::2]
-        return {vector.link: head for vector, head in zip(self.vectors, heads, strict=True) if vector.link}
-
     def _ends(self, places: Mapping[str, Any]) -> list[Any]:
         from graphplan.kernel.numbers.arrays import Arrays
 

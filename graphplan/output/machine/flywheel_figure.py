@@ -35,6 +35,7 @@ from graphplan.sheet.plates.plans import around
 from graphplan.sheet.plates.view import View, view
 
 FINE, CHORD, LEVEL = Pen(0.13, "#8a8a8a"), Pen(0.25, pens.VIOLET), Pen(0.25, pens.GREEN, (5.0, 1.0))
+UNITS = {"M": "N m", "E": "J", "I": "kg m²", "phi": "°"}
 TANGENTS = {"upper": Pen(0.35, pens.RED), "lower": Pen(0.35, pens.BLUE)}
 MOMENT, ENERGY, INERTIA, MASS = Pen(0.5), Pen(0.5, pens.BLUE), Pen(0.5, pens.RED), Pen(0.5, pens.VIOLET)
 SIDE, RIGHT, OVER = 4.0, 14.0, 9.0  # mm beside the pole, right of the diagrams for numbers, and over and under them
@@ -201,23 +202,15 @@ class FlywheelFigure:
 
     # ---- axes and letters ------------------------------------------------------------------------------------------
 
-    @property
-    def _measures(self) -> dict[str, tuple[str, str]]:
-        """Letters and units: of a drive that slides it is forces and masses."""
-        if self.result.turns:
-            return {"M": ("M", "N m"), "E": ("E", "J"), "I": ("I", "kg m²"), "phi": ("phi", "°")}
-        return {"M": ("F", "N"), "E": ("E", "J"), "I": ("m", "kg"), "phi": ("s", self.result.scene.units.length)}
-
     def _told(self, what: str, k: float, at: Spot, anchor: str = "start") -> Item:
         """Letter, unit and scale of a quantity."""
         convention = self.result.scene.sheet.convention
-        return self.paper.quantity(at, *self._measures[what], k, convention, anchor)
+        return self.paper.quantity(at, what, UNITS[what], k, convention, anchor)
 
     def _axes(self) -> Iterator[Item]:
         """Axes, round divisions with numbers, and scales."""
         paper, graphs = self.paper, self.graphs
         moment, energy, inertia, mass = (graphs[name] for name in ("moment", "energy", "inertia", "energy-mass"))
-        turns = self.result.turns
         for graph in (moment, energy):
             yield from paper.ordinate(graph, head=True)
             yield from paper.abscissa(graph)
@@ -229,9 +222,9 @@ class FlywheelFigure:
             yield self._told(what, graph.k_y, (graph.rect.left, graph.rect.top + HEADED / 2))
             yield from paper.numbered_y(graph, right=True)
         yield self._told("I", inertia.k_x, (inertia.rect.left, inertia.rect.bottom - HEADED))
-        yield from paper.numbered_x(energy, turns=turns)
+        yield from paper.numbered_x(energy, turns=True)
         yield from paper.numbered_x(mass)
-        yield from paper.numbered_y(inertia, right=True, turns=turns, level=inertia.y[0])
+        yield from paper.numbered_y(inertia, right=True, turns=True, level=inertia.y[0])
         yield self._told("phi", inertia.k_y, (inertia.rect.right + RIGHT, inertia.rect.top + HEADED / 2), "end")
         low = energy.rect.bottom - (2.4 + CAPS) * paper.letters.text
         yield self._told("phi", energy.k_x, (energy.rect.right, low), "end")

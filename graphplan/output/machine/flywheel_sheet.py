@@ -34,6 +34,7 @@ from graphplan.sheet.words.rows import TextRow
 
 DOCUMENT = said("Flywheel sheet")
 PAPERS = ("A2", "A1")
+MOMENT, INERTIA, RATE = "N m", "kg m²", "rad/s"  # units
 UPPER, SHARES = 0.36, (0.4, 0.3, 0.3)  # of the height: the plans; of the width: mechanism, lever, the other levers
 NAMES = {"gutjahr": said("Gutjahr"), "area vectors": said("area vectors"), "power": said("power"),
          "characteristic": said("characteristic")}
@@ -149,43 +150,38 @@ class FlywheelSheet(Panelled):
     def given(self) -> Iterator[Words]:
         """The speed and how even it is to be, the masses and the loads."""
         result = self.result
-        yield arranged("omega = {0} {1}" if result.turns else "v = {0} {1}", digits(result.cycle.speed),
-                       unit(self._units[2]))
+        yield arranged("omega = {0} {1}", digits(result.cycle.speed), unit(RATE))
         if result.given:
-            yield arranged("I_s = {0} {1}", digits(result.wheel.inertia), unit(self._units[1]))
+            yield arranged("I_s = {0} {1}", digits(result.wheel.inertia), unit(INERTIA))
         else:
             yield arranged("delta = {0}", digits(result.unevenness))
         yield from masses_and_loads(self.scene)
 
-    @property
-    def _units(self) -> tuple[str, str, str]:
-        """The units of moments, inertias and speeds: of a drive that slides of forces, masses and speeds."""
-        return ("N m", "kg m²", "rad/s") if self.result.turns else ("N", "kg", "m/s")
-
     def found(self) -> Iterator[Words]:
         """What closes the cycle, the flywheel, the speeds, and what other methods find; of a task boxes for these."""
-        result, (M, I, rate) = self.result, self._units
+        result = self.result
         if self.task:
             yield Blank([["", ""], *([joined((name, unit(measure))), "?"] for name, measure in (
-                (said("Closing moment"), M), ("mn", "mm"), (said("Flywheel"), I), ("omega_max", rate),
-                ("omega_min", rate)))])
+                (said("Closing moment"), MOMENT), ("mn", "mm"), (said("Flywheel"), INERTIA), ("omega_max", RATE),
+                ("omega_min", RATE)))])
             return
         cycle, wheel = result.cycle, result.wheel
         if cycle.closing:
-            yield said("Closing moment: {0} {1}", digits(cycle.closing), unit(M))
+            yield said("Closing moment: {0} {1}", digits(cycle.closing), unit(MOMENT))
         if result.given:
             yield arranged("delta = {0}", digits(result.unevenness))
             if wheel.inertia + self.drawing.axis > 0:  # else m and n are one point
-                yield arranged("k_E·mn/((I_s + {0} {1})·ω²) = {2}", digits(self.drawing.axis), unit(I),
+                yield arranged("k_E·mn/((I_s + {0} {1})·ω²) = {2}", digits(self.drawing.axis), unit(INERTIA),
                                digits(self.drawing.unevenness))
         else:
-            yield said("Flywheel: {0} {1}; drawn {2} {1}", digits(wheel.inertia), unit(I), digits(self.drawing.inertia))
+            yield said("Flywheel: {0} {1}; drawn {2} {1}", digits(wheel.inertia), unit(INERTIA),
+                       digits(self.drawing.inertia))
         yield arranged("mn = {0} {1}, {2} {3}", digits(self._intercept), unit("mm"),
                        digits(wheel.intercept(self.drawing.axis)), unit("J"))
         for name, speed, touch in (("omega_max", wheel.omega_max, wheel.upper), ("omega_min", wheel.omega_min,
                                                                                 wheel.lower)):
-            at = joined((digits(float(result.told(touch.travel))), unit(self._travel)), "" if result.turns else " ")
-            yield said("{0} = {1} {2} at {3}", name, digits(speed), unit(rate), at)
+            at = joined((digits(float(result.told(touch.travel))), unit("°")), "")
+            yield said("{0} = {1} {2} at {3}", name, digits(speed), unit(RATE), at)
         for note in result.notes:
             yield arranged("{0:capital}", note)
         if result.reduction.friction:
@@ -196,10 +192,6 @@ class FlywheelSheet(Panelled):
         yield from self._methods()
 
     @property
-    def _travel(self) -> str:
-        return "°" if self.result.turns else self.scene.units.length
-
-    @property
     def _intercept(self) -> float:
         """How far apart m and n are on paper, in mm."""
         (_, m), (_, n) = self.drawing.spots("m")[0], self.drawing.spots("n")[0]
@@ -207,18 +199,16 @@ class FlywheelSheet(Panelled):
 
     def _methods(self) -> Iterator[Words]:
         """What each method finds, and what it neglects."""
-        I = self._units[1]
         rows = [(said("Wittenbauer"), self.result.wheel.inertia, NEGLECTS_NOTHING),
                 *((NAMES[one.name], one.inertia, one.neglects) for one in self.result.methods)]
         for name, inertia, neglects in rows if self.result.methods else ():
-            yield arranged("{0:capital}: {1} {2}; {3}", name, digits(inertia), unit(I), neglects)
+            yield arranged("{0:capital}: {1} {2}; {3}", name, digits(inertia), unit(INERTIA), neglects)
 
     def tables(self) -> Iterator[Words]:
         """A row for each plan."""
-        result, (M, I, rate) = self.result, self._units
+        result = self.result
         columns = [result.told_travels, *(result.plans[name] for name in ("inertia", "moment", "energy", "omega"))]
-        letters = ("phi", "I", "M", "E", "omega") if result.turns else ("s", "m", "F", "E", "v")
-        units = self._travel, I, M, "J", rate
+        letters, units = ("phi", "I", "M", "E", "omega"), ("°", INERTIA, MOMENT, "J", RATE)
         size = [float(abs(column).max()) or 1.0 for column in columns]
         head = ["", *(arranged("{0}, {1}", letter, unit(one)) for letter, one in zip(letters, units, strict=True))]
         rows = [[str(k), *(digits(float(x) if abs(x) > 1e-9 * most else 0.0)

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.check.reduction import lever
 from graphplan.cycle.turn import Turn
 from graphplan.kernel.program import Panel
 from graphplan.machine.reduced.reduction import Reduction
@@ -60,8 +61,8 @@ class LeverFigures:
 
     @cached_property
     def drawing(self) -> Construction:
-        """The lever of the given pose, step by step."""
-        return self.reduction.drawing(float(self.travel[0]))
+        """The lever of the given pose, step by step, compared with the reduced moment."""
+        return lever(self.reduction, float(self.travel[0]))[0]
 
     @cached_property
     def plans(self) -> Plans:

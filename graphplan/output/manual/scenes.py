@@ -8,8 +8,15 @@ from html import escape
 
 from graphplan.mechanism.model import Scene
 from graphplan.output.manual.site import INDEX, Sight, SitePage, cards
-from graphplan.phrases import said
+from graphplan.output.manual.topics import by_topic
+from graphplan.phrases import phrase, said
 from graphplan.words.tongue import Tongue
+
+CONSTRUCTED = phrase("What graphplan constructs of each scene: the sheet, the construction in words, and the page on "
+                     "which it moves.")
+CHARTS = phrase("Measured and followed round")
+MEASURED = phrase("Speed against accuracy (`graphplan chart`) and kinematic diagrams (`graphplan cycle`); times are "
+                  "ratios within one run.")
 
 
 @dataclass(frozen=True)
@@ -27,17 +34,17 @@ class ShownScene:
 
 def index(shown: Sequence[ShownScene], charts: Iterable[str], tongue: Tongue) -> str:
     """The page that leads to all scenes, and shows the charts that are there."""
-    page, measured = SitePage(tongue, INDEX), [Sight(f"charts/{name}.svg", name, f"charts/{name}.svg")
-                                               for name in charts]
+    page, by_name = SitePage(tongue, INDEX), {one.name: one for one in shown}
+    measured = [Sight(f"charts/{name}.svg", name, f"charts/{name}.svg") for name in charts]
 
     def body() -> Iterator[str]:
-        yield page.paragraph(said("What graphplan constructs of each scene: the sheet, the construction in words, and "
-                                  "the page on which it moves."))
-        yield cards(_card(page, one) for one in shown)
+        yield page.paragraph(CONSTRUCTED())
+        for topic, names in by_topic(by_name).items():
+            yield f"<h2>{page.say(topic)}</h2>"
+            yield cards(_card(page, by_name[name]) for name in names)
         if measured:
-            yield f"<h2>{page.say(said('Measured and followed round'))}</h2>"
-            yield page.paragraph(said("Speed against accuracy (`graphplan chart`) and kinematic diagrams (`graphplan "
-                                      "cycle`); times are ratios within one run."))
+            yield f"<h2>{page.say(CHARTS())}</h2>"
+            yield page.paragraph(MEASURED())
             yield cards(measured)
 
     return page.page(page.tongue(said("Gallery")), body())

@@ -54,6 +54,7 @@ OUTSIDE = {
     "distributed": {"methods/executors.py"},
     "flint": {"kernel/numbers/enclosures.py"},
     "shtab": {"commands/completion.py"},
+    "markdown_it": {"output/manual/chapters.py"},
 }
 # Where the kernel reckons beyond Python alone.
 NUMBERS = {*(f"kernel/numbers/{domain}.py" for domain in ("arrays", "gradients", "enclosures")),

@@ -1,7 +1,8 @@
-"""Make a site of scenes, offline: sheets, constructions in words, moving pages, files, a tutorial and the reference.
+"""Make a site of scenes, offline: sheets, constructions in words, moving pages, files, a tutorial and the manual.
 
 Without scenes it has the packaged ones. With --brief it has no moving pages and no files for other programs: sheets,
-words, tutorial and reference alone. Charts that stand in FOLDER/charts are shown.
+words, tutorial, manual and reference alone. Charts that stand in FOLDER/charts are shown. README.md, tutorial.md and
+tables/ are for readers on a code host. The manual's chapters need markdown-it-py: pip install 'graphplan[manual]'.
 
 examples:
   graphplan gallery gallery --brief            write the site of the packaged scenes into the folder
@@ -34,7 +35,8 @@ if TYPE_CHECKING:
 
 FILES = ("ggb", "tikz", "gcl", "dxf")  # formats of other programs, each in a folder of its own
 LIVE, SCRIPT = "live", "graphplan-live.js"  # the folder of the moving pages, and the script that they share
-RESERVED = ("index", "tutorial", "reference", *FILES, LIVE)
+FOLDERS = (*FILES, LIVE, "manual", "tables")  # of the site
+RESERVED = ("index", "tutorial", "reference", *FOLDERS)
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -47,6 +49,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     folder_at(options.folder)
+    _refuse_foreign_readme(options.folder)
     site = dict(_Site(options).files())
     if options.check:
         return _checked(options.folder, site)
@@ -56,11 +59,20 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
+def _refuse_foreign_readme(folder: Path) -> None:
+    """Refuse a folder whose front page is not the site's: it would be lost."""
+    from graphplan.output.manual.front_page import MARK, README
+
+    page = folder / README
+    if page.is_file() and not page.read_bytes().startswith(MARK.encode()):
+        raise Refused(f"{page}", "graphplan gallery would replace this file of another's", "choose another folder")
+
+
 def _checked(folder: Path, site: Mapping[str, str | bytes]) -> int:
     """Say what in the folder is not as the site is now: what differs, and what is no part of it."""
     stale = [f"{folder / name}: differs from what the scene gives now; run graphplan gallery {folder}"
              for name, content in site.items() if not _is(folder / name, content)]
-    there = (path for part in ("", *FILES, LIVE) for path in (folder / part).glob("*") if path.is_file())
+    there = (path for part in ("", *FOLDERS) for path in (folder / part).glob("*") if path.is_file())
     stale += [f"{path}: no scene makes this file" for path in sorted({*there})
               if path.relative_to(folder).as_posix() not in site]
     for line in stale:
@@ -82,9 +94,7 @@ class _Site:
         """Every file of the site, by its name in the folder: its scenes' one after the other, then its pages."""
         from graphplan.mechanism.scene import load, packaged
         from graphplan.output.live.page import script
-        from graphplan.output.manual import scenes, tutorial
-        from graphplan.output.manual.reference import reference
-        from graphplan.output.manual.site import INDEX, REFERENCE, TUTORIAL
+        from graphplan.output.manual import scenes
 
         messages, names = Messages(self.options.quiet), _names(self.options.scenes or packaged())
         shown = []
@@ -99,10 +109,30 @@ class _Site:
         messages.progress("")
         if not self.options.brief:
             yield f"{LIVE}/{SCRIPT}", script()
-        charts = sorted(path.stem for path in (self.options.folder / "charts").glob("*.svg"))
-        yield INDEX, scenes.index(shown, charts, self.tongue)
-        yield TUTORIAL, tutorial.tutorial([f"{name}.svg" for name in names], self.tongue)
-        yield REFERENCE, reference(_help(), tables(), self.tongue)
+        yield from self._pages(shown)
+
+    def _pages(self, shown: Sequence[ShownScene]) -> Iterator[tuple[str, str]]:
+        """What the site has besides the pages of the scenes: for a browser, and for a code host."""
+        from graphplan.output.manual import chapters, front_page, scenes, tutorial
+        from graphplan.output.manual.reference import reference
+        from graphplan.output.manual.site import INDEX, REFERENCE, TUTORIAL, has_chapters
+
+        tongue, sheets = self.tongue, [f"{one.name}.svg" for one in shown]
+        measured = [f"charts/{path.name}" for path in (self.options.folder / "charts").glob("*")]
+        charts = sorted(Path(name).stem for name in measured if name.endswith(".svg"))
+        yield INDEX, scenes.index(shown, charts, tongue)
+        yield TUTORIAL, tutorial.tutorial(sheets, tongue)
+        yield REFERENCE, reference(_help(), tables(), tongue)
+        keys = chapters.tables(_summaries())
+        yield from chapters.table_pages(keys, tongue).items()
+        yield front_page.LESSONS, tutorial.markdown(sheets, tongue)
+        yield front_page.README, front_page.front_page(shown, charts, tongue)
+        if has_chapters():
+            words = [name for one in shown for name in (*one.files, f"{one.name}.html")]
+            yield from chapters.chapter_pages(keys, {INDEX, TUTORIAL, REFERENCE, *words, *measured}, tongue)
+        else:
+            Messages(self.options.quiet).remark("The site has no chapters, as markdown-it-py is not installed. "
+                                                "Try: pip install 'graphplan[manual]'")
 
     @property
     def tongue(self) -> Tongue:
@@ -168,7 +198,15 @@ def _names(scenes: Sequence[str]) -> dict[str, str]:
 
 def _help() -> dict[str, str]:
     """What each command prints as its help."""
+    return {name: command.format_help() for name, command in _commands().items()}
+
+
+def _summaries() -> dict[str, str]:
+    """What each command does, in a line."""
+    return {name: command.description or "" for name, command in _commands().items()}
+
+
+def _commands() -> Mapping[str, argparse.ArgumentParser]:
     from graphplan.commands import SUBCOMMANDS, parser
 
-    commands = next(action.choices for action in parser(SUBCOMMANDS)._actions if isinstance(action.choices, dict))
-    return {name: command.format_help() for name, command in commands.items()}
+    return next(action.choices for action in parser(SUBCOMMANDS)._actions if isinstance(action.choices, dict))

@@ -1,8 +1,8 @@
 """Fields: what a scene may say, each key once: its name, its words, the kind of its value, its default or its remedy.
 
-The reader, the JSON Schema, the commented scenes of `graphplan new` and the reference in README all read these records.
-A kind of value says how it is read (None where that noted a fault) and how JSON Schema has it. Tables, lists of tables
-and tables by name are kinds as well, so that a whole scene is one table of fields.
+The reader, the JSON Schema, the commented scenes of `graphplan new` and the manual all read these records. A kind of
+value says how it is read (None where that noted a fault) and how JSON Schema has it. Tables, lists of tables and tables
+by name are kinds as well, so that a whole scene is one table of fields.
 """
 
 from __future__ import annotations

@@ -17,6 +17,8 @@ from graphplan.kernel import TABLE
 from graphplan.marking.judge.score import KINDS
 from graphplan.mechanism import pairs
 from graphplan.mechanism.schema import KEY, keys
+from graphplan.output.manual import site as site_pages
+from graphplan.output.manual.chapters import chapters, page_of
 from graphplan.output.manual.tutorial import TUTORIALS, Lesson
 
 SCENES = ("four-bar", "five-bar")
@@ -36,12 +38,61 @@ def text(page: Path) -> str:
 
 def test_every_link_leads_to_a_file_of_the_site(site: Path) -> None:
     """Links and pictures name files that are there, and nothing elsewhere."""
-    pages = [*site.glob("*.html")]
-    assert len(pages) == len(SCENES) + 3
+    pages = [*site.glob("*.html"), *site.glob("manual/*.html")]
+    assert len(pages) == len(SCENES) + 3 + len(chapters())
     for page in pages:
         for address in re.findall(r'(?:href|src)="([^"]*)"', text(page)):
-            assert not urlsplit(address).netloc, f"{page.name}: {address}"
-            assert (site / unescape(address)).is_file(), f"{page.name}: {address}"
+            parts = urlsplit(unescape(address))
+            assert not parts.netloc, f"{page.name}: {address}"
+            target = page.parent / parts.path if parts.path else page
+            assert target.is_file(), f"{page.name}: {address}"
+            assert not parts.fragment or f'id="{parts.fragment}"' in text(target), f"{page.name}: {address}"
+
+
+def test_links_of_the_front_page_lead_to_files_of_the_site(site: Path) -> None:
+    """On a code host pictures, protocols, tutorial and tables are found, each scene with its own."""
+    for page in (site / "README.md", site / "tutorial.md"):
+        addresses = re.findall(r'\]\(([^)]+)\)|<img src="([^"]+)"', text(page))
+        assert [address for pair in addresses for address in pair if address and not (site / address).is_file()] == []
+    for scene in SCENES:
+        assert f"({scene}.txt)" in text(site / "README.md")
+
+
+def test_chapters_are_pages_with_the_tables_of_the_records(site: Path) -> None:
+    """Each chapter is a page whose words lead within the site; a table stands in the place of the link to it."""
+    for name in chapters():
+        page = text(site / page_of(name))
+        assert "<table>" in page or "|---" not in chapters()[name]
+        assert [address for address in re.findall(r'href="([^"]*)"', page) if ".md" in address] == []
+    cells = {unescape(name) for name in re.findall(r"<td><code>([^<]*)</code></td>", text(site / page_of("scene")))}
+    assert {row.key for row in keys() if row.level == KEY} <= cells
+    assert "v |v|" in text(site / page_of("scene"))
+
+
+def test_pictures_that_a_site_has_not_leave_their_words(site: Path) -> None:
+    """A chapter's picture of a scene that the site lacks is left out, with what it shows in its place."""
+    page = text(site / page_of("forces"))
+    assert "<img" not in page
+    assert "A loaded four-bar: force polygons and Zhukovsky's lever" in unescape(page)
+
+
+def test_without_the_library_of_chapters_the_rest_stands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+                                                         capsys: pytest.CaptureFixture[str]) -> None:
+    """Where markdown-it-py is not installed, a line says what to install, and no page leads to chapters."""
+    monkeypatch.setattr(site_pages, "has_chapters", lambda: False)
+    assert main(["gallery", str(tmp_path), "five-bar", "--brief"]) == 0
+    assert "pip install 'graphplan[manual]'" in capsys.readouterr().err
+    assert not (tmp_path / "manual").exists()
+    assert [page.name for page in tmp_path.glob("*.html") if "manual/" in text(page).partition("</nav>")[0]] == []
+
+
+def test_the_front_page_of_another_is_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A README.md that the gallery did not write is not replaced: the folder is refused, and nothing is written."""
+    (tmp_path / "README.md").write_text("# My project\n", encoding="utf-8")
+    assert main(["gallery", str(tmp_path), "five-bar", "--brief"]) == 2
+    assert "choose another folder" in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["README.md"]
+    assert text(tmp_path / "README.md") == "# My project\n"
 
 
 @pytest.mark.parametrize(("title", "names"), [
@@ -73,6 +124,11 @@ def test_the_site_speaks_the_language_that_is_asked_for(tmp_path: Path) -> None:
     assert "Mechanismus" in text(tmp_path / "four-bar.txt") or "Getriebe" in text(tmp_path / "four-bar.txt")
     assert "<title>Viergelenkgetriebe mit Koppelpunkt" in text(tmp_path / "four-bar.svg")
     assert "<td>Bleistift</td>" in text(tmp_path / "reference.html")
+    assert "## Getriebe mit Drehgelenken" in text(tmp_path / "README.md")
+    chapter = text(tmp_path / page_of("handouts"))
+    assert "Dieses Kapitel ist auf Englisch." in chapter
+    assert '<article lang="en">' in chapter
+    assert 'aria-current="page">Handbuch</a>' in text(tmp_path / page_of("README"))
 
 
 @pytest.mark.parametrize("lessons", TUTORIALS.values(), ids=lambda told: told.__name__)

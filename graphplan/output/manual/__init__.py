@@ -1,1 +1,1 @@
-"""The manual: the gallery as a small site, offline, made from the records that the program itself reads."""
+"""The manual: a small site, offline, of the gallery, a tutorial, chapters in Markdown, and tables made from records."""

@@ -7,13 +7,21 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
+from importlib.util import find_spec
 from typing import NamedTuple
 
 from graphplan.output.report_page import HtmlPage
 from graphplan.phrases import Said, said
 
 INDEX, TUTORIAL, REFERENCE = "index.html", "tutorial.html", "reference.html"
-PLACES = {INDEX: said("Scenes"), TUTORIAL: said("Tutorial"), REFERENCE: said("Reference")}
+MANUAL = "manual"  # the folder of the chapters
+CONTENTS = f"{MANUAL}/index.html"
+PLACES = {INDEX: said("Scenes"), TUTORIAL: said("Tutorial"), CONTENTS: said("Manual"), REFERENCE: said("Reference")}
+
+
+def has_chapters() -> bool:
+    """Whether the library that renders the chapters is installed."""
+    return find_spec("markdown_it") is not None
 
 
 class Sight(NamedTuple):
@@ -34,7 +42,7 @@ class Sight(NamedTuple):
 
 @dataclass(frozen=True)
 class SitePage(HtmlPage):
-    """A page of the site in a tongue; `here` is its name."""
+    """A page of the site in a tongue; `here` is its path in the site."""
 
     here: str
 
@@ -49,10 +57,15 @@ class SitePage(HtmlPage):
         """Words as a paragraph; what stands in ` is code."""
         return f"<p>{coded(self.say(told))}</p>"
 
+    @property
+    def root(self) -> str:
+        """The way from this page to the site's own folder."""
+        return "../" * self.here.count("/")
+
     def _places(self) -> str:
         current = ' aria-current="page"'
-        return "\n".join(f'<a href="{name}"{current if name == self.here else ""}>{self.say(words)}</a>'
-                         for name, words in PLACES.items())
+        return "\n".join(f'<a href="{self.root}{name}"{current if name == self.here else ""}>{self.say(words)}</a>'
+                         for name, words in PLACES.items() if name != CONTENTS or has_chapters())
 
 
 def coded(html: str) -> str:

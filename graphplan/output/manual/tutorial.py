@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from html import escape
+from textwrap import indent
 from typing import NamedTuple
 
 from graphplan.mechanism.scene import load
@@ -90,3 +91,19 @@ def tutorial(pictures: Collection[str], tongue: Tongue) -> str:
             yield "</ol>"
 
     return page.page(tongue(said("Tutorial")), body())
+
+
+def markdown(pictures: Collection[str], tongue: Tongue) -> str:
+    """Both as Markdown, for a code host."""
+    def parts() -> Iterator[str]:
+        yield f"# {tongue(said('Tutorial'))}"
+        for title, lessons in TUTORIALS.items():
+            yield f"## {tongue(title)}"
+            for number, lesson in enumerate(lessons(), 1):
+                blocks = [lesson.writes[1].strip()] if lesson.writes[0] else []
+                blocks += ["\n".join(lesson.commands)] if lesson.commands else []
+                item = [tongue(lesson.words), *(f"```\n{block}\n```" for block in blocks)]
+                item += [f"![{tongue(title)}]({lesson.picture})"] if lesson.picture in pictures else []
+                yield f"{number}. " + indent("\n\n".join(item), "   ").lstrip()
+
+    return "\n\n".join(parts()) + "\n"

@@ -1,0 +1,128 @@
+"""The chapters of the manual: Markdown files of the package, and the same as pages of the site.
+
+A chapter is read on a code host as it stands: links and pictures are relative to its file. On the site they lead to the
+page or file that they mean, as far as the site has it; else the words stand alone. A table that the records give is
+no text of a chapter: a paragraph which is a link to the table's page, such as `tables/scene-keys.md`, stands in its
+place, and on the site the table itself.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from importlib.resources import files
+from typing import TYPE_CHECKING
+
+from graphplan.cams.task import TASK as CAM
+from graphplan.machine.rotors.rotor import TASK as ROTOR
+from graphplan.mechanism.schema import reference
+from graphplan.output.manual.site import INDEX, MANUAL, TUTORIAL, SitePage
+from graphplan.phrases import said
+from graphplan.words.tongue import Tongue
+
+if TYPE_CHECKING:
+    from markdown_it.token import Token
+
+CONTENTS = "README"  # the chapter that lists all others
+SITE = "../../../../gallery/"  # the site of the packaged scenes, as a chapter's links name it
+PAGES = {"README.md": INDEX, "tutorial.md": TUTORIAL}  # what is Markdown there for a code host, and its page
+TABLES = "tables"  # the folder of the tables' pages
+TITLES = {"scene-keys": said("Keys of a scene"), "cam-keys": said("Keys of a cam"),
+          "rotor-keys": said("Keys of a rotor"), "commands": said("Commands")}
+_TABLE = re.compile(rf"(?m)^\[[^\]]*\]\({re.escape(SITE)}{TABLES}/([\w-]+)\.md\)$")
+
+
+def chapters() -> dict[str, str]:
+    """The Markdown text of each chapter by its name."""
+    folder = files(__package__).joinpath("chapters")
+    texts = {path.name: path.read_text("utf-8") for path in folder.iterdir() if path.name.endswith(".md")}
+    return {name.removesuffix(".md"): texts[name] for name in sorted(texts)}
+
+
+def tables(commands: Mapping[str, str]) -> dict[str, str]:
+    """The tables that the records give, as Markdown by their names, from the summary of each command."""
+    rows = (f"| `graphplan {name}` | {summary} |" for name, summary in commands.items())
+    return {"scene-keys": reference(), "cam-keys": reference(CAM), "rotor-keys": reference(ROTOR),
+            "commands": "\n".join(["| command | what it does |", "|---|---|", *rows, ""])}
+
+
+def table_pages(texts: Mapping[str, str], tongue: Tongue) -> dict[str, str]:
+    """Each table as a page of its own, for a code host, by its path in the site."""
+    return {f"{TABLES}/{name}.md": f"# {tongue(TITLES[name])}\n\n{text}" for name, text in texts.items()}
+
+
+def chapter_pages(texts: Mapping[str, str], site: Collection[str], tongue: Tongue) -> Iterator[tuple[str, str]]:
+    """Every chapter as a page, by its path in the site; `texts` are the tables, `site` the paths of its other files."""
+    for name, text in chapters().items():
+        page = ChapterPage(tongue, page_of(name), frozenset(site))
+        yield page.here, page.chapter(_TABLE.sub(lambda link: texts[link[1]], text))
+
+
+def page_of(name: str) -> str:
+    """The path in the site of a chapter."""
+    return f"{MANUAL}/{'index' if name == CONTENTS else name}.html"
+
+
+def anchor(head: str) -> str:
+    """By what a link names a head: its words in lower case, with hyphens between them, as code hosts have it."""
+    return re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-")
+
+
+@dataclass(frozen=True)
+class ChapterPage(SitePage):
+    """A chapter as a page of a site that has these files."""
+
+    site: frozenset[str]
+
+    def chapter(self, text: str) -> str:
+        """The page of a chapter that begins with its title."""
+        from markdown_it import MarkdownIt
+
+        markdown = MarkdownIt("commonmark").enable("table")
+        title, *tokens = self._resolved(markdown.parse(text))[1:]
+        body = markdown.renderer.render(tokens[1:], markdown.options, {})
+        body = body.replace("<table>", '<div class="wide"><table>').replace("</table>", "</table></div>")
+        return self.page(title.content, [*self._language(), f'<article lang="en">\n{body}</article>'])
+
+    def _language(self) -> Iterator[str]:
+        """The remark of a site in another language."""
+        if self.tongue.code != "en":
+            yield self.paragraph(said("This chapter is in English."))
+
+    def _resolved(self, tokens: Sequence[Token]) -> Sequence[Token]:
+        """The tokens with names of their heads, and with addresses as the site has them."""
+        for token, following in zip(tokens, [*tokens[1:], None], strict=True):
+            if token.type == "heading_open" and following:
+                token.attrSet("id", anchor(following.content))
+            if token.children:
+                token.children = [*self._addressed(token.children)]
+        return tokens
+
+    def _addressed(self, tokens: Sequence[Token]) -> Iterator[Token]:
+        """The tokens of a paragraph; a link or a picture that leads out of the site leaves its words."""
+        leads_out = False
+        for token in tokens:
+            name = {"link_open": "href", "image": "src"}.get(token.type)
+            if name:
+                address = self.address(str(token.attrGet(name)))
+                token.attrSet(name, address or "")
+                if token.type == "image" and not address:
+                    yield from token.children or ()
+                    continue
+                leads_out = not address
+            if not (leads_out and token.type in ("link_open", "link_close")):
+                yield token
+
+    def address(self, link: str) -> str:
+        """Where a link of a chapter leads on the site; "" where that has nothing of the kind."""
+        path, mark, head = link.partition("#")
+        if not path:
+            return link
+        if chapter := re.fullmatch(r"([\w-]+)\.md", path):
+            return f"{self.root}{page_of(chapter[1])}{mark}{head}"
+        if not path.startswith(SITE):
+            return ""
+        target = path.removeprefix(SITE)
+        target = PAGES.get(target, target)
+        return f"{self.root}{target}" if target in self.site else ""

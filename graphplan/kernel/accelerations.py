@@ -29,7 +29,7 @@ def _companion(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
            "Construct the relative normal acceleration of {0} about {1} by the relative velocity from {2} to {3}; "
            "from {4} lay it off: mark {out}.",
            claims=(("along", (4, -1), (0, 1)), ("away", (4, -1), (0, 1)), ("mean", 0, 1, 2, 3, 4)),
-           fails=("points-coincide",), sizing=Sizing.SQUARE,
+           fails=("points-coincide",), afar=((0, 1), (2, 3)), sizing=Sizing.SQUARE,
            source="Rosenauer 1939, No. 14; Ozols 1974, 5-3, fig. 5-22", forms={
                "nothing to draw": lambda s, K, A, m, w, k: k if s.one(m, w) else None,
                "semicircle": _semicircle,
@@ -63,7 +63,7 @@ def _half(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any, *, turned: bool) -> An
            "Construct half the Coriolis vector at {1} from the orthogonal relative velocity, from {1} to {3}, and "
            "that of the guide's turning about {0}, from {1} to {2}; from {4} lay it off twice, reversed: mark {out}.",
            claims=(("along", (1, 2), (1, 0)), ("coriolis", 0, 1, 2, 3, 4)), fails=("points-coincide",),
-           source="Ozols 1974, 5-3, fig. 5-24", weighed=True, sizing=Sizing.DOUBLE, forms={
+           afar=((0, 1, 2, 3),), source="Ozols 1974, 5-3, fig. 5-24", weighed=True, sizing=Sizing.DOUBLE, forms={
                "nothing to draw": lambda s, P, B, T, R, b: b if s.one(B, T) or s.one(B, R) else None,
                "at the pair": partial(_half, turned=False),
                "at another point of the guide's link": partial(_half, turned=True)},

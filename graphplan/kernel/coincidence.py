@@ -47,11 +47,10 @@ class LyingLine(NamedTuple):
 
 @dataclass
 class LyingLines:
-    """The lines that are drawn, in drawing order; `values`, `reach` and `plans` are those of all steps by now."""
+    """The lines that are drawn, in drawing order; `values` and `reach` are those of all steps by now."""
 
     values: Sequence[Any]
     reach: Sequence[float]
-    plans: Sequence[Panel]
     lines: list[LyingLine] = field(default_factory=list)
     fell: bool = False  # whether a line has fallen on another
     _drawers: dict[tuple[str, float], list[LyingLine]] = field(default_factory=dict)
@@ -87,7 +86,7 @@ class LyingLines:
             swing = max(1.0, *(self.reach[arg] / n for arg in step.args))
         elif base is not None:
             swing = self._swings[step.args[base]]
-        return LyingLine(step.index, self.plans[step.index], (a / n, b / n), c / n, self.reach[step.index], swing)
+        return LyingLine(step.index, step.panel, (a / n, b / n), c / n, self.reach[step.index], swing)
 
     def since(self, length: int) -> list[LyingLine]:
         """The lines of the steps after the first `length`."""

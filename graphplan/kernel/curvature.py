@@ -34,7 +34,7 @@ def _right_triangle(s: Any, K: Any, A: Any, m: Any, w: Any) -> Any:
            "On the ray from {0} through {1} mark {out}, so that the length from {2} to {3} is the mean proportional of "
            "{0}{1} and the way from {0} to {out}.",
            claims=(("along", (0, -1), (0, 1)), ("away", (0, -1), (0, 1)), ("third", 0, 1, 2, 3)),
-           fails=("points-coincide",), afar=(2, 3), where=0, source="Ozols 1974, 5-1, (5.3)", forms={
+           fails=("points-coincide",), afar=((2, 3),), where=0, source="Ozols 1974, 5-1, (5.3)", forms={
                "no length": lambda s, K, A, m, w: K if s.one(m, w) else None,
                "equal lengths": lambda s, K, A, m, w: A if s.equal(K, A, m, w) else None,
                "semicircle": _semicircle,

@@ -71,7 +71,7 @@ def _two_perpendiculars(s: Any, l: Any, P: Any) -> Any:
 
 
 @primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} parallel to {0}.",
-           claims=(("on", 1), ("parallel", 0)), movement=Movement.PARALLEL, afar=(0,),
+           claims=(("on", 1), ("parallel", 0)), movement=Movement.PARALLEL, afar=((0,),),
            described="the parallel to {0} through {1}", forms={
                "the line itself": lambda s, l, P: l if s.lies_on(P, l) else None,
                **{f"rhombus on the {side}{words}": partial(_rhombus, start, side)
@@ -83,7 +83,7 @@ def parallel(d: Any, l: Any, P: Any) -> Any:
 
 
 @primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} perpendicular to {0}.",
-           claims=(("on", 1), ("perpendicular", 0)), movement=Movement.PERPENDICULAR, afar=(0,),
+           claims=(("on", 1), ("perpendicular", 0)), movement=Movement.PERPENDICULAR, afar=((0,),),
            described="the perpendicular to {0} through {1}", forms={
                **{f"mirror image on the {side}": partial(_mirrored, side) for side in ("right", "left")},
                **{"arcs" + words: partial(_arcs, start) for words, start in STARTS}})
@@ -144,7 +144,7 @@ def _fourth_corner(side: str) -> Form:
 
 
 @primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off the vector from {0} to {1}: mark {out}.",
-           claims=(("same", (0, 1), (2, -1)),), movement=Movement.LAID_OFF, afar=(0, 1), forms={
+           claims=(("same", (0, 1), (2, -1)),), movement=Movement.LAID_OFF, afar=((0, 1),), forms={
                "nothing to draw": lambda s, P, Q, R: R if s.one(P, Q) else Q if s.one(P, R) else None,
                "dividers": _with_dividers("parallel"),
                "parallelogram": lambda s, P, Q, R: s.meet(s.parallel(s.line(P, Q), R), s.parallel(s.line(P, R), Q)),
@@ -157,7 +157,7 @@ def transfer(d: Any, P: Any, Q: Any, R: Any) -> Any:
 
 @primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off the vector from {0} to {1}, turned a quarter "
            "counter-clockwise: mark {out}.", claims=(("quarter", (0, 1), (2, -1)),), movement=Movement.TURNED,
-           afar=(0, 1), forms={
+           afar=((0, 1),), forms={
                "nothing to turn": lambda s, P, Q, R: R if s.one(P, Q) else None,
                "dividers": _with_dividers("perpendicular")})
 def quarter(d: Any, P: Any, Q: Any, R: Any) -> Any:
@@ -165,11 +165,17 @@ def quarter(d: Any, P: Any, Q: Any, R: Any) -> Any:
     return R[0] - (Q[1] - P[1]), R[1] + (Q[0] - P[0])
 
 
+def _through_a_point(s: Any, l: Any, P: Any, Q: Any) -> Any:
+    """The vector laid off from a point of the line: from the foot of its start, if that is on the line's plan."""
+    X = s.foot(l, P) if s.share_plan(l, P) else next(iter(s.points_on(l)), None)
+    return None if X is None else s.parallel(l, s.transfer(P, Q, X))
+
+
 @primitive((LINE, POINT, POINT), LINE, SET_SQUARES, "Shift {0} by the vector from {1} to {2}: draw {out}.",
-           claims=(("parallel", 0), ("shifted", 0, 1, 2)), where=0, forms={
+           claims=(("parallel", 0), ("shifted", 0, 1, 2)), where=0, afar=((1, 2),), forms={
                "nothing to draw": lambda s, l, P, Q: l if s.one(P, Q) else None,
                "through the end": lambda s, l, P, Q: s.parallel(l, Q),
-               "foot": lambda s, l, P, Q: s.parallel(l, s.transfer(P, Q, s.foot(l, P)))})
+               "foot": _through_a_point})
 def shift(d: Any, l: Any, P: Any, Q: Any) -> Any:
     """A line moved by the vector PQ."""
     return l[0], l[1], l[2] - (l[0] * (Q[0] - P[0]) + l[1] * (Q[1] - P[1]))

@@ -18,8 +18,9 @@ from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel.coincidence import ROUNDED, LyingLine, LyingLines, line_gap, runs_against
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.plans import PlansApart
 from graphplan.kernel.primitives import dot
-from graphplan.kernel.program import Board, Mark, Panel, Program, Step, Verbs, error_at, plan_of
+from graphplan.kernel.program import Board, Mark, Program, Step, Verbs, error_at
 
 AGREE = 1e-6  # beside the figure that is drawn: a form that loses more is none
 FLOATS = Floats()
@@ -57,7 +58,6 @@ class Attempt(NamedTuple):
     marks: Sequence[Mark] = ()
     values: Sequence[Any] = ()
     reach: Sequence[float] = ()
-    plans: Sequence[Panel] = ()
     lines: Sequence[LyingLine] = ()
     made: Mapping[int, tuple[str, tuple[Mark, ...]]] = {}
     letters: Sequence[tuple[Mark, str]] = ()
@@ -83,12 +83,11 @@ class Expander:
 
     def _begin(self) -> None:
         """An empty board."""
-        self.board = Board()
+        # Compasses and straightedge alone carry no direction over but in one plane: there the plans lie as one.
+        self.board = Board(coplanar=self.keep <= STRICT)
         self.values: list[Any] = []
         self.reach: list[float] = []  # the largest number that a mark was made from: its rounding counts beside that
-        self.plans: list[Panel] = []  # on which the marks lie
-        self.lines = LyingLines(self.values, self.reach, self.plans)
-        self.panel = Panel()
+        self.lines = LyingLines(self.values, self.reach)
         self.place: list[int] = []  # of each step of the program its mark, and of each drawn step which step it serves
         self.serves: list[int] = []
         self.inner: dict[int, Sequence[tuple[Mark, str]]] = {}  # marks that forms name, by step of the program
@@ -110,7 +109,6 @@ class Expander:
         self._begin()
         place: list[Mark] = []
         for step in self.program.steps:
-            self.panel = step.panel
             args = tuple(place[arg] for arg in step.args)
             try:
                 with self.board.on(step.panel, step.links, step.stage):
@@ -162,7 +160,6 @@ class Expander:
         self.board.lay(attempt.marks)
         self.values += attempt.values
         self.reach += attempt.reach
-        self.plans += attempt.plans
         self.lines.lay(attempt.lines)
         self._made |= attempt.made
         if len(self.values) > self._limit:
@@ -198,7 +195,6 @@ class Expander:
         if mark.step.index == len(self.values):
             self.values.append(op.rule(FLOATS, *[self.values[arg] for arg in step.args], **step.params))
             self.reach.append(self._reach(step))
-            self.plans.append(plan_of(step, self.board.steps, self.plans))
             if op.gives == LINE and (lying := self.lines.fallen(step, self._apart)) is not None:
                 run = self.value(mark)
                 self._rewind(step.index)
@@ -211,7 +207,7 @@ class Expander:
     def _rewind(self, length: int) -> None:
         """Take back all steps after the first `length`."""
         self.board.rewind(length)
-        del self.values[length:], self.reach[length:], self.plans[length:]
+        del self.values[length:], self.reach[length:]
         self.lines.rewind(length)
 
     def _try(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], truth: Any,
@@ -229,8 +225,8 @@ class Expander:
             drawn = range(before, len(self.board.steps))
             made = {index: self._made[index] for index in drawn if index in self._made}
             return Attempt(rating, out, self.board.marks[before:], self.values[before:], self.reach[before:],
-                           self.plans[before:], self.lines.since(before), made, board.letters)
-        except (Undrawable, ZeroDivisionError):
+                           self.lines.since(before), made, board.letters)
+        except (Undrawable, ZeroDivisionError, PlansApart):
             return None
         except Outdone:
             return Attempt(Rating(form, int(self._limit) + 1 - before, left_off=True))
@@ -251,7 +247,7 @@ class Expander:
         own = (math.hypot(*value[:2]) if step.op.gives in (POINT, CIRCLE)
                else math.sqrt(value[0]) if step.op.gives == OPENING else 0.0)
         return max([own, *(self.reach[arg] for place, arg in enumerate(step.args)
-                           if place not in step.op.afar or step.op.reads[place] != LINE)])
+                           if place in step.op.near or step.op.reads[place] != LINE)])
 
     def _agrees(self, op: Primitive, args: tuple[Mark, ...], value: Any, truth: Any, before: int,
                 sharpest: float) -> bool:
@@ -269,7 +265,7 @@ class Expander:
         else:
             gap = math.dist(truth, value)
             spread = max((math.dist(truth, self.value(arg)) for arg in args if arg.kind == POINT
-                          and arg.step.panel == args[op.where].step.panel), default=read)
+                          and arg.panel == args[op.where].panel), default=read)
         used = (index for step in self.board.steps[before:] for index in (step.index, *step.args))
         reach = max([read, *map(self.reach.__getitem__, used)])
         lost = ROUNDED * reach / sharpest if sharpest > ROUNDED else 0.0
@@ -277,18 +273,11 @@ class Expander:
 
     def _judge(self, form: str, before: int) -> Rating | None:
         steps = self.board.steps[before:]
-        # Compasses and straightedge alone cannot carry a direction over but in one plane: there the plans lie as one.
-        if not self.keep <= STRICT and any(self._crosses_plans(step) for step in steps):
-            return None
         on_sheet = all(self.windows.get(step.panel, EVERYWHERE).holds(self.values[step.index])
                        for step in steps if step.op.gives == POINT)
         crossings = [crossing(step, self.values) for step in steps if step.op.crossing]
         undrawn = sum(step.op.name not in self.keep for step in steps)
         return Rating(form, len(steps), on_sheet, min(crossings, default=1.0), undrawn)
-
-    def _crosses_plans(self, step: Step) -> bool:
-        """Whether a step joins points of two plans, which stand apart, each at its own scale."""
-        return step.op.spans and len({self.board.steps[arg].panel for arg in step.args}) > 1
 
     def _explain(self, op: Primitive, before: int, ranked: list[Rating], why: str, out: Mark) -> None:
         """Tell at the first step of a form which it is, and beside which others if they were weighed; at its last what
@@ -331,9 +320,13 @@ class FormBoard(Verbs):
 
     # What a draughtsman sees on the sheet, by which a form that is not for this pose gives nothing.
 
+    def share_plan(self, *marks: Mark) -> bool:
+        """Whether marks lie on one plan, so that they may be joined."""
+        return self._expander.board.coplanar or len({mark.panel for mark in marks}) == 1
+
     def one(self, P: Mark, Q: Mark) -> bool:
         """Whether two points of a plan fall on one place."""
-        return P.step.panel == Q.step.panel and self._nothing(self.distance(P, Q), P, Q)
+        return P.panel == Q.panel and self._nothing(self.distance(P, Q), P, Q)
 
     def equal(self, P: Mark, Q: Mark, R: Mark, S: Mark) -> bool:
         """Whether PQ is as long as RS."""
@@ -342,14 +335,14 @@ class FormBoard(Verbs):
     def lies_on(self, P: Mark, l: Mark) -> bool:
         """Whether a point lies on a line of its plan."""
         (x, y), (a, b, c) = self._expander.value(P), self._expander.value(l)
-        return P.step.panel == l.step.panel and self._nothing((a * x + b * y + c) / math.hypot(a, b), P, l)
+        return P.panel == l.panel and self._nothing((a * x + b * y + c) / math.hypot(a, b), P, l)
 
     def together(self, l: Mark, m: Mark) -> bool:
         """Whether two lines of a plan fall together."""
         (a, b, c), (u, v, w) = self._expander.value(l), self._expander.value(m)
         way, reach = complex(-b, a) / math.hypot(a, b), max(self._expander.reach[mark.step.index] for mark in (l, m))
         ends = (complex(-a * c, -b * c) / (a * a + b * b) + sign * reach * way for sign in (1, -1))
-        return l.step.panel == m.step.panel and all(
+        return l.panel == m.panel and all(
             self._nothing((u * end.real + v * end.imag + w) / math.hypot(u, v), l, m) for end in ends)
 
     def in_line(self, P: Mark, Q: Mark, R: Mark) -> bool:
@@ -381,7 +374,7 @@ class FormBoard(Verbs):
         """The point furthest from P, of some or of those on its plan, else of all."""
         steps = self._expander.board.steps if among is None else [mark.step for mark in among]
         points = [step for step in steps if step.op.gives == POINT]
-        points = [step for step in points if step.panel == P.step.panel] or points
+        points = [step for step in points if step.panel == P.panel] or points
         values, here = self._expander.values, self._expander.value(P)
         far = max((step.index for step in points), key=lambda index: math.dist(here, values[index]), default=None)
         return None if far is None or self.one(P, mark := self._expander.board.marks[far]) else mark

@@ -51,7 +51,7 @@ def _upright(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
            "Divide {3}{4} in {out} as {2} divides {0}{1}.",
            claims=(("along", (0, 2), (0, 1)), ("along", (3, -1), (3, 4)), ("proportion", 0, 1, 2, 3, 4)),
-           fails=("points-coincide",), forms={
+           fails=("points-coincide",), afar=((0, 1, 2),), forms={
                "at an end": lambda s, A, B, C, P, Q:
                    P if s.one(A, C) or s.one(P, Q) else Q if s.one(B, C) else None,
                "upright": _upright,
@@ -86,7 +86,7 @@ def _foot_and_side(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str)
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
            "On {3}{4} draw the figure similar to {0}{1}{2}, its sides {turn}: mark {out}.",
            claims=(("image", 0, 1, 3, 4), ("image", 0, 2, 3, -1), ("image", 1, 2, 4, -1), ("likeness", 0, 1, 2, 3, 4)),
-           fails=("points-coincide",), params=("turn",),
+           fails=("points-coincide",), params=("turn",), afar=((0, 1, 2),),
            source="Rosenauer 1939, No. 14; Ozols 1974, 5-2", forms={
                "at a corner": lambda s, A, B, C, a, b, turn:
                    a if s.one(A, C) or s.one(a, b) else b if s.one(B, C) else None,
@@ -126,9 +126,18 @@ def _auxiliary_point(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, t
     return getattr(s, turn)(s.side(Q, C), q)
 
 
+def _sized(s: Any, A: Any, alpha: Any, B: Any) -> tuple[Any, Any]:
+    """Where on a locus a trial figure begins, and how large it is: as the link, or on another plan as what is drawn."""
+    if s.share_plan(alpha, A):
+        return A, B
+    start = s.points_on(alpha)[0]
+    far = s.clear_of(start)
+    return start, s.transfer(A, B, start) if far is None else far
+
+
 def _trial(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, turn: str, ratio: float, mark: str) -> Any:
     """The image of C in one trial figure, its side A'B' fitted between the loci."""
-    a = s.pick(alpha, A, B, ratio=ratio, name="A" + mark)
+    a = s.pick(alpha, *_sized(s, A, alpha, B), ratio=ratio, name="A" + mark)
     b = s.meet(getattr(s, turn)(s.side(A, B), a), beta, name="B" + mark)
     return s.similar(A, B, C, a, b, turn=turn, name="C" + mark)
 
@@ -147,8 +156,8 @@ def _trials(*ratios: float) -> Form:
            "From the loci {1} of {0} and {3} of {2}, draw the locus {out} of the image of {4}, a "
            "point of their link, the image's sides {turn}.",
            claims=(("locus", 0, 1, 2, 3, 4),), fails=("locus-undetermined",), params=("turn",),
-           source="Rosenauer 1939, No. 14: auxiliary points Q, R and trial triangle", where=1, weighed=True,
-           described="the locus of the end of {4}", forms={
+           source="Rosenauer 1939, No. 14: auxiliary points Q, R and trial triangle", where=1, afar=((0, 2, 4),),
+           weighed=True, described="the locus of the end of {4}", forms={
                "the same point": lambda s, A, alpha, B, beta, C, turn:
                    alpha if s.one(A, C) else beta if s.one(B, C) else None,
                "the same line": lambda s, A, alpha, B, beta, C, turn:
@@ -190,7 +199,7 @@ def _other_locus(s: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, 
            "From {1}, the image of {0}, and the loci {3} of {2} and {5} of {4}, mark {out}, the image of {2}, "
            "the image's sides {turn}.",
            claims=(("on", 3), ("image", 0, 2, 1, -1), ("carried", 0, 2, 4, 1, 5)),
-           fails=("lines-parallel",), params=("turn",), forms={
+           fails=("lines-parallel",), params=("turn",), afar=((0, 2, 4),), forms={
                "the same point": lambda s, C, c, A, alpha, B, beta, turn: c if s.one(C, A) else None,
                "its own locus": lambda s, C, c, A, alpha, B, beta, turn:
                    s.meet(getattr(s, turn)(s.side(C, A), c), alpha),
@@ -226,7 +235,7 @@ def _ordinates(carry: str, s: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, 
            "Trial {0} leaves {2} off {3}, trial {1} leaves {4} off {5}: by false position mark {out}, which leaves "
            "no error.", claims=(("alike", 3, 5), ("along", (0, -1), (0, 1)), ("balanced", 0, 1, 2, 3, 4, 5)),
            fails=("points-coincide", "trials-agree"), source="false position; Rosenauer 1939, No. 14", where=0,
-           method="false position", forms={
+           afar=((2, 3, 4, 5),), method="false position", forms={
                "a trial that fits": lambda s, A1, A2, Z1, l1, Z2, l2:
                    A1 if s.lies_on(Z1, l1) else A2 if s.lies_on(Z2, l2) else None,
                "errors as ordinates": partial(_ordinates, "transfer"),

@@ -125,10 +125,10 @@ class Primitive:
     | `fails` | the codes of what may go wrong |
     | `params` | the names of what it is given beside its operands |
     | `source` | author, year and section |
-    | `where` | the operand on whose plan it is drawn (-1: the last) |
+    | `where` | the operand on whose plan it is drawn (-1: the last), with all that are not `afar` |
     | `symmetric` | whether the order of its operands does not matter |
     | `movement` | what the hand does |
-    | `afar` | operands that may lie on another plan, all on one: of them only directions and lengths count |
+    | `afar` | operands that may lie on other plans, each group on one: vectors, openings and directions |
     | `reversal` | the parameter that turns round where the first operand runs the other way, or curves change places |
     | `described` | how a line is spoken of where its number says nothing |
     | `forms` | the ways to draw a compound from other operations, by name, the textbook's first |
@@ -152,7 +152,7 @@ class Primitive:
     where: int = -1
     symmetric: bool = False
     movement: Movement = Movement.OTHER
-    afar: tuple[int, ...] = ()
+    afar: tuple[tuple[int, ...], ...] = ()
     reversal: str = ""
     described: str = ""
     weighed: bool = False
@@ -175,6 +175,11 @@ class Primitive:
     def free(self) -> bool:
         """Whether it stands where it is put, made from no mark: a point of the pose, or the beginning of a plan."""
         return self.gives == POINT and not self.reads
+
+    @cached_property
+    def near(self) -> tuple[int, ...]:
+        """The operands that lie on the plan on which it is drawn: all but vectors, openings and directions."""
+        return tuple(place for place in range(len(self.reads)) if not any(place in group for group in self.afar))
 
     @cached_property
     def root(self) -> int | None:

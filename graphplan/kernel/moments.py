@@ -25,7 +25,8 @@ def _across(u: Any, part: Any, m: Any) -> Any:
            "Measure the arms about {0}: from {5} lay off the force at {1}, square to {0}{1}, that balances the force "
            "from {3} to {4} at {2}; mark {out}.",
            claims=(("across", (5, -1), (0, 1)), ("counters", 0, 1, 2, 3, 4, 5)), fails=("points-coincide",),
-           source="Ozols 1974, 10-2: tangential parts from moments", movement=Movement.MEASURED, sizing=Sizing.MOMENTS)
+           source="Ozols 1974, 10-2: tangential parts from moments", afar=((0, 1, 2), (3, 4)),
+           movement=Movement.MEASURED, sizing=Sizing.MOMENTS)
 def balance(d: Any, Y: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
     """The end of the force at X, square to YX and laid off from m, that balances the force pq at C about Y."""
     arm = apart(d, Y, X, NO_ARM)
@@ -36,7 +37,7 @@ def balance(d: Any, Y: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
            "For the couple take a pair of forces at {0} and {1}, square to {0}{1}: from {2} lay off that at {1}; mark "
            "{out}.",
            claims=(("across", (2, -1), (0, 1)), ("turns", 0, 1, 2)), fails=("points-coincide",), params=("moment",),
-           source="Ozols 1974, 10-6", movement=Movement.MEASURED, sizing=Sizing.COUPLE)
+           source="Ozols 1974, 10-6", afar=((0, 1),), movement=Movement.MEASURED, sizing=Sizing.COUPLE)
 def couple(d: Any, P: Any, R: Any, m: Any, /, *, moment: Any) -> Any:
     """The end of the force at R, square to PR and laid off from m, that with its opposite at P has a given moment."""
     arm = apart(d, P, R, NO_ARM)
@@ -47,7 +48,8 @@ def couple(d: Any, P: Any, R: Any, m: Any, /, *, moment: Any) -> Any:
            "For the inertia couple, by the tangential part of the acceleration from {2} to {3}, take a pair of forces "
            "at {0} and {1}, square to {0}{1}: from {4} lay off that at {1}, reversed; mark {out}.",
            claims=(("across", (4, -1), (0, 1)), ("resists", 0, 1, 2, 3, 4)), fails=("points-coincide",),
-           params=("ratio",), source="Ozols 1974, 9-2, fig. 9-4", movement=Movement.MEASURED, sizing=Sizing.INERTIA)
+           params=("ratio",), source="Ozols 1974, 9-2, fig. 9-4", afar=((0, 1), (2, 3)),
+           movement=Movement.MEASURED, sizing=Sizing.INERTIA)
 def inertia_pair(d: Any, P: Any, R: Any, a: Any, b: Any, m: Any, /, *, ratio: Any) -> Any:
     """The end of the force at R, laid off from m, whose pair with P is the inertia couple; ab is R's motion about P."""
     arm = apart(d, P, R, NO_ARM)
@@ -59,7 +61,7 @@ def inertia_pair(d: Any, P: Any, R: Any, a: Any, b: Any, m: Any, /, *, ratio: An
            "Mark {out} where a force along that from {3} to {4} touches the friction circle about {0} so "
            "that it turns against the motion that the vector from {1} to {2} shows.",
            claims=(("touches", 0, 1, 2, 3, 4),), fails=("points-coincide",), where=0, params=("radius",),
-           source="Ozols 1974, 12-4, fig. 12-11", movement=Movement.MEASURED, sizing=Sizing.FRICTION)
+           afar=((3, 4),), source="Ozols 1974, 12-4, fig. 12-11", movement=Movement.MEASURED, sizing=Sizing.FRICTION)
 def touch(d: Any, P: Any, R: Any, w: Any, p: Any, q: Any, /, *, radius: Any) -> Any:
     """The point of the friction circle of a journal at P through which its force acts, as its last one pq says.
 
@@ -77,7 +79,8 @@ def touch(d: Any, P: Any, R: Any, w: Any, p: Any, q: Any, /, *, radius: Any) -> 
            "Through {1} draw {out}, which leans from {0} by the friction angle, of tangent {coefficient}: a force "
            "square to it, on the side of that from {3} to {4}, is against the sliding that the vector from {1} to {2} "
            "shows.",
-           claims=(("on", 1), ("leans", 0, 1, 2, 3, 4)), where=1, params=("coefficient",), source="Ozols 1974, 12-1")
+           claims=(("on", 1), ("leans", 0, 1, 2, 3, 4)), where=1, params=("coefficient",), afar=((3, 4),),
+           source="Ozols 1974, 12-1")
 def lean(d: Any, l: Any, B: Any, w: Any, p: Any, q: Any, /, *, coefficient: Any) -> Any:
     """A guide turned by the friction angle: the slide's reaction is square to it.
 
@@ -96,7 +99,7 @@ def lean(d: Any, l: Any, B: Any, w: Any, p: Any, q: Any, /, *, coefficient: Any)
            "Through {0} draw {out}, the line of pressure: it leans from the force that runs from {2} to {3}, towards "
            "{1}, by the pressure angle, of tangent {coefficient}.",
            claims=(("on", 0), ("presses", 0, 1, 2, 3)), fails=("points-coincide",), where=0, params=("coefficient",),
-           source="Ozols 1974, 11-2, figs. 11-3 to 11-5")
+           afar=((2, 3),), source="Ozols 1974, 11-2, figs. 11-3 to 11-5")
 def pressure_line(d: Any, P: Any, B: Any, p: Any, q: Any, /, *, coefficient: Any) -> Any:
     """The line of the tooth force at the pitch point P on the wheel with the centre B; pq is its circumferential part.
 
@@ -112,7 +115,7 @@ def pressure_line(d: Any, P: Any, B: Any, p: Any, q: Any, /, *, coefficient: Any
            "{3}, are one force, shifted by the couple over the force: mark {out}, a point of its line.",
            claims=(("across", (0, -1), (1, 2)), ("takes couple", 0, 1, 2, 3, 4, 5, 6)), fails=("couple-alone",),
            where=0, source="Ozols 1974, 10-2: arms of slider reactions", movement=Movement.MEASURED,
-           sizing=Sizing.SHIFT)
+           afar=((1, 2), (3, 4), (5, 6)), sizing=Sizing.SHIFT)
 def resultant(d: Any, C: Any, p: Any, q: Any, P: Any, R: Any, a: Any, b: Any) -> Any:
     """The point, square to the force pq from C, where pq alone does what it does at C with a pair of forces."""
     force = vector(p, q)
@@ -170,7 +173,8 @@ def _resolved(s: Any, y: Any, z: Any, X: Any, C: Any, p: Any, q: Any, m: Any) ->
            "Take moments about the point where {0} meets {1}: from {6} lay off the force at {2}, square to the way to "
            "that point, that balances the force from {4} to {5} at {3}; mark {out}.",
            claims=(("counters afar", 0, 1, 2, 3, 4, 5, 6),), fails=("points-coincide",),
-           source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces", method="auxiliary points", forms={
+           source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces", method="auxiliary points",
+           afar=((0, 1, 2, 3), (4, 5)), forms={
                "auxiliary point": lambda s, y, z, X, C, p, q, m: s.balance(s.meet(y, z, name="Q"), X, C, p, q, m),
                "resolution": _resolved,
                "its part across": lambda s, y, z, X, C, p, q, m:

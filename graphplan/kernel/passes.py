@@ -68,7 +68,7 @@ def gathered(program: Program) -> tuple[Program, list[int]]:
     drawn: dict[int, None] = {}
     left: dict[str, list[Step]] = {}
     for step in program.steps:
-        left.setdefault(step.panel, []).append(step)
+        left.setdefault(step.panel.whole, []).append(step)
     queue = [(steps[0].index, steps) for steps in left.values()]  # the plan whose next step comes first is next
     heapify(queue)
     while queue:

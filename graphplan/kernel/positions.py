@@ -144,7 +144,7 @@ def _laid_by_ordinates(s: Any, l: Any, P: Any, *, dx: Any, dy: Any, ux: Any, uy:
 @primitive((LINE, POINT), POINT, SCALE,
            "From {1} lay off the vector to a further point of the link, which turns as {0} does: mark {out}.",
            claims=(("set off", 0, 1),), fails=("no-direction",), params=("dx", "dy", "ux", "uy"),
-           forms={"ordinates": _laid_by_ordinates})
+           afar=((0,),), forms={"ordinates": _laid_by_ordinates})
 def set_off(d: Any, l: Any, P: Any, /, *, dx: Any, dy: Any, ux: Any, uy: Any) -> Any:
     """The point of a link that lies from P as (dx, dy) does where the line runs as (ux, uy) does."""
     v, u, ray = (d.lift(dx), d.lift(dy)), (d.lift(ux), d.lift(uy)), (l[1], -l[0])

@@ -113,7 +113,7 @@ def radius(d: Any, /, *, length: Any) -> Any:
 
 
 @primitive((POINT, OPENING), CIRCLE, COMPASSES, "About {0} strike {out} with {1}.",
-           claims=(("centre", 0), ("opened", 1)), where=0, movement=Movement.STRUCK, afar=(1,))
+           claims=(("centre", 0), ("opened", 1)), where=0, movement=Movement.STRUCK, afar=((1,),))
 def circle(d: Any, C: Any, o: Any) -> Any:
     """The circle about a centre with an opening."""
     return C[0], C[1], o[0]
@@ -153,7 +153,7 @@ def circles_meet(d: Any, k: Any, m: Any, /, *, side: str) -> Any:
 @primitive((POINT, POINT, POINT), POINT, SCALE,
            "From {2} lay off a multiple of the vector from {0} to {1}: mark {out}.",
            claims=(("along", (2, -1), (0, 1)), ("times", (2, -1), (0, 1))), params=("ratio",),
-           movement=Movement.LAID_OFF, afar=(0, 1))
+           movement=Movement.LAID_OFF, afar=((0, 1),))
 def step_off(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
     """A given multiple of the vector PQ laid off from R."""
     r = d.lift(ratio)
@@ -163,7 +163,7 @@ def step_off(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
 @primitive((POINT, POINT, POINT), POINT, SCALE,
            "From {2} lay off a multiple of the vector from {0} to {1}, turned a quarter counter-clockwise: mark {out}.",
            claims=(("across", (2, -1), (0, 1)), ("times across", (2, -1), (0, 1))), params=("ratio",),
-           movement=Movement.TURNED, afar=(0, 1))
+           movement=Movement.TURNED, afar=((0, 1),))
 def step_across(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
     """A given multiple of the vector PQ, turned a quarter counter-clockwise, laid off from R."""
     r = d.lift(ratio)
@@ -171,7 +171,8 @@ def step_across(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
 
 
 @primitive((LINE, POINT), POINT, SCALE, "From {1} lay off the given length along {0}: mark {out}.",
-           claims=(("laid", 0, 1),), params=("length",), movement=Movement.LAID_ALONG, reversal="length")
+           claims=(("laid", 0, 1),), params=("length",), movement=Movement.LAID_ALONG, afar=((0,),),
+           reversal="length")
 def lay_along(d: Any, l: Any, P: Any, /, *, length: Any) -> Any:
     """A given length laid off from a point the way a line runs."""
     unit = d.sqrt(dot(l, l), "not-rational", "a length along this line is irrational")

@@ -17,6 +17,7 @@ from graphplan.kernel import kinds
 from graphplan.kernel.incidence import Heading, Total, bearing, incident, laid_off
 from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, worded
 from graphplan.kernel.numbers import Domain
+from graphplan.kernel.plans import require_one_plan
 from graphplan.kernel.stages import Stage, Teller, staged
 from graphplan.phrases import Said, arranged, phrase, said
 
@@ -63,9 +64,10 @@ class Panel(str):
 class Step:
     """One drawing step: what it makes (`name`), how (`op`), from which earlier steps (`args`, by index).
 
-    `panel` is the plan it is drawn on, `why` the law or purpose, `links` the links of the mechanism it speaks of,
-    `stage` tells what it is a part of, `names` are those of marks inside a compound, `choice` the form that begins here
-    and why it is drawn, `quantity` what a length is drawn for. `name` is empty where the mark has no letter of its own.
+    `panel` is the plan, or the part of one, that it lies on, `why` the law or purpose, `links` the links of the
+    mechanism it speaks of, `stage` tells what it is a part of, `names` are those of marks inside a compound, `choice`
+    the form that begins here and why it is drawn, `quantity` what a length is drawn for. `name` is empty where the mark
+    has no letter of its own.
     """
 
     index: int
@@ -82,12 +84,6 @@ class Step:
     quantity: kinds.Quantity | None = None
 
     @property
-    def begins(self) -> Panel:
-        """The plan, or the part of one, on which a mark stands that is made from none."""
-        begun: Panel = self.params.get("plan", self.panel)
-        return begun
-
-    @property
     def root(self) -> int | None:
         """The step of the mark that a point is laid off from, if it is."""
         return None if self.op.root is None else self.args[self.op.root]
@@ -102,18 +98,6 @@ class Step:
         step = object.__new__(Step)
         step.__dict__.update(self.__dict__, **other)
         return step
-
-
-def plan_of(step: Step, steps: Sequence[Step], found: Sequence[Panel]) -> Panel:
-    """The plan on which a step lies, from those `found` of the steps before: its own if something it reads lies there,
-    else where what it reads lies.
-
-    A semicircle on the mechanism serves a vector of the N-plan; it is drawn where its link is.
-    """
-    if not step.args:
-        return step.begins
-    read = [found[arg] for arg in step.args if steps[arg].op.gives != OPENING] or [found[step.args[0]]]
-    return next((home for home in reversed(read) if home.whole == step.panel), read[0])
 
 
 def _key(op: Primitive, args: tuple[int, ...], params: dict[str, Any]) -> tuple[Any, ...]:
@@ -144,6 +128,11 @@ class Mark:
     @property
     def kind(self) -> str:
         return self.step.op.gives
+
+    @property
+    def panel(self) -> Panel:
+        """The plan that it lies on: with its kind it says what may be drawn from it."""
+        return self.step.panel
 
     def _refuse(self, *_: object) -> NoReturn:
         raise TypeError("a mark has no value while the construction is recorded: branch on the scene, not on the pose")
@@ -176,11 +165,13 @@ class Board(Verbs):
 
     The same operation on the same marks is drawn once, and so is the line that runs one way through one point; a vector
     that is laid off and straight back leads to where it began. A step is drawn on the plan of the mark that it is drawn
-    at; :meth:`on` says on which plan points are given, of which links the steps speak, and which stage they are a part
-    of.
+    at, from points, lines and circles of that plan and vectors, openings and directions of any; on a `coplanar` board
+    all plans lie as one. :meth:`on` says on which plan points are given, of which links the steps speak, and which
+    stage they are a part of.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, coplanar: bool = False) -> None:
+        self.coplanar = coplanar
         self.steps: list[Step] = []
         self.marks: list[Mark] = []
         self._drawn: dict[tuple[Any, ...], Mark] = {}
@@ -209,6 +200,9 @@ class Board(Verbs):
             raise TypeError(f"{op.name} takes the parameters {op.params}, was given {tuple(params)}")
         if [arg for arg in args if arg.board is not self]:
             raise ValueError(f"{op.name} was given a mark of another board")
+        panel = read[op.where].panel if read else params.get("plan", self._panel)
+        if not self.coplanar and any(step.panel != panel for step in read):
+            require_one_plan(op, [step.panel for step in read], [step.name or step.op.gives for step in read])
         against = sum([arg.against for arg in args])
         if against and op.reversal and args[0].against:
             params = op.reversed(params)
@@ -218,11 +212,10 @@ class Board(Verbs):
         key = (*heading, places[1]) if set_square else (*_key(op, places, params), *(quantity.own if quantity else ()))
         total = laid_off(*(arg.total for arg in args)) if op.movement is Movement.LAID_OFF and not params else None
         if total is not None:
-            key = (read[op.where].panel, *total)
+            key = (panel, *total)
         same = self._drawn[key] if key in self._drawn else self._back(key, total)
         if same is not None and op.movement is not Movement.GIVEN:  # coincident points of the pose stay apart
             return self._faced(self.named(same, name), against)
-        panel = read[op.where].panel if read else self._panel
         step = Step(len(self.steps), "", op, places, params, panel, why, self._links, self._stage, names or {},
                     None, quantity)
         mark = Mark(self, step, heading)
@@ -237,7 +230,7 @@ class Board(Verbs):
         if total is None or len(total) > 1 or total[0][1] != 1:
             return None
         mark = self.marks[total[0][0]]
-        return mark if mark.step.panel == key[0] else None
+        return mark if mark.panel == key[0] else None
 
     def _faced(self, mark: Mark, against: int) -> Mark:
         """What is drawn by so many lines that are drawn the other way: a line then is, too."""

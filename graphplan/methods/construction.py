@@ -251,7 +251,7 @@ class Construction(Recorded, Given):
         for step in self.drawn.steps:
             if step.choice is None or not step.choice.compound.claimed("locus"):
                 continue
-            if (step.panel in (N_PLAN, ACCELERATION_PLAN)) == (kind == kinds.ACCELERATION):
+            if (step.panel.whole in (N_PLAN, ACCELERATION_PLAN)) == (kind == kinds.ACCELERATION):
                 form = step.choice.best.form
                 if form != "auxiliary point":
                     yield said(plain(form))

@@ -22,7 +22,7 @@ from typing import Any, ClassVar
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import Quantity
-from graphplan.kernel.program import Panel, Program, Step, plan_of
+from graphplan.kernel.program import Panel, Program, Step
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
 from graphplan.sheet.frames.frame import Frame, frame_of
@@ -65,10 +65,7 @@ class Recorded:
     @cached_property
     def plans(self) -> list[Panel]:
         """The plan that each step lies on."""
-        found: list[Panel] = []
-        for step in self.program.steps:
-            found.append(plan_of(step, self.program.steps, found))
-        return found
+        return [step.panel for step in self.program.steps]
 
 
 class PaperLengths(Lengths):

@@ -69,7 +69,9 @@ def test_a_vector_laid_off_and_back_leads_to_where_it_began() -> None:
     assert board.transfer(B, A, D) is C
     assert board.transfer(C, D, A) is B
     assert board.transfer(A, C, B) is D
-    assert board.transfer(C, n, C) is not n
+    E = board.transfer(A, B, n)
+    assert E is not D
+    assert board.transfer(C, A, board.transfer(A, C, E)) is E
 
 
 @pytest.mark.parametrize("seed", range(6))

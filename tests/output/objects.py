@@ -30,6 +30,7 @@ from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.view import View
 
+Place = Callable[[Program, int], Panel]
 NAMES = sorted(name for name in TABLE if not name.startswith("close_on"))
 """All operations but those that go on until lengths close: written out they are endless, and no file has them."""
 TRIES = 2  # random figures for each operation
@@ -50,17 +51,17 @@ def programs(name: str) -> Iterator[tuple[Program, list[Any]]]:
 class Placed(Plans):
     """A program's plans: `place` says where the points that are given lie, and what is drawn there."""
 
-    place: Callable[[int], Panel]
+    place: Place
 
     @cached_property
     def plan_of_step(self) -> list[Panel]:
         found: list[Panel] = []
         for step in self.drawing.drawn.steps:
-            found.append(found[step.args[step.op.where]] if step.args else self.place(step.index))
+            found.append(found[step.args[step.op.where]] if step.args else self.place(self.drawing.drawn, step.index))
         return found
 
 
-def loose(program: Program, values: Sequence[Any], place: Callable[[int], Panel],
+def loose(program: Program, values: Sequence[Any], place: Place,
           views: Mapping[str, View] = VIEWS) -> Plates:
     """A program as it is drawn, without vectors and links."""
     scene = SimpleNamespace(title="A figure", source="", text="", points={}, links={}, moving=(), slides=(), drives=(),
@@ -75,14 +76,19 @@ def loose(program: Program, values: Sequence[Any], place: Callable[[int], Panel]
     return Plates(plans, views)
 
 
-def together(_: int) -> Panel:
+def together(_: Program, __: int) -> Panel:
     """All on one plan."""
     return MECHANISM
 
 
-def apart(index: int) -> Panel:
-    """Every third point, and what is drawn there, on another plan."""
-    return TWO if index % 3 == 1 else MECHANISM
+def apart(program: Program, index: int) -> Panel:
+    """What the last operation may take from another plan is there, with what that is drawn with."""
+    steps, near = program.steps, set[int]()
+    waiting = [steps[-1].args[place] for place in steps[-1].op.near]
+    while waiting:
+        near.add(mark := waiting.pop())
+        waiting += [steps[mark].args[place] for place in steps[mark].op.near]
+    return MECHANISM if index in near or not steps[-1].op.afar else TWO
 
 
 PLACES = pytest.mark.parametrize("place", [together, apart], ids=["one plan", "several plans"])

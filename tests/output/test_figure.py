@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import pytest
-from objects import MECHANISM, NAMES, PLACES, TWO, VIEWS, apart, coordinates, drafted_plates, gap, loose, programs
+from objects import (
+    MECHANISM,
+    NAMES,
+    PLACES,
+    TWO,
+    VIEWS,
+    Place,
+    apart,
+    coordinates,
+    drafted_plates,
+    gap,
+    loose,
+    programs,
+)
 
 import graphplan as gp
-from graphplan.kernel.program import Panel
 from graphplan.kernel.tape.written import PYTHON
 from graphplan.output.exports.formula import formula
 from graphplan.output.exports.walk import corners, identifiers
@@ -24,7 +35,7 @@ from graphplan.sheet.plates.symbols import turn
 @pytest.mark.parametrize("shared", ["t", ""], ids=["terms by name", "written in full"])
 @PLACES
 @pytest.mark.parametrize("name", NAMES)
-def test_every_rule_can_be_written_out(name: str, place: Callable[[int], Panel], shared: str) -> None:
+def test_every_rule_can_be_written_out(name: str, place: Place, shared: str) -> None:
     """The formula of every operation of the table gives its value in mm, wherever its operands lie."""
     for program, values in programs(name):
         last = loose(program, values, place).steps[-1]

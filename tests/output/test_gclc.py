@@ -6,16 +6,14 @@ import math
 import re
 import shutil
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from gcl import Reader
 from laid_out import laid_out
-from objects import NAMES, PLACES, coordinates, drafted_plates, farthest, loose, moved, programs
+from objects import NAMES, PLACES, Place, coordinates, drafted_plates, farthest, loose, moved, programs
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.kernel.program import Panel
 from graphplan.mechanism.scene import packaged
 from graphplan.output.exports.gclc import cornered, decimal, gclc
 from graphplan.output.exports.walk import extent, identifiers
@@ -66,7 +64,7 @@ def test_a_moved_point_moves_the_construction(name: str) -> None:
 
 @PLACES
 @pytest.mark.parametrize("name", NAMES)
-def test_every_operation_is_translated(name: str, place: Callable[[int], Panel]) -> None:
+def test_every_operation_is_translated(name: str, place: Place) -> None:
     """Each operation of the table becomes commands that give its value, wherever its operands lie."""
     for program, values in programs(name):
         plates = cornered(loose(program, values, place))

@@ -6,7 +6,7 @@ import cmath
 import io
 import math
 import zipfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from random import Random
@@ -17,7 +17,7 @@ import pytest
 from dragged_linkages import DraggedLinkage
 from geogebra_program import GeoGebra
 from geogebra_reader import COMMANDS, Ray, Round, opened, read
-from objects import NAMES, PLACES, drafted_plates, gap, loose, programs
+from objects import NAMES, PLACES, Place, drafted_plates, gap, loose, programs
 
 from graphplan.accuracy.reach import Reached, holding, put_right
 from graphplan.cycle.relations import relations
@@ -25,7 +25,7 @@ from graphplan.cycle.travel import paces
 from graphplan.cycle.turn import under
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.numbers.arrays import Arrays
-from graphplan.kernel.program import Panel, evaluate
+from graphplan.kernel.program import evaluate
 from graphplan.output.exports.geogebra import _GeoGebraWriter, geogebra
 from graphplan.output.exports.ggb_commands import labels
 from graphplan.sheet.cycle_frames import given_in
@@ -50,7 +50,7 @@ def coordinates(value: object) -> list[float]:
 
 @PLACES
 @pytest.mark.parametrize("name", NAMES)
-def test_every_operation(name: str, place: Callable[[int], Panel]) -> None:
+def test_every_operation(name: str, place: Place) -> None:
     """Every operation of the table gives what its rule gives, wherever its operands lie."""
     for program, values in programs(name):
         plates = loose(program, values, place)

@@ -15,10 +15,9 @@ from typing import Any
 
 import pytest
 from laid_out import laid_out
-from objects import NAMES, PLACES, drafted_plates, farthest, gap, loose, programs
+from objects import NAMES, PLACES, Place, drafted_plates, farthest, gap, loose, programs
 
 from graphplan.cycle.turn import follow, under
-from graphplan.kernel.program import Panel
 from graphplan.mechanism.scene import packaged
 from graphplan.output.exports.jsxgraph import LIBRARY, jsxgraph, ways
 from graphplan.output.exports.walk import identifiers
@@ -94,7 +93,7 @@ def points_of(page: Any, plates: Plates) -> dict[Any, complex]:
 
 
 @PLACES
-def test_every_operation(opened: Callable[[str], Any], place: Callable[[int], Panel]) -> None:
+def test_every_operation(opened: Callable[[str], Any], place: Place) -> None:
     """Every operation of the table gives what its rule gives, wherever its operands lie."""
     for plates in (loose(*next(programs(name)), place) for name in NAMES):
         names = identifiers(plates.drawn)

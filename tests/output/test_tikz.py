@@ -6,16 +6,14 @@ import math
 import re
 import shutil
 import subprocess
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from laid_out import laid_out
-from objects import MECHANISM, NAMES, PLACES, TWO, VIEWS, loose, programs
+from objects import MECHANISM, NAMES, PLACES, TWO, VIEWS, Place, loose, programs
 
 from graphplan.kernel.kinds import POINT
-from graphplan.kernel.program import Panel
 from graphplan.output.exports.latex import standalone
 from graphplan.output.exports.tikz import TikzWriter
 from graphplan.output.exports.tkz import TkzWriter
@@ -84,7 +82,7 @@ def test_every_step_is_said_and_nothing_used_before_it_is_made(writer: Export, n
 @BOTH
 @PLACES
 @pytest.mark.parametrize("name", NAMES)
-def test_every_operation_is_translated(writer: Export, name: str, place: Callable[[int], Panel]) -> None:
+def test_every_operation_is_translated(writer: Export, name: str, place: Place) -> None:
     """Each operation of the table gives coordinates under its sentence, a line through two points apart."""
     for program, values in programs(name):
         plates = loose(program, values, place)
@@ -100,9 +98,9 @@ def test_every_operation_is_translated(writer: Export, name: str, place: Callabl
 @BOTH
 def test_what_tex_cannot_hold_is_left_out_and_told(writer: Export) -> None:
     """A mark too far out for TeX's dimensions gets no coordinate; what rests on it stands as it lies, and says so."""
-    program, values = next(programs("midpoint"))
+    program, values = next(programs("transfer"))
     out = VIEWS[MECHANISM].origin[0] + 6000.0, 0.0
-    plates = loose(program, values, lambda index: MECHANISM if index else TWO,
+    plates = loose(program, values, lambda _, index: TWO if index < 2 else MECHANISM,
                    {**VIEWS, TWO: replace(VIEWS[MECHANISM], origin=out)})  # fmt: skip
     first, last, names = plates.steps[0], plates.steps[-1], identifiers(plates.drawn)
     source = written(writer, plates)

@@ -17,12 +17,13 @@ from copy import copy
 from fractions import Fraction
 from functools import partial
 
-from graphplan.kernel.kinds import LINE, POINT
+from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.mechanism.model import Number, Slide
 from graphplan.methods.motion import moves
 from graphplan.methods.motion.moves import Locus, Move
 from graphplan.methods.motion.network import POLE, BodyPoint, DrivenPair, Network
+from graphplan.methods.motion.shifts import shifted, start_on
 from graphplan.methods.motion.stages import MotionStages, Words, auxiliary
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.poses import Pose
@@ -107,8 +108,10 @@ class MotionPlan:
         return self._step(base, at, ratio) if ratio else at
 
     def far_from(self, place: BodyPoint) -> Mark:
-        """A mark away from the home of a place, to take the size of a trial from."""
-        return self.pose.far_from(place)
+        """A mark away from the home of a place, to take the size of a trial from: as far as the place is from another
+        point of its link."""
+        far, home = self.pose.far_from(place), self.home(place)
+        return far if far.panel == home.panel else self.board.transfer(self.point(place), far, home)
 
     def pole_shift(self, move: moves.Pole) -> Vector | None:
         """The vector from the relative pole's end in the first body to its end in the second, if there is any."""
@@ -238,16 +241,12 @@ class MotionPlan:
     def _hopped(self, weld: DrivenPair, point: str, mark: Mark, sign: int) -> Mark:
         if mark.kind == POINT:
             return self.hop(weld, point, mark, sign)
-        start = self.pose.points[point]
+        start = start_on(self.board, mark, self.pose.points[point])
         return self.moved(mark, start, self.hop(weld, point, start, sign))
 
     def moved(self, mark: Mark, one: Mark, two: Mark) -> Mark:
-        """A point or line shifted by the vector from one mark to another; nothing is drawn where they are one."""
-        if one is two:
-            return mark
-        if mark.kind == LINE:
-            return self.board.shift(mark, one, two)
-        return two if mark is one else self.board.transfer(one, mark, two)
+        """A point or line shifted by the vector from one mark to another."""
+        return shifted(self.board, mark, one, two)
 
     def _locus_in(self, body: str, locus: Locus) -> Mark:
         return self._inward(body, locus[0], self.loci[locus])
@@ -293,8 +292,9 @@ class MotionPlan:
 
     def _slipped(self, body: str, A: Locus, X: BodyPoint, like: str) -> Mark:
         """A's locus moved along by the known vector from A's end to X's."""
-        through = self._as_turned(body, like, A[0], X, self.point(A[0]))
-        line = self.board.shift(self._locus_in(body, A), self.point(A[0]), through)
+        locus = self._locus_in(body, A)
+        start = start_on(self.board, locus, self.point(A[0]))
+        line = self.moved(locus, start, self._as_turned(body, like, A[0], X, start))
         return self._outward(body, X, line)
 
     def _as_turned(self, body: str, like: str, A: BodyPoint, X: BodyPoint, at: Mark) -> Mark:

@@ -131,10 +131,6 @@ class Polar(Velocity):
         with self.board.on(self.panel, stage=begun("p", self.panel.words, pole=True)):
             return self.board.pole(plan=self.panel, name="p")
 
-    def far_from(self, place: BodyPoint) -> Mark:
-        """As far from the pole as the place is from another point of its link."""
-        return self.board.transfer(self.point(place), super().far_from(place), self.pole)
-
     def origin(self, point: str) -> Mark:
         return self.pole
 
@@ -163,9 +159,6 @@ class Triangles(Polar):
 
     def home(self, place: BodyPoint) -> Mark:
         return self.point(place)
-
-    def far_from(self, place: BodyPoint) -> Mark:
-        return self.pose.far_from(place)
 
     def _rest(self, place: BodyPoint) -> Mark:
         """On a link that a drive turns on the frame the velocity is laid off at its point."""

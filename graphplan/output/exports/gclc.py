@@ -19,7 +19,7 @@ from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, Movem
 from graphplan.kernel.tape.written import Language, operations
 from graphplan.output.exports.formula import formula
 from graphplan.output.exports.latex import formulated, lettering, points
-from graphplan.output.exports.walk import REACH, Letter, Source, at_home, extent, heading, parameters, turned_back
+from graphplan.output.exports.walk import REACH, Letter, Source, extent, heading, parameters, turned_back
 from graphplan.phrases import said
 from graphplan.sheet.lettering.label_candidates import BALLOON
 from graphplan.sheet.lettering.lettering import CAPS
@@ -255,8 +255,6 @@ class _GclcWriter(Source):
         if drawn.kind == POINT:
             return self._place(name)
         if drawn.kind == CIRCLE:
-            if not at_home(drawn):
-                return [f"{name}_{part}" for part in COORDINATES[CIRCLE]]
             centre, opened = map(self.names.__getitem__, drawn.args)
             return [*self._place(centre), f"({opened}*{decimal(parameters(drawn)['k'])})"]
         (a, b), (c, d) = (self._place(end) for end in self._way(drawn))
@@ -270,7 +268,7 @@ class _GclcWriter(Source):
     def _foothold(self, line: DrawnStep) -> str:
         """A point of a line."""
         movement, ends = line.step.op.movement, [self.names[arg] for arg in line.args]
-        if movement not in COMMANDS or not at_home(line):
+        if movement not in COMMANDS:
             return f"{self.names[line]}_at"
         if movement is Movement.BISECTED:
             self._once(f"{self.names[line]}_at", f"midpoint {self.names[line]}_at {ends[0]} {ends[1]}")
@@ -280,7 +278,7 @@ class _GclcWriter(Source):
     def _way(self, line: DrawnStep) -> tuple[str, str]:
         """Two points from one of which to the other a line runs, on it or beside it."""
         movement, name = line.step.op.movement, self.names[line]
-        if movement not in COMMANDS or not at_home(line):
+        if movement not in COMMANDS:
             return f"{name}_at", f"{name}_to"
         if movement is Movement.PARALLEL:
             return self._way(line.args[0])
@@ -319,8 +317,8 @@ class _GclcWriter(Source):
 
     def arc(self, arc: StruckArc) -> None:
         self._pen(pens.ARC)
-        centre = self.names[arc.of.args[0]] if at_home(arc.of) else f"{self.names[arc.of]}_at"
-        self.lines.append(f"call swing {{ {centre} {self.names[arc.mark]} {_short(arc.before)} {_short(arc.after)} }}")
+        ends = f"{self.names[arc.of.args[0]]} {self.names[arc.mark]}"
+        self.lines.append(f"call swing {{ {ends} {_short(arc.before)} {_short(arc.after)} }}")
 
     def chain(self, pen: Pen, spots: Sequence[Spot], closed: bool) -> None:
         """A figure is filled by triangles about its first corner: all are convex."""

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.kernel.tape.written import Language, operations
 from graphplan.output.exports.formula import formula
-from graphplan.output.exports.walk import at_home, parameters, turned_back
+from graphplan.output.exports.walk import parameters, turned_back
 from graphplan.sheet.lettering.lettering import name_runs
 from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.plate import Plates
@@ -72,7 +72,7 @@ def written(drawn: DrawnStep, labels: Mapping[DrawnStep, str],
     `guides` say where those guides point that ride on links.
     """
     movement = drawn.step.op.movement
-    if movement in COMMANDS and at_home(drawn):
+    if movement in COMMANDS:
         name, *inputs = COMMANDS[movement]
         told = {name: number(value) for name, value in parameters(drawn).items()}
         for place, arg in enumerate(drawn.args):
@@ -96,7 +96,7 @@ def ruled(drawn: DrawnStep, labels: Mapping[DrawnStep, str], against: bool = Fal
 
 def _circle(circle: DrawnStep, labels: Mapping[DrawnStep, str]) -> tuple[str, str]:
     """The centre and the radius of a circle: the marks that it was struck with, where they are as large here."""
-    if circle.step.op.movement is Movement.STRUCK and at_home(circle):
+    if circle.step.op.movement is Movement.STRUCK:
         centre, opening = (labels[arg] for arg in circle.args)
         factor = parameters(circle)["k"]
         return centre, opening if factor == 1 else f"({number(factor)} * {opening})"

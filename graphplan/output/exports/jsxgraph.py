@@ -26,7 +26,7 @@ from graphplan.methods.forces.changing import drawn_components
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.exports.formula import formula
-from graphplan.output.exports.walk import BACK, FRONT, Elements, Letter, at_home, corners, identifiers, parameters
+from graphplan.output.exports.walk import BACK, FRONT, Elements, Letter, corners, identifiers, parameters
 from graphplan.output.live.motion import motion
 from graphplan.output.live.motion import script as followed
 from graphplan.phrases import arranged, said, unit
@@ -224,7 +224,7 @@ class _JsxGraphWriter(Elements):
             return f"{own} = J[{_json(drawn.name)}]"
         if drawn.free:
             element, parents = "point", [repr(part) for part in drawn.at]
-        elif native and at_home(drawn):
+        elif native:
             element, parents = native[0], [text.format(*called, **self._told(drawn)) for text in native[1:]]
         else:
             element, parents = self._formulated(drawn)

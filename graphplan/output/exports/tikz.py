@@ -18,7 +18,7 @@ from graphplan.output.exports import latex
 from graphplan.output.exports.formula import formula
 from graphplan.output.exports.latex import HEADS, LETTERS, NAMES, lettering
 from graphplan.output.exports.slides import Slides, captioned
-from graphplan.output.exports.walk import REACH, Letter, Source, at_home, extent, heading, parameters, turned_back
+from graphplan.output.exports.walk import REACH, Letter, Source, extent, heading, parameters, turned_back
 from graphplan.phrases import said
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import captions
@@ -212,7 +212,7 @@ class TikzWriter(Source):
     def ends(self, line: DrawnStep) -> tuple[str, str]:
         """Two coordinates from one of which to the other a line runs."""
         name, movement = self.names[line], line.step.op.movement
-        if movement not in COMMANDS or line in self.literal or not at_home(line):
+        if movement not in COMMANDS or line in self.literal:
             return f"{name}_at", f"{name}_to"
         if movement is Movement.RULED:
             return self.names[line.args[0]], self.names[line.args[1]]
@@ -220,8 +220,7 @@ class TikzWriter(Source):
 
     def centre(self, circle: DrawnStep) -> str:
         """The coordinate of a circle's centre."""
-        kept = at_home(circle) and circle not in self.literal
-        return self.names[circle.args[0]] if kept else f"{self.names[circle]}_at"
+        return f"{self.names[circle]}_at" if circle in self.literal else self.names[circle.args[0]]
 
     def reckon(self, drawn: DrawnStep) -> None:
         read: dict[str, None] = {}

@@ -49,19 +49,9 @@ def identifiers(drawn: Iterable[DrawnStep]) -> dict[DrawnStep, str]:
     return found
 
 
-def at_home(drawn: DrawnStep) -> bool:
-    """Whether a mark is drawn on its own plan from what lies there, but for openings, directions and whole vectors.
-
-    What is not is reckoned by its formula: on the draughtsman's paper the plans lie on each other, here they do not.
-    """
-    afar = drawn.step.op.afar
-    near = {arg.panel for place, arg in enumerate(drawn.args) if place not in afar}
-    return near <= {drawn.panel} and len({drawn.args[place].panel for place in afar}) < 2
-
-
 def heading(line: DrawnStep) -> Spot:
     """How far, in mm, the two ends of a line stand apart: its own two points', or as the line that it follows."""
-    movement, args = line.step.op.movement if at_home(line) else Movement.OTHER, line.args
+    movement, args = line.step.op.movement, line.args
     if movement in (Movement.RULED, Movement.BISECTED):
         (x, y), (u, v) = args[0].at, args[1].at
         return (u - x, v - y) if movement is Movement.RULED else (y - v, u - x)
@@ -74,7 +64,7 @@ def heading(line: DrawnStep) -> Spot:
 def parameters(drawn: DrawnStep) -> dict[str, float]:
     """The numbers of a command: what is given, in mm, and {k}, by which lengths from another plan are multiplied."""
     params, afar = drawn.step.params, drawn.step.op.afar
-    factor = drawn.factor(drawn.args[afar[0]]) if afar else 1.0
+    factor = drawn.factor(drawn.args[afar[0][0]]) if afar else 1.0
     lengths = {part: drawn.view.scale * float(params[part]) for part in params if part in ("dx", "dy")}
     return {**lengths, "k": factor * float(params.get("ratio", 1))}
 
@@ -223,7 +213,7 @@ class Source(Walk):
 
     def step(self, drawn: DrawnStep) -> None:
         """The commands of a mark: the language's own where it has them, else what its formula says."""
-        command = self.command(drawn) if at_home(drawn) else None
+        command = self.command(drawn)
         if drawn.free:
             self.put(drawn)
         elif command is None:

@@ -92,9 +92,8 @@ class DrawnStep:
 
     @property
     def root(self) -> DrawnStep | None:
-        """The mark of its own plan that a point is laid off from, if it is: a stroke joins the two."""
-        root = None if self.step.op.root is None else self.args[self.step.op.root]
-        return root if root and root.kind == POINT and root.panel == self.panel else None
+        """The mark that a point is laid off from, if it is: a stroke joins the two."""
+        return None if self.step.op.root is None else self.args[self.step.op.root]
 
     def factor(self, other: DrawnStep) -> float:
         """How many mm here are one mm on the plan of another: by it a length is carried over."""

@@ -12,7 +12,7 @@ from functools import cached_property, reduce
 from typing import Any
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
-from graphplan.kernel.program import Panel, Step, plan_of
+from graphplan.kernel.program import Panel, Step
 from graphplan.methods.construction import Construction, DrawnVector
 from graphplan.methods.panels import MECHANISM, ForcePlan, LeverPlan
 from graphplan.sheet.plates.display import Rect, Spot
@@ -59,16 +59,11 @@ class Plans:
 
     @cached_property
     def plan_of_step(self) -> list[Panel]:
-        """The plan of every step, see :func:`graphplan.kernel.program.plan_of`.
+        """The plan of every step.
 
         Compasses alone cannot carry a direction from plan to plan: in a strict drawing all plans lie as one.
         """
-        if self.drawing.strict:
-            return [MECHANISM] * len(self.drawing.drawn)
-        out: list[Panel] = []
-        for step in self.drawing.drawn.steps:
-            out.append(plan_of(step, self.drawing.drawn.steps, out))
-        return out
+        return [MECHANISM if self.drawing.strict else step.panel for step in self.drawing.drawn.steps]
 
     @cached_property
     def panels(self) -> list[Panel]:
@@ -116,8 +111,8 @@ class Plans:
         return float(x), float(y)
 
     def vectors(self, panel: str) -> list[DrawnVector]:
-        """The vectors drawn on a plan; one that begins on another plan cannot be."""
-        return [v for v in self.drawing.arrows if self.plan_of_step[v.start] == self.plan_of_step[v.end] == panel]
+        """The vectors drawn on a plan."""
+        return [vector for vector in self.drawing.arrows if self.plan_of_step[vector.end] == panel]
 
     @cached_property
     def lengths(self) -> list[tuple[str, Panel, float]]:
@@ -181,7 +176,7 @@ class Plans:
         for vector in self.vectors(panel):
             yield from (vector.start, vector.end)
         for step in (drawn.steps[index] for index in self.points(panel)):
-            if step.root is not None and self.plan_of_step[step.root] == panel and drawn.given_vector(step):
+            if step.root is not None and drawn.given_vector(step):
                 yield from (step.root, step.index)
             elif forces and panel != MECHANISM and step.name:
                 yield step.index

@@ -122,7 +122,7 @@ class Lengths:
             wide = Measure(self.values[out][2] ** 0.5 / self.per_mm(out), (out, out))
             taken = Measure(self.values[args[1]][0] ** 0.5 / self.per_mm(args[1]), (args[1], args[1]))
             yield from () if self._alike(taken, wide) else (self._carried(taken, wide),)
-        elif op.movement is Movement.PICKED and self.plan(args[1]) == self.plan(out):
+        elif op.movement is Movement.PICKED:
             away = self.between(args[1], out)
             yield Length(said("Here {0} from {1}", away.told, self.program.text(args[1])), (away,))
         elif op.root is not None and op.movement in LAID and op.movement is not Movement.DROPPED:

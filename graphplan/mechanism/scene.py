@@ -143,15 +143,23 @@ def tables_of(text: str, name: str) -> dict[str, object]:
     except RecursionError:
         fault = Fault("file", "tables or lists are nested too deeply", "a scene as the manual shows it")
     except ValueError as error:
-        from graphplan.mechanism.slips import slip_in_line  # few scenes have faults
-
-        # a numeral that Python refuses to read has no place of its own
-        told = re.fullmatch(r"(.*) \(at (.*)\)", str(error), re.DOTALL)
-        what, where = (told[1], told[2].replace("end of document", "end of file")) if told else (str(error), "file")
-        line = re.match(r"line (\d+)", where)
-        slip = slip_in_line(text.splitlines()[int(line[1]) - 1]) if line else None
-        fault = Fault(where, *(slip or (f"this is no TOML: {what}", "text that follows toml.io")))
+        fault = _no_toml(text, str(error))
     raise SceneError(name, (fault,))
+
+
+def _no_toml(text: str, message: str) -> Fault:
+    """What is wrong with a text that TOML refuses: a slip of the pen, a name given twice, or what TOML says itself."""
+    from graphplan.mechanism.doubled_keys import doubled_key  # few scenes have faults
+    from graphplan.mechanism.slips import slip_in_line
+
+    # a numeral that Python refuses to read has no place of its own
+    told = re.fullmatch(r"(.*) \(at (.*)\)", message, re.DOTALL)
+    what, where = (told[1], told[2].replace("end of document", "end of file")) if told else (message, "file")
+    line = re.match(r"line (\d+)", where)
+    if line and (doubled := doubled_key(text, what, int(line[1]))):
+        return Fault(*doubled)
+    slip = slip_in_line(text.splitlines()[int(line[1]) - 1]) if line else None
+    return Fault(where, *(slip or (f"this is no TOML: {what}", "text that follows toml.io")))
 
 
 def _read(tables: dict[str, object], name: str, faults: Faults,

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from graphplan import __version__
+from graphplan.commands.arguments import with_values_joined
 from graphplan.commands.output import error, flush, hush
 from graphplan.errors import GraphplanError, Refused
 
@@ -54,7 +55,7 @@ def _run(arguments: Sequence[str]) -> int:
         return 2
     try:
         try:
-            options = parser(_called(arguments[0])).parse_args(arguments)
+            options = parser(_called(arguments[0])).parse_args(with_values_joined(arguments))
             return int(options.run(options))
         finally:
             flush()

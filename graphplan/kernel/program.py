@@ -6,58 +6,25 @@ A mark is a name for a step's result and nothing more: it has no coordinates, so
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NoReturn, Self, cast
+from typing import Any, NoReturn, cast
 
 from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel import kinds
 from graphplan.kernel.incidence import Heading, Total, bearing, incident, laid_off
 from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, worded
 from graphplan.kernel.numbers import Domain
+from graphplan.kernel.origin import Origin, on_pose, origin
+from graphplan.kernel.panel import Panel as Panel
 from graphplan.kernel.plans import require_one_plan
 from graphplan.kernel.stages import Stage, Teller, staged
-from graphplan.phrases import Said, arranged, phrase, said
+from graphplan.phrases import Said, arranged, phrase
 
 NUMBERED = {POINT: phrase("point {0}"), LINE: phrase("line {0}"), OPENING: phrase("opening {0}"),
             CIRCLE: phrase("arc {0}")}
-
-
-class Panel(str):
-    """A plan that steps are drawn on: its public name, which knows how it is spoken of and what stands over it.
-
-    `whole` is the plan that it is a part of: itself but where a plan is begun at several places. What it is made of is
-    kept beside the name; nobody reads it out of the name.
-    """
-
-    words: Said
-    heading: Said
-    whole: Panel
-
-    def __new__(cls, name: str = "", words: Said | None = None, heading: Said | None = None) -> Self:
-        self = super().__new__(cls, name)
-        self.words = words or arranged("{0}", name)
-        self.heading, self.whole = heading or arranged("{0:capital}", self.words), self
-        return self
-
-    @property
-    def twin(self) -> Panel:
-        """The plan at whose scale it is drawn, too, if there are such."""
-        return self
-
-    def caption(self, kinds: Collection[str]) -> Said:
-        """What stands over it; `kinds` are the kinds of vector drawn on it."""
-        return self.heading
-
-    def part(self, number: int) -> Panel:
-        """The part of it that is begun as this one."""
-        if number == 1:
-            return self
-        part = Panel(f"{self}, part {number}", said("{0}, part {1}", self.words, number))
-        part.whole = self
-        return part
 
 
 @dataclass(frozen=True, eq=False)
@@ -327,6 +294,12 @@ class Program:
         """How many steps only mark the points of the pose; they come first."""
         return next((k for k, s in enumerate(self.steps) if s.op.movement is not Movement.GIVEN), len(self.steps))
 
+    @cached_property
+    def origin(self) -> Origin | None:
+        """Where it is evaluated about, if its points lie far off zero: not if a group of links is known from there."""
+        points = [(step.params["x"], step.params["y"]) for step in self.steps[:self.givens]]
+        return None if any("group" in step.params for step in self.steps) else origin(points)
+
     def number(self, index: int) -> int:
         """The number of a step as printed: the pose's own points are not counted."""
         return index + 1 - self.givens
@@ -369,11 +342,20 @@ def evaluate(program: Program, domain: Domain, given: Mapping[Any, Mapping[str, 
     step.
     Fails with :class:`ConstructionError` naming the step, where the domain raises; arrays give nan instead.
     """
+    values = about_origin(program, domain, given, after)
+    return program.origin.back(domain, on_pose(program.steps), values) if program.origin else values
+
+
+def about_origin(program: Program, domain: Domain, given: Mapping[Any, Mapping[str, Any]] | None = None,
+                 after: Callable[[Step], None] | None = None) -> list[Any]:
+    """The same about the program's origin, if it has one."""
     values: list[Any] = []
-    given = given or {}
+    given, origin = given or {}, program.origin
     for step in program.steps:
         other = given.get(step.name) or given.get(step.index)
         params = {**step.params, **other} if other and other.keys() <= step.params.keys() else step.params
+        if origin and step.op.movement is Movement.GIVEN:
+            params = origin.about(domain, **params)
         try:
             values.append(domain.whole(step.op.rule(domain, *[values[arg] for arg in step.args], **params)))
         except Undrawable as fault:

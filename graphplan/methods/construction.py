@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -14,8 +14,9 @@ from graphplan.kernel.claims import broken
 from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, EVERYWHERE, STRICT, Expander, Window
 from graphplan.kernel.kinds import LINE, POINT, plain
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.origin import on_pose, shifted
 from graphplan.kernel.passes import gathered
-from graphplan.kernel.program import Panel, Program, Step, evaluate
+from graphplan.kernel.program import Panel, Program, Step, about_origin, evaluate
 from graphplan.methods import kinds
 from graphplan.methods.controls import Control, controls
 from graphplan.methods.motion.circle_diagram import DrawnCircle
@@ -128,18 +129,27 @@ class Construction(Recorded, Given):
 
     @cached_property
     def _expander(self) -> Expander:
-        points: dict[str, list[tuple[float, float]]] = {}
-        for step in self.program.steps:
+        """What draws the program out, about its origin."""
+        points, origin = dict[str, list[tuple[float, float]]](), self.program.origin
+        program = self.program
+        if origin:
+            program = replace(program, steps=shifted(program.steps, -origin.x, -origin.y))
+        truth = about_origin(self.program, Floats()) if origin else self.truth
+        for step in program.steps:
             if step.op.gives == POINT:
-                points.setdefault(step.panel, []).append(self.truth[step.index])
+                points.setdefault(step.panel, []).append(truth[step.index])
         windows = {panel: _window(own) for panel, own in points.items()}
         keep = STRICT if self.strict else BY_SET_SQUARE
-        return Expander(self.program, self.truth, keep, windows, self.prefer)
+        return Expander(program, truth, keep, windows, self.prefer)
 
     @cached_property
     def _gathered(self) -> tuple[Program, list[Any], list[int]]:
         program, order = gathered(self._expander.run())
-        return program, [self._expander.values[index] for index in order], order
+        values, origin = [self._expander.values[index] for index in order], self.program.origin
+        if origin is None:
+            return program, values, order
+        drawn = replace(program, steps=shifted(program.steps, origin.x, origin.y))
+        return drawn, origin.back(Floats(), on_pose(program.steps), values), order
 
     @cached_property
     def compounds(self) -> list[Compound]:
@@ -172,8 +182,11 @@ class Construction(Recorded, Given):
         """What the finished sheet shows though nothing was drawn by it; nothing where this pose cannot be drawn."""
         with suppress(ConstructionError):
             ends = {one.point: (one.start, one.end) for one in self.arrows if one.kind == kinds.VELOCITY}
-            shown = self._expander.windows.get(MECHANISM, EVERYWHERE).holds
-            return tuple(controls(self.scene, self.drawn, self.values, ends, shown)) if self.turned else ()
+            window, origin = self._expander.windows.get(MECHANISM, EVERYWHERE), self.program.origin
+            if origin:
+                window = window._replace(centre=origin.point(Floats(), window.centre))
+            found = controls(self.scene, self.drawn, self.values, ends, window.holds)
+            return tuple(found) if self.turned else ()
         return ()
 
     @property

@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 from graphplan.errors import Undrawable
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.primitives import dot, meet
-from graphplan.kernel.program import Program, Step, error_at, evaluate
+from graphplan.kernel.program import Program, Step, about_origin, error_at
 from graphplan.mechanism import units
 from graphplan.mechanism.model import Number, Pair, Scene
-from graphplan.methods.kinds import ResultKind
+from graphplan.methods.kinds import ResultKind, kind_of
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.time_scale import Tempo
 
@@ -64,8 +64,11 @@ class Recorded:
         `given` overrides numbers of steps, by name or index: such as the coordinates of points; `after` is called
         after each step.
         """
-        values = evaluate(self.program, domain, given, after)
-        return self.told([values[index] for index in self.program.wanted], domain)
+        values, origin = about_origin(self.program, domain, given, after), self.program.origin
+        found = self.told([values[index] for index in self.program.wanted], domain)
+        return found if origin is None else {
+            kind: {of: origin.point(domain, at) if kind_of(kind).dimension == units.PLACE else at
+                   for of, at in named.items()} for kind, named in found.items()}
 
     def told(self, wanted: Sequence[Any], domain: Domain) -> dict[str, dict[str, Any]]:
         """All readings from the values of the wanted marks, by kind and name; what is prescribed as it is given."""

@@ -1,0 +1,70 @@
+"""The origin about which a program is evaluated: a place within its figure, where that lies far off zero.
+
+A line is known by its distance from the origin. Where two lines cross far off, twice as many digits would cancel as the
+coordinates have in front of the figure's extent; about a place within it none do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
+from graphplan.kernel.numbers import Domain
+
+FAR = 100
+"""So many extents of a figure its points may lie off zero: up to four digits of what is drawn there cancel."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """A place far off zero."""
+
+    x: Fraction
+    y: Fraction
+
+    def about(self, domain: Domain, x: Any, y: Any) -> dict[str, Any]:
+        """The coordinates of a given point from this place."""
+        return {"x": domain.lift(x) - domain.lift(self.x), "y": domain.lift(y) - domain.lift(self.y)}
+
+    def back(self, domain: Domain, kinds: Iterable[str], values: Iterable[Any]) -> list[Any]:
+        """Marks that are drawn about this place, as they lie about zero; those of no kind stay as they are."""
+        x, y = domain.lift(self.x), domain.lift(self.y)
+        return [_shifted(kind, value, x, y) for kind, value in zip(kinds, values, strict=True)]
+
+    def point(self, domain: Domain, value: Any) -> Any:
+        """A point that is told from this place, as it lies about zero."""
+        return _shifted(POINT, value, domain.lift(self.x), domain.lift(self.y))
+
+
+def _shifted(kind: str, value: Any, x: Any, y: Any) -> Any:
+    if kind in (POINT, CIRCLE):
+        return value[0] + x, value[1] + y, *value[2:]
+    return (value[0], value[1], value[2] - (value[0] * x + value[1] * y)) if kind == LINE else value
+
+
+def origin(points: Collection[tuple[Any, Any]]) -> Origin | None:
+    """A round place within these points, where they lie far off zero; None where they do not."""
+    axes = [[Fraction(float(coordinate)) for coordinate in axis] for axis in zip(*points, strict=True)]
+    extent = max((max(axis) - min(axis) for axis in axes), default=Fraction(0))
+    if not extent or max(abs(coordinate) for axis in axes for coordinate in axis) < FAR * extent:
+        return None
+    unit = Fraction(2) ** (extent.numerator.bit_length() - extent.denominator.bit_length())
+    x, y = (round((max(axis) + min(axis)) / 2 / unit) * unit for axis in axes)
+    return Origin(x, y)
+
+
+def on_pose(steps: Sequence[Any]) -> Iterator[str]:
+    """The kind of each mark that lies on the plan of the pose's points; of others, which begin at zero, nothing."""
+    plans: list[str] = []
+    for step in steps:
+        plans.append(plans[step.args[step.op.where]] if step.args else step.params.get("plan", step.panel))
+        yield step.op.gives if plans[-1] == plans[0] else ""
+
+
+def shifted(steps: Sequence[Any], x: Any, y: Any) -> tuple[Any, ...]:
+    """The same steps with the points of the pose moved by a vector."""
+    return tuple(step.but(params={"x": step.params["x"] + x, "y": step.params["y"] + y})
+                 if step.op.movement is Movement.GIVEN else step for step in steps)

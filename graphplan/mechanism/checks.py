@@ -15,6 +15,7 @@ from graphplan.errors import by_name
 from graphplan.mechanism.bracing import Bracing, bracing
 from graphplan.mechanism.elimination import PRIME, Elimination
 from graphplan.mechanism.equations import System
+from graphplan.mechanism.frame_names import is_frame_synonym
 from graphplan.mechanism.items import Faults, quoted
 from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Pair, Scene
 from graphplan.mechanism.numerals import exactly, is_exact
@@ -49,6 +50,19 @@ def _coincide(a: Pair, b: Pair) -> bool:
         return a == b
     (ax, ay), (bx, by) = exactly(a), exactly(b)
     return max(abs(ax - bx), abs(ay - by)) <= _SAME * max(abs(ax), abs(ay), abs(bx), abs(by))
+
+
+def check_frame(scene: Scene, faults: Faults) -> None:
+    """Where no link is called frame, and one has another name of the fixed link, no link stands still.
+
+    An open chain that its drives and given motions determine may call its links as it likes.
+    """
+    if FRAME in scene.links or (scene.motions and mobility(scene) == len(scene.drives) + 2 * len(scene.motions)):
+        return
+    for link, points in scene.links.items():
+        if is_frame_synonym(link):
+            faults.add(f"links.{quoted(link)}", f"link {link} would move: the fixed link is called frame",
+                       f'frame = "{" ".join(points)}"')
 
 
 def check_connections(scene: Scene, faults: Faults) -> None:

@@ -13,6 +13,7 @@ from fractions import Fraction
 from typing import TypeVar
 
 from graphplan.errors import Fault, by_name, printable
+from graphplan.mechanism.frame_names import with_frame
 from graphplan.mechanism.numerals import Unusable, integer, shown
 
 T = TypeVar("T")
@@ -209,6 +210,8 @@ def perhaps(name: str, known: Iterable[str], kind: str) -> str:
     from difflib import get_close_matches  # few scenes have faults
 
     choice = list(known)
+    if meant := with_frame(name, choice):
+        return f"perhaps {meant}"
     near = get_close_matches(name[:60], choice, n=2, cutoff=0.6)
     folded = [word for word in choice if word.lower() == name.lower()]
     if folded or near:

@@ -16,6 +16,7 @@ from graphplan.errors import Fault, Refused, SceneError
 from graphplan.mechanism import sections
 from graphplan.mechanism.checks import (
     check_connections,
+    check_frame,
     check_joints,
     check_loads,
     check_mobility,
@@ -267,7 +268,9 @@ def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults, by_drive: bo
     if not scene.moving:
         faults.add("links", "no link moves", 'a link besides the frame, such as 1 = "O A"')
     elif faults.none_in("links", *PAIR_KEYS, "motion"):
-        check_connections(scene, faults)
+        check_frame(scene, faults)
+        if faults.none_in("links"):
+            check_connections(scene, faults)
         if faults.none_in("links"):
             scene = check_mobility(scene, faults)
         if faults.none_in("links", "gears", "drive", *sections.LOADS):

@@ -21,14 +21,12 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
+from graphplan.mechanism.frame_names import FRAME as FRAME
 from graphplan.mechanism.numerals import is_exact
 from graphplan.mechanism.plane import Number, Pair, dot, less, plus, times, turned
 
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
-
-FRAME = "frame"
-
 
 TOUCHING, ROLLING = "touching", "rolling"
 """The ways in which higher pairs bind."""

@@ -17,6 +17,9 @@ _DIGITS = 100
 _DECADES = 60
 """Numbers beyond 10^±60 are refused: their fourth powers would leave the range of a float."""
 
+ROUNDING = Fraction(1, 10**14)
+"""Of a coordinate: what a place may be off by where it was computed in floats."""
+
 ROOT_BITS = 200
 """Bits of an irrational square root: nearly four times a float's, so that one rounding at the end is all there is."""
 
@@ -97,6 +100,15 @@ TO_A_FLOAT = Reckoning(root, heading)
 def shown(number: Fraction | float) -> str:
     """A number for an error line: as an integer where it is one, otherwise to six digits."""
     return str(number) if isinstance(number, Fraction) and number.denominator == 1 else f"{float(number):.6g}"
+
+
+def shown_apart(one: Fraction | float, other: Fraction | float) -> tuple[str, str]:
+    """Two numbers for an error line that says that they differ: to as many digits as show it."""
+    for digits in (6, 9, 12, 15, 17):
+        texts = f"{float(one):.{digits}g}", f"{float(other):.{digits}g}"
+        if texts[0] != texts[1]:
+            break
+    return texts
 
 
 def exactly(point: Pair) -> tuple[Fraction, Fraction]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from graphplan.mechanism.directions import GUIDE, Written
 from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
 from graphplan.mechanism.items import Item
-from graphplan.mechanism.numerals import TO_A_FLOAT, exactly, is_exact, root, shown
+from graphplan.mechanism.numerals import ROUNDING, TO_A_FLOAT, exactly, is_exact, root, shown, shown_apart
 from graphplan.mechanism.pairs.pair import ROLLING, KinematicPair, OnRack, Rolling, Statement
 from graphplan.mechanism.plane import Number, Pair, dot, less, plus, times, turned
 from graphplan.mechanism.values import AMOUNT, CENTRES, DISTANCE, FLAG, RADII, TEETH, TWO_LINKS, centres_on, choice
@@ -24,7 +24,7 @@ LOADS = ("forces", "moments", "friction", "masses", "balance")
 """The tables that load a scene: without them nothing hangs on pressure angles."""
 
 NEAR = Fraction(1, 10**9)
-"""Rounded lengths that differ by less than this part of the larger were meant to be equal."""
+"""Lengths that differ by less than this part of the larger were meant to be equal, however they are written."""
 
 
 @dataclass(frozen=True)
@@ -153,7 +153,7 @@ def _ratio(row: Row) -> bool:
     if teeth is None and radii is None:
         row.item.fault("neither teeth nor radii", "teeth = [24, 36], or radii = [48, 72]")
         return False
-    if teeth and radii and teeth[0] * radii[1] != teeth[1] * radii[0]:
+    if teeth and radii and abs(teeth[0] * radii[1] - teeth[1] * radii[0]) > NEAR * teeth[0] * radii[1]:
         row.items["radii"].fault("the radii {} and {} are not as the teeth {} and {}".format(
             *map(shown, (*radii, *teeth))), "radii in the ratio of the teeth, or teeth alone")
         return False
@@ -176,7 +176,7 @@ def _misfit(row: Row, belt: str, internal: bool) -> tuple[str, str, str] | None:
     (r1, r2), key = row["radii"] or row["teeth"], "radii" if row["radii"] else "teeth"
     ends, of = [row.names.placed[point] for point in row["centres"]], " and ".join(row["centres"])
     apart = less(*map(exactly, ends))
-    distance, rational = root(Fraction(dot(apart, apart)))
+    distance, _ = root(Fraction(dot(apart, apart)))
     told = f"the distance {shown(float(distance))} of the centres {of}"
     if not distance:
         return "centres", f"the centres {of} coincide", "centres that lie apart"
@@ -188,10 +188,12 @@ def _misfit(row: Row, belt: str, internal: bool) -> tuple[str, str, str] | None:
         what = f"{told} is no more than {what} = {shown(least)}: the belt cannot be laid"
         return (key, what, "centres further apart") if key == "radii" and distance <= least else None
     whole, what = (r2 - r1, "difference") if internal else (r1 + r2, "sum")
-    slack = 0 if rational and is_exact(*ends) else NEAR * max(r1 + r2, distance)
+    slack = NEAR * max(r1 + r2, distance) + ROUNDING * max(abs(part) for end in ends for part in exactly(end))
     if key == "teeth" or abs(distance - whole) <= slack:
         return None
-    return key, f"{told} is not the {what} {shown(whole)} of the radii", f"radii whose {what} is the distance, or teeth"
+    far, near = shown_apart(distance, whole)
+    return (key, f"the distance {far} of the centres {of} is not the {what} {near} of the radii",
+            f"radii whose {what} is the distance, or teeth")
 
 
 def _pressure(item: Item, names: Names) -> Number | None:

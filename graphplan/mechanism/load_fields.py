@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
@@ -139,14 +140,14 @@ def table(row: Row) -> LoadTable | None:
         return found if found.over_speed else item.fault(
             "powers are of a speed, and the load is over a position", 'values, or over = "speed"')
     rows: Pairs = row[given[0]]
-    found = LoadTable(over, rows, where=where)
+    file = str(item.value) if given == ["file"] else ""
+    found = LoadTable(over, rows, where=where, scene=row.names.scene, file=file)
     if found.over_position and len(rows) > 3 and rows[0] == rows[-1]:  # it may say that it goes around
-        rows = rows[:-1] if rows[0][0] == rows[-2][0] else rows
-        found = LoadTable(over, rows, where=where)
+        found = replace(found, rows=rows[:-1] if rows[0][0] == rows[-2][0] else rows)
     faults = list(_out_of_order(found))
     for what, instead in faults[:1]:
-        item.fault(what, instead)
-    return None if faults else LoadTable(over, rows, period=_period(found, row.names), where=where)
+        item.fault(f"{file}: {what}" if file else what, instead)
+    return None if faults else replace(found, period=_period(found, row.names))
 
 
 def _out_of_order(table: LoadTable) -> Iterator[tuple[str, str]]:

@@ -30,7 +30,8 @@ class LoadTable:
     `rows` are places and values; over a speed v there may be `powers` c_0, c_1, c_2 in their stead: the load is
     c_0 + c_1 v + c_2 v |v|. A table over travel repeats after its `period`, if it has one: whole turns of the drive.
     Travel and speed of the drive count in the sense in which it moves, those of a slide along its guide's direction.
-    `where` is where the scene has it. Places are in the scene's lengths and degrees, speeds in rad/s and lengths/s.
+    `where` is where the scene has it, `scene` the scene's file, and `file` that of its rows, if they have one.
+    Places are in the scene's lengths and degrees, speeds in rad/s and lengths/s.
     """
 
     over: str
@@ -38,6 +39,8 @@ class LoadTable:
     powers: tuple[Number, ...] = ()
     period: Number = 0
     where: str = field(default="", compare=False)
+    scene: str = field(default="", compare=False)
+    file: str = field(default="", compare=False)
 
     @property
     def slide(self) -> str:
@@ -168,5 +171,7 @@ class LoadTable:
     def uncovered(self, place: Number) -> Refused:
         """The error that says that this place is not covered."""
         low, high = (f"{float(end):.6g}" for end in (min(self.corners), max(self.corners)))
-        what = f"its table over {self.over} goes from {low} to {high}, and {float(place):.6g} is asked for"
-        return Refused(self.where, what, "rows as far as the motion goes")
+        table = f"its table {self.file}" if self.file else "its table"
+        what = f"{table} over {self.over} goes from {low} to {high}, and {float(place):.6g} is asked for"
+        where = f"{self.scene}: {self.where}" if self.scene else self.where
+        return Refused(where, what, "rows as far as the motion goes")

@@ -175,7 +175,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
             faults.add(field.name, f"the scene has no {field.name}", field.wanted)
     points = items.get("points", Item({}, "points", faults))
     names = Names(dict.fromkeys(points.value) if isinstance(points.value, dict) else {}, tables=tables,
-                  folder=folder)
+                  scene=name, folder=folder)
     kinds, read = {field.name: field.kind for field in SCENE.fields}, {}
     for key in ORDER:
         if key in items and (value := kinds[key].read(items[key], names)) is not None:
@@ -204,7 +204,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         try:
             scene = filled_in(scene)
         except Refused as refused:
-            faults.add(refused.what, refused.why, refused.do)
+            faults.add(refused.what.removeprefix(f"{name}: "), refused.why, refused.do)
     return scene, names.files
 
 

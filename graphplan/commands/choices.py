@@ -10,7 +10,7 @@ from itertools import permutations
 from typing import TYPE_CHECKING, Any
 
 from graphplan.accuracy import PREFERENCES
-from graphplan.commands.output import DOTS
+from graphplan.commands.output import DOTS, Messages
 from graphplan.errors import Refused
 from graphplan.mechanism.items import perhaps
 from graphplan.mechanism.pairs.pair import FRAME
@@ -146,7 +146,9 @@ def given(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
     """The scene, by default that which is named, with as many rounds of friction as the options ask for, if they do."""
     from graphplan.mechanism.scene import load
 
-    scene = scene or load(options.scene)
+    if scene is None:
+        scene = load(options.scene)
+        question(options, scene)
     if getattr(options, "at", None) is not None:
         from graphplan.cycle.pose import at
 
@@ -154,6 +156,14 @@ def given(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
     if options.rounds is None or scene.loads is None:
         return scene
     return replace(scene, loads=replace(scene.loads, rounds=options.rounds))
+
+
+def question(options: argparse.Namespace, scene: Scene) -> None:
+    """Tell what in a scene is perhaps a slip of the pen, though it may be meant."""
+    from graphplan.mechanism.questions import questions
+
+    for asked in questions(scene):
+        Messages(options.quiet).remark(f"{scene.name}: {asked}")
 
 
 def _travels(text: str) -> list[Fraction] | str:

@@ -19,7 +19,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_diagrams, add_pencil, count, on_sheet, pencil
+from graphplan.commands.choices import add_diagrams, add_pencil, count, on_sheet, pencil, question
 from graphplan.commands.output import SHEETS, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 
@@ -57,6 +57,7 @@ def run(options: argparse.Namespace) -> int:
     ending, messages = kind(options.output, ENDINGS, "flywheel"), Messages(options.quiet)
     text = source_text(options.scene, options.scene)
     scene = on_sheet(options, _asked(parse(text, options.scene, by_drive=True), options))
+    question(options, scene)
     messages.progress("reduction and energy")
     found = flywheel(scene, options.positions)
     messages.progress("second opinion")

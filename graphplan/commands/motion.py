@@ -17,7 +17,7 @@ from __future__ import annotations
 import argparse
 import math
 
-from graphplan.commands.choices import add_diagrams, count, on_sheet
+from graphplan.commands.choices import add_diagrams, count, on_sheet, question
 from graphplan.commands.output import SHEETS, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 
@@ -52,6 +52,7 @@ def run(options: argparse.Namespace) -> int:
             raise Refused(f"--{name}", f"{value:g}", "give a number")
     messages, positions = Messages(options.quiet), options.positions or POSITIONS
     scene = on_sheet(options, parse(source_text(options.scene, options.scene), options.scene, by_drive=True))
+    question(options, scene)
     found = motion_of(scene, options.speed, options.travel, options.steady)
     drawing = drawn(found.motion, min(positions, MOST))
     check = checked(found, drawing)

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from graphplan.mechanism.items import quoted
 from graphplan.mechanism.scene_text import TOKENS
 
-PART = r"(?:[\w-]+|\"[^\"\n]*\"|'[^'\n]*')"
+PART = r"(?:[A-Za-z0-9_-]+|\"[^\"\n]*\"|'[^'\n]*')"
 NAME = rf"{PART}(?:[ \t]*\.[ \t]*{PART})*"
 KEY = re.compile(rf"[ \t]*({NAME})[ \t]*=")
 HEADER = re.compile(rf"[ \t]*(\[\[?)[ \t]*({NAME})[ \t]*\]")
@@ -68,7 +68,11 @@ def _without_text(token: re.Match[str]) -> str:
 
 def _path(name: str) -> Path:
     """The parts of a key: of points.A both."""
-    parts, tables = [], tomllib.loads(f"{name} = 0")
+    parts: list[str] = []
+    try:
+        tables: object = tomllib.loads(f"{name} = 0")
+    except ValueError:  # strange characters in quotes
+        return (name,)
     while isinstance(tables, dict):
         ((part, tables),) = tables.items()
         parts.append(part)

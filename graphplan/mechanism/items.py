@@ -26,31 +26,46 @@ _GUESSES = 50
 """Only so many faults are given suggestions: guessing is slow, and nobody reads further."""
 
 
+_UNKNOWN = 3
+"""More unknown keys than so many are told together: they belong to a table whose header is missing."""
+
+
 class Faults:
-    """The faults found so far; each is kept once, in the order in which they were found."""
+    """The faults found so far; each is kept once, in the order in which they were found.
+
+    That a name is unknown where a scene has none at all follows from that, and is told only if nothing else is.
+    """
 
     def __init__(self) -> None:
         self._found: dict[Fault, None] = {}
+        self._following: set[Fault] = set()
 
     def __iter__(self) -> Iterator[Fault]:
-        return iter(self._found)
+        return iter([fault for fault in self._found if fault not in self._following] or [*self._found])
 
     def __len__(self) -> int:
         return len(self._found)
 
     def add(self, where: str, what: str, instead: str) -> None:
         """Note one fault."""
-        self._found[Fault(one_line(where), one_line(what), one_line(instead))] = None
+        self._note(where, what, instead)
 
-    def unknown(self, where: str, kind: str, name: str, known: Iterable[str]) -> None:
+    def _note(self, *parts: str) -> Fault:
+        fault = Fault(*map(one_line, parts))
+        self._found[fault] = None
+        return fault
+
+    def unknown(self, where: str, kind: str, name: str, known: Collection[str]) -> None:
         """Note that there is no such `kind` (point, link, ...), with the names that were probably meant."""
         anything = f"a {kind} that the scene has"
         instead = perhaps(name, sorted(known, key=by_name), kind) if len(self) < _GUESSES else anything
-        self.add(where, f"there is no {kind} {name}", instead)
+        fault = self._note(where, f"there is no {kind} {name}", instead)
+        if not known:
+            self._following.add(fault)
 
     def none_in(self, *tables: str) -> bool:
         """Whether the scene's top-level tables of these names are free of faults."""
-        return not any(fault.where.split(".")[0] in tables for fault in self)
+        return not any(fault.where.split(".")[0] in tables for fault in self._found)
 
 
 @dataclass(frozen=True)
@@ -165,9 +180,12 @@ class Item:
         items, keys = self.table(), list(known)
         if items is None:
             return None
-        for key, item in items.items():
-            if key not in keys:
-                item.fault("unknown key", perhaps(key, keys, "key"))
+        unknown = [key for key in items if key not in keys]
+        if len(unknown) > _UNKNOWN:  # a table's header is missing above them
+            listed = ", ".join(unknown[:_UNKNOWN]) + ", ..."
+            self.faults.add(self.where or "file", f"unknown keys {listed}", "the header of their table above them")
+        for key in unknown if len(unknown) <= _UNKNOWN else ():
+            items[key].fault("unknown key", perhaps(key, keys, "key"))
         missing = [key for key in required if key not in items]
         for key in missing:
             self.fault(f"{key} is missing", required[key])

@@ -51,7 +51,7 @@ def _path(name: str, item: Item, names: Names) -> None:
     """A fault where there is no such number, or it must be the same for all."""
     path = parts(name)
     value = _at(names.tables, path)
-    varying = (".".join(map(quoted, found)) for found, _ in numbers(names.tables) if found[0] not in SAME_FOR_ALL)
+    varying = [".".join(map(quoted, found)) for found, _ in numbers(names.tables) if found[0] not in SAME_FOR_ALL]
     if path[:1] and path[0] in SAME_FOR_ALL:
         item.fault("this is the same for all variants", "the path of a number of the mechanism or of its motion")
     elif value is None:

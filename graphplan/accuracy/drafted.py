@@ -13,7 +13,7 @@ from graphplan.accuracy.hand import Hand, hand
 from graphplan.accuracy.pencil import Pencil
 from graphplan.cycle.traced import traced
 from graphplan.errors import Refused
-from graphplan.kernel.expand import crossing
+from graphplan.kernel.coincidence import crossing
 from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.methods.construction import Construction

@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel.claims import broken
-from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, EVERYWHERE, STRICT, Expander, Window
+from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, STRICT, Expander
+from graphplan.kernel.faithful import faithful
 from graphplan.kernel.kinds import LINE, POINT, plain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import gathered
-from graphplan.kernel.program import Panel, Program, Step, evaluate
+from graphplan.kernel.program import Panel, Program, Step
+from graphplan.kernel.window import EVERYWHERE, Window
 from graphplan.methods import kinds
 from graphplan.methods.controls import Control, controls
 from graphplan.methods.motion.circle_diagram import DrawnCircle
@@ -124,7 +126,11 @@ class Construction(Recorded, Given):
     @cached_property
     def truth(self) -> list[Any]:
         """The float value of every step of `program`, in the scene's pose."""
-        return evaluate(self.program, Floats())
+        return self._faithful[0]
+
+    @cached_property
+    def _faithful(self) -> tuple[list[Any], bool]:
+        return faithful(self.program)
 
     @cached_property
     def _expander(self) -> Expander:
@@ -134,7 +140,7 @@ class Construction(Recorded, Given):
                 points.setdefault(step.panel, []).append(self.truth[step.index])
         windows = {panel: _window(own) for panel, own in points.items()}
         keep = STRICT if self.strict else BY_SET_SQUARE
-        return Expander(self.program, self.truth, keep, windows, self.prefer)
+        return Expander(self.program, self.truth, keep, windows, self.prefer, self.scene.extent, self._faithful[1])
 
     @cached_property
     def _gathered(self) -> tuple[Program, list[Any], list[int]]:
@@ -164,7 +170,9 @@ class Construction(Recorded, Given):
         What cannot be drawn in this pose claims nothing. Drawn steps lose digits where curves cross flat.
         """
         with suppress(ConstructionError):
-            return next(chain(broken(self.drawn, self.values, AGREE), broken(self.program, self.truth)), "")
+            extent = self.scene.extent
+            return next(chain(broken(self.drawn, self.values, AGREE, extent),
+                              broken(self.program, self.truth, extent=extent)), "")
         return ""
 
     @cached_property

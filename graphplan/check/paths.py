@@ -13,7 +13,7 @@ from graphplan.solver import curvature as solved
 from graphplan.solver.instant_centres import relative
 
 OF_POINTS: dict[str, Callable[[Rates, str, str], Any]] = {
-    kinds.CENTRE: lambda rates, point, link: solved.centre(rates, point),
+    kinds.CENTRE: solved.centre,
     kinds.STRAIGHT: lambda rates, point, link: solved.curvature(rates, point),
     kinds.CUSP: solved.from_pole,
 }

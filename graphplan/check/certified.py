@@ -160,7 +160,7 @@ def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "", in
         if digits > FLOAT and IRRATIONAL.format(where) in scene.irrational:
             raise Refused(f"--digits {digits}", f"{where} has its value in this pose to the digits of a float",
                           f"at most {FLOAT}, or a load that is a fraction in this pose")
-    how = {"method": method, "plan": plan, "inertia": inertia}
+    how: dict[str, Any] = {"method": method, "plan": plan, "inertia": inertia}
     missing = report(scene, refuse=False, alone=True, **how).reasons if extras(scene) else {}
     found, reasons = answered(without(scene, missing), lambda asked: _to_digits(asked, digits, how))
     every = {kind: {**missing.get(kind, {}), **reasons.get(kind, {})} for kind in (*missing, *reasons)}

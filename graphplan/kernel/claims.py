@@ -316,15 +316,16 @@ def _residual(claim: Claim, drawn: Drawn) -> float:
 
 
 def unmet(step: Step, values: Sequence[Any], tolerance: float = TOLERANCE,
-          extent: float = 0.0) -> list[tuple[Claim, float]]:
+          extent: float = 0.0, blur: float = 1.0) -> list[tuple[Claim, float]]:
     """The claims that a step breaks, with their residuals; one that is no number breaks its claim.
 
     In a figure of an `extent` what is smaller than a thousandth of it counts beside that. What the rounding of the
-    numbers alone makes of a residual breaks nothing, as where two points all but coincide.
+    numbers alone, which are known `blur` times worse, makes of a residual breaks nothing, as where two points all but
+    coincide.
     """
     least = LEAST * extent
     return [(claim, residual) for claim, residual in residuals(step, values, least) if not residual <= tolerance
-            and not residual <= SPREAD * _rounding(Drawn(step, values, least), claim, extent)]
+            and not residual <= SPREAD * blur * _rounding(Drawn(step, values, least), claim, extent)]
 
 
 def _rounding(drawn: Drawn, claim: Claim, extent: float) -> float:
@@ -338,11 +339,11 @@ def _rounding(drawn: Drawn, claim: Claim, extent: float) -> float:
     return change
 
 
-def broken(program: Program, values: Sequence[Any], tolerance: float = TOLERANCE,
-           extent: float = 0.0) -> Iterator[str]:
+def broken(program: Program, values: Sequence[Any], tolerance: float = TOLERANCE, extent: float = 0.0,
+           blur: float = 1.0) -> Iterator[str]:
     """All claims that a program breaks in one pose, in the letters of the sheet, the first step's first."""
     for step in program.steps:
-        for claim, residual in unmet(step, values, tolerance, extent):
+        for claim, residual in unmet(step, values, tolerance, extent, blur):
             read = ", ".join(map(program.text, step.args))
             yield (f"step {program.number(step.index)} ({program.text(step.index)} = {step.op.name}({read})): "
                    f"{_broken(program, step, claim)}; by {residual:.1e} of its size")

@@ -197,11 +197,12 @@ class Expander:
 
     def _record(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str,
                 truth: Any = None) -> Mark:
-        """Record one step and give it its value: of a point that of `truth`, where that is known."""
+        """Record one step and give it its value: that of `truth`, where that is known and no line runs another way."""
         mark, step = self.board.draw(op, args, why=why, **params), self.board.steps[-1]
         if mark.step.index == len(self.values):
             drawn = [self.values[arg] for arg in step.args]
-            self.values.append(truth if truth and op.gives == POINT else op.rule(FLOATS, *drawn, **step.params))
+            known = truth and not any(arg.against for arg in args)
+            self.values.append(truth if known else op.rule(FLOATS, *drawn, **step.params))
             self.reach.append(self._reach(step))
             self.plans.append(plan_of(step, self.board.steps, self.plans))
             if op.gives == LINE and (lying := self.lines.fallen(step, self._apart)) is not None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from importlib.util import find_spec
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel.numbers import Fractions
@@ -32,11 +32,17 @@ class Wary(Floats):
         return super().nonzero(value, scale, code, why)
 
 
-def faithful(program: Program) -> tuple[list[Any], bool]:
-    """The value of every step in floats, and whether better numbers than floats gave it.
+class Faithful(NamedTuple):
+    """The value of every step in floats, whether `better` numbers than floats gave it, and how many times worse than to
+    rounding it may be known."""
 
-    Fails as `evaluate` does where the pose cannot be drawn.
-    """
+    values: list[Any]
+    better: bool
+    blur: float
+
+
+def faithful(program: Program) -> Faithful:
+    """The value of every step; fails as `evaluate` does where the pose cannot be drawn."""
     floats = Wary()
     try:
         values = evaluate(program, floats)
@@ -44,11 +50,11 @@ def faithful(program: Program) -> tuple[list[Any], bool]:
     except ConstructionError as error:
         fault = error
     if fault is None and floats.share >= SHARE:
-        return values, False
+        return Faithful(values, False, 1.0)
     better = _bounded(program) if find_spec("flint") else _exact(program)
     if better is None and fault is not None:
         raise fault
-    return (values, False) if better is None else (better, True)
+    return Faithful(values, False, 1 / floats.share) if better is None else Faithful(better, True, 1.0)
 
 
 def _bounded(program: Program) -> list[Any] | None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from graphplan.errors import ConstructionError
 from graphplan.kernel.claims import broken
 from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, STRICT, Expander
-from graphplan.kernel.faithful import faithful
+from graphplan.kernel.faithful import Faithful, faithful
 from graphplan.kernel.kinds import LINE, POINT, plain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import gathered
@@ -126,10 +126,10 @@ class Construction(Recorded, Given):
     @cached_property
     def truth(self) -> list[Any]:
         """The float value of every step of `program`, in the scene's pose."""
-        return self._faithful[0]
+        return self._faithful.values
 
     @cached_property
-    def _faithful(self) -> tuple[list[Any], bool]:
+    def _faithful(self) -> Faithful:
         return faithful(self.program)
 
     @cached_property
@@ -140,7 +140,7 @@ class Construction(Recorded, Given):
                 points.setdefault(step.panel, []).append(self.truth[step.index])
         windows = {panel: _window(own) for panel, own in points.items()}
         keep = STRICT if self.strict else BY_SET_SQUARE
-        return Expander(self.program, self.truth, keep, windows, self.prefer, self.scene.extent, self._faithful[1])
+        return Expander(self.program, self.truth, keep, windows, self.prefer, self.scene.extent, self._faithful.better)
 
     @cached_property
     def _gathered(self) -> tuple[Program, list[Any], list[int]]:
@@ -170,9 +170,9 @@ class Construction(Recorded, Given):
         What cannot be drawn in this pose claims nothing. Drawn steps lose digits where curves cross flat.
         """
         with suppress(ConstructionError):
-            extent = self.scene.extent
-            return next(chain(broken(self.drawn, self.values, AGREE, extent),
-                              broken(self.program, self.truth, extent=extent)), "")
+            extent, blur = self.scene.extent, self._faithful.blur
+            return next(chain(broken(self.drawn, self.values, AGREE, extent, blur),
+                              broken(self.program, self.truth, extent=extent, blur=blur)), "")
         return ""
 
     @cached_property

@@ -89,7 +89,9 @@ def test_a_form_is_preferred_within_seconds(capsys: pytest.CaptureFixture[str]) 
 def test_what_does_not_exist_sinks_nothing_else(options: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
     """Links at rest have no inflection circle, and are told so; their rates, and the poles that pins are, stand."""
     data = solved(capsys, "resting-link", *options)
-    assert data["inflection"]["2"] is None and "nothing moves" in data["reasons"]["inflection"]["2"]
-    assert data["poles"]["2 frame"] == {"at": None} and "do not move" in data["reasons"]["poles"]["2 frame"]
+    assert data["inflection"]["2"] is None
+    assert "nothing moves" in data["reasons"]["inflection"]["2"]
+    assert data["poles"]["2 frame"] == {"at": None}
+    assert "do not move" in data["reasons"]["poles"]["2 frame"]
     assert [*map(Fraction, data["poles"]["1 2"]["at"])] == [30, 40]
     assert math.hypot(*(float(Fraction(part)) for part in data["points"]["B"]["acceleration"])) > 1

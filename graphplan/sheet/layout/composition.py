@@ -150,7 +150,8 @@ def composed(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, 
              protocol: str = PROTOCOLS[0], lettered: bool = True) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
-    Where it is not to be `lettered`, nobody asks whether its letters can be read. Its `protocol` stands beside the plans where these keep most of the page, else on pages of its own; or as is asked.
+    Where it is not to be `lettered`, nobody asks whether its letters can be read. Its `protocol` stands beside the
+    plans where these keep most of the page, else on pages of its own; or as is asked.
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
     extents: dict[str, Extent] = {panel: plans.extent(panel) for panel in plans.panels}

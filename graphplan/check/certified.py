@@ -17,7 +17,7 @@ from typing import Any
 
 from graphplan.check.arithmetics import enclosures
 from graphplan.check.compared import drawn_sizes, each, weight
-from graphplan.check.extras import answered, extras, without
+from graphplan.check.extras import Reasons, answered, extras, joined, without
 from graphplan.check.json_results import data
 from graphplan.check.report import Opinion, Report, opinion
 from graphplan.check.trusted import first_sound, report, solver_alone
@@ -161,9 +161,9 @@ def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "", in
             raise Refused(f"--digits {digits}", f"{where} has its value in this pose to the digits of a float",
                           f"at most {FLOAT}, or a load that is a fraction in this pose")
     how: dict[str, Any] = {"method": method, "plan": plan, "inertia": inertia}
-    missing = report(scene, refuse=False, alone=True, **how).reasons if extras(scene) else {}
+    missing: Reasons = report(scene, refuse=False, alone=True, **how).reasons if extras(scene) else {}
     found, reasons = answered(without(scene, missing), lambda asked: _to_digits(asked, digits, how))
-    every = {kind: {**missing.get(kind, {}), **reasons.get(kind, {})} for kind in (*missing, *reasons)}
+    every = joined(missing, reasons)
     if not every:
         return found
     with precision(found.bits):

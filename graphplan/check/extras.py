@@ -7,11 +7,15 @@ out with its reason, and the rest is found without it.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import Generic, TypeVar
 
+from graphplan.check.paths import NOTHING_MOVES
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.mechanism.model import Scene
+from graphplan.solver import solve
+from graphplan.solver.instant_centres import relative
 
 EXTRAS = "poles", "curvature", "inflection"
 
@@ -31,6 +35,12 @@ def answered(scene: Scene, attempt: Callable[[Scene], Answer]) -> tuple[Answer, 
         every = extras(scene)
         if not every:
             raise
+        if resting := at_rest(scene):
+            moving = without(scene, resting)
+            if not (extras(moving) or asks_more(scene)):
+                raise
+            answer, reasons = answered(moving, attempt)
+            return answer, joined(resting, reasons)
         search = _Search(scene, attempt)
         if asks_more(scene):
             search.answer = attempt(asking(scene, ()))
@@ -48,6 +58,29 @@ def extras(scene: Scene) -> list[Item]:
 def without(scene: Scene, reasons: Mapping[str, Mapping[str, str]]) -> Scene:
     """The scene without the extras that these reasons are of."""
     return asking(scene, [(kind, name) for kind, name in extras(scene) if name not in reasons.get(kind, ())])
+
+
+def joined(one: Reasons, other: Reasons) -> Reasons:
+    """Both reasons, by kind and name."""
+    return {kind: one.get(kind, {}) | other.get(kind, {}) for kind in (*one, *other)}
+
+
+def at_rest(scene: Scene) -> Reasons:
+    """Why poles of links that do not move relative to each other, and circles of links at rest, do not exist."""
+    reasons: Reasons = {}
+    if scene.irrational:
+        return reasons
+    with suppress(SingularPose):
+        rates = solve(scene, exact=True)
+        for name in scene.find.poles:
+            try:
+                relative(rates, *scene.link_pair(name))
+            except SingularPose as singular:
+                reasons.setdefault("poles", {})[name] = singular.why
+        for link in scene.find.inflection:
+            if not rates.omega[link] and not any(any(rates.velocity[point]) for point in scene.links[link]):
+                reasons.setdefault("inflection", {})[link] = NOTHING_MOVES.format(link)
+    return reasons
 
 
 def asking(scene: Scene, items: Sequence[Item]) -> Scene:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -129,7 +129,7 @@ class Report:
     arithmetic: str = "floats"
     numbers: Numbers = field(default_factory=dict, repr=False)
     fault: ConstructionError | None = None
-    reasons: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    reasons: dict[str, dict[str, str]] = field(default_factory=dict)
 
     @property
     def scene(self) -> Scene:

@@ -11,12 +11,14 @@ from importlib.util import find_spec
 from typing import Any, NamedTuple
 
 from graphplan.errors import ConstructionError
+from graphplan.kernel.kinds import POINT
 from graphplan.kernel.numbers import Fractions
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, evaluate
 
 SHARE = 2.0**-20  # of the terms of a divisor: if less is left of them, too few digits are
 PRECISIONS = 256, 1024, 4096  # bits
+FAR = 2.0**60  # times the mechanism: what floats cannot draw and lies further off no pencil can
 DIGITS = Fraction(1, 2**60)  # of a number: how far off it may be before it is rounded
 
 
@@ -52,7 +54,7 @@ def faithful(program: Program) -> Faithful:
     if fault is None and floats.share >= SHARE:
         return Faithful(values, False, 1.0)
     better = _bounded(program) if find_spec("flint") else _exact(program)
-    if better is None and fault is not None:
+    if fault is not None and (better is None or _far_off(program, better)):
         raise fault
     return Faithful(values, False, 1 / floats.share) if better is None else Faithful(better, True, 1.0)
 
@@ -76,6 +78,17 @@ def _bounded(program: Program) -> list[Any] | None:
             except Undecided:
                 continue
     return None
+
+
+def _far_off(program: Program, values: list[Any]) -> bool:
+    """Whether a point lies so far off that no pencil draws it."""
+    return _reach(program, values) > FAR * _reach(program, values[:program.givens])
+
+
+def _reach(program: Program, values: list[Any]) -> float:
+    """The largest coordinate of these points."""
+    points = (value for step, value in zip(program.steps, values, strict=False) if step.op.gives == POINT)
+    return max((abs(part) for point in points for part in point), default=0.0)
 
 
 def _rounded(number: Any) -> float:

@@ -13,7 +13,7 @@ from graphplan.accuracy.hand import Hand, hand
 from graphplan.accuracy.pencil import Pencil
 from graphplan.cycle.traced import traced
 from graphplan.errors import Refused
-from graphplan.kernel.expand import crossing
+from graphplan.kernel.coincidence import crossing
 from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.methods.construction import Construction
@@ -203,14 +203,17 @@ def percent(part: float) -> Said:
 
 
 def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,
-            check: Mapping[str, Any] | None = None, tongue: Tongue = ENGLISH, protocol: str = "auto") -> Drafted:
+            check: Mapping[str, Any] | None = None, tongue: Tongue = ENGLISH, protocol: str = "auto",
+            lettered: bool = True) -> Drafted:
     """A construction on the sheet that it gets with its errors told on it; `protocol` says where the words stand.
+
+    Where it is not to be `lettered`, as where it is weighed alone, its letters are not looked at.
 
     The errors hang on the scales, the scales on the room that words leave, the words on the errors: from the fewest
     words, errors in one figure, the sheet is composed until its scales stay. Fails with `Refused` where they do not, or
     the words do not fit the paper named.
     """
-    composer = Composer(drawing, paper, check, tongue, protocol, traced(drawing.scene))
+    composer = Composer(drawing, paper, check, tongue, protocol, traced(drawing.scene), lettered)
     usual = first_order(drawing, hand(drawing, composer.usual.of, pencil), composer.usual)
     composition = composer.compose(Errors(drawing, pencil, tuple(map(_brief, usual))).deviations, worded=False)
     for _ in range(ATTEMPTS):

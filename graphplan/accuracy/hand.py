@@ -22,10 +22,11 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.accuracy.pencil import Pencil
+from graphplan.errors import Undrawable
 from graphplan.kernel import kinds
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers import Domain
-from graphplan.kernel.program import Program, Step
+from graphplan.kernel.program import Program, Step, error_at
 from graphplan.methods.construction import Construction
 from graphplan.sheet.plates.plans import Plans
 
@@ -46,7 +47,10 @@ class Hand:
         """Every step in a number domain, each with its errors, which the later ones then read."""
         drawn: list[Any] = []
         for step in self.program.steps:
-            drawn.append(self.made(step, domain, drawn, errors))
+            try:
+                drawn.append(self.made(step, domain, drawn, errors))
+            except Undrawable as fault:  # in floats alone: too near to a singular pose for any pencil
+                raise error_at(self.program, step, fault) from None
         return drawn
 
     def made(self, step: Step, domain: Domain, drawn: Sequence[Any], errors: Errors) -> Any:

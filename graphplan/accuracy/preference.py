@@ -22,9 +22,15 @@ from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
 from graphplan.sheet.layout.paper import sheet_size
 
 Constructing = Callable[..., Construction]
+Sheets = Callable[[Construction, Pencil, str | None], Drafted]
 
 FORMS = ("", *METHODS)  # first the one that the pose chooses
 NAMES = {"": phrase("pose's own"), "auxiliary": phrase("auxiliary"), "trial": phrase("trial"), "poles": phrase("poles")}
+
+
+def plans_alone(drawing: Construction, pencil: Pencil, paper: str | None = None) -> Drafted:
+    """A construction on its paper without words or letters: forms are weighed by their plans."""
+    return drafted(drawing, pencil, paper, protocol="none", lettered=False)
 
 
 def called(methods: Sequence[str]) -> Said:
@@ -74,13 +80,15 @@ class Preference:
 
 
 def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False, inertia: str = "couple",
-          paper: str | None = None, construct: Constructing = unchecked) -> list[Form]:
+          paper: str | None = None, construct: Constructing = unchecked, sheets: Sheets | None = None) -> list[Form]:
     """Every form of a scene's construction, each on its sheet; those that cannot be drawn with their reason."""
+    on_sheet = sheets or drafted
+
     def made(methods: list[str], one: Construction | GraphplanError) -> list[Form]:
         try:
             if isinstance(one, GraphplanError):
                 raise one
-            return [Form(tuple(methods), drafted(one, pencil, paper))]
+            return [Form(tuple(methods), on_sheet(one, pencil, paper))]
         except GraphplanError as refusal:
             return [Form((method,), None, refusal) for method in methods]
 
@@ -135,7 +143,7 @@ def preferred(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "", pl
     if method:
         raise Refused(f"--prefer {prefer}", f"--method {method} names the form already", "leave out one of the two")
     found = _on_one_paper(forms(scene, pencil, plan=plan, strict=strict, inertia=inertia, paper=paper,
-                                construct=construct))
+                                construct=construct, sheets=plans_alone))
     if found[0].refusal is not None and all(form.refusal for form in found):
         raise found[0].refusal
     return weighed(found, prefer)
@@ -162,7 +170,7 @@ def _moved(form: Form, one: Drafted, paper: str) -> Form:
     if one.paper == paper:
         return form
     try:
-        return Form(form.methods, drafted(one.drawing, one.pencil, paper))
+        return Form(form.methods, plans_alone(one.drawing, one.pencil, paper))
     except Refused as refusal:
         return Form(form.methods, None, refusal)
 

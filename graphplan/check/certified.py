@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from decimal import ROUND_DOWN, Context, Decimal
 from fractions import Fraction
 from functools import cached_property
@@ -17,10 +17,11 @@ from typing import Any
 
 from graphplan.check.arithmetics import enclosures
 from graphplan.check.compared import drawn_sizes, each, weight
+from graphplan.check.extras import Reasons, answered, extras, joined, without
 from graphplan.check.json_results import data
 from graphplan.check.report import Opinion, Report, opinion
-from graphplan.check.trusted import first_sound, report
-from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
+from graphplan.check.trusted import first_sound, report, solver_alone
+from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, GraphplanError, Refused, SingularPose
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, precision
 from graphplan.mechanism.load_values import IRRATIONAL
 from graphplan.mechanism.model import Scene
@@ -32,6 +33,7 @@ from graphplan.solver import solve
 MOST = 10_000  # digits
 FLOAT = 15  # digits that a float has in any case
 ENOUGH = 1 << 14  # bits, to which the precision is doubled at most; for many digits it is doubled once in any case
+PATIENCE = 4  # times the least precision, up to which a way to draw it may need more bits than the solver
 OPEN = "the bounds of a number do not close, as where a pair with friction may stand still"
 SPARE = 12  # digits beyond the last that are known before it is rounded: it is off by half a unit and 10^-12 at most
 
@@ -59,6 +61,18 @@ class Certified(Report):
         """Whether the enclosures of construction and solver overlap everywhere."""
         same = all(gap.overlaps(Enclosure(0)) for kind in self._parts for gap in self._gaps(kind))
         return same and not self.drawing.broken
+
+    @property
+    def disagreement(self) -> Disagreement:
+        """The error that names the first number in which the two certainly differ, else the step that breaks a claim.
+        """
+        for part in (part for parts in self._parts.values() for part in parts):
+            for name, ours in self.results[part].items():
+                for one, two in zip(each(ours), each(self.truths[part][name]), strict=True):
+                    if not Enclosure(one - two).overlaps(Enclosure(0)):
+                        gap = abs(float(one - two)) / max(abs(float(one)), abs(float(two)))
+                        return Disagreement(self.scene.name, f"{part} of {name}", f"{float(one)}", f"{float(two)}", gap)
+        return BrokenClaim(self.scene.name, self.drawing.broken)
 
     @cached_property
     def errors(self) -> dict[str, Fraction]:
@@ -135,8 +149,9 @@ class Certified(Report):
 def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "", inertia: str = "couple") -> Certified:
     """Construct, read, solve and compare between proven bounds, until every result has its digits.
 
-    Fails with `SingularPose` where the pose is singular as far as the digits can tell, with `Refused` as `report` does
-    and where the digits asked for are not among 1 to 10000.
+    Where no way to draw it has numbers there, the solver's alone, as plain `solve` has them. Fails with `SingularPose`
+    where the pose is singular as far as the digits can tell, with `Refused` as `report` does and where the digits asked
+    for are not among 1 to 10000.
     """
     if not 1 <= digits <= MOST:
         raise Refused(f"--digits {digits}", "there are no such digits", f"a number from 1 to {MOST}")
@@ -145,21 +160,35 @@ def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "", in
         if digits > FLOAT and IRRATIONAL.format(where) in scene.irrational:
             raise Refused(f"--digits {digits}", f"{where} has its value in this pose to the digits of a float",
                           f"at most {FLOAT}, or a load that is a fraction in this pose")
-    how = {"method": method, "plan": plan, "inertia": inertia}
+    how: dict[str, Any] = {"method": method, "plan": plan, "inertia": inertia}
+    missing: Reasons = report(scene, refuse=False, alone=True, **how).reasons if extras(scene) else {}
+    found, reasons = answered(without(scene, missing), lambda asked: _to_digits(asked, digits, how))
+    every = joined(missing, reasons)
+    if not every:
+        return found
+    with precision(found.bits):
+        explained = replace(found, reasons=every)
+        assert explained.settled
+    return explained
+
+
+def _to_digits(scene: Scene, digits: int, how: dict[str, str]) -> Certified:
+    """The numbers of a scene at the first precision that gives them so many digits."""
     least = bits = math.ceil((digits + SPARE) * math.log2(10)) + 64
-    doubt = Undecided(OPEN)
+    doubt: Exception = Undecided(OPEN)
     while bits <= max(ENOUGH, 2 * least):
         with precision(bits):
             try:
-                found = _attempt(scene, digits, bits, how)
+                solved = opinion(scene, enclosures(bits))
+                found = _attempt(solved, digits, bits, how, patient=bits < PATIENCE * least)
                 if found.settled:
                     return found
             except Undecided as undecided:
                 doubt = undecided
-            except ConstructionError as certain:
-                raise _named(scene, certain, "", how) from None
         if bits == least and _certainly_singular(scene):
             raise _named(scene, doubt, "", how)
+        if bits >= PATIENCE * least and (exact := _of_fractions(scene, digits, bits, how)) is not None:
+            return exact
         bits *= 2
     far = f", as far as {bits // 2} bits can tell"
     raise _named(scene, doubt.__cause__ or doubt, far, how)
@@ -175,24 +204,63 @@ def _certainly_singular(scene: Scene) -> bool:
     return False
 
 
-def _attempt(scene: Scene, digits: int, bits: int, how: dict[str, str]) -> Certified:
-    """Both opinions at one precision, by the first way on which they agree; `Undecided` where that is too low."""
-    solved = opinion(scene, enclosures(bits))
-    found = first_sound(solved.scene, how, lambda drawing: _beside(drawing, solved, digits, bits))
-    if isinstance(found, Certified):
+def _of_fractions(scene: Scene, digits: int, bits: int, how: dict[str, str]) -> Certified | None:
+    """The numbers of a rational scene whose bounds do not close, from fractions; none where these cannot tell either.
+    """
+    try:
+        exact = report(scene, exact=True, refuse=False, **how)  # type: ignore[arg-type]
+    except GraphplanError:
+        return None
+    with precision(bits):
+        results = _enclosed(exact.results)
+        truths = _enclosed({kind: exact.truth(kind) for kind in exact.results})
+        forces = exact.forces and replace(exact.forces, results=results, exact=False, bounded=True)
+        found = Certified(exact.drawing, exact.rates, results, False, forces, digits=digits, bits=bits, truths=truths,
+                          fault=exact.fault)
+        return found if found.settled else None
+
+
+def _enclosed(value: Any) -> Any:
+    """Fractions between bounds: one, a vector of them, or a table."""
+    if isinstance(value, dict):
+        return {name: _enclosed(part) for name, part in value.items()}
+    return tuple(map(Enclosure, value)) if isinstance(value, tuple) else Enclosure(value)
+
+
+def _attempt(solved: Opinion, digits: int, bits: int, how: dict[str, str], patient: bool) -> Certified:
+    """Both opinions at one precision, by the first way on which they agree, else the solver's alone.
+
+    `Undecided` where the precision is too low for a way, as long as we are `patient`.
+    """
+    doubts: list[ConstructionError] = []
+    found = first_sound(solved.scene, how, lambda drawing: _beside(drawing, solved, digits, bits, doubts))
+    if isinstance(found, Certified) and (found.agrees or not doubts):
         return found
-    raise found[1]
+    if doubts and patient:
+        raise Undecided(doubts[0].why) from doubts[0]
+    return found if isinstance(found, Certified) else _alone(solved, digits, bits, *found)
 
 
-def _beside(drawing: Construction, solved: Opinion, digits: int, bits: int) -> Certified:
-    """One construction beside the solver."""
+def _beside(drawing: Construction, solved: Opinion, digits: int, bits: int,
+            doubts: list[ConstructionError]) -> Certified:
+    """One construction beside the solver; why it has no numbers joins the `doubts` where more bits may give some."""
     domain = Enclosures()
     try:
         results = drawing.read(domain)
     except ConstructionError as error:
-        if domain.undecided:
-            raise Undecided(error.why) from error
+        doubts += [error] if domain.undecided else []
         raise
+    return _certified(drawing, solved, results, digits, bits)
+
+
+def _alone(solved: Opinion, digits: int, bits: int, drawing: Construction, fault: ConstructionError) -> Certified:
+    """What the solver says of all that a construction would give, which has no numbers in this pose."""
+    return replace(_certified(drawing, solved, solver_alone(drawing, solved), digits, bits), fault=fault)
+
+
+def _certified(drawing: Construction, solved: Opinion, results: dict[str, dict[str, Any]], digits: int,
+               bits: int) -> Certified:
+    """Results at a precision beside the solver's."""
     forces = solved.beside(drawing.scene, results, drawing.rounds, bounded=True)
     return Certified(drawing, solved.rates, results, False, forces, digits=digits, bits=bits,
                      truths=solved.truth(results, drawing.rounds))

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from graphplan.check.forces import Forces
 
 OPPOSITE = "pole", "inflection_pole"  # of an inflection circle
+AT_REST = "they do not move relative to each other here, so any point is a pole of theirs"
 
 
 def data(found: Report, each: bool = False) -> dict[str, Any]:
@@ -35,6 +36,7 @@ def data(found: Report, each: bool = False) -> dict[str, Any]:
                           acceleration=kinds.SLIDE_ACCELERATION),
         **_poles(found),
         **_paths(found),
+        **_reasons(found),
         **({"redundant": scene.redundant_pairs} if scene.redundant else {}),
         **_forces(found),
         **_protocol(found, each),
@@ -44,9 +46,18 @@ def data(found: Report, each: bool = False) -> dict[str, Any]:
 def _poles(found: Report) -> dict[str, Any]:
     """The instant centres, if any are asked for: each where it is, or which way it lies at infinity; none of links that
     do not move relative to each other."""
-    asked = found.scene.find.poles
+    asked = (*found.scene.find.poles, *found.reasons.get("poles", ()))
     poles = _merged(found, asked, at=kinds.POLE, direction=kinds.POLE_HEADING)
     return {"poles": {name: poles.get(name, {"at": None}) for name in asked}} if asked else {}
+
+
+def _reasons(found: Report) -> dict[str, Any]:
+    """Why what is asked for is null, by kind and name."""
+    told = {kind: dict(named) for kind, named in found.reasons.items()}
+    poles = {name for kind in (kinds.POLE, kinds.POLE_HEADING) for name in found.results.get(kind, ())}
+    if resting := [name for name in found.scene.find.poles if name not in poles]:
+        told["poles"] = dict.fromkeys(resting, AT_REST) | told.get("poles", {})
+    return {"reasons": told} if told else {}
 
 
 def _pose(found: Report) -> dict[str, Any]:
@@ -65,10 +76,16 @@ def _paths(found: Report) -> dict[str, Any]:
     find, results = found.scene.find, found.results
     told = {
         "curvature": {name: _curvature(found, name, found.scene.points[point])
-                      for name, (point, _) in find.traced.items()},
-        "inflection": {link: _inflection(results, link, found.exact) for link in find.inflection},
+                      for name, (point, _) in find.traced.items()} | _missing(found, "curvature"),
+        "inflection": {link: _inflection(results, link, found.exact) for link in find.inflection}
+                      | _missing(found, "inflection"),
     }
     return {key: named for key, named in told.items() if named}
+
+
+def _missing(found: Report, kind: str) -> dict[str, None]:
+    """What of a kind is asked for and does not exist."""
+    return dict.fromkeys(found.reasons.get(kind, ()))
 
 
 def _curvature(found: Report, name: str, point: Any) -> dict[str, Any]:

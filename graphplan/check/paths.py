@@ -12,8 +12,9 @@ from graphplan.solver import Rates
 from graphplan.solver import curvature as solved
 from graphplan.solver.instant_centres import relative
 
+NOTHING_MOVES = "what is asked of {0} does not exist, as nothing moves there"
 OF_POINTS: dict[str, Callable[[Rates, str, str], Any]] = {
-    kinds.CENTRE: lambda rates, point, link: solved.centre(rates, point),
+    kinds.CENTRE: solved.centre,
     kinds.STRAIGHT: lambda rates, point, link: solved.curvature(rates, point),
     kinds.CUSP: solved.from_pole,
 }
@@ -34,7 +35,6 @@ def path_truth(rates: Rates, results: Mapping[str, Iterable[str]]) -> dict[str, 
             try:
                 value = OF_POINTS[kind](rates, point, link) if kind in OF_POINTS else OF_LINKS[kind](rates, link)
             except ZeroDivisionError:
-                why = f"what is asked of {name} does not exist, as nothing moves there"
-                raise SingularPose(why, (link,)) from None
+                raise SingularPose(NOTHING_MOVES.format(name), (link,)) from None
             found.setdefault(kind, {})[name] = value
     return found

@@ -117,7 +117,8 @@ class Report:
 
     `arithmetic` is that in which both were found: floats, enclosures of so many digits, or fractions; `exact` says that
     the numbers themselves are fractions. `numbers` are what is compared, by kind and name, as the results are. `fault`
-    says why nothing can be drawn, where the numbers are the solver's alone.
+    says why nothing can be drawn, where the numbers are the solver's alone; `reasons` why what was asked for is left
+    out, by its kind in `[find]` and its name.
     """
 
     drawing: Construction
@@ -128,6 +129,7 @@ class Report:
     arithmetic: str = "floats"
     numbers: Numbers = field(default_factory=dict, repr=False)
     fault: ConstructionError | None = None
+    reasons: dict[str, dict[str, str]] = field(default_factory=dict)
 
     @property
     def scene(self) -> Scene:

@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 
 from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, enclosures
 from graphplan.check.compared import compared, printed, rounded
+from graphplan.check.extras import answered
 from graphplan.check.report import Opinion, Report, opinion
 from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
 from graphplan.kernel.kinds import Movement, Primitive
@@ -73,11 +74,10 @@ class Bench:
             with suppress(by.doubt), by.working():
                 if isinstance(by, Exact) or (found is not None and found.proven):
                     break
-                paths: dict[str, Any] = {kind: {r.of: None for r in drawing.readings if r.kind == kind}
-                                         for kind in (*PATHS, TRANSLATION)}
-                truth = self._opinion(by, drawing).truth(paths)
-                ours = {kind: {r.of: _middle(truth[kind][r.of]) if by is FLOATS else truth[kind][r.of]
-                               for r in drawing.readings if r.kind == kind} for kind in drawing.kinds if kind in truth}
+                ours = solver_alone(drawing, self._opinion(by, drawing))
+                if by is FLOATS:
+                    ours = {kind: {name: _middle(value) for name, value in named.items()}
+                            for kind, named in ours.items()}
                 found = replace(self._report(drawing, by, ours), fault=fault)
         if found is None:
             raise fault
@@ -160,6 +160,15 @@ class Bench:
         return Report(drawing, told.rates, results, self.exact, forces, by.name, numbers)
 
 
+def solver_alone(drawing: Construction, solved: Opinion) -> dict[str, dict[str, Any]]:
+    """What the solver says of all that a construction would give, by kind and name."""
+    paths: dict[str, Any] = {kind: {r.of: None for r in drawing.readings if r.kind == kind}
+                             for kind in (*PATHS, TRANSLATION)}
+    truth = solved.truth(paths)
+    return {kind: {r.of: truth[kind][r.of] for r in drawing.readings if r.kind == kind}
+            for kind in drawing.kinds if kind in truth}
+
+
 def _middle(value: Any) -> Any:
     """A number with bounds, or a vector of them, as floats."""
     return tuple(map(float, value)) if isinstance(value, tuple) else float(value)
@@ -230,7 +239,8 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
     `construct` does, with `SingularPose` naming the links and the lines that should meet, and with `Refused` where
     `exact` meets an irrational scene; unless `refuse` says otherwise, with `Disagreement` where no way agrees: else
     that is the report's to tell.
-    With `alone` it is the solver's own numbers where no way can be drawn though the pose is regular.
+    With `alone` it is the solver's own numbers where no way can be drawn though the pose is regular. Poles and
+    curvatures that are asked for and do not exist here are left out: the report has the reasons.
     """
     if exact and scene.irrational:
         irrational = ", ".join(sorted(scene.irrational, key=by_name))
@@ -238,6 +248,14 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
     if exact and scene.loads is not None and any(friction.at for friction in scene.loads.frictions):
         scene = replace(scene, loads=replace(scene.loads, frictions=()))
     how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia}
+    found, reasons = answered(scene, lambda asked: _first_trusted(asked, how, exact, alone))
+    if refuse and not found.agrees:
+        raise found.disagreement
+    return replace(found, reasons=reasons) if reasons else found
+
+
+def _first_trusted(scene: Scene, how: dict[str, Any], exact: bool, alone: bool) -> Report:
+    """The first construction that agrees with the solver, else the first that is drawn; as `report` gives it."""
     bench = Bench(scene, how, exact)
     try:
         found = first_sound(scene, how, bench.judged)
@@ -245,8 +263,6 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
         solve(scene, exact)  # where the pose is singular, that is why nothing can be drawn
         raise
     if isinstance(found, Report):
-        if refuse and not found.agrees:
-            raise found.disagreement
         return found
     if alone and not exact:
         return bench.alone(*found)

@@ -36,6 +36,7 @@ def run(options: argparse.Namespace) -> int:
     found = reported(options, scene, exact=options.exact, refuse=False)
     groups = structure(scene).lines()
     notes = [str(note) for note in (*redundancies(scene), *shortcuts(found.drawing), *replacements(scene))]
+    notes += [f"{kind} {name}: {why}" for kind, named in found.reasons.items() for name, why in named.items()]
     if options.json:
         write(as_json(_data(found, groups, notes)))
     else:

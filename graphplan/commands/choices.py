@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphplan.accuracy import PREFERENCES
 from graphplan.commands.output import DOTS, Messages
-from graphplan.errors import Refused
+from graphplan.errors import ConstructionError, Disagreement, Refused, SingularPose
 from graphplan.mechanism.items import perhaps
 from graphplan.mechanism.pairs.pair import FRAME
 from graphplan.mechanism.presentation import FRAMES, MOST_POSITIONS, PROTOCOLS, SIZES
@@ -208,14 +208,22 @@ def reported(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:
 
 
 def drawn_by(options: argparse.Namespace, scene: Scene) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """How a scene is to be drawn, by the method named or preferred, and the lines that say why it is preferred."""
+    """How a scene is to be drawn, by the method named or preferred, and the lines that say why it is preferred.
+
+    Where no form can be weighed, the pose's own is drawn, as without a preference.
+    """
     how = {key: getattr(options, key) for key in ("method", "plan", "inertia", "strict")}
     if not options.prefer:
         return how, ()
-    from graphplan.accuracy.preference import preferred
+    from graphplan.accuracy.preference import preferred, reason
     from graphplan.check.trusted import construct
 
-    found = preferred(scene, options.prefer, pencil(options), construct=construct, **how)
+    try:
+        found = preferred(scene, options.prefer, pencil(options), construct=construct, **how)
+    except (ConstructionError, Disagreement, Refused, SingularPose) as fault:
+        if options.method:
+            raise
+        return how, (reason(fault),)
     return {**how, "method": found.method}, found.told
 
 

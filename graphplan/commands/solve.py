@@ -60,5 +60,7 @@ def _certified(options: argparse.Namespace) -> int:
     scene = given(options)
     how, _ = drawn_by(options, scene)
     found = certified(scene, options.digits, method=how["method"], plan=options.plan, inertia=options.inertia)
+    if not found.agrees:
+        raise found.disagreement
     write(as_json(found.data, 2))
-    return 0 if found.agrees else 1
+    return 0

@@ -14,13 +14,15 @@ from typing import Any
 
 from graphplan.kernel.closures import closed
 from graphplan.kernel.curvature_claims import CURVED
-from graphplan.kernel.drawn import Drawn, Vector, cross, cross3, dot, forward, short, sideways, unit
+from graphplan.kernel.drawn import Drawn, Vector, cross, cross3, dot, forward, roundings, short, sideways, unit
 from graphplan.kernel.kinds import LINE, POINT, Claim
 from graphplan.kernel.loci import ahead, along
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, Step
 
 TOLERANCE = 1e-9
+LEAST = 1e-3  # of a figure's extent: what is smaller is measured by this
+SPREAD = 8  # times its rounding that a number may be off
 STILL = 1e-12  # beside the drawing's size: what moves less may be said to stand still
 
 
@@ -303,21 +305,45 @@ CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
 }
 
 
-def residuals(step: Step, values: Sequence[Any]) -> list[tuple[Claim, float]]:
+def residuals(step: Step, values: Sequence[Any], least: float = 0.0) -> list[tuple[Claim, float]]:
     """Each claim of a step with its residual; `values` are those of the whole program."""
-    drawn = Drawn(step, values)
-    return [(claim, abs(CLAIMS[claim[0]][0](drawn, *claim[1:]))) for claim in step.op.claims]
+    drawn = Drawn(step, values, least)
+    return [(claim, _residual(claim, drawn)) for claim in step.op.claims]
 
 
-def unmet(step: Step, values: Sequence[Any], tolerance: float = TOLERANCE) -> list[tuple[Claim, float]]:
-    """The claims that a step breaks, with their residuals; one that is no number breaks its claim."""
-    return [(claim, residual) for claim, residual in residuals(step, values) if not residual <= tolerance]
+def _residual(claim: Claim, drawn: Drawn) -> float:
+    return abs(CLAIMS[claim[0]][0](drawn, *claim[1:]))
 
 
-def broken(program: Program, values: Sequence[Any], tolerance: float = TOLERANCE) -> Iterator[str]:
+def unmet(step: Step, values: Sequence[Any], tolerance: float = TOLERANCE,
+          extent: float = 0.0, blur: float = 1.0) -> list[tuple[Claim, float]]:
+    """The claims that a step breaks, with their residuals; one that is no number breaks its claim.
+
+    In a figure of an `extent` what is smaller than a thousandth of it counts beside that. What the rounding of the
+    numbers alone, which are known `blur` times worse, makes of a residual breaks nothing, as where two points all but
+    coincide.
+    """
+    least = LEAST * extent
+    return [(claim, residual) for claim, residual in residuals(step, values, least) if not residual <= tolerance
+            and not residual <= SPREAD * blur * _rounding(Drawn(step, values, least), claim, extent)]
+
+
+def _rounding(drawn: Drawn, claim: Claim, extent: float) -> float:
+    """By how much a residual changes, all in all, where each number of a step is off by its rounding."""
+    residual, change = _residual(claim, drawn), 0.0
+    for place, (kind, numbers) in enumerate(zip(drawn.kinds, [*drawn.numbers], strict=True)):
+        for k, off in enumerate(roundings(kind, numbers, extent)):
+            drawn.numbers[place] = (*numbers[:k], numbers[k] + off, *numbers[k + 1:])
+            change += abs(_residual(claim, drawn) - residual)
+        drawn.numbers[place] = numbers
+    return change
+
+
+def broken(program: Program, values: Sequence[Any], tolerance: float = TOLERANCE, extent: float = 0.0,
+           blur: float = 1.0) -> Iterator[str]:
     """All claims that a program breaks in one pose, in the letters of the sheet, the first step's first."""
     for step in program.steps:
-        for claim, residual in unmet(step, values, tolerance):
+        for claim, residual in unmet(step, values, tolerance, extent, blur):
             read = ", ".join(map(program.text, step.args))
             yield (f"step {program.number(step.index)} ({program.text(step.index)} = {step.op.name}({read})): "
                    f"{_broken(program, step, claim)}; by {residual:.1e} of its size")

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from graphplan.kernel.incidence import followed, incident
-from graphplan.kernel.kinds import Movement
+from graphplan.kernel.kinds import CIRCLE, Movement
 from graphplan.kernel.program import Panel, Step
 
 ROUNDED = 1e-12  # beside the largest numbers that a mark was made from: what differs by less is one
@@ -109,3 +109,16 @@ def line_gap(one: Any, two: Any, reach: float) -> float:
     foot = -one[0] / n * one[2] / n, -one[1] / n * one[2] / n
     gap = abs(two[0] * foot[0] + two[1] * foot[1] + two[2]) / m
     return float(gap + reach * abs(one[0] * two[1] - one[1] * two[0]) / n / m)
+
+
+def crossing(step: Step, values: Sequence[Any]) -> float:
+    """The sine of the angle under which the two curves of a crossing meet."""
+    X = complex(*values[step.index])
+    one, two = (_normal(kind, values[arg], X) for kind, arg in zip(step.op.reads, step.args, strict=True))
+    return abs((one.conjugate() * two).imag)
+
+
+def _normal(kind: str, curve: Any, X: complex) -> complex:
+    """The unit normal of a line, or of a circle at X."""
+    normal = X - complex(*curve[:2]) if kind == CIRCLE else complex(*curve[:2])
+    return normal / (abs(normal) or 1.0)

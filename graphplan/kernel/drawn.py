@@ -10,16 +10,20 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Step
 
 Vector = tuple[int, int]
+ULP = 2.0**-52  # of a number: what its rounding may be
 
 
 class Drawn:
-    """One step in numbers: its operands by place, -1 being what it made. Points and vectors are complex numbers."""
+    """One step in numbers: its operands by place, -1 being what it made. Points and vectors are complex numbers.
 
-    def __init__(self, step: Step, values: Sequence[Any]):
+    Lengths count beside the `size` of what the step was made from, and that as no less than `least`.
+    """
+
+    def __init__(self, step: Step, values: Sequence[Any], least: float = 0.0):
         self.kinds = (*step.op.reads, step.op.gives)
         self.numbers = [tuple(map(float, values[index])) for index in (*step.args, step.index)]
         self.params = step.params
-        self.size = max(map(_extent, self.kinds, self.numbers)) or 1.0
+        self.size = max(least, *map(_extent, self.kinds, self.numbers)) or 1.0
 
     def __getitem__(self, k: int) -> complex:
         """The point, or the centre of the circle, at a place."""
@@ -50,6 +54,15 @@ class Drawn:
     def turned(self, u: complex) -> complex:
         """A vector of the link as its image runs."""
         return u if self.params["turn"] == "parallel" else 1j * u
+
+
+def roundings(kind: str, numbers: tuple[float, ...], extent: float) -> list[float]:
+    """What rounding may make the numbers of a thing be off that is drawn in a figure of this extent."""
+    if kind == LINE:
+        across = math.hypot(*numbers[:2])
+        return [ULP * across, ULP * across, ULP * max(abs(numbers[2]), across * extent)]
+    far = [ULP * max(abs(number), extent) for number in numbers]
+    return far if kind == POINT else [*far[:-1], ULP * max(numbers[-1], extent * extent)]
 
 
 def _extent(kind: str, numbers: tuple[float, ...]) -> float:

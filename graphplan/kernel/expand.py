@@ -15,12 +15,14 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from graphplan.errors import ConstructionError, Undrawable
-from graphplan.kernel.coincidence import ROUNDED, LyingLine, LyingLines, line_gap, runs_against
+from graphplan.kernel.claims import unmet
+from graphplan.kernel.coincidence import ROUNDED, LyingLine, LyingLines, crossing, line_gap, runs_against
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.plans import PlansApart
 from graphplan.kernel.primitives import dot
-from graphplan.kernel.program import Board, Mark, Program, Step, Verbs, error_at
+from graphplan.kernel.program import Board, Mark, Panel, Program, Step, Verbs, error_at
+from graphplan.kernel.window import EVERYWHERE, Window
 
 AGREE = 1e-6  # beside the figure that is drawn: a form that loses more is none
 FLOATS = Floats()
@@ -28,19 +30,6 @@ FLOATS = Floats()
 # What counts as one movement: with set squares and dividers, and with compasses and straightedge alone.
 STRICT = frozenset(name for name, op in TABLE.items() if not (op.compound or op.movement is Movement.INCLINED))
 BY_SET_SQUARE = STRICT | {name for name, op in TABLE.items() if op.movement is not Movement.OTHER}
-
-
-class Window(NamedTuple):
-    """What counts as on the sheet of a panel: a circle, in plan units."""
-
-    centre: tuple[float, float]
-    radius: float
-
-    def holds(self, point: tuple[float, float]) -> bool:
-        return math.dist(point, self.centre) <= self.radius
-
-
-EVERYWHERE = Window((0.0, 0.0), math.inf)
 
 
 class Outdone(Exception):
@@ -68,7 +57,8 @@ class Expander:
     """Copies a program step by step, drawing its compounds out; knows the float value of every step it has drawn.
 
     Reads a program, its values in the drawn pose, the operations that stay single steps, the panels' windows, and
-    the forms wanted by name (`prefer`: such a form wins wherever it can be drawn at all).
+    the forms wanted by name (`prefer`: such a form wins wherever it can be drawn at all), the figure's extent, and
+    whether the values are `better` than floats give them: then points lie where they do in truth.
     """
 
     program: Program
@@ -76,6 +66,8 @@ class Expander:
     keep: frozenset[str] = BY_SET_SQUARE
     windows: Mapping[str, Window] = field(default_factory=dict)
     prefer: str = ""
+    extent: float = 0.0
+    better: bool = False
     _apart: bool = field(default=False, init=False)  # each line is drawn for itself, even where one lies already
 
     def __post_init__(self) -> None:
@@ -113,7 +105,8 @@ class Expander:
             try:
                 with self.board.on(step.panel, step.links, step.stage):
                     self._letters = ()
-                    mark = self.draw(step.op, args, step.params, step.why, step.names)
+                    truth = self.truth[step.index] if self.better else None
+                    mark = self.draw(step.op, args, step.params, step.why, step.names, truth=truth)
             except Undrawable as fault:
                 raise error_at(self.program, step, fault) from None
             if step.quantity:
@@ -135,24 +128,34 @@ class Expander:
         return tuple(-part for part in value) if mark.against else value
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str = "",
-             names: Mapping[str, str] | None = None, tried: bool = False) -> Mark:
+             names: Mapping[str, str] | None = None, tried: bool = False, truth: Any = None) -> Mark:
         """Draw one operation: as one step if it is one, else in its best form, as that was tried.
 
-        What is only `tried` may be outdone, and is given neither letters nor reasons.
+        What is only `tried` may be outdone, and is given neither letters nor reasons. A point lies where it does in
+        `truth`, if that is given: what its form loses by flat crossings is not handed on.
         """
-        found = [] if op.name in self.keep else self.attempts(op, args, params, tried)
+        found = [] if op.name in self.keep else self.attempts(op, args, params, tried, truth)
+        while found and not tried and self._breaks_a_claim(found[0]):
+            del found[0]
         if not found:
-            return self._record(op, args, params, why)
+            return self._record(op, args, params, why, truth)
         before, best = len(self.board.steps), found[0]
         out = self._laid(best)
         if out.step.index >= before:
             self._made.setdefault(out.step.index, (op.name, args))
+            if truth and op.gives == POINT:
+                self.values[out.step.index] = truth
         for mark, letter in best.letters if names else ():
             self.board.named(mark, (names or {}).get(letter, ""))
         if not tried:
             self._letters = best.letters
             self._explain(op, before, [one.rating for one in found], why, out)
         return out
+
+    def _breaks_a_claim(self, attempt: Attempt) -> bool:
+        """Whether a step of a form is not what it should be, as where its curves cross too flat in this pose."""
+        values = [*self.values, *attempt.values]
+        return any(unmet(mark.step, values, AGREE, self.extent) for mark in attempt.marks)
 
     def _laid(self, attempt: Attempt) -> Mark:
         """What an attempt has drawn, on the board once more."""
@@ -167,9 +170,9 @@ class Expander:
         return attempt.out
 
     def attempts(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any],
-                 tried: bool = False) -> list[Attempt]:
+                 tried: bool = False, truth: Any = None) -> list[Attempt]:
         """The forms that can be drawn, the best first; of all but the first only what is told is sure to be so."""
-        truth = op.rule(FLOATS, *map(self.value, args), **params)
+        truth = op.rule(FLOATS, *map(self.value, args), **params) if truth is None else truth
         found: list[Attempt] = []
         for form in op.forms:
             bound = self._allowed(form, found) if tried or not op.weighed else math.inf
@@ -189,11 +192,14 @@ class Expander:
     def _rank(self, rating: Rating) -> tuple[Any, ...]:
         return not (self.prefer and plain(rating.form) == self.prefer), *rating.rank
 
-    def _record(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str) -> Mark:
-        """Record one step and give it its value."""
+    def _record(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str,
+                truth: Any = None) -> Mark:
+        """Record one step and give it its value: that of `truth`, where that is known and no line runs another way."""
         mark, step = self.board.draw(op, args, why=why, **params), self.board.steps[-1]
         if mark.step.index == len(self.values):
-            self.values.append(op.rule(FLOATS, *[self.values[arg] for arg in step.args], **step.params))
+            drawn = [self.values[arg] for arg in step.args]
+            known = truth and not any(arg.against for arg in args)
+            self.values.append(truth if known else op.rule(FLOATS, *drawn, **step.params))
             self.reach.append(self._reach(step))
             if op.gives == LINE and (lying := self.lines.fallen(step, self._apart)) is not None:
                 run = self.value(mark)
@@ -378,16 +384,3 @@ class FormBoard(Verbs):
         values, here = self._expander.values, self._expander.value(P)
         far = max((step.index for step in points), key=lambda index: math.dist(here, values[index]), default=None)
         return None if far is None or self.one(P, mark := self._expander.board.marks[far]) else mark
-
-
-def crossing(step: Step, values: Sequence[Any]) -> float:
-    """The sine of the angle under which the two curves of a crossing meet."""
-    X = complex(*values[step.index])
-    one, two = (_normal(kind, values[arg], X) for kind, arg in zip(step.op.reads, step.args, strict=True))
-    return abs((one.conjugate() * two).imag)
-
-
-def _normal(kind: str, curve: Any, X: complex) -> complex:
-    """The unit normal of a line, or of a circle at X."""
-    normal = X - complex(*curve[:2]) if kind == CIRCLE else complex(*curve[:2])
-    return normal / (abs(normal) or 1.0)

@@ -58,10 +58,7 @@ def origin(points: Collection[tuple[Any, Any]]) -> Origin | None:
 
 def on_pose(steps: Sequence[Any]) -> Iterator[str]:
     """The kind of each mark that lies on the plan of the pose's points; of others, which begin at zero, nothing."""
-    plans: list[str] = []
-    for step in steps:
-        plans.append(plans[step.args[step.op.where]] if step.args else step.params.get("plan", step.panel))
-        yield step.op.gives if plans[-1] == plans[0] else ""
+    return (step.op.gives if step.panel == steps[0].panel else "" for step in steps)
 
 
 def shifted(steps: Sequence[Any], x: Any, y: Any) -> tuple[Any, ...]:

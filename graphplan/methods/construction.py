@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel.claims import broken
-from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, EVERYWHERE, STRICT, Expander, Window
+from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, STRICT, Expander
+from graphplan.kernel.faithful import Faithful, faithful
 from graphplan.kernel.kinds import LINE, POINT, plain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.origin import on_pose, shifted
 from graphplan.kernel.passes import gathered
-from graphplan.kernel.program import Panel, Program, Step, about_origin, evaluate
+from graphplan.kernel.program import Panel, Program, Step
+from graphplan.kernel.window import EVERYWHERE, Window
 from graphplan.methods import kinds
 from graphplan.methods.controls import Control, controls
 from graphplan.methods.motion.circle_diagram import DrawnCircle
@@ -125,7 +127,12 @@ class Construction(Recorded, Given):
     @cached_property
     def truth(self) -> list[Any]:
         """The float value of every step of `program`, in the scene's pose."""
-        return evaluate(self.program, Floats())
+        values, origin = self._faithful.values, self.program.origin
+        return origin.back(Floats(), on_pose(self.program.steps), values) if origin else values
+
+    @cached_property
+    def _faithful(self) -> Faithful:
+        return faithful(self.program)
 
     @cached_property
     def _expander(self) -> Expander:
@@ -134,13 +141,13 @@ class Construction(Recorded, Given):
         program = self.program
         if origin:
             program = replace(program, steps=shifted(program.steps, -origin.x, -origin.y))
-        truth = about_origin(self.program, Floats()) if origin else self.truth
+        truth = self._faithful.values
         for step in program.steps:
             if step.op.gives == POINT:
                 points.setdefault(step.panel, []).append(truth[step.index])
         windows = {panel: _window(own) for panel, own in points.items()}
         keep = STRICT if self.strict else BY_SET_SQUARE
-        return Expander(program, truth, keep, windows, self.prefer)
+        return Expander(program, truth, keep, windows, self.prefer, self.scene.extent, self._faithful.better)
 
     @cached_property
     def _gathered(self) -> tuple[Program, list[Any], list[int]]:
@@ -174,7 +181,9 @@ class Construction(Recorded, Given):
         What cannot be drawn in this pose claims nothing. Drawn steps lose digits where curves cross flat.
         """
         with suppress(ConstructionError):
-            return next(chain(broken(self.drawn, self.values, AGREE), broken(self.program, self.truth)), "")
+            extent, blur = self.scene.extent, self._faithful.blur
+            return next(chain(broken(self.drawn, self.values, AGREE, extent, blur),
+                              broken(self.program, self.truth, extent=extent, blur=blur)), "")
         return ""
 
     @cached_property

@@ -9,22 +9,24 @@ from __future__ import annotations
 
 from typing import Any
 
+from graphplan.errors import by_name
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.plane import Pair, dot, plus, times, turned
 from graphplan.solver.rates import Rates
 
 
-def centre(rates: Rates, point: str) -> Pair:
+def centre(rates: Rates, point: str, link: str) -> Pair:
     """The centre of curvature of a point's path; divides by zero where that is straight, or where the point rests.
 
-    A point at rest that turns about a pivot, as at a dead centre, has that as its centre.
+    A point at rest that turns about a pivot, as at a dead centre, has that as its centre: if it may, that of the link.
     """
     v, a = _of(rates, point)
     scene = rates.equations.scene
     try:
         return plus(scene.points[point], times(dot(v, v) / dot(turned(v), a), turned(v)))
     except ArithmeticError:
-        pivots = [p for link in scene.links_of[point] for p in scene.links[link] if FRAME in scene.links_of[p]]
+        links = sorted(scene.links_of[point], key=lambda one: (one != link, by_name(one)))
+        pivots = [p for one in links for p in scene.links[one] if FRAME in scene.links_of[p]]
         if not pivots:
             raise
         return plus(scene.points[pivots[0]], times(0, v))

@@ -97,7 +97,7 @@ def test_the_protocol_tells_the_preference(capsys: pytest.CaptureFixture[str], t
     scene.write_text(TRIAD)
     assert main(["steps", str(scene), "--plan", "polar", "--prefer", "accurate"]) == 0
     told = capsys.readouterr().out
-    assert "accurate form preferred: trial; compared on A3:" in told
+    assert "accurate form preferred: trial; compared on A4 portrait:" in told
     assert re.search(r"step \d+: trial figure", told)
 
 

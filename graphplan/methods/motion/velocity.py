@@ -180,11 +180,13 @@ def trains(net: Network) -> list[set[str]]:
     in line."""
     found: list[set[str]] = []
     for guide in rolling_guides(net.scene):
-        line = {guide.at, *guide.through} if guide.through else set[str]()
+        if not guide.through:  # a rack, which has no line of centres
+            continue
+        line = {guide.at, *guide.through}
         for train in [train for train in found if _in_line(net, train | line)]:
             line |= train
             found.remove(train)
-        found += [line] if line else []
+        found.append(line)
     return found
 
 

@@ -147,10 +147,11 @@ Protocol = tuple[Arrangement, list[Placed]]  # a page of words, and what stands 
 
 
 def composed(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, paper: str | None,
-             protocol: str = PROTOCOLS[0]) -> Composition:
+             protocol: str = PROTOCOLS[0], lettered: bool = True) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
-    Its `protocol` stands beside the plans where these keep most of the page, else on pages of its own; or as is asked.
+    Where it is not to be `lettered`, nobody asks whether its letters can be read. Its `protocol` stands beside the
+    plans where these keep most of the page, else on pages of its own; or as is asked.
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
     extents: dict[str, Extent] = {panel: plans.extent(panel) for panel in plans.panels}
@@ -168,7 +169,8 @@ def composed(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, 
             if not (found and fitting):
                 continue
             best, asked = max(fitting, key=lambda c: c.score), given[0] or (paper and words is ways[-1])
-            if best.poor <= UNREADABLE if asked else _legible(plans, best.views, name) and best.poor <= POOR[name[:2]]:
+            if (not lettered or best.poor <= UNREADABLE) if asked else (
+                    _legible(plans, best.views, name) and (not lettered or best.poor <= POOR[name[:2]])):
                 return best
     if any(composition.oversized for composition in tried):
         raise _too_large(tried)
@@ -302,11 +304,11 @@ class Composer:
 
     def __init__(self, drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
                  tongue: Tongue | None = None, protocol: str = PROTOCOLS[0],
-                 motion: TracedMotion | None = None):
+                 motion: TracedMotion | None = None, lettered: bool = True):
         scene = drawing.scene
         say = tongue or tongue_of(scene.sheet.language or "en")
         self.plans, self.protocol = Plans(drawing, say, motion=motion), protocol
-        self.paper = paper or scene.sheet.paper or None
+        self.paper, self.lettered = paper or scene.sheet.paper or None, lettered
         self.frame, self.title = frame_of(scene), frame_of(scene).block(scene, say)
         self.words = Words(self.plans, check or {})
         self._composed: tuple[Composition, dict[float, list[TextRow]]] | None = None
@@ -340,7 +342,8 @@ class Composer:
             return found[wide]
 
         if not (self._composed and all(_alike(was, rows(wide)) for wide, was in self._composed[1].items())):
-            self._composed = composed(self.plans, rows, self.title, self.paper, self.protocol), dict(found)
+            page = composed(self.plans, rows, self.title, self.paper, self.protocol, self.lettered)
+            self._composed = page, dict(found)
         return rows, self._composed[0]
 
     def _worded(self, composition: Composition, rows: Measure[Sequence[TextRow]]) -> Composition:

@@ -36,11 +36,13 @@ def between(start: Spot, end: Spot, t: float) -> Spot:
 def clipped(item: Item, rect: Rect) -> Iterator[Item]:
     """The item as far as it lies in the rectangle: strokes are cut; vectors, figures and letters are left whole.
 
-    A circle is left out with its middle.
+    A circle is left out with its middle. An arc without a radius, as of the curvature at a cusp, is no stroke.
     """
     if isinstance(item, Circle) and not rect.holds(item.centre):
         return
     if isinstance(item, Arc):
+        if not item.radius:
+            return
         spots = item.spots(min(4.0, math.degrees(math.sqrt(8 * OFF / item.radius))))
         if all(map(rect.holds, spots)):
             yield item

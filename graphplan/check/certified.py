@@ -19,6 +19,7 @@ from graphplan.check.arithmetics import enclosures
 from graphplan.check.compared import drawn_sizes, each, weight
 from graphplan.check.json_results import data
 from graphplan.check.report import Opinion, Report, opinion
+from graphplan.check.resting import with_resting_pairs
 from graphplan.check.trusted import first_sound, report
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, precision
@@ -145,6 +146,7 @@ def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "", in
         if digits > FLOAT and IRRATIONAL.format(where) in scene.irrational:
             raise Refused(f"--digits {digits}", f"{where} has its value in this pose to the digits of a float",
                           f"at most {FLOAT}, or a load that is a fraction in this pose")
+    scene = with_resting_pairs(scene)
     how = {"method": method, "plan": plan, "inertia": inertia}
     least = bits = math.ceil((digits + SPARE) * math.log2(10)) + 64
     doubt = Undecided(OPEN)

@@ -21,7 +21,15 @@ from graphplan.methods.forces.groups import pairs
 from graphplan.methods.panels import JointForce
 from graphplan.methods.results import balances
 from graphplan.solver.equations import Equations, held
-from graphplan.solver.friction import Frictional, contact_slip, delivered, efficiency, leaning, with_friction
+from graphplan.solver.friction import (
+    Frictional,
+    contact_slip,
+    delivered,
+    efficiency,
+    leaning,
+    name_in_joint,
+    with_friction,
+)
 from graphplan.solver.higher_pairs import force, held_at, pushes
 from graphplan.solver.rates import Rates
 from graphplan.solver.statics import Reactions, acting, asked, repeating, resultants
@@ -68,20 +76,25 @@ def _leaning(last: Reactions, by: Bounds) -> Iterator[Statement]:
     """What holds the links, each pair's force against its turning or sliding as its last force says."""
     scene, rates = last.equations.scene, last.rates
     omega: dict[str, Any] = rates.omega | {FRAME: by.lift(0)}
-    journals = {f.at: f.radius * f.coefficient for f in asked(scene).frictions if f.at}
-    coefficients = {f.links: f.coefficient for f in asked(scene).frictions if f.links}
+    loads = asked(scene)
+    journals = {f.at: f.radius * f.coefficient for f in loads.frictions if f.at}
+    coefficients = {frozenset(f.links): f.coefficient for f in loads.frictions if f.links}
 
     def arm(joint: Revolute, link: str, force: Pair) -> Any:
+        if joint.at not in journals or name_in_joint(joint.at, link) in loads.resting:
+            return 0
         square = by.lift(dot(force, force))
-        circle = journals.get(joint.at, 0) * -_sense(omega[link] - omega[joint.links[0]], by)
+        circle = journals[joint.at] * -_sense(omega[link] - omega[joint.links[0]], by)
         return circle / square.root if circle and _sense(square, by) else 0
 
     def lean(pair: Slide | Gear | Contact, along: Pair, size: Any) -> Number:
         if isinstance(pair, Gear):
             return pair.tangent * _sense(size, by)
+        if pair.name in loads.resting:
+            return 0
         slip = (dot(rates.slide_velocity[pair.name], pair.direction) if isinstance(pair, Slide)
                 else contact_slip(rates, pair))
-        return coefficients.get(pair.links, 0) * -_sense(slip, by) * _sense(size, by)
+        return coefficients.get(frozenset(pair.links), 0) * -_sense(slip, by) * _sense(size, by)
 
     return leaning(last, arm, lean)
 

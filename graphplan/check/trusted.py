@@ -18,6 +18,7 @@ from typing import Any, TypeVar
 from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, enclosures
 from graphplan.check.compared import compared, printed, rounded
 from graphplan.check.report import Opinion, Report, opinion
+from graphplan.check.resting import with_resting_pairs
 from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
 from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.numbers import Domain
@@ -237,6 +238,7 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
         raise Refused(f"{scene.name}: {irrational}", "fractions cannot hold this", "leave out --exact")
     if exact and scene.loads is not None and any(friction.at for friction in scene.loads.frictions):
         scene = replace(scene, loads=replace(scene.loads, frictions=()))
+    scene = with_resting_pairs(scene)
     how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia}
     bench = Bench(scene, how, exact)
     try:

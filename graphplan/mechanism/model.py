@@ -150,7 +150,8 @@ class Friction:
 class Loads:
     """What acts on the links besides each other: gravity is in m/s^2, all else in the scene's units.
 
-    `rounds` is how many rounds of friction are asked for; 0 means as many as it takes.
+    `rounds` is how many rounds of friction are asked for; 0 means as many as it takes. `resting` are the names of the
+    pairs that are known to stand still: nothing rubs in them.
     """
 
     gravity: Pair
@@ -160,6 +161,7 @@ class Loads:
     balances: tuple[Balance, ...]
     frictions: tuple[Friction, ...] = ()
     rounds: int = 0
+    resting: frozenset[str] = frozenset()
 
     @cached_property
     def named_balances(self) -> dict[str, Balance]:

@@ -195,23 +195,49 @@ def rubbing(scene: Scene, rates: Rates) -> Rubbing:
 
     What rounding could make of what moves fastest does not move.
     """
-    frictions, reach, omega = asked(scene).frictions, rates.equations.reach, {**rates.omega, FRAME: 0}
+    loads, reach = asked(scene), rates.equations.reach
     points = (abs(float(x)) for v in (rates.velocity, rates.slide_velocity) for pair in v.values() for x in pair)
-    still = ROUNDING * rates.condition * max(*points, *(abs(float(turn)) * reach for turn in omega.values()))
-    circles = {f.at: f.radius * f.coefficient for f in frictions}
-    coefficients = {f.links: f.coefficient for f in frictions}
+    still = ROUNDING * rates.condition * max(*points, *(abs(float(turn)) * reach for turn in rates.omega.values()), 0.0)
+    circles = {f.at: f.radius * f.coefficient for f in loads.frictions}
+    coefficients = {frozenset(f.links): f.coefficient for f in loads.frictions}
     journals, guides = dict[tuple[str, str], Number](), dict[Slide | Contact, Number]()
-    for joint in scene.revolutes:
-        for link in joint.links[1:]:
-            speed = float(omega[link] - omega[joint.links[0]]) * reach
-            journals[joint.at, link] = -circles.get(joint.at, Fraction(0)) * sign(speed, still)
-    for slide in scene.slides:
-        speed = float(dot(rates.slide_velocity[slide.name], slide.direction)) / math.hypot(*slide.direction)
-        guides[slide] = -coefficients.get(slide.links, Fraction(0)) * sign(speed, still)
-    for contact in scene.contacts:
-        speed = float(contact_slip(rates, contact)) / math.hypot(*contact.normal(scene.points))
-        guides[contact] = -coefficients.get(contact.links, Fraction(0)) * sign(speed, still)
+    for joint, link, turning in turnings(rates):
+        rests = name_in_joint(joint, link) in loads.resting
+        against = 0 if rests else -sign(float(turning) * reach, still)
+        journals[joint, link] = circles.get(joint, Fraction(0)) * against
+    for pair, slip in slips(rates):
+        along = pair.direction if isinstance(pair, Slide) else pair.normal(scene.points)
+        against = 0 if pair.name in loads.resting else -sign(float(slip) / math.hypot(*along), still)
+        guides[pair] = coefficients.get(frozenset(pair.links), Fraction(0)) * against
     return Rubbing(journals, guides)
+
+
+def turnings(rates: Rates) -> Iterator[tuple[str, str, Number]]:
+    """Of every journal its joint, the link in it, and how fast that turns on the link that carries the pin."""
+    omega = {**rates.omega, FRAME: 0}
+    for joint in rates.equations.scene.revolutes:
+        for link in joint.links[1:]:
+            yield joint.at, link, omega[link] - omega[joint.links[0]]
+
+
+def slips(rates: Rates) -> Iterator[tuple[Slide | Contact, Number]]:
+    """How fast each slide and contact slides, in as many times its direction's or its normal's length as it has."""
+    scene = rates.equations.scene
+    for slide in scene.slides:
+        yield slide, dot(rates.slide_velocity[slide.name], slide.direction)
+    for contact in scene.contacts:
+        yield contact, contact_slip(rates, contact)
+
+
+def resting(rates: Rates, vanishes: Callable[[Number], bool]) -> frozenset[str]:
+    """The names of the pairs that stand still: those whose turning or sliding `vanishes`."""
+    journals = (name_in_joint(joint, link) for joint, link, turning in turnings(rates) if vanishes(turning))
+    return frozenset((*journals, *(pair.name for pair, slip in slips(rates) if vanishes(slip))))
+
+
+def name_in_joint(joint: str, link: str) -> str:
+    """The name of a journal: of the link in the joint."""
+    return f"{link} at {joint}"
 
 
 def contact_slip(rates: Rates, contact: Contact) -> Number:

@@ -19,7 +19,7 @@ from graphplan.check.arithmetics import enclosures
 from graphplan.check.compared import drawn_sizes, each, weight
 from graphplan.check.json_results import data
 from graphplan.check.report import Opinion, Report, opinion
-from graphplan.check.resting import with_resting_pairs
+from graphplan.check.resting import decided
 from graphplan.check.trusted import first_sound, report
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, precision
@@ -146,14 +146,14 @@ def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "", in
         if digits > FLOAT and IRRATIONAL.format(where) in scene.irrational:
             raise Refused(f"--digits {digits}", f"{where} has its value in this pose to the digits of a float",
                           f"at most {FLOAT}, or a load that is a fraction in this pose")
-    scene = with_resting_pairs(scene)
+    scene, locks = decided(scene)
     how = {"method": method, "plan": plan, "inertia": inertia}
     least = bits = math.ceil((digits + SPARE) * math.log2(10)) + 64
     doubt = Undecided(OPEN)
     while bits <= max(ENOUGH, 2 * least):
         with precision(bits):
             try:
-                found = _attempt(scene, digits, bits, how)
+                found = _attempt(scene, digits, bits, how, locks)
                 if found.settled:
                     return found
             except Undecided as undecided:
@@ -177,16 +177,16 @@ def _certainly_singular(scene: Scene) -> bool:
     return False
 
 
-def _attempt(scene: Scene, digits: int, bits: int, how: dict[str, str]) -> Certified:
+def _attempt(scene: Scene, digits: int, bits: int, how: dict[str, str], locks: str) -> Certified:
     """Both opinions at one precision, by the first way on which they agree; `Undecided` where that is too low."""
     solved = opinion(scene, enclosures(bits))
-    found = first_sound(solved.scene, how, lambda drawing: _beside(drawing, solved, digits, bits))
+    found = first_sound(solved.scene, how, lambda drawing: _beside(drawing, solved, digits, bits, locks))
     if isinstance(found, Certified):
         return found
     raise found[1]
 
 
-def _beside(drawing: Construction, solved: Opinion, digits: int, bits: int) -> Certified:
+def _beside(drawing: Construction, solved: Opinion, digits: int, bits: int, locks: str) -> Certified:
     """One construction beside the solver."""
     domain = Enclosures()
     try:
@@ -195,9 +195,11 @@ def _beside(drawing: Construction, solved: Opinion, digits: int, bits: int) -> C
         if domain.undecided:
             raise Undecided(error.why) from error
         raise
-    forces = solved.beside(drawing.scene, results, drawing.rounds, bounded=True)
-    return Certified(drawing, solved.rates, results, False, forces, digits=digits, bits=bits,
-                     truths=solved.truth(results, drawing.rounds))
+    truths = solved.truth(results, drawing.rounds)
+    for kind, named in solved.undrawn(drawing, results, truths).items():
+        results = results | {kind: results.get(kind, {}) | named}
+    forces = solved.beside(drawing, results, locks, bounded=True)
+    return Certified(drawing, solved.rates, results, False, forces, digits=digits, bits=bits, truths=truths)
 
 
 def _named(scene: Scene, fault: BaseException, far: str, how: dict[str, str]) -> GraphplanError:

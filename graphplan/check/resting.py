@@ -1,7 +1,8 @@
-"""Which pairs stand still in a pose: friction has no sense there, and rounding shall not give it one.
+"""What is decided before friction is drawn: which pairs stand still, and whether the mechanism locks itself.
 
-It is decided once, from the motion alone, for construction and solver alike: by fractions where the scene is rational,
-else between the narrowest bounds that can be had.
+Friction has no sense where a pair stands still, and rounding shall not give it one. So it is decided once, from the
+motion alone, for construction and solver alike: by fractions where the scene is rational, else between the narrowest
+bounds that can be had.
 """
 
 from __future__ import annotations
@@ -13,21 +14,32 @@ from importlib.util import find_spec
 from typing import Any
 
 from graphplan.check.arithmetics import FLOATS, Bounds, bounded_rates, enclosed, enclosures
-from graphplan.errors import GraphplanError
+from graphplan.errors import GraphplanError, SingularPose
 from graphplan.mechanism.model import Scene
 from graphplan.solver import Rates, solve
 
+ROOTS = "fractions do not hold friction in journals: the size of a reaction is a root; leave out --exact"
 DIGITS = 120  # of the enclosures in which what overlaps nothing stands still
 
 
-def with_resting_pairs(scene: Scene) -> Scene:
-    """The scene with the names of its pairs that stand still, where some pair could rub; of a singular pose as it is.
-    """
-    if scene.loads is None or not scene.loads.frictions:
-        return scene
+def decided(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
+    """The scene with the names of its pairs that stand still, where some could rub. Where its forces with friction
+    cannot be had, the scene without its friction, and the reason."""
+    loads = scene.loads
+    if loads is None or not loads.frictions or not any(drive.rate for drive in scene.drives):
+        return scene, ""
+    from graphplan.solver.friction import with_friction
+
+    smooth = replace(scene, loads=replace(loads, frictions=()))
+    if exact and any(friction.at and friction.coefficient * friction.radius for friction in loads.frictions):
+        return smooth, ROOTS
     with suppress(GraphplanError, ArithmeticError):
-        return replace(scene, loads=replace(scene.loads, resting=_resting(scene)))
-    return scene
+        scene = replace(scene, loads=replace(loads, resting=_resting(scene)))
+    try:
+        with_friction(scene, loads.rounds, exact)
+    except SingularPose as singular:
+        return smooth, singular.why
+    return scene, ""
 
 
 def _resting(scene: Scene) -> frozenset[str]:

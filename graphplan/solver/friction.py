@@ -23,7 +23,7 @@ from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.plane import dot, less, plus, times, turned
 from graphplan.mechanism.units import metre
 from graphplan.solver.equations import Equations
-from graphplan.solver.higher_pairs import first_held, force, leant
+from graphplan.solver.higher_pairs import first_held, force, held_at, leant
 from graphplan.solver.rates import Rates
 from graphplan.solver.statics import Reactions, asked, equilibrium, reactions
 
@@ -137,6 +137,24 @@ def forces(found: Reactions) -> list[Pair]:
     return [*found.joints.values(), *(force for force, _ in found.slides.values()),
             *(force(found.equations, pair, found.higher[pair.name]) for pairs in (scene.gears, scene.contacts)
               for pair in pairs if pair.name in found.higher)]
+
+
+def borne(found: Reactions) -> dict[str, Pair]:
+    """The forces in slides, gears and contacts, each on its first link, with what leans in them."""
+    scene, facts, whole = found.equations.scene, iter(found.equations.facts), dict[str, Pair]()
+    for pair in scene.binding:
+        own = [next(facts) for _ in pair.states(scene)]
+        if isinstance(pair, Slide) and pair.name in found.slides:
+            across, normal = next(fact for fact in own if isinstance(fact, Along)), turned(pair.direction)
+            size = dot(normal, found.slides[pair.name][0]) / dot(normal, normal)
+            whole[pair.name] = times(size, across.direction)
+        elif isinstance(pair, Gear | Contact) and pair.name in found.higher:
+            total: Pair = (0, 0)
+            for fact, size in zip(own, found.higher[pair.name], strict=True):
+                x, y, _ = held_at(found.equations, fact)
+                total = plus(total, times(size if fact.link == pair.links[0] else -size, (x, y)))
+            whole[pair.name] = total
+    return whole
 
 
 def largest(found: Reactions) -> float:

@@ -36,7 +36,7 @@ from graphplan.cycle.turn import Turn
 from graphplan.errors import Refused
 from graphplan.machine.integrals import settled
 from graphplan.machine.reduced.breaks import refined, samples
-from graphplan.machine.reduced.friction_drawing import RUBBED_REACTION, rubbed_drawing
+from graphplan.machine.reduced.friction_drawing import rubbed_drawing, with_resting_pairs
 from graphplan.machine.reduced.recordings import Recordings, Results
 from graphplan.machine.reduced.reduced_loads import LoadValues, acting
 from graphplan.machine.reduced.unit_motion import Rates, UnitMotion, at_unit_rate
@@ -49,6 +49,7 @@ from graphplan.phrases import said
 
 Vanishing = Callable[[Results, Turn], tuple[Array, Array]]
 M_F = "M_F"
+JOINT_FORCE, SLIDE_FORCE = (kinds.WITH_FRICTION[kind] for kind in (kinds.REACTION, kinds.SLIDE_REACTION))
 NOTHING = 1e-12  # of the drive's rates, or of the largest reaction
 HAIR = 1e-10  # of the cycle: so far beside a break it is seen how pairs move there
 STANDS = 1e-9  # of the balance: what one round of friction more may change
@@ -95,7 +96,7 @@ class FrictionOverCycle:
     def __init__(self, scene: Scene, motion: UnitMotion, ends: tuple[float, float]):
         assert scene.loads is not None
         self.motion, self.speed, self.ends = motion, mean_speed(scene), ends
-        self.scene = held = kinetostatic(scene, self.speed)
+        self.scene = held = with_resting_pairs(kinetostatic(scene, self.speed), motion, samples(motion, ends))
         assert held.loads is not None
         self.values = LoadValues(held, [*acting(held, held.loads)])
         self.frictions = [one for one in held.loads.frictions if one.coefficient and (one.radius or not one.at)]
@@ -175,11 +176,11 @@ class FrictionOverCycle:
         for one in self.frictions:
             for journal in self._journals(one):
                 circle = float(one.radius * one.coefficient)
-                force = found[RUBBED_REACTION][JointForce(one.at, journal[0]).name]
+                force = found[JOINT_FORCE][JointForce(one.at, journal[0]).name]
                 turning = self._turning(found, journal)
                 yield journal_name(one, *journal), -self.power * circle * np.abs(force) * np.abs(turning)
             for slide in self._slides(one):
-                slip, force = found[kinds.SLIDE_VELOCITY][slide.name], found[RUBBED_REACTION][slide.name]
+                slip, force = found[kinds.SLIDE_VELOCITY][slide.name], found[SLIDE_FORCE][slide.name]
                 yield slide.name, -self.power * np.abs((np.conj(slip) * force).real)
 
     def _journals(self, one: Friction) -> list[tuple[str, str]]:
@@ -218,7 +219,7 @@ class FrictionOverCycle:
 
     def _brackets(self, found: Results, turn: Turn) -> Iterator[Bracket]:
         """Between which of the samples something vanishes; what is next to nothing at a sample is passed over."""
-        every = [np.abs(force) for force in found[RUBBED_REACTION].values()]
+        every = [np.abs(force) for kind in (JOINT_FORCE, SLIDE_FORCE) for force in found.get(kind, {}).values()]
         largest = max((float(np.nanmax(sizes)) for sizes in every), default=0.0)
         for of, size in [of for one in self.frictions for of in self._vanishing(one, largest)]:
             values, _ = of(found, turn)
@@ -226,7 +227,7 @@ class FrictionOverCycle:
                 if values[i] * values[j] < 0 and j - i <= 2:
                     yield Bracket(of, i, j)
         for name in (JointForce(one.at, link).name for one in self.frictions for link, _ in self._journals(one)):
-            force = found[RUBBED_REACTION][name]
+            force = found[JOINT_FORCE][name]
             for i, j in pairwise(np.flatnonzero(np.abs(force) > NOTHING * largest).tolist()):
                 if (force[i] * force[j].conj()).real < 0 and j - i <= 2:
                     yield Bracket(partial(self._turns_round, name, force[i].conj()), i, j)
@@ -252,10 +253,10 @@ class FrictionOverCycle:
 
     def _presses(self, slide: Slide, found: Results, turn: Turn) -> tuple[Array, Array]:
         back = np.conj(self.values.along(slide, turn))
-        return (back * found[RUBBED_REACTION][slide.name]).imag, np.full(turn.travel.shape, np.nan)
+        return (back * found[SLIDE_FORCE][slide.name]).imag, np.full(turn.travel.shape, np.nan)
 
     def _turns_round(self, name: str, back: complex, found: Results, turn: Turn) -> tuple[Array, Array]:
-        return (found[RUBBED_REACTION][name] * back).real, np.full(turn.travel.shape, np.nan)
+        return (found[JOINT_FORCE][name] * back).real, np.full(turn.travel.shape, np.nan)
 
 
 @dataclass(frozen=True)

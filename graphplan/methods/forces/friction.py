@@ -43,6 +43,11 @@ class Journal:
     pin: str
 
 
+def journal_point(point: str, link: str) -> str:
+    """The joint of a link alone with the pin of a journal: a name that no point of a scene has."""
+    return f"{point} of {link}"
+
+
 def journals(scene: Scene) -> Iterator[Journal]:
     """The journals that rub, each of a link in that which carries the pin."""
     assert scene.loads is not None
@@ -50,8 +55,7 @@ def journals(scene: Scene) -> Iterator[Journal]:
         if friction.at and friction.radius * friction.coefficient:
             pin, *others = scene.links_of[friction.at]
             for link in sorted(others, key=by_name):
-                if JointForce(friction.at, link).name not in scene.loads.resting:
-                    yield Journal(friction, f"{friction.at} of {link}", link, pin)
+                yield Journal(friction, journal_point(friction.at, link), link, pin)
 
 
 def rubbing(scene: Scene, forces: DrawnForces) -> Iterator[Journal]:
@@ -106,7 +110,7 @@ class Rubbed:
         at, points = journal.friction.at, self.loading.pose.points
         arm, pair = self._arm(journal), (journal.link, journal.pin)
         tail, head = self._reaction(journal)
-        if tail is head:
+        if tail is head or JointForce(at, journal.link).name in self.loading.loads.resting:
             return points[at]
         why = said("the friction of the journal {0}, of {1} in {2}", at, *map(link_named, pair))
         with self.board.on(MECHANISM, pair, stages.journal(why)):

@@ -26,16 +26,16 @@ from graphplan.methods.forces.groups import (
     Result,
     Way,
     arms,
-    balances,
     reactions,
     results,
+    results_with_friction,
     touching_force,
 )
 from graphplan.methods.forces.higher_pairs import pushing
 from graphplan.methods.forces.lever import Levers
 from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.forces.statics import PREFERENCES
-from graphplan.methods.kinds import REACTION, RUBBED, SLIDE_MOMENT, SLIDE_REACTION
+from graphplan.methods.kinds import REACTION, SLIDE_MOMENT, SLIDE_REACTION
 from graphplan.methods.motion.acceleration import Normal
 from graphplan.methods.motion.alternatives import EQUAL, growth, ways
 from graphplan.methods.motion.network import Network
@@ -150,7 +150,7 @@ class Loaded(Draughtsman):
                 stands = not self.loads.rounds and last.stands(rubbed, self._valued)
             except ConstructionError:  # whoever reads the numbers is told
                 break
-        self.note_rubbed(loading, forces)
+        self._note(results_with_friction(self.scene, loading, forces, self.board), ())
         self.rounds = forces.number
         if self.loads.rounds:
             self.notes.append(said("friction: rounds drawn, as asked: {0}", forces.number))
@@ -158,10 +158,6 @@ class Loaded(Draughtsman):
             self.notes.append(said("friction: the forces no longer change after round {0}", forces.number))
         else:
             self.notes.append(said("friction: the forces still change after {0} rounds", forces.number))
-
-    def note_rubbed(self, loading: Loading, forces: DrawnForces) -> None:
-        """Keep what is asked for of the last round of friction."""
-        self._note(balances(loading, forces, RUBBED), ())
 
     def _valued(self, marks: Sequence[Mark]) -> list[Any]:
         """The values of marks in this pose."""

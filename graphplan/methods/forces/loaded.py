@@ -93,8 +93,9 @@ class Loaded(Draughtsman):
             if not self.style.polygons:
                 levers.reactions(self.by_lever)
                 self.notes += levers.notes
-                if self.loads.frictions:
-                    self.notes.append(said("friction is left out: force polygons alone have it"))
+                if _rubs(self.scene):
+                    self.notes.append(said("friction is not drawn: force polygons alone have it; its results "
+                                           "are the analytic solver's"))
             self._note(levers.results, levers.shown)
 
     def _far(self, loading: Loading) -> Iterator[str]:
@@ -119,8 +120,7 @@ class Loaded(Draughtsman):
         self._note(results(self.scene, loading, forces, self.board), forces.shown)
         self.notes += self._pulling(forces)
         self._note(arms(self.scene, forces, self.board, self.pose, self.arms), ())
-        moves = any(drive.rate for drive in self.scene.drives)  # at rest friction has no sense
-        if self.loads.frictions and moves and not self.scene.repeating:
+        if _rubs(self.scene) and not self.scene.repeating:
             self._rounds(velocity, loading, forces)
 
     def _pulling(self, forces: DrawnForces) -> Iterator[Said]:
@@ -172,6 +172,12 @@ class Loaded(Draughtsman):
             self.read(kind, of, *marks)
 
 
+def _rubs(scene: Scene) -> bool:
+    """Whether there is friction: at rest it has no sense."""
+    assert scene.loads is not None
+    return bool(scene.loads.frictions) and any(drive.rate for drive in scene.drives)
+
+
 def force_arrows(board: Board, marks: list[Mark], shown: Iterable[Shown]) -> tuple[ForceArrow, ...]:
     """The forces drawn as arrows, of those that the wanted marks need; their own marks become wanted, too."""
     needed = needed_steps(board, marks)
@@ -196,7 +202,9 @@ class Alternatives:
     """Draws the forces of a scene as is asked for; where the lever or the polygons cannot serve, by the other."""
 
     def __init__(self, scene: Scene, style: Style):
-        self.scene, self.style, self.plans = scene, style, ForceTransfer(scene)
+        self.scene, self.plans = scene, ForceTransfer(scene)
+        self.style = replace(style, polygons=style.polygons or _rubs(scene))
+        self.added = self.style.polygons > style.polygons
         self.chosen: dict[Planner, Style] = {}
         self.wary = False  # a way of the motion has failed: of others the motion is tried first
         self.hopeless: list[tuple[Construction, Style]] = []  # forces that could not be drawn, though the motion could
@@ -225,6 +233,8 @@ class Alternatives:
             singular = _singular(found)
             if singular is None:
                 found.notes += [missing(faults[-1].why)] if faults else []
+                if self.added and style.polygons:
+                    found.notes.append(said("friction: force polygons alone have it, so they are drawn, too"))
                 return found
             if not faults and _singular(self._motion(planner)):
                 self.wary = True

@@ -70,9 +70,10 @@ class Certified(Report):
     @cached_property
     def data(self) -> dict[str, Any]:
         """What `graphplan solve --digits` prints; fails with `Undecided` where there are too few digits yet."""
-        check = {kind: upwards(_most(gap)) for kind, gap in self.check.items()}
-        bounds = {kind: upwards(error) for kind, error in self.errors.items()}
-        table: dict[str, Any] = self._texts(data(self) | {"check": check})
+        with precision(self.bits):
+            check = {kind: upwards(_most(gap)) for kind, gap in self.check.items()}
+            bounds = {kind: upwards(error) for kind, error in self.errors.items()}
+            table: dict[str, Any] = self._texts(data(self) | {"check": check})
         return table | {"digits": self.digits, "bounds": bounds}
 
     @property

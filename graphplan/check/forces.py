@@ -162,8 +162,6 @@ def _arm(slide: Slide, scene: Scene, found: Reactions) -> Any:
 def undrawn(scene: Scene, results: Results, truth: Results) -> dict[str, dict[str, Any]]:
     """What is asked for and not among the results of a construction, as the solver says it, by kind and name."""
     asked_for, missing = scene.find.reactions, dict[str, dict[str, Any]]()
-    if asked_for is None and results.keys().isdisjoint(kinds.REACTIONS):  # the lever alone is drawn, as it was asked
-        asked_for = ()
     pair_of = {JointForce(point, link).name: point for point in scene.joints for link in scene.links_of[point]}
     for kind in (*kinds.WITH_FRICTION, *kinds.WITH_FRICTION.values()):
         for name, value in truth.get(kind, {}).items():

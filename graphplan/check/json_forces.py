@@ -25,14 +25,13 @@ INDETERMINATE = "statically indeterminate: more holds these links than their equ
 
 def forces(found: Report) -> dict[str, Any]:
     """Balances and reactions, and where something rubs those without friction; nothing where there are no loads."""
-    if found.forces is None:
+    if found.asked.loads is None:
         return {}
-    smooth = _Printed(found, found.forces, False)
-    if not found.forces.rubs:
-        return {**smooth.data, **_indeterminate(found.scene)}
+    smooth, indeterminate = _Printed(found, found.forces, False), _indeterminate(found.asked)
+    if found.forces is None or not found.forces.rubs:
+        return {**smooth.data, **indeterminate}
     rough = _Printed(found, found.forces, True)
-    return {**rough.data, **_indeterminate(found.scene), "without_friction": smooth.data,
-            **_friction(found, found.forces)}
+    return {**rough.data, **indeterminate, "without_friction": smooth.data, **_friction(found, found.forces)}
 
 
 def reasons(found: Report) -> Reasons:
@@ -58,66 +57,72 @@ class _Printed:
     """The forces of a report with friction or without it."""
 
     found: Report
-    forces: Forces
+    forces: Forces | None
     rubs: bool
 
     @property
     def data(self) -> dict[str, Any]:
         """Balances, one alone as it is, and reactions."""
-        told = [self.balance(name, self._value(f"balance {name}")) for name in self.forces.names]
+        told = [self.balance(name, self._value(f"balance {name}", "balance", name)) for name in self._balances]
         kept = {"balance": told[0] if len(told) == 1 else told} if told else {}
         return {**kept, "reactions": list(self._reactions())}
 
     @property
     def missing_balances(self) -> Iterator[tuple[str, str]]:
         """The balances that nobody tells, each with the reason."""
-        return ((name, self.forces.locks) for name in self.forces.names
-                if self._value(f"balance {name}") is None)
+        locks = self.forces.locks if self.forces else ""
+        return ((name, locks) for name in self._balances if locks and self._values.get(f"balance {name}") is None)
 
     @property
     def missing_reactions(self) -> Iterator[tuple[str, str]]:
         """The same of reactions."""
-        return ((name, self.forces.locks or INDETERMINATE) for name, _ in self._asked if self._value(name) is None)
+        why = (self.forces.locks if self.forces else "") or INDETERMINATE
+        return ((name, why) for name, _ in self._asked if self._values.get(name) is None)
+
+    @property
+    def _balances(self) -> list[str]:
+        """The names of the balances."""
+        loads = self.found.asked.loads
+        return [*loads.named_balances] if loads else []
 
     @cached_property
     def _values(self) -> Mapping[str, Any]:
         """The numbers, by the names of pairs and balances."""
-        return self.forces.values(self.rubs)
+        return self.forces.values(self.rubs) if self.forces else {}
 
-    def _value(self, name: str) -> Any:
-        return self._values.get(name)
+    def _value(self, name: str, key: str = "reactions", of: str = "") -> Any:
+        """A number; none where it is missing."""
+        return None if (of or name) in self.found.missing.get(key, {}) else self._values.get(name)
 
     def balance(self, name: str, value: Any) -> dict[str, Any]:
         """A balance: a moment on a link, or a force at a point of it."""
-        assert self.found.scene.loads is not None
-        balance = self.found.scene.loads.named_balances[name]
+        assert self.found.asked.loads is not None
+        balance = self.found.asked.loads.named_balances[name]
         key = "force" if balance.at else "moment"
         return {key: number(value), "link": balance.link, **({"at": balance.at} if balance.at else {})}
 
     def _reactions(self) -> Iterator[dict[str, Any]]:
-        named = self.found.scene.find.reactions is not None
         for name, entry in self._asked:
-            if self._value(name) is not None or named:
-                yield {**entry, "force": number(self._value(name)), **self._more(name)}
+            yield {**entry, "force": number(self._value(name)), **self._more(name)}
 
     @cached_property
     def _asked(self) -> list[tuple[str, dict[str, str]]]:
         """The reactions that are asked for: their names, and between which links they act."""
-        scene, asked = self.found.scene, self.found.scene.find.reactions
+        scene, asked = self.found.asked, self.found.asked.find.reactions
         return [(name, entry) for pair, name, entry in _entries(scene) if asked is None or pair in asked]
 
     def _more(self, name: str) -> dict[str, Any]:
         """Of a slide's reaction its moment, and a point of its line where that lies near."""
-        slide = next((slide for slide in self.found.scene.slides if slide.name == name), None)
+        slide = next((slide for slide in self.found.asked.slides if slide.name == name), None)
         if slide is None:
             return {}
-        moment = self._value(f"moment {name}")
+        moment = None if self._value(name) is None else self._value(f"moment {name}")
         return {"moment": number(moment), **self._acts_at(slide, self._value(name), moment)}
 
     def _acts_at(self, slide: Slide, force: Any, moment: Any) -> dict[str, Any]:
         """Where a slide's reaction crosses its guide."""
         arm = self.found.results.get(kinds.SLIDE_ARM, {}).get(slide.name)
-        if arm is None or force is None:
+        if arm is None or force is None or self.forces is None:
             return {}
         if self.rubs and self.forces.reactions is None:  # of symbols
             return {}

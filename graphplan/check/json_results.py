@@ -22,14 +22,14 @@ OPPOSITE = "pole", "inflection_pole"  # of an inflection circle
 
 def data(found: Report, each: bool = False) -> dict[str, Any]:
     """What `graphplan solve` prints, with the bound of each number where that is asked for."""
-    scene = found.scene
+    scene = found.asked
     return {
         "title": scene.title,
         "units": {"length": scene.units.length, "force": scene.units.force, "mass": scene.units.mass},
         **_pose(found),
-        "points": _merged(found, scene.points, velocity=kinds.VELOCITY, acceleration=kinds.ACCELERATION),
-        "links": _merged(found, scene.moving, omega=kinds.OMEGA, alpha=kinds.ALPHA),
-        "slides": _merged(found, (s.name for s in scene.slides), velocity=kinds.SLIDE_VELOCITY,
+        "points": _merged(found, "points", scene.points, velocity=kinds.VELOCITY, acceleration=kinds.ACCELERATION),
+        "links": _merged(found, "links", scene.moving, omega=kinds.OMEGA, alpha=kinds.ALPHA),
+        "slides": _merged(found, "slides", (s.name for s in scene.slides), velocity=kinds.SLIDE_VELOCITY,
                           acceleration=kinds.SLIDE_ACCELERATION),
         **_poles(found),
         **_paths(found),
@@ -44,18 +44,21 @@ def reasons(found: Report) -> json_forces.Reasons:
     """Why what is asked for is null, by the printed key and the name of the thing."""
     results, find = found.results, found.scene.find
     drawn = {name for kind in (kinds.POLE, kinds.POLE_HEADING) for name in results.get(kind, {})}
-    missing = {
+    told = {
         "poles": {name: AT_REST for name in find.poles if name not in drawn},
         "inflection": {link: TRANSLATES for link in find.inflection if link in results.get(kinds.TRANSLATION, {})},
+        **json_forces.reasons(found),
     }
-    return {key: named for key, named in missing.items() if named} | json_forces.reasons(found)
+    keys = dict.fromkeys((*found.missing, *told))
+    every = {key: {**told.get(key, {}), **found.missing.get(key, {})} for key in keys}
+    return {key: named for key, named in every.items() if named}
 
 
 def _poles(found: Report) -> dict[str, Any]:
     """The instant centres, if any are asked for: each where it is, or which way it lies at infinity; none of links that
     do not move relative to each other."""
-    asked = found.scene.find.poles
-    poles = _merged(found, asked, at=kinds.POLE, direction=kinds.POLE_HEADING)
+    asked = found.asked.find.poles
+    poles = _merged(found, "", asked, at=kinds.POLE, direction=kinds.POLE_HEADING)
     return {"poles": {name: poles.get(name, {"at": None}) for name in asked}} if asked else {}
 
 
@@ -72,11 +75,13 @@ def _pose(found: Report) -> dict[str, Any]:
 
 def _paths(found: Report) -> dict[str, Any]:
     """Centres of curvature and inflection circles, where they are asked for."""
-    find, results = found.scene.find, found.results
+    find, results, missing = found.asked.find, found.results, found.missing
     told = {
-        "curvature": {name: _curvature(found, name, found.scene.points[point])
+        "curvature": {name: dict.fromkeys(("centre", "radius")) if name in missing.get("curvature", {})
+                      else _curvature(found, name, found.scene.points[point])
                       for name, (point, _) in find.traced.items()},
-        "inflection": {link: _inflection(results, link, found.exact) for link in find.inflection},
+        "inflection": {link: dict.fromkeys((*OPPOSITE, "diameter")) if link in missing.get("inflection", {})
+                       else _inflection(results, link, found.exact) for link in find.inflection},
     }
     return {key: named for key, named in told.items() if named}
 
@@ -145,12 +150,14 @@ def _each(found: Report) -> dict[str, Any]:
             for part, named in found.results.items() if part in found.numbers}
 
 
-def _merged(found: Report, names: Iterable[str], **kinds: str) -> dict[str, Any]:
-    """Readings of several kinds by name, as JSON takes them."""
-    table = {}
+def _merged(found: Report, key: str, names: Iterable[str], **kinds: str) -> dict[str, Any]:
+    """Readings of several kinds by name, as JSON takes them; null what is asked for and missing under this key."""
+    table, missing, find = {}, found.missing.get(key, {}), found.asked.find
     for name in names:
         entry = {k: number(found.results[kind][name]) for k, kind in kinds.items()
                  if name in found.results.get(kind, {})}
+        if name in missing:
+            entry = dict.fromkeys(k for k in kinds if key != "points" or name in getattr(find, k))
         if entry:
             table[name] = entry
     return table

@@ -135,7 +135,8 @@ class Report:
 
     `arithmetic` is that in which both were found: floats, enclosures of so many digits, or fractions; `exact` says that
     the numbers themselves are fractions. `numbers` are what is compared, by kind and name, as the results are. `fault`
-    says why nothing can be drawn, where the numbers are the solver's alone.
+    says why nothing can be drawn, where the numbers are the solver's alone. Of a pose that is singular in part `whole`
+    is the scene as it was given, and `missing` why its other results cannot be had, by printed key and name.
     """
 
     drawing: Construction
@@ -146,6 +147,13 @@ class Report:
     arithmetic: str = "floats"
     numbers: Numbers = field(default_factory=dict, repr=False)
     fault: ConstructionError | None = None
+    whole: Scene | None = None
+    missing: dict[str, dict[str, str]] = field(default_factory=dict)
+
+    @property
+    def asked(self) -> Scene:
+        """The scene as it was given."""
+        return self.whole or self.scene
 
     @property
     def scene(self) -> Scene:

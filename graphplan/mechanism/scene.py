@@ -186,7 +186,8 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         placements=placements, links=names.links, written=names.pairs, motions=read.get("motion", {}),
         find=read.get("find") or _asked(names), loads=sections.loads(read), flywheel=read.get("flywheel"),
         run=read.get("run"), sheet=read.get("sheet") or Presentation(), vary=read.get("vary", {}))
-    scene = _kept_by_its_drive(scene) if by_drive or scene.flywheel or scene.run else scene
+    kept = by_drive or scene.flywheel or scene.run
+    scene = _kept_by_its_drive(scene) if kept else _without_unasked_loads(scene, tables.get("find"))
     counting = _counting(scene)
     rounded = [f"points.{quoted(point)}: {placements[point].how} placement" for point in placements
                if point in names.placed and point in counting and not is_exact(names.placed[point])]
@@ -214,6 +215,12 @@ def _kept_by_its_drive(scene: Scene) -> Scene:
     if not loads or loads.balances or (loads.frictions and any(drive.on != FRAME for drive in drives)):
         return scene
     return replace(scene, loads=replace(loads, balances=tuple(map(balance, drives))))
+
+
+def _without_unasked_loads(scene: Scene, find: object) -> Scene:
+    """The scene; where motion alone is asked for and no balance given, without the loads, which nothing needs then."""
+    motion = isinstance(find, dict) and bool(find) and not find.get("reactions")
+    return replace(scene, loads=None) if motion and scene.loads and not scene.loads.balances else scene
 
 
 def _told_apart(pairs: tuple[KinematicPair, ...]) -> tuple[KinematicPair, ...]:

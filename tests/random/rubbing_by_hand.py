@@ -16,7 +16,7 @@ from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.solver import solve
 
 Vector = np.ndarray
-ROUNDS, CLOSE = 4000, 1e-13
+ROUNDS, CLOSE, DIVERGED = 4000, 1e-13, 1e12
 
 
 def quarter(v: Vector) -> Vector:
@@ -172,6 +172,8 @@ class Machine:
             gap, largest = np.abs(new - found).max(initial=0.0), np.abs(new).max(initial=0.0)
             if gap <= CLOSE * largest or not largest:
                 return new
+            if largest > DIVERGED * np.abs(burden).max():
+                return None
             if number == 200:
                 step = 0.3  # forces that go to and fro
             found = found + step * (new - found)
@@ -185,11 +187,9 @@ class Machine:
         return dict(self._named(found))
 
     def _named(self, found: Vector) -> Iterator[tuple[str, float]]:
-        joints: dict[str, float] = {}
-        for name, value in zip(self.names, found, strict=True):
-            if " at " in name and not name.startswith("balance "):
-                joints[name] = float(np.hypot(joints.get(name, 0.0), value))
-        yield from joints.items()
+        for name in (f"{link} at {joint.at}" for joint in self.scene.revolutes for link in joint.links[1:]):
+            k = self.names.index(name)
+            yield name, float(np.hypot(found[k], found[k + 1]))
         for name, balance in self.loads.named_balances.items():
             value = float(found[self.names.index(f"balance {name}")])
             yield f"balance {name}", value * (self.metre if balance.direction is None else 1.0)

@@ -15,6 +15,7 @@ from graphplan.errors import SingularPose
 from graphplan.mechanism.bracing import bracing
 from graphplan.mechanism.equations import System, stages
 from graphplan.mechanism.model import FRAME, Find, Loads, Scene
+from graphplan.mechanism.structure import structure
 from graphplan.methods.panels import JointForce
 from graphplan.solver import solve
 
@@ -53,9 +54,16 @@ def regular_part(scene: Scene) -> RegularPart | None:
     known, missing = _asked(scene, dead)
     part = replace(bare, find=known, loads=loads)
     missing |= untold
+    return RegularPart(part, missing) if kept and _answers(scene, known, kept, loads) else None
+
+
+def _answers(scene: Scene, known: Find, kept: Collection[str], loads: Loads | None) -> bool:
+    """Whether anything is answered: where nothing is asked by name, what drives prescribe is no answer."""
     told = (known.velocity, known.acceleration, known.links, known.slides, known.poles, known.curvature,
             known.inflection)
-    return RegularPart(part, missing) if kept and (any(told) or loads is not None) else None
+    if loads is None and scene.find.by_default:
+        return not {*structure(scene).driving}.issuperset(kept)
+    return any(told) or loads is not None
 
 
 def _singular_links(scene: Scene) -> dict[str, str]:

@@ -48,7 +48,8 @@ class Find:
     inflection circle is.
 
     None where nothing is said of them: then all reactions are found where there are loads, the rates of links of which
-    two points are asked for, and the sliding of pairs whose point is asked for.
+    two points are asked for, and the sliding of pairs whose point is asked for. `by_default` says that the scene has no
+    [find].
     """
 
     velocity: tuple[str, ...]
@@ -59,6 +60,7 @@ class Find:
     poles: tuple[str, ...] = ()
     curvature: tuple[str, ...] = ()
     inflection: tuple[str, ...] = ()
+    by_default: bool = field(default=False, compare=False)
 
     @property
     def traced(self) -> dict[str, tuple[str, str]]:

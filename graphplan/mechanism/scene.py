@@ -252,7 +252,7 @@ def _asked(names: Names) -> Find:
     is none of every point that can, and the rates of every link."""
     at = {pair.at for pair in names.pairs if isinstance(pair, Slide)}
     moving = tuple(p for p in names.movable if names.held[p] > 1 or p in at) or names.movable
-    return Find(moving, moving, links=names.moving)
+    return Find(moving, moving, links=names.moving, by_default=True)
 
 
 def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults, by_drive: bool) -> Scene:

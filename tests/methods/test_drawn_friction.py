@@ -185,7 +185,8 @@ def test_exact_numbers_have_no_friction_of_journals() -> None:
     """The size of a reaction is a root: where journals rub exact numbers are those without friction, and it is said."""
     scene = rough(load("jaanimets-11"), Fraction(1, 10))
     assert "friction" in data(report(scene))
-    told = data(report(scene, exact=True))
+    found = report(scene, exact=True)
+    told = data(found)
     assert told["balance"]["moment"] is None
     assert "root" in told["reasons"]["balance"]["1"]
-    assert told["without_friction"]["balance"]["moment"] == str(report(scene, exact=True).results["balance moment"]["1"])
+    assert told["without_friction"]["balance"]["moment"] == str(found.results["balance moment"]["1"])

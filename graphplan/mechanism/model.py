@@ -107,13 +107,20 @@ class Moment:
 class Balance:
     """The unknown that keeps the prescribed motion: a moment on `link`, or a force at its point `at` along `direction`.
 
-    The direction has any length, and is written as a slide's is; only where there is none it is a moment.
+    The direction has any length, and is written as a slide's is; only where there is none it is a moment. It acts from
+    the frame, or from the link `on`, which has its counterpart.
     """
 
     link: str
     at: str = ""
     direction: Pair | None = None
     written: Written = field(default=None, compare=False)
+    on: str = FRAME
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """The link on which it acts, and the one from which it does."""
+        return self.link, self.on
 
     @property
     def spellings(self) -> tuple[str, str, str]:
@@ -124,11 +131,11 @@ class Balance:
         return self.link, f"{self.link} at {self.at}", f"{self.link} at {self.at} along ({dx:g}, {dy:g})"
 
     def states(self, scene: Scene) -> Iterator[Statement]:
-        """What would stand still if it were a support of the frame: a turning, or a motion along its direction."""
+        """What would stand still if it were a support: a turning, or a motion along its direction."""
         if self.direction is None:
-            yield Turning(self.link, FRAME)
+            yield Turning(self.link, self.on)
         else:
-            yield Along(self.link, FRAME, self.at, self.direction, "held")
+            yield Along(self.link, self.on, self.at, self.direction, "held")
 
 
 @dataclass(frozen=True)
@@ -390,13 +397,27 @@ class Scene:
         """The slide in which a sliding drive works."""
         return next(slide for slide in self.slides if {*slide.links} == {*drive.links})
 
+    def balance_of(self, drive: Drive) -> Balance:
+        """What a drive does: a moment on its link, or the force along its slide, from the other link of the drive."""
+        if not drive.slides:
+            return Balance(drive.link, on=drive.on)
+        slide = self.driven_slide(drive)
+        return Balance(slide.link, slide.at, slide.direction, slide.written, slide.along)
+
     def posed(self, points: dict[str, Any], direction: Callable[[Any], Any],
               length: Callable[[Any], Any] = lambda radius: radius) -> Scene:
         """The scene in another pose, or in other numbers: its points, the direction of each guide and balance, and by
-        `length` the radii of its gears."""
+        `length` the radii of its gears. A balance between two moving links keeps to the guide that it drives."""
         def directed(one: Any) -> Any:
             one = one.scaled(length) if isinstance(one, Gear) else one
             return replace(one, direction=direction(one)) if getattr(one, "direction", None) is not None else one
 
-        loads = self.loads and replace(self.loads, balances=tuple(map(directed, self.loads.balances)))
-        return replace(self, points=points, written=tuple(map(directed, self.written)), loads=loads)
+        written = tuple(map(directed, self.written))
+        guides = {frozenset(pair.links): pair.direction for pair in written if isinstance(pair, Slide)}
+
+        def balanced(one: Balance) -> Balance:
+            guide = guides.get(frozenset(one.links)) if one.at and one.on != FRAME else None
+            return directed(one) if guide is None else replace(one, direction=guide)
+
+        loads = self.loads and replace(self.loads, balances=tuple(map(balanced, self.loads.balances)))
+        return replace(self, points=points, written=written, loads=loads)

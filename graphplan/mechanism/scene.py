@@ -25,7 +25,7 @@ from graphplan.mechanism.directions import points_of
 from graphplan.mechanism.fields import Field, Names, Table
 from graphplan.mechanism.items import Faults, Item, perhaps, quoted
 from graphplan.mechanism.load_values import filled_in
-from graphplan.mechanism.model import FRAME, Balance, Contact, Drive, Find, Gear, Pair, Presentation, Scene, Slide
+from graphplan.mechanism.model import Contact, Find, Gear, Pair, Presentation, Scene, Slide
 from graphplan.mechanism.numerals import decimal, is_exact
 from graphplan.mechanism.pairs import fields
 from graphplan.mechanism.pairs.pair import KinematicPair
@@ -201,20 +201,11 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
 
 
 def _kept_by_its_drive(scene: Scene) -> Scene:
-    """The scene; where it has no balance, that is what each of its drives does.
-
-    Of a drive between two moving links the counterpart on the other is left out, so there must be no friction then.
-    """
-    def balance(drive: Drive) -> Balance:
-        if not drive.slides:
-            return Balance(drive.link)
-        slide = scene.driven_slide(drive)
-        return Balance(slide.link, slide.at, slide.direction, slide.written)
-
-    loads, drives = scene.loads, scene.drives
-    if not loads or loads.balances or (loads.frictions and any(drive.on != FRAME for drive in drives)):
+    """The scene; where it has no balance, that is what each of its drives does."""
+    loads = scene.loads
+    if not loads or loads.balances:
         return scene
-    return replace(scene, loads=replace(loads, balances=tuple(map(balance, drives))))
+    return replace(scene, loads=replace(loads, balances=tuple(map(scene.balance_of, scene.drives))))
 
 
 def _without_unasked_loads(scene: Scene, find: object) -> Scene:

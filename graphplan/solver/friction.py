@@ -264,13 +264,16 @@ def contact_slip(rates: Rates, contact: Contact) -> Number:
     In as many times the normal's length as it has.
     """
     fact = next(contact.states(rates.equations.scene))
-    def velocity(link: str) -> Pair:
-        if link == FRAME:
-            return 0, 0
-        arm, base = rates.equations.arm(link, contact.at), rates.equations.bases[link]
-        return plus(rates.velocity[base], times(rates.omega[link], turned(arm)))
+    slip = less(moved_with(rates, fact.link, contact.at), moved_with(rates, fact.on, contact.at))
+    return dot(slip, turned(first_held(rates.equations, contact)))
 
-    return dot(less(velocity(fact.link), velocity(fact.on)), turned(first_held(rates.equations, contact)))
+
+def moved_with(rates: Rates, link: str, place: str) -> Pair:
+    """The velocity of a place as a point of a link."""
+    if link == FRAME:
+        return 0, 0
+    arm, base = rates.equations.arm(link, place), rates.equations.bases[link]
+    return plus(rates.velocity[base], times(rates.omega[link], turned(arm)))
 
 
 def sign(value: float, least: float) -> int:
@@ -286,10 +289,11 @@ def delivered(found: Reactions) -> Number:
     scene, rates = found.equations.scene, found.rates
     power: Number = Fraction(0)
     for balance, value in zip(asked(scene).balances, found.balances, strict=True):
+        (one, other), omega = balance.links, {**rates.omega, FRAME: 0}
         if isinstance(value, tuple):
-            power += dot(value, rates.velocity[balance.at])
+            power += dot(value, less(moved_with(rates, one, balance.at), moved_with(rates, other, balance.at)))
         else:
-            power += value * metre(scene.units) * rates.omega[balance.link]
+            power += value * metre(scene.units) * (omega[one] - omega[other])
     return power
 
 

@@ -78,9 +78,9 @@ class Machine:
             self._contact(contact, rough.get(frozenset(contact.links), 0.0))
         for name, balance in self.loads.named_balances.items():
             if balance.direction is None:
-                column = self.push(balance.link, np.zeros(2), np.zeros(2), 1.0)
+                column = self.between(*balance.links, np.zeros(2), np.zeros(2), 1.0)
             else:
-                column = self.push(balance.link, self.at[balance.at], np.array([*map(float, balance.direction)]))
+                column = self.between(*balance.links, self.at[balance.at], np.array([*map(float, balance.direction)]))
             self.unknown(f"balance {name}", column)
 
     def _turning(self, link: str) -> Fraction:

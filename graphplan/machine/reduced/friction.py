@@ -40,7 +40,7 @@ from graphplan.machine.reduced.friction_drawing import rubbed_drawing, with_rest
 from graphplan.machine.reduced.recordings import Recordings, Results
 from graphplan.machine.reduced.reduced_loads import LoadValues, acting
 from graphplan.machine.reduced.unit_motion import Rates, UnitMotion, at_unit_rate
-from graphplan.mechanism.model import FRAME, Balance, Find, Force, Friction, Loads, Scene, Slide
+from graphplan.mechanism.model import FRAME, Find, Force, Friction, Loads, Scene, Slide
 from graphplan.mechanism.plane import times
 from graphplan.mechanism.units import NEWTONS, weight
 from graphplan.methods import kinds
@@ -117,12 +117,12 @@ class FrictionOverCycle:
         """The friction at some travels; at a break that which it has on one side, -1 or 1. Fails with `Refused` where
         the mechanism locks itself: where one round of friction more changes the forces, as none is in equilibrium."""
         travel = self.beside(travel, side)
-        found, _ = self._forces(self.recordings, travel, side, gaps=True)
-        if (torn := ~np.isfinite(self._delivered(found, kinds.RUBBED))).any():
+        found, turn = self._forces(self.recordings, travel, side, gaps=True)
+        if (torn := ~np.isfinite(self._delivered(found, turn, kinds.RUBBED))).any():
             travel = np.where(torn, travel + side * HAIR * (self.ends[1] - self.ends[0]), travel)
-            found, _ = self._forces(self.recordings, travel, side)
-        plain, rubbed = (self._delivered(found, way) for way in (kinds.BY_PLANS, kinds.RUBBED))
-        further = self._delivered(self._forces(self._further, travel, side)[0], kinds.RUBBED)
+            found, turn = self._forces(self.recordings, travel, side)
+        plain, rubbed = (self._delivered(found, turn, way) for way in (kinds.BY_PLANS, kinds.RUBBED))
+        further = self._delivered(*self._forces(self._further, travel, side), kinds.RUBBED)
         size = np.maximum(np.abs(plain), np.abs(rubbed))
         if locked := np.flatnonzero(~(np.abs(further - rubbed) <= STANDS * size)).tolist():
             at = told(self.scene, float(travel[locked[0]]))
@@ -153,7 +153,7 @@ class FrictionOverCycle:
                    for load in self.values.over_speed(self.motion, turn, rates)}
         return self.values.in_units(values, turn)
 
-    def _delivered(self, found: Results, way: str) -> Array:
+    def _delivered(self, found: Results, turn: Turn, way: str) -> Array:
         """What the drives give together for a unit of travel, in SI."""
         loads, total = self.scene.loads, np.zeros(())
         assert loads is not None
@@ -166,8 +166,9 @@ class FrictionOverCycle:
             if balance.direction is None:
                 total = total + value * float(drive.rate) / self.motion.metres
             else:
-                along = complex(*map(float, balance.direction))
-                total = total + (value * along.conjugate()).real / abs(along) * float(drive.rate)
+                along = self.values.along(self.scene.driven_slide(drive), turn)
+                sense = 1 if drive.link == balance.link else -1
+                total = total + sense * (value * np.conj(along)).real * float(drive.rate)
         return np.asarray(self.power * total)
 
     def _losses(self, found: Results) -> Iterator[tuple[str, Array]]:
@@ -313,15 +314,10 @@ def mean_speed(scene: Scene) -> float:
 
 def kinetostatic(scene: Scene, speed: float) -> Scene:
     """The scene at a constant mean speed of its first drive, with a balance at each drive; at rest with weights alone,
-    moving only so that friction has a sense. Fails with `Refused` where a drive acts between two moving links."""
+    moving only so that friction has a sense."""
     moved, loads = at_unit_rate(scene), scene.loads
     assert loads is not None
-    if any(drive.on != FRAME for drive in moved.drives):
-        raise Refused("friction", said("a drive acts between two moving links, and balances act on the frame alone"),
-                      "drives on the frame")
-    guides = (moved.driven_slide(drive) if drive.slides else None for drive in moved.drives)
-    balances = tuple(Balance(drive.link, slide.at, slide.direction) if slide else Balance(drive.link)
-                     for drive, slide in zip(moved.drives, guides, strict=True))
+    balances = tuple(map(moved.balance_of, moved.drives))
     if speed:
         moved = moved.with_drives(one.driven_at(Fraction(one.rate) * Fraction(speed), 0) for one in moved.drives)
     else:

@@ -128,16 +128,17 @@ def force_truth(scene: Scene, results: Results, found: Reactions,
 def smooth_forces(found: Reactions) -> dict[str, Any]:
     """The forces in slides, gears and contacts, each on its first link, without friction."""
     scene = found.equations.scene
+    pairs: list[Gear | Contact] = [*scene.gears, *scene.contacts]
     higher = {pair.name: force(found.equations, pair, found.higher[pair.name])
-              for pair in (*scene.gears, *scene.contacts) if pair.name in found.higher}
+              for pair in pairs if pair.name in found.higher}
     return {name: both[0] for name, both in found.slides.items()} | higher
 
 
 def _reactions(found: Reactions, borne: dict[str, Any]) -> dict[str, dict[str, Any]]:
     """The reactions by kind and name, those of slides, gears and contacts as they are `borne`."""
     scene = found.equations.scene
-    pairs = {kinds.SLIDE_REACTION: scene.slides, kinds.GEAR_REACTION: scene.gears,
-             kinds.CONTACT_REACTION: scene.contacts}
+    pairs: dict[str, tuple[Slide | Gear | Contact, ...]] = {
+        kinds.SLIDE_REACTION: scene.slides, kinds.GEAR_REACTION: scene.gears, kinds.CONTACT_REACTION: scene.contacts}
     return {kinds.REACTION: {JointForce(point, link).name: force for (point, link), force in found.joints.items()},
             kinds.SLIDE_MOMENT: {name: moment for name, (_, moment) in found.slides.items()},
             **{kind: {pair.name: borne[pair.name] for pair in own if pair.name in borne}

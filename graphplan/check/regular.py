@@ -14,7 +14,7 @@ from graphplan.check.report import Report
 from graphplan.errors import SingularPose
 from graphplan.mechanism.bracing import bracing
 from graphplan.mechanism.equations import System, stages
-from graphplan.mechanism.model import FRAME, Find, Loads, Scene
+from graphplan.mechanism.model import FRAME, Condition, Find, Loads, Scene
 from graphplan.mechanism.structure import structure
 from graphplan.methods.panels import JointForce
 from graphplan.solver import solve
@@ -96,7 +96,7 @@ def _of_links(scene: Scene, links: Collection[str]) -> Scene:
                    repeating=_named(scene.repeating, own))
 
 
-def _named(conditions: tuple, own: Collection[str]) -> tuple:  # type: ignore[type-arg]
+def _named(conditions: tuple[Condition, ...], own: Collection[str]) -> tuple[Condition, ...]:
     """The conditions on links of a part."""
     return tuple(condition for condition in conditions if condition.link in own)
 
@@ -113,10 +113,10 @@ def _asked(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Missing]:
     find = asked_by_name(scene)
     at = {point: next((dead[link] for link in links if link in dead), "") for point, links in scene.links_of.items()
           if links and all(link in dead for link in links)}
-    slides = {slide.name: slide.links for slide in scene.slides}
+    guided = {slide.name: slide.links for slide in scene.slides}
     of: dict[str, dict[str, tuple[str, ...]]] = {
         "links": {link: (link,) for link in find.links or ()},
-        "slides": {name: slides[name] for name in find.slides or ()},
+        "slides": {name: guided[name] for name in find.slides or ()},
         "poles": {name: scene.link_pair(name) for name in find.poles},
         "curvature": {name: (link,) for name, (_, link) in find.traced.items()},
         "inflection": {link: (link,) for link in find.inflection},
@@ -124,11 +124,14 @@ def _asked(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Missing]:
     missing = {key: {name: why for name, links in named.items() if (why := _why(links, dead))}
                for key, named in of.items()}
     missing["points"] = {point: at[point] for point in (*find.velocity, *find.acceleration) if point in at}
-    points = (tuple(point for point in asked if point not in at) for asked in (find.velocity, find.acceleration))
+    velocity, acceleration = (tuple(point for point in points if point not in at)
+                              for points in (find.velocity, find.acceleration))
     pairs = None if find.reactions is None else tuple(
         name for name in find.reactions if sum(link not in dead for link in scene.links_of.get(name, ())) > 1
         or any(pair.name == name and not _why(pair.links, dead) for pair in scene.guided))
-    known = Find(*points, pairs, *(tuple(name for name in of[key] if name not in missing[key]) for key in of))
+    links, slides, poles, curvature, inflection = (
+        tuple(name for name in of[key] if name not in missing[key]) for key in of)
+    known = Find(velocity, acceleration, pairs, links, slides, poles, curvature, inflection)
     return known, {key: named for key, named in missing.items() if named}
 
 

@@ -19,6 +19,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.solver import Rates, solve
 
 ROOTS = "fractions do not hold friction in journals: the size of a reaction is a root; leave out --exact"
+REPEATING = "statically indeterminate: friction depends on forces that equilibrium does not tell"
 DIGITS = 120  # of the enclosures in which what overlaps nothing stands still
 
 
@@ -33,6 +34,8 @@ def decided(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
     smooth = replace(scene, loads=replace(loads, frictions=()))
     if exact and any(friction.at and friction.coefficient * friction.radius for friction in loads.frictions):
         return smooth, ROOTS
+    if scene.repeating:
+        return smooth, REPEATING
     with suppress(GraphplanError, ArithmeticError):
         scene = replace(scene, loads=replace(loads, resting=_resting(scene)))
     try:

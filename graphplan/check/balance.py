@@ -21,7 +21,7 @@ from graphplan.machine.linkages.counterweights import Counterweight, along_guide
 from graphplan.machine.linkages.engine import Engine, engine
 from graphplan.machine.linkages.mass_centre import MassCentre, mass_centre
 from graphplan.machine.linkages.shaking import Shaking, shaking
-from graphplan.mechanism.model import FRAME, Balance, Drive, Loads, Scene
+from graphplan.mechanism.model import FRAME, Loads, Scene
 from graphplan.mechanism.plane import times
 from graphplan.mechanism.scene import parse
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
@@ -212,14 +212,8 @@ def _gap(ours: Any, terms: list[Any], size: float = 0.0) -> float:
 
 def _alone(scene: Scene) -> Scene:
     """The scene with its masses as the only loads, held by its drives: other balances hold it in some poses alone."""
-    def balance(drive: Drive) -> Balance:
-        if not drive.slides:
-            return Balance(drive.link)
-        slide = scene.driven_slide(drive)
-        return Balance(slide.link, slide.at, slide.direction)
-
     masses = scene.loads.masses if scene.loads else {}
-    return replace(scene, loads=Loads((0, 0), masses, (), (), tuple(map(balance, scene.drives))))
+    return replace(scene, loads=Loads((0, 0), masses, (), (), tuple(map(scene.balance_of, scene.drives))))
 
 
 def _borne(scene: Scene, found: statics.Reactions, points: Mapping[str, Any], about: complex,
@@ -248,6 +242,8 @@ def _borne(scene: Scene, found: statics.Reactions, points: Mapping[str, Any], ab
     if any(FRAME in pair.links for pair in (*scene.gears, *scene.contacts)):
         return None
     for balance, value in zip(statics.asked(scene).balances, found.balances, strict=True):
+        if balance.on != FRAME:
+            continue
         bearing.append(borne(times(-1, value), balance.at) if isinstance(value, tuple)
                        else (np.zeros(count, dtype=complex), -newton * value))
     return bearing

@@ -20,6 +20,7 @@ from graphplan.check.compared import drawn_sizes, each, weight
 from graphplan.check.extras import Reasons, answered, extras, joined, without
 from graphplan.check.json_results import data
 from graphplan.check.report import Opinion, Report, opinion
+from graphplan.check.resting import decided
 from graphplan.check.trusted import first_sound, report, solver_alone
 from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, GraphplanError, Refused, SingularPose
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, precision
@@ -83,9 +84,10 @@ class Certified(Report):
     @cached_property
     def data(self) -> dict[str, Any]:
         """What `graphplan solve --digits` prints; fails with `Undecided` where there are too few digits yet."""
-        check = {kind: upwards(_most(gap)) for kind, gap in self.check.items()}
-        bounds = {kind: upwards(error) for kind, error in self.errors.items()}
-        table: dict[str, Any] = self._texts(data(self) | {"check": check})
+        with precision(self.bits):
+            check = {kind: upwards(_most(gap)) for kind, gap in self.check.items()}
+            bounds = {kind: upwards(error) for kind, error in self.errors.items()}
+            table: dict[str, Any] = self._texts(data(self) | {"check": check})
         return table | {"digits": self.digits, "bounds": bounds}
 
     @property
@@ -160,19 +162,20 @@ def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "", in
         if digits > FLOAT and IRRATIONAL.format(where) in scene.irrational:
             raise Refused(f"--digits {digits}", f"{where} has its value in this pose to the digits of a float",
                           f"at most {FLOAT}, or a load that is a fraction in this pose")
+    scene, locks = decided(scene)
     how: dict[str, Any] = {"method": method, "plan": plan, "inertia": inertia}
-    missing: Reasons = report(scene, refuse=False, alone=True, **how).reasons if extras(scene) else {}
-    found, reasons = answered(without(scene, missing), lambda asked: _to_digits(asked, digits, how))
+    missing: Reasons = report(scene, refuse=False, alone=True, **how).missing if extras(scene) else {}
+    found, reasons = answered(without(scene, missing), lambda asked: _to_digits(asked, digits, how, locks))
     every = joined(missing, reasons)
     if not every:
         return found
     with precision(found.bits):
-        explained = replace(found, reasons=every)
+        explained = replace(found, whole=scene, missing=every)
         assert explained.settled
     return explained
 
 
-def _to_digits(scene: Scene, digits: int, how: dict[str, str]) -> Certified:
+def _to_digits(scene: Scene, digits: int, how: dict[str, str], locks: str) -> Certified:
     """The numbers of a scene at the first precision that gives them so many digits."""
     least = bits = math.ceil((digits + SPARE) * math.log2(10)) + 64
     doubt: Exception = Undecided(OPEN)
@@ -180,7 +183,7 @@ def _to_digits(scene: Scene, digits: int, how: dict[str, str]) -> Certified:
         with precision(bits):
             try:
                 solved = opinion(scene, enclosures(bits))
-                found = _attempt(solved, digits, bits, how, patient=bits < PATIENCE * least)
+                found = _attempt(solved, digits, bits, how, locks, patient=bits < PATIENCE * least)
                 if found.settled:
                     return found
             except Undecided as undecided:
@@ -227,21 +230,21 @@ def _enclosed(value: Any) -> Any:
     return tuple(map(Enclosure, value)) if isinstance(value, tuple) else Enclosure(value)
 
 
-def _attempt(solved: Opinion, digits: int, bits: int, how: dict[str, str], patient: bool) -> Certified:
+def _attempt(solved: Opinion, digits: int, bits: int, how: dict[str, str], locks: str, patient: bool) -> Certified:
     """Both opinions at one precision, by the first way on which they agree, else the solver's alone.
 
     `Undecided` where the precision is too low for a way, as long as we are `patient`.
     """
     doubts: list[ConstructionError] = []
-    found = first_sound(solved.scene, how, lambda drawing: _beside(drawing, solved, digits, bits, doubts))
+    found = first_sound(solved.scene, how, lambda drawing: _beside(drawing, solved, digits, bits, locks, doubts))
     if isinstance(found, Certified) and (found.agrees or not doubts):
         return found
     if doubts and patient:
         raise Undecided(doubts[0].why) from doubts[0]
-    return found if isinstance(found, Certified) else _alone(solved, digits, bits, *found)
+    return found if isinstance(found, Certified) else _alone(solved, digits, bits, locks, *found)
 
 
-def _beside(drawing: Construction, solved: Opinion, digits: int, bits: int,
+def _beside(drawing: Construction, solved: Opinion, digits: int, bits: int, locks: str,
             doubts: list[ConstructionError]) -> Certified:
     """One construction beside the solver; why it has no numbers joins the `doubts` where more bits may give some."""
     domain = Enclosures()
@@ -250,20 +253,23 @@ def _beside(drawing: Construction, solved: Opinion, digits: int, bits: int,
     except ConstructionError as error:
         doubts += [error] if domain.undecided else []
         raise
-    return _certified(drawing, solved, results, digits, bits)
+    return _certified(drawing, solved, results, digits, bits, locks)
 
 
-def _alone(solved: Opinion, digits: int, bits: int, drawing: Construction, fault: ConstructionError) -> Certified:
+def _alone(solved: Opinion, digits: int, bits: int, locks: str, drawing: Construction,
+           fault: ConstructionError) -> Certified:
     """What the solver says of all that a construction would give, which has no numbers in this pose."""
-    return replace(_certified(drawing, solved, solver_alone(drawing, solved), digits, bits), fault=fault)
+    return replace(_certified(drawing, solved, solver_alone(drawing, solved), digits, bits, locks), fault=fault)
 
 
 def _certified(drawing: Construction, solved: Opinion, results: dict[str, dict[str, Any]], digits: int,
-               bits: int) -> Certified:
-    """Results at a precision beside the solver's."""
-    forces = solved.beside(drawing.scene, results, drawing.rounds, bounded=True)
-    return Certified(drawing, solved.rates, results, False, forces, digits=digits, bits=bits,
-                     truths=solved.truth(results, drawing.rounds))
+               bits: int, locks: str) -> Certified:
+    """Results at a precision beside the solver's, and the solver's of what is not drawn."""
+    truths = solved.truth(results, drawing.rounds)
+    for kind, named in solved.undrawn(drawing, results, truths).items():
+        results = results | {kind: results.get(kind, {}) | named}
+    forces = solved.beside(drawing, results, locks, bounded=True)
+    return Certified(drawing, solved.rates, results, False, forces, digits=digits, bits=bits, truths=truths)
 
 
 def _named(scene: Scene, fault: BaseException, far: str, how: dict[str, str]) -> GraphplanError:

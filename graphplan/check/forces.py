@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -17,11 +17,19 @@ from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.plane import dot
 from graphplan.mechanism.units import metre
 from graphplan.methods import kinds
-from graphplan.methods.forces.groups import pairs
 from graphplan.methods.panels import JointForce
 from graphplan.methods.results import balances
 from graphplan.solver.equations import Equations, held
-from graphplan.solver.friction import Frictional, contact_slip, delivered, efficiency, leaning, with_friction
+from graphplan.solver.friction import (
+    Frictional,
+    borne,
+    contact_slip,
+    delivered,
+    efficiency,
+    leaning,
+    name_in_joint,
+    with_friction,
+)
 from graphplan.solver.higher_pairs import force, held_at, pushes
 from graphplan.solver.rates import Rates
 from graphplan.solver.statics import Reactions, acting, asked, repeating, resultants
@@ -68,20 +76,25 @@ def _leaning(last: Reactions, by: Bounds) -> Iterator[Statement]:
     """What holds the links, each pair's force against its turning or sliding as its last force says."""
     scene, rates = last.equations.scene, last.rates
     omega: dict[str, Any] = rates.omega | {FRAME: by.lift(0)}
-    journals = {f.at: f.radius * f.coefficient for f in asked(scene).frictions if f.at}
-    coefficients = {f.links: f.coefficient for f in asked(scene).frictions if f.links}
+    loads = asked(scene)
+    journals = {f.at: f.radius * f.coefficient for f in loads.frictions if f.at}
+    coefficients = {frozenset(f.links): f.coefficient for f in loads.frictions if f.links}
 
     def arm(joint: Revolute, link: str, force: Pair) -> Any:
+        if joint.at not in journals or name_in_joint(joint.at, link) in loads.resting:
+            return 0
         square = by.lift(dot(force, force))
-        circle = journals.get(joint.at, 0) * -_sense(omega[link] - omega[joint.links[0]], by)
+        circle = journals[joint.at] * -_sense(omega[link] - omega[joint.links[0]], by)
         return circle / square.root if circle and _sense(square, by) else 0
 
     def lean(pair: Slide | Gear | Contact, along: Pair, size: Any) -> Number:
         if isinstance(pair, Gear):
             return pair.tangent * _sense(size, by)
+        if pair.name in loads.resting:
+            return 0
         slip = (dot(rates.slide_velocity[pair.name], pair.direction) if isinstance(pair, Slide)
                 else contact_slip(rates, pair))
-        return coefficients.get(pair.links, 0) * -_sense(slip, by) * _sense(size, by)
+        return coefficients.get(frozenset(pair.links), 0) * -_sense(slip, by) * _sense(size, by)
 
     return leaning(last, arm, lean)
 
@@ -100,20 +113,36 @@ def force_truth(scene: Scene, results: Results, found: Reactions,
     """What the solver says of the forces that a construction gives, with friction among them, and of the power balance.
     """
     arms = {s.name: _arm(s, scene, found) for s in scene.slides if s.name in results.get(kinds.SLIDE_ARM, {})}
-    joints = {JointForce(p, link).name: force for (p, link), force in found.joints.items()}
-    slides, moments = ({name: both[k] for name, both in found.slides.items()} for k in (0, 1))
-    told: dict[str, Any] = {
-        kinds.REACTION: joints, kinds.SLIDE_REACTION: slides, kinds.SLIDE_MOMENT: moments, kinds.SLIDE_ARM: arms}
-    solved = found.equations.scene
-    for kind, pairs_of in ((kinds.GEAR_REACTION, solved.gears), (kinds.CONTACT_REACTION, solved.contacts)):
-        told[kind] = {pair.name: force(found.equations, pair, found.higher[pair.name])
-                      for pair in pairs_of if pair.name in found.higher}
+    told = _reactions(found, smooth_forces(found))
+    told[kinds.SLIDE_ARM] = arms
+    if rough is not None:
+        told |= {kinds.WITH_FRICTION[kind]: named for kind, named in _reactions(rough, borne(rough)).items()}
     named = asked(scene).named_balances
     for way in kinds.BY_PLANS, kinds.BY_LEVER, kinds.RUBBED:
         last = found if way != kinds.RUBBED else rough
         for (name, balance), value in zip(named.items(), last.balances, strict=True) if last else ():
             told.setdefault(kinds.balance_kind(way, balance), {})[name] = value
     return told | powers(found.balances)
+
+
+def smooth_forces(found: Reactions) -> dict[str, Any]:
+    """The forces in slides, gears and contacts, each on its first link, without friction."""
+    scene = found.equations.scene
+    pairs: list[Gear | Contact] = [*scene.gears, *scene.contacts]
+    higher = {pair.name: force(found.equations, pair, found.higher[pair.name])
+              for pair in pairs if pair.name in found.higher}
+    return {name: both[0] for name, both in found.slides.items()} | higher
+
+
+def _reactions(found: Reactions, borne: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """The reactions by kind and name, those of slides, gears and contacts as they are `borne`."""
+    scene = found.equations.scene
+    pairs: dict[str, tuple[Slide | Gear | Contact, ...]] = {
+        kinds.SLIDE_REACTION: scene.slides, kinds.GEAR_REACTION: scene.gears, kinds.CONTACT_REACTION: scene.contacts}
+    return {kinds.REACTION: {JointForce(point, link).name: force for (point, link), force in found.joints.items()},
+            kinds.SLIDE_MOMENT: {name: moment for name, (_, moment) in found.slides.items()},
+            **{kind: {pair.name: borne[pair.name] for pair in own if pair.name in borne}
+               for kind, own in pairs.items()}}
 
 
 def powers(found: Iterable[Any]) -> dict[str, dict[str, Any]]:
@@ -131,11 +160,30 @@ def _arm(slide: Slide, scene: Scene, found: Reactions) -> Any:
     return y * reach, -x * reach
 
 
+def undrawn(scene: Scene, results: Results, truth: Results) -> dict[str, dict[str, Any]]:
+    """What is asked for and not among the results of a construction, as the solver says it, by kind and name."""
+    asked_for, missing = scene.find.reactions, dict[str, dict[str, Any]]()
+    pair_of = {JointForce(point, link).name: point for point in scene.joints for link in scene.links_of[point]}
+    for kind in (*kinds.WITH_FRICTION, *kinds.WITH_FRICTION.values()):
+        for name, value in truth.get(kind, {}).items():
+            if (asked_for is None or pair_of.get(name, name) in asked_for) and name not in results.get(kind, {}):
+                missing.setdefault(kind, {})[name] = value
+    for ways in ((kinds.BY_PLANS, kinds.BY_LEVER), (kinds.RUBBED,)):
+        drawn = balances(scene, results, ways)
+        for name, balance in asked(scene).named_balances.items():
+            kind = kinds.balance_kind(ways[0], balance)
+            if name not in drawn and name in truth.get(kind, {}):
+                missing.setdefault(kind, {})[name] = truth[kind][name]
+    return missing
+
+
 @dataclass(frozen=True)
 class Forces:
     """The forces that a construction gives, beside the solver's reactions and the power balance.
 
-    `rounds` are those of friction that are drawn; `bounded` says that the results are numbers with bounds.
+    `rough` are the reactions with friction as the solver has them; `locks` says why there are none, where a pair should
+    rub. `rounds` are those of friction that are drawn; `bounded` says that the results are numbers with bounds. `alone`
+    are the names of results that are not drawn, but the solver's alone.
     """
 
     scene: Scene
@@ -145,20 +193,43 @@ class Forces:
     rounds: int = 0
     exact: bool = False
     bounded: bool = False
+    rough: Reactions | None = None
+    locks: str = ""
+    alone: tuple[str, ...] = ()
 
     def named(self, values: Iterable[Any]) -> dict[str, Any]:
         """What is said of each balance in the scene's order, by its name."""
         return dict(zip(asked(self.scene).named_balances, values, strict=True))
 
     @property
-    def asked(self) -> list[tuple[str, str, str]]:
-        """The pairs whose reactions are found: joint, link, and the link that carries the pin."""
-        found = self.results.get(kinds.REACTION, {})
-        return [pair for pair in pairs(self.scene) if JointForce(*pair[:2]).name in found]
+    def names(self) -> list[str]:
+        """The names of the balances."""
+        return [*asked(self.scene).named_balances]
+
+    @property
+    def rubs(self) -> bool:
+        """Whether results with friction are asked for."""
+        return self.rough is not None or bool(self.locks) or self.rounds > 0
+
+    def values(self, rubs: bool) -> dict[str, Any]:
+        """The reactions and the balances among the results, with friction or without it, by `labels`."""
+        own = {kind: kinds.WITH_FRICTION[kind] if rubs else kind for kind in kinds.WITH_FRICTION}
+        ways = (kinds.RUBBED,) if rubs else (kinds.BY_PLANS, kinds.BY_LEVER)
+        return labels({kind: self.results.get(name, {}) for kind, name in own.items()},
+                      balances(self.scene, self.results, ways))
+
+    def arm(self, slide: Slide, force: Any, moment: Any) -> Any:
+        """From a slide's point along its guide to where a force with a moment about the point acts."""
+        (dx, dy), (x, y) = slide.direction, force
+        across = dx * y - dy * x
+        if not across:
+            return None
+        reach = moment * metre(self.scene.units) / across
+        return dx * reach, dy * reach
 
     @property
     def rubbed(self) -> dict[str, Any]:
-        """The balances with friction that are drawn, in the scene's order."""
+        """The balances with friction, in the scene's order."""
         return balances(self.scene, self.results, (kinds.RUBBED,))
 
     @cached_property
@@ -174,3 +245,10 @@ class Forces:
         smooth, rough = (delivered(replace(self.reactions, balances=tuple(found.values())))
                          for found in (balances(self.scene, self.results), self.rubbed))
         return efficiency(smooth, rough) if self.bounded else efficiency(plain(smooth), plain(rough))
+
+
+def labels(reactions: Results, named: Mapping[str, Any]) -> dict[str, Any]:
+    """Reactions by the names of their pairs, and with moments and balances called that in front of their names."""
+    told = {name: value for kind in kinds.REACTIONS for name, value in reactions[kind].items()}
+    told |= {f"moment {name}": value for name, value in reactions[kinds.SLIDE_MOMENT].items()}
+    return told | {f"balance {name}": value for name, value in named.items()}

@@ -3,61 +3,63 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from graphplan.check import json_forces
 from graphplan.check.compared import Compared, Results
+from graphplan.check.json_numbers import number
 from graphplan.check.report import Report
 from graphplan.errors import ConstructionError
 from graphplan.mechanism import numerals
-from graphplan.mechanism.model import Scene, Slide
 from graphplan.methods import kinds
-from graphplan.methods.panels import JointForce
-from graphplan.methods.results import balances
 
-if TYPE_CHECKING:
-    from graphplan.check.forces import Forces
-
+AT_REST = "the links do not move relative to each other: any point is a pole"
+TRANSLATES = "the link does not turn: its pole is at infinity"
 OPPOSITE = "pole", "inflection_pole"  # of an inflection circle
-AT_REST = "they do not move relative to each other here, so any point is a pole of theirs"
 
 
 def data(found: Report, each: bool = False) -> dict[str, Any]:
     """What `graphplan solve` prints, with the bound of each number where that is asked for."""
-    scene = found.scene
+    scene = found.asked
     return {
         "title": scene.title,
         "units": {"length": scene.units.length, "force": scene.units.force, "mass": scene.units.mass},
         **_pose(found),
-        "points": _merged(found, scene.points, velocity=kinds.VELOCITY, acceleration=kinds.ACCELERATION),
-        "links": _merged(found, scene.moving, omega=kinds.OMEGA, alpha=kinds.ALPHA),
-        "slides": _merged(found, (s.name for s in scene.slides), velocity=kinds.SLIDE_VELOCITY,
+        "points": _merged(found, "points", scene.points, velocity=kinds.VELOCITY, acceleration=kinds.ACCELERATION),
+        "links": _merged(found, "links", scene.moving, omega=kinds.OMEGA, alpha=kinds.ALPHA),
+        "slides": _merged(found, "slides", (s.name for s in scene.slides), velocity=kinds.SLIDE_VELOCITY,
                           acceleration=kinds.SLIDE_ACCELERATION),
         **_poles(found),
         **_paths(found),
-        **_reasons(found),
         **({"redundant": scene.redundant_pairs} if scene.redundant else {}),
-        **_forces(found),
+        **json_forces.forces(found),
+        **({"reasons": missing} if (missing := reasons(found)) else {}),
         **_protocol(found, each),
     }
+
+
+def reasons(found: Report) -> json_forces.Reasons:
+    """Why what is asked for is null, by the printed key and the name of the thing."""
+    results, find = found.results, found.scene.find
+    drawn = {name for kind in (kinds.POLE, kinds.POLE_HEADING) for name in results.get(kind, {})}
+    told = {
+        "poles": {name: AT_REST for name in find.poles if name not in drawn},
+        "inflection": {link: TRANSLATES for link in find.inflection if link in results.get(kinds.TRANSLATION, {})},
+        **json_forces.reasons(found),
+    }
+    keys = dict.fromkeys((*found.missing, *told))
+    every = {key: {**told.get(key, {}), **found.missing.get(key, {})} for key in keys}
+    return {key: named for key, named in every.items() if named}
 
 
 def _poles(found: Report) -> dict[str, Any]:
     """The instant centres, if any are asked for: each where it is, or which way it lies at infinity; none of links that
     do not move relative to each other."""
-    asked = (*found.scene.find.poles, *found.reasons.get("poles", ()))
-    poles = _merged(found, asked, at=kinds.POLE, direction=kinds.POLE_HEADING)
+    asked = found.asked.find.poles
+    poles = _merged(found, "", asked, at=kinds.POLE, direction=kinds.POLE_HEADING)
     return {"poles": {name: poles.get(name, {"at": None}) for name in asked}} if asked else {}
-
-
-def _reasons(found: Report) -> dict[str, Any]:
-    """Why what is asked for is null, by kind and name."""
-    told = {kind: dict(named) for kind, named in found.reasons.items()}
-    poles = {name for kind in (kinds.POLE, kinds.POLE_HEADING) for name in found.results.get(kind, ())}
-    if resting := [name for name in found.scene.find.poles if name not in poles]:
-        told["poles"] = dict.fromkeys(resting, AT_REST) | told.get("poles", {})
-    return {"reasons": told} if told else {}
 
 
 def _pose(found: Report) -> dict[str, Any]:
@@ -65,7 +67,7 @@ def _pose(found: Report) -> dict[str, Any]:
     if found.scene.assembly is None:
         return {}
     travels = [float(travel) for travel in found.scene.assembly.travels[:len(found.scene.drives)]]
-    points = {name: [_number(part) for part in map(float, at)] for name, at in found.scene.points.items()}
+    points = {name: [number(part) for part in map(float, at)] for name, at in found.scene.points.items()}
     extreme = found.scene.assembly.extreme
     told = {} if extreme is None else {"extreme": extreme.way, "link": extreme.link, "time_ratio": extreme.time_ratio}
     return {"pose": {"travel": travels[0] if len(travels) == 1 else travels, **told, "points": points}}
@@ -73,19 +75,15 @@ def _pose(found: Report) -> dict[str, Any]:
 
 def _paths(found: Report) -> dict[str, Any]:
     """Centres of curvature and inflection circles, where they are asked for."""
-    find, results = found.scene.find, found.results
+    find, results, missing = found.asked.find, found.results, found.missing
     told = {
-        "curvature": {name: _curvature(found, name, found.scene.points[point])
-                      for name, (point, _) in find.traced.items()} | _missing(found, "curvature"),
-        "inflection": {link: _inflection(results, link, found.exact) for link in find.inflection}
-                      | _missing(found, "inflection"),
+        "curvature": {name: None if name in missing.get("curvature", {})
+                      else _curvature(found, name, found.scene.points[point])
+                      for name, (point, _) in find.traced.items()},
+        "inflection": {link: None if link in missing.get("inflection", {}) else _inflection(results, link, found.exact)
+                       for link in find.inflection},
     }
     return {key: named for key, named in told.items() if named}
-
-
-def _missing(found: Report, kind: str) -> dict[str, None]:
-    """What of a kind is asked for and does not exist."""
-    return dict.fromkeys(found.reasons.get(kind, ()))
 
 
 def _curvature(found: Report, name: str, point: Any) -> dict[str, Any]:
@@ -100,7 +98,7 @@ def _curvature(found: Report, name: str, point: Any) -> dict[str, Any]:
         if all(abs(number.value) <= number.bound for number in numbers):
             return {"centre": None, "radius": None}
         centre = at[0] + x / square, at[1] + y / square
-    return {"centre": _number(centre), **_lengths("radius", centre, at, found.exact)}
+    return {"centre": number(centre), **_lengths("radius", centre, at, found.exact)}
 
 
 def _inflection(results: Results, link: str, exact: bool) -> dict[str, Any]:
@@ -108,7 +106,7 @@ def _inflection(results: Results, link: str, exact: bool) -> dict[str, Any]:
     if link in results.get(kinds.TRANSLATION, {}):
         return dict.fromkeys((*OPPOSITE, "diameter"))
     two = results[kinds.MOTION_POLE][link], results[kinds.INFLECTION][link]
-    return dict(zip(OPPOSITE, map(_number, two), strict=True)) | _lengths("diameter", *two, exact)
+    return dict(zip(OPPOSITE, map(number, two), strict=True)) | _lengths("diameter", *two, exact)
 
 
 def _lengths(key: str, one: Any, two: Any, exact: bool) -> dict[str, Any]:
@@ -118,7 +116,7 @@ def _lengths(key: str, one: Any, two: Any, exact: bool) -> dict[str, Any]:
         root = getattr(square, "root", None)  # of enclosures a number, of symbols what makes it
         return {key: math.sqrt(square) if root is None else root() if callable(root) else root}
     root, rational = numerals.root(square)
-    return {**({key: _number(root)} if rational else {}), f"{key}_squared": _number(square)}
+    return {**({key: number(root)} if rational else {}), f"{key}_squared": number(square)}
 
 
 def _protocol(found: Report, each: bool) -> dict[str, Any]:
@@ -132,11 +130,14 @@ def _protocol(found: Report, each: bool) -> dict[str, Any]:
         steps = len(found.drawing.drawn) - found.drawing.drawn.givens
     except ConstructionError:
         return proof
-    return {"method": found.drawing.method, **proof, "steps": steps}
+    method = found.drawing.method
+    if more := json_forces.alone(found):
+        method = method | {kinds.FORCES: [*method.get(kinds.FORCES, ()), *more]}
+    return {"method": method, **proof, "steps": steps}
 
 
 def _plain(values: dict[Any, Any]) -> dict[Any, Any]:
-    return {kind: _number(value) if value else 0 for kind, value in values.items()}
+    return {kind: number(value) if value else 0 for kind, value in values.items()}
 
 
 def _each(found: Report) -> dict[str, Any]:
@@ -149,79 +150,14 @@ def _each(found: Report) -> dict[str, Any]:
             for part, named in found.results.items() if part in found.numbers}
 
 
-def _forces(found: Report) -> dict[str, Any]:
-    """Balance and reactions; nothing where there are no loads."""
-    if found.forces is None:
-        return {}
-    told = _balances(found, balances(found.scene, found.results))
-    entries: list[dict[str, Any]] = []
-    for point, link, pin in found.forces.asked:
-        force = _number(found.results[kinds.REACTION][JointForce(point, link).name])
-        entries.append({"at": point, "on": link, "from": pin, "force": force})
-    for slide in found.scene.slides:
-        if slide.name in found.results.get(kinds.SLIDE_REACTION, {}):
-            entries.append(_slide(found, slide))
-    for sort, kind, pairs in (("gear", kinds.GEAR_REACTION, found.scene.gears),
-                              ("contact", kinds.CONTACT_REACTION, found.scene.contacts)):
-        for name, (on, by) in ((pair.name, pair.links) for pair in pairs if pair.name in found.results.get(kind, {})):
-            entries.append({sort: name, "on": on, "from": by, "force": _number(found.results[kind][name])})
-    kept = {"balance": told[0] if len(told) == 1 else told} if told else {}
-    return {**kept, "reactions": entries, **_indeterminate(found.scene), **_friction(found, found.forces)}
-
-
-def _indeterminate(scene: Scene) -> dict[str, Any]:
-    """The pairs whose reactions are asked for, though equilibrium does not tell them."""
-    asked = scene.find.reactions
-    of_joint = {JointForce(point, link).name: point for point in scene.joints for link in scene.links_of[point]}
-    names = [name for name in scene.indeterminate_pairs
-             if asked is None or name in asked or of_joint.get(name) in asked]
-    return {"indeterminate": names} if names else {}
-
-
-def _slide(found: Report, slide: Slide) -> dict[str, Any]:
-    """A slide's reaction; `acts_at` is a point of its line, where that lies near."""
-    x, y = found.scene.points[slide.at]
-    arm = found.results.get(kinds.SLIDE_ARM, {}).get(slide.name)
-    return {
-        "slide": slide.name, "on": slide.link, "from": slide.along,
-        "force": _number(found.results[kinds.SLIDE_REACTION][slide.name]),
-        "moment": _number(found.results[kinds.SLIDE_MOMENT][slide.name]),
-        **({"acts_at": _number((x + arm[0], y + arm[1]))} if arm is not None else {}),
-    }
-
-
-def _friction(found: Report, forces: Forces) -> dict[str, Any]:
-    """The balances with friction and the efficiency: as drawn, in so many rounds, and where further rounds stand."""
-    if not forces.rubbed:
-        return {}
-    told = {"balance": _balances(found, forces.rubbed), "efficiency": _number(forces.efficiency),
-            "rounds": forces.rounds}
-    if not forces.bounded:
-        told["stands"] = {"balance": _balances(found, forces.named(forces.standing.balances)),
-                          "efficiency": _number(forces.standing.efficiency)}
-    return {"friction": told}
-
-
-def _merged(found: Report, names: Iterable[str], **kinds: str) -> dict[str, Any]:
-    """Readings of several kinds by name, as JSON takes them."""
-    table = {}
+def _merged(found: Report, key: str, names: Iterable[str], **kinds: str) -> dict[str, Any]:
+    """Readings of several kinds by name, as JSON takes them; null what is asked for and missing under this key."""
+    table, missing, find = {}, found.missing.get(key, {}), found.asked.find
     for name in names:
-        entry = {k: _number(found.results[kind][name]) for k, kind in kinds.items()
+        entry = {k: number(found.results[kind][name]) for k, kind in kinds.items()
                  if name in found.results.get(kind, {})}
+        if name in missing:
+            entry = dict.fromkeys(k for k in kinds if key != "points" or name in getattr(find, k))
         if entry:
             table[name] = entry
     return table
-
-
-def _balances(found: Report, values: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Balances by name as JSON takes them: a moment on a link, or a force at a point of it."""
-    named = found.scene.loads.named_balances if found.scene.loads else {}
-    return [{"force": _number(value), "link": named[name].link, "at": named[name].at} if named[name].at
-            else {"moment": _number(value), "link": named[name].link} for name, value in values.items()]
-
-
-def _number(value: Any) -> Any:
-    """A number as JSON takes it: floats as they are, fractions as a string p/q, none as null."""
-    if isinstance(value, tuple):
-        return [_number(part) for part in value]
-    return str(value) if isinstance(value, Fraction) else None if value is None else value + 0.0

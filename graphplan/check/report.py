@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from graphplan.solver.statics import Reactions
 
 SAFETY = 100  # times the bound of a constructed place that the cycle may have it elsewhere
+ENOUGH_ROUNDS = 20  # of friction: where none is drawn, the forces stand after so many
 LOST = 1e-6  # of a number: where no arithmetic at hand proves it, a difference up to this is taken for rounding
 
 
@@ -48,8 +49,7 @@ class Opinion:
             return by_part(self.rates, results)
         from graphplan.check.forces import force_truth
 
-        rough = self.rounds(rounds) if rounds else None
-        return by_part(self.rates, results) | force_truth(self.scene, results, self.reactions, rough)
+        return by_part(self.rates, results) | force_truth(self.scene, results, self.reactions, self.rough(rounds))
 
     @property
     def third(self) -> dict[str, dict[str, Any]]:
@@ -60,14 +60,32 @@ class Opinion:
 
         return powers(self.power)
 
-    def beside(self, scene: Scene, results: dict[str, dict[str, Any]], rounds: int, exact: bool = False,
+    def beside(self, drawing: Construction, results: dict[str, dict[str, Any]], locks: str = "", exact: bool = False,
                bounded: bool = False) -> Forces | None:
-        """The forces among the results of a construction, beside this; none where there are no loads."""
+        """The forces among the results, of which some are drawn, beside this; none where there are no loads."""
         if self.reactions is None:
             return None
         from graphplan.check.forces import Forces
 
-        return Forces(scene, results, self.reactions, self.power, rounds, exact, bounded)
+        drawn = {(reading.kind, reading.of) for reading in drawing.readings}
+        alone = dict.fromkeys(name for kind, named in results.items() for name in named if (kind, name) not in drawn)
+        return Forces(drawing.scene, results, self.reactions, self.power, drawing.rounds, exact, bounded,
+                      self.rough(drawing.rounds), locks, tuple(alone))
+
+    def undrawn(self, drawing: Construction, results: Results, truth: Results) -> dict[str, dict[str, Any]]:
+        """The forces that are asked for and not drawn, as this has them."""
+        if self.reactions is None or drawing.scene.loads is None:
+            return {}
+        from graphplan.check.forces import undrawn
+
+        return undrawn(drawing.scene, results, truth)
+
+    def rough(self, rounds: int) -> Reactions | None:
+        """The reactions with friction, after so many rounds where some are drawn; None where nothing rubs."""
+        loads = self.scene.loads
+        if self.rounds is None or loads is None or not (loads.frictions and any(one.rate for one in self.scene.drives)):
+            return None
+        return self.rounds(rounds or loads.rounds or ENOUGH_ROUNDS)
 
 
 def opinion(scene: Scene, by: Arithmetic) -> Opinion:
@@ -117,8 +135,8 @@ class Report:
 
     `arithmetic` is that in which both were found: floats, enclosures of so many digits, or fractions; `exact` says that
     the numbers themselves are fractions. `numbers` are what is compared, by kind and name, as the results are. `fault`
-    says why nothing can be drawn, where the numbers are the solver's alone; `reasons` why what was asked for is left
-    out, by its kind in `[find]` and its name.
+    says why nothing can be drawn, where the numbers are the solver's alone. Where some of what is asked cannot be had
+    in the pose, `whole` is the scene as it was given, and `missing` says why, by printed key and name.
     """
 
     drawing: Construction
@@ -129,7 +147,13 @@ class Report:
     arithmetic: str = "floats"
     numbers: Numbers = field(default_factory=dict, repr=False)
     fault: ConstructionError | None = None
-    reasons: dict[str, dict[str, str]] = field(default_factory=dict)
+    whole: Scene | None = None
+    missing: dict[str, dict[str, str]] = field(default_factory=dict)
+
+    @property
+    def asked(self) -> Scene:
+        """The scene as it was given."""
+        return self.whole or self.scene
 
     @property
     def scene(self) -> Scene:

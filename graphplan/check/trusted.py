@@ -19,6 +19,7 @@ from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, enclosures
 from graphplan.check.compared import compared, printed, rounded
 from graphplan.check.extras import answered
 from graphplan.check.report import Opinion, Report, opinion
+from graphplan.check.resting import decided
 from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
 from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.numbers import Domain
@@ -36,8 +37,8 @@ WAYS = 24  # constructions that are tried at most
 class Bench:
     """Where the constructions of a scene are judged, one after the other, each in as good an arithmetic as it needs."""
 
-    def __init__(self, scene: Scene, how: dict[str, Any], exact: bool):
-        self.scene, self.how, self.exact = scene, how, exact
+    def __init__(self, scene: Scene, how: dict[str, Any], exact: bool, locks: str = ""):
+        self.scene, self.how, self.exact, self.locks = scene, how, exact, locks
         self._opinions: dict[str, Opinion] = {}
 
     def judged(self, drawing: Construction) -> Report:
@@ -152,11 +153,15 @@ class Bench:
     def _report(self, drawing: Construction, by: Arithmetic, ours: dict[str, dict[str, Any]]) -> Report:
         """The comparison in one arithmetic; fractions that are not asked for are printed as floats."""
         told = self._opinions[by.name]
-        numbers = compared(drawing, ours | told.third, told.truth(ours, drawing.rounds))
+        truth = told.truth(ours, drawing.rounds)
+        for kind, named in told.undrawn(drawing, ours, truth).items():
+            ours = ours | {kind: ours.get(kind, {}) | {
+                name: _middle(value) if by is FLOATS else value for name, value in named.items()}}
+        numbers = compared(drawing, ours | told.third, truth)
         if isinstance(by, Exact) and not self.exact:
             numbers = rounded(numbers)
         results = printed(ours, numbers, (lambda number: number) if self.exact else float)
-        forces = told.beside(self.scene, results, drawing.rounds, self.exact)
+        forces = told.beside(drawing, results, self.locks, self.exact)
         return Report(drawing, told.rates, results, self.exact, forces, by.name, numbers)
 
 
@@ -235,28 +240,27 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
            inertia: str = "couple", refuse: bool = True, alone: bool = False) -> Report:
     """The first construction that agrees with the solver, with its numbers; `exact` asks for fractions.
 
-    Where journals rub, which depends on the sizes of reactions, friction is left out of exact numbers. Fails as
-    `construct` does, with `SingularPose` naming the links and the lines that should meet, and with `Refused` where
-    `exact` meets an irrational scene; unless `refuse` says otherwise, with `Disagreement` where no way agrees: else
-    that is the report's to tell.
+    Where friction cannot be had, as where the mechanism locks itself or where journals rub in exact numbers, all is
+    without it, and the forces say why. Fails as `construct` does, with `SingularPose` naming the links and the lines
+    that should meet, and with `Refused` where `exact` meets an irrational scene; unless `refuse` says otherwise, with
+    `Disagreement` where no way agrees: else that is the report's to tell.
     With `alone` it is the solver's own numbers where no way can be drawn though the pose is regular. Poles and
     curvatures that are asked for and do not exist here are left out: the report has the reasons.
     """
     if exact and scene.irrational:
         irrational = ", ".join(sorted(scene.irrational, key=by_name))
         raise Refused(f"{scene.name}: {irrational}", "fractions cannot hold this", "leave out --exact")
-    if exact and scene.loads is not None and any(friction.at for friction in scene.loads.frictions):
-        scene = replace(scene, loads=replace(scene.loads, frictions=()))
+    scene, locks = decided(scene, exact)
     how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia}
-    found, reasons = answered(scene, lambda asked: _first_trusted(asked, how, exact, alone))
+    found, reasons = answered(scene, lambda asked: _first_trusted(asked, how, exact, alone, locks))
     if refuse and not found.agrees:
         raise found.disagreement
-    return replace(found, reasons=reasons) if reasons else found
+    return replace(found, whole=scene, missing=reasons) if reasons else found
 
 
-def _first_trusted(scene: Scene, how: dict[str, Any], exact: bool, alone: bool) -> Report:
+def _first_trusted(scene: Scene, how: dict[str, Any], exact: bool, alone: bool, locks: str) -> Report:
     """The first construction that agrees with the solver, else the first that is drawn; as `report` gives it."""
-    bench = Bench(scene, how, exact)
+    bench = Bench(scene, how, exact, locks)
     try:
         found = first_sound(scene, how, bench.judged)
     except Refused:

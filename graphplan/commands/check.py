@@ -28,15 +28,17 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    from graphplan.check.json_results import reasons
+    from graphplan.check.regular import in_part
     from graphplan.check.shortcuts import replacements, shortcuts
     from graphplan.mechanism.structure import structure
     from graphplan.methods.panels import redundancies
 
     scene = given(options)
-    found = reported(options, scene, exact=options.exact, refuse=False)
+    found = in_part(scene, lambda scene: reported(options, scene, exact=options.exact, refuse=False))
     groups = structure(scene).lines()
     notes = [str(note) for note in (*redundancies(scene), *shortcuts(found.drawing), *replacements(scene))]
-    notes += [f"{kind} {name}: {why}" for kind, named in found.reasons.items() for name, why in named.items()]
+    notes += [f"{key} {name}: {why}" for key, named in reasons(found).items() for name, why in named.items()]
     if options.json:
         write(as_json(_data(found, groups, notes)))
     else:

@@ -17,6 +17,7 @@ from importlib.util import find_spec
 from graphplan.commands.choices import add_choices, add_preference, add_travel, drawn_by, given, reported
 from graphplan.commands.output import as_json, write
 from graphplan.errors import Refused
+from graphplan.mechanism.model import Scene
 from graphplan.mechanism.replaced import beyond
 
 
@@ -35,8 +36,10 @@ def run(options: argparse.Namespace) -> int:
     if options.digits is not None:
         return _certified(options)
     from graphplan.check.json_results import data
+    from graphplan.check.regular import in_part
 
-    found = reported(options, given(options), exact=options.exact, alone=not options.pencil)
+    found = in_part(given(options), lambda scene: reported(options, scene, exact=options.exact,
+                                                           alone=not options.pencil))
     printed = data(found, each=options.bounds)
     if options.pencil:
         from graphplan.accuracy.drafted import drafted
@@ -55,11 +58,14 @@ def _certified(options: argparse.Namespace) -> int:
         raise Refused("--digits", "with --exact every digit is there", "leave out one of the two")
     if find_spec("flint") is None:
         raise Refused("--digits", "proven digits need python-flint", "install graphplan[certified]")
-    from graphplan.check.certified import certified
+    from graphplan.check.certified import Certified, certified
+    from graphplan.check.regular import in_part
 
-    scene = given(options)
-    how, _ = drawn_by(options, scene)
-    found = certified(scene, options.digits, method=how["method"], plan=options.plan, inertia=options.inertia)
+    def proven(scene: Scene) -> Certified:
+        how, _ = drawn_by(options, scene)
+        return certified(scene, options.digits, method=how["method"], plan=options.plan, inertia=options.inertia)
+
+    found = in_part(given(options), proven)
     if not found.agrees:
         raise found.disagreement
     write(as_json(found.data, 2))

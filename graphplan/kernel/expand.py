@@ -21,7 +21,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Choice, 
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.plans import PlansApart
 from graphplan.kernel.primitives import dot
-from graphplan.kernel.program import Board, Mark, Panel, Program, Step, Verbs, error_at
+from graphplan.kernel.program import Board, Mark, Program, Step, Verbs, error_at
 from graphplan.kernel.window import EVERYWHERE, Window
 
 AGREE = 1e-6  # beside the figure that is drawn: a form that loses more is none

@@ -125,7 +125,7 @@ class Primitive:
     | `fails` | the codes of what may go wrong |
     | `params` | the names of what it is given beside its operands |
     | `source` | author, year and section |
-    | `where` | the operand on whose plan it is drawn (-1: the last), with all that are not `afar` |
+    | `where` | the operand on whose plan it is drawn (-1: the last), with all that lie on no other |
     | `symmetric` | whether the order of its operands does not matter |
     | `movement` | what the hand does |
     | `afar` | operands that may lie on other plans, each group on one: vectors, openings and directions |

@@ -200,16 +200,6 @@ def check_loads(scene: Scene, faults: Faults, by_drive: bool = False) -> None:
         faults.add("balance", f"{counts}: statically indeterminate", "one balance for each drive")
     else:
         _check_balance(scene, faults)
-        _check_asked(scene, faults)
-
-
-def _check_asked(scene: Scene, faults: Faults) -> None:
-    """Of every joint and slide that is asked for some reaction is determinate."""
-    for name in scene.find.reactions or ():
-        told = [f"{link} at {name}" for link in scene.links_of.get(name, ())[1:]] or [name]
-        if set(told) <= set(scene.indeterminate_pairs):
-            what = f"the reaction {' and '.join(told)} is statically indeterminate: the pairs of this mechanism repeat"
-            faults.add("find.reactions", f"{what} each other", "reactions of other pairs, or no redundant pair")
 
 
 def _check_balance(scene: Scene, faults: Faults) -> None:

@@ -25,6 +25,7 @@ from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.plane import Number, Pair
 from graphplan.mechanism.running import Flywheel, Run
+from graphplan.mechanism.sheet import Presentation
 from graphplan.mechanism.units import Units
 
 __all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Extreme", "Find", "Flywheel", "Force",
@@ -48,7 +49,8 @@ class Find:
     inflection circle is.
 
     None where nothing is said of them: then all reactions are found where there are loads, the rates of links of which
-    two points are asked for, and the sliding of pairs whose point is asked for.
+    two points are asked for, and the sliding of pairs whose point is asked for. `by_default` says that the scene has no
+    [find].
     """
 
     velocity: tuple[str, ...]
@@ -59,6 +61,7 @@ class Find:
     poles: tuple[str, ...] = ()
     curvature: tuple[str, ...] = ()
     inflection: tuple[str, ...] = ()
+    by_default: bool = field(default=False, compare=False)
 
     @property
     def traced(self) -> dict[str, tuple[str, str]]:
@@ -105,13 +108,20 @@ class Moment:
 class Balance:
     """The unknown that keeps the prescribed motion: a moment on `link`, or a force at its point `at` along `direction`.
 
-    The direction has any length, and is written as a slide's is; only where there is none it is a moment.
+    The direction has any length, and is written as a slide's is; only where there is none it is a moment. It acts from
+    the frame, or from the link `on`, which has its counterpart.
     """
 
     link: str
     at: str = ""
     direction: Pair | None = None
     written: Written = field(default=None, compare=False)
+    on: str = FRAME
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """The link on which it acts, and the one from which it does."""
+        return self.link, self.on
 
     @property
     def spellings(self) -> tuple[str, str, str]:
@@ -122,11 +132,11 @@ class Balance:
         return self.link, f"{self.link} at {self.at}", f"{self.link} at {self.at} along ({dx:g}, {dy:g})"
 
     def states(self, scene: Scene) -> Iterator[Statement]:
-        """What would stand still if it were a support of the frame: a turning, or a motion along its direction."""
+        """What would stand still if it were a support: a turning, or a motion along its direction."""
         if self.direction is None:
-            yield Turning(self.link, FRAME)
+            yield Turning(self.link, self.on)
         else:
-            yield Along(self.link, FRAME, self.at, self.direction, "held")
+            yield Along(self.link, self.on, self.at, self.direction, "held")
 
 
 @dataclass(frozen=True)
@@ -150,7 +160,8 @@ class Friction:
 class Loads:
     """What acts on the links besides each other: gravity is in m/s^2, all else in the scene's units.
 
-    `rounds` is how many rounds of friction are asked for; 0 means as many as it takes.
+    `rounds` is how many rounds of friction are asked for; 0 means as many as it takes. `resting` are the names of the
+    pairs that are known to stand still: nothing rubs in them.
     """
 
     gravity: Pair
@@ -160,6 +171,7 @@ class Loads:
     balances: tuple[Balance, ...]
     frictions: tuple[Friction, ...] = ()
     rounds: int = 0
+    resting: frozenset[str] = frozenset()
 
     @cached_property
     def named_balances(self) -> dict[str, Balance]:
@@ -168,49 +180,6 @@ class Loads:
         borne = Counter(name for balance in self.balances for name in dict.fromkeys(balance.spellings))
         return {next((name for name in balance.spellings if borne[name] == 1), balance.spellings[-1]): balance
                 for balance in self.balances}
-
-
-@dataclass(frozen=True)
-class Presentation:
-    """How a scene wishes its sheet: texts that are empty, and scales that are None, are left to graphplan.
-
-    `k_s`, `k_v`, `k_a` and `k_F` are what a millimetre of paper stands for, in the scene's units; `multiples` are by
-    how much other plans are larger than the mechanism's; by `convention` scales are told as real per drawn, or as
-    drawn per real. `student` and `variant` are whose task it is in a class, and its number.
-    """
-
-    paper: str = ""
-    frame: str = "iso"
-    owner: str = ""
-    number: str = ""
-    date: str = ""
-    drawn_by: str = "graphplan"
-    approved_by: str = ""
-    language: str = "en"
-    k_s: Fraction | None = None
-    k_v: Fraction | None = None
-    k_a: Fraction | None = None
-    k_F: Fraction | None = None
-    multiples: dict[str, Fraction] = field(default_factory=dict)
-    convention: str = "real"
-    curves: tuple[str, ...] = ()
-    centrodes: tuple[str, ...] = ()
-    cubics: tuple[str, ...] = ()
-    positions: int = 0
-    student: str = ""
-    variant: str = ""
-
-    @property
-    def kappa(self) -> Fraction | None:
-        """How long a speed of one is drawn, where two of the scales of lengths, velocities and accelerations tie it."""
-        if self.k_s and self.k_v:
-            return self.k_s / self.k_v
-        return self.k_v / self.k_a if self.k_v and self.k_a else None
-
-    @property
-    def phi(self) -> Fraction | None:
-        """How long a force of one is drawn, where the scales of lengths and forces tie it."""
-        return self.k_s / self.k_F if self.k_s and self.k_F else None
 
 
 @dataclass(frozen=True)
@@ -276,7 +245,7 @@ class Scene:
     loads: Loads | None = None
     flywheel: Flywheel | None = None
     run: Run | None = None
-    sheet: Presentation = Presentation()
+    sheet: Presentation = field(default_factory=Presentation)
     text: str = field(default="", repr=False, compare=False)
     redundant: tuple[Condition, ...] = ()
     repeating: tuple[Condition, ...] = ()
@@ -386,13 +355,27 @@ class Scene:
         """The slide in which a sliding drive works."""
         return next(slide for slide in self.slides if {*slide.links} == {*drive.links})
 
+    def balance_of(self, drive: Drive) -> Balance:
+        """What a drive does: a moment on its link, or the force along its slide, from the other link of the drive."""
+        if not drive.slides:
+            return Balance(drive.link, on=drive.on)
+        slide = self.driven_slide(drive)
+        return Balance(slide.link, slide.at, slide.direction, slide.written, slide.along)
+
     def posed(self, points: dict[str, Any], direction: Callable[[Any], Any],
               length: Callable[[Any], Any] = lambda radius: radius) -> Scene:
         """The scene in another pose, or in other numbers: its points, the direction of each guide and balance, and by
-        `length` the radii of its gears."""
+        `length` the radii of its gears. A balance between two moving links keeps to the guide that it drives."""
         def directed(one: Any) -> Any:
             one = one.scaled(length) if isinstance(one, Gear) else one
             return replace(one, direction=direction(one)) if getattr(one, "direction", None) is not None else one
 
-        loads = self.loads and replace(self.loads, balances=tuple(map(directed, self.loads.balances)))
-        return replace(self, points=points, written=tuple(map(directed, self.written)), loads=loads)
+        written = tuple(map(directed, self.written))
+        guides = {frozenset(pair.links): pair.direction for pair in written if isinstance(pair, Slide)}
+
+        def balanced(one: Balance) -> Balance:
+            guide = guides.get(frozenset(one.links)) if one.at and one.on != FRAME else None
+            return directed(one) if guide is None else replace(one, direction=guide)
+
+        loads = self.loads and replace(self.loads, balances=tuple(map(balanced, self.loads.balances)))
+        return replace(self, points=points, written=written, loads=loads)

@@ -26,7 +26,7 @@ from graphplan.mechanism.directions import points_of
 from graphplan.mechanism.fields import Field, Names, Table
 from graphplan.mechanism.items import Faults, Item, perhaps, quoted
 from graphplan.mechanism.load_values import filled_in
-from graphplan.mechanism.model import FRAME, Balance, Contact, Drive, Find, Gear, Pair, Presentation, Scene, Slide
+from graphplan.mechanism.model import Contact, Find, Gear, Pair, Presentation, Scene, Slide
 from graphplan.mechanism.numerals import decimal, is_exact
 from graphplan.mechanism.pairs import fields
 from graphplan.mechanism.pairs.pair import KinematicPair
@@ -195,7 +195,8 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         placements=placements, links=names.links, written=names.pairs, motions=read.get("motion", {}),
         find=read.get("find") or _asked(names), loads=sections.loads(read), flywheel=read.get("flywheel"),
         run=read.get("run"), sheet=read.get("sheet") or Presentation(), vary=read.get("vary", {}))
-    scene = _kept_by_its_drive(scene) if by_drive or scene.flywheel or scene.run else scene
+    kept = by_drive or scene.flywheel or scene.run
+    scene = _kept_by_its_drive(scene) if kept else _without_unasked_loads(scene, tables.get("find"))
     counting = _counting(scene)
     rounded = [f"points.{quoted(point)}: {placements[point].how} placement" for point in placements
                if point in names.placed and point in counting and not is_exact(names.placed[point])]
@@ -209,20 +210,17 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
 
 
 def _kept_by_its_drive(scene: Scene) -> Scene:
-    """The scene; where it has no balance, that is what each of its drives does.
-
-    Of a drive between two moving links the counterpart on the other is left out, so there must be no friction then.
-    """
-    def balance(drive: Drive) -> Balance:
-        if not drive.slides:
-            return Balance(drive.link)
-        slide = scene.driven_slide(drive)
-        return Balance(slide.link, slide.at, slide.direction, slide.written)
-
-    loads, drives = scene.loads, scene.drives
-    if not loads or loads.balances or (loads.frictions and any(drive.on != FRAME for drive in drives)):
+    """The scene; where it has no balance, that is what each of its drives does."""
+    loads = scene.loads
+    if not loads or loads.balances:
         return scene
-    return replace(scene, loads=replace(loads, balances=tuple(map(balance, drives))))
+    return replace(scene, loads=replace(loads, balances=tuple(map(scene.balance_of, scene.drives))))
+
+
+def _without_unasked_loads(scene: Scene, find: object) -> Scene:
+    """The scene; where motion alone is asked for and no balance given, without the loads, which nothing needs then."""
+    motion = isinstance(find, dict) and bool(find) and not find.get("reactions")
+    return replace(scene, loads=None) if motion and scene.loads and not scene.loads.balances else scene
 
 
 def _told_apart(pairs: tuple[KinematicPair, ...]) -> tuple[KinematicPair, ...]:
@@ -254,7 +252,7 @@ def _asked(names: Names) -> Find:
     is none of every point that can, and the rates of every link."""
     at = {pair.at for pair in names.pairs if isinstance(pair, Slide)}
     moving = tuple(p for p in names.movable if names.held[p] > 1 or p in at) or names.movable
-    return Find(moving, moving, links=names.moving)
+    return Find(moving, moving, links=names.moving, by_default=True)
 
 
 def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults, by_drive: bool) -> Scene:

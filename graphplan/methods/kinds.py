@@ -72,6 +72,13 @@ POLE_HEADING = ResultKind(said("heading to a pole"), units.HEADING, place=POLES)
 GEAR_REACTION = ResultKind(said("gear reaction"), units.FORCE, pair=True)
 CONTACT_REACTION = ResultKind(said("contact reaction"), units.FORCE, pair=True)
 REACTIONS = REACTION, SLIDE_REACTION, GEAR_REACTION, CONTACT_REACTION
+WITH_FRICTION: Mapping[str, ResultKind] = {
+    REACTION: ResultKind(said("reaction with friction"), units.FORCE, pair=True),
+    SLIDE_REACTION: ResultKind(said("slide reaction with friction"), units.FORCE, pair=True),
+    SLIDE_MOMENT: ResultKind(said("slide moment with friction"), units.MOMENT, pair=True),
+    GEAR_REACTION: ResultKind(said("gear reaction with friction"), units.FORCE, pair=True),
+    CONTACT_REACTION: ResultKind(said("contact reaction with friction"), units.FORCE, pair=True),
+}
 # Of the path of a point on a link: its centre of curvature; where that is at infinity the curvature, along the normal;
 # where the point is the pole, how far the two are apart. Of a link's motion its inflection pole and its pole, both as
 # places; where these are at infinity its turning.
@@ -84,7 +91,7 @@ TRANSLATION = ResultKind(said("translation"), units.TURNING)
 PATHS = CENTRE, STRAIGHT, CUSP, INFLECTION, MOTION_POLE
 KINDS: Mapping[str, ResultKind] = {kind: kind for kind in (
     VELOCITY, ACCELERATION, OMEGA, ALPHA, SLIDE_VELOCITY, SLIDE_ACCELERATION, REACTION, SLIDE_REACTION, SLIDE_MOMENT,
-    SLIDE_ARM, GEAR_REACTION, CONTACT_REACTION, POLE, POLE_HEADING, *PATHS, TRANSLATION,
+    SLIDE_ARM, GEAR_REACTION, CONTACT_REACTION, *WITH_FRICTION.values(), POLE, POLE_HEADING, *PATHS, TRANSLATION,
     ResultKind(said("balance"), units.FORCE, way=BY_PLANS),
     ResultKind(said("balance moment"), units.MOMENT, way=BY_PLANS),
     ResultKind(said("balance with friction"), units.FORCE, way=RUBBED),

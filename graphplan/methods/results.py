@@ -68,14 +68,17 @@ class Given(ABC):
 
     @property
     def reactions(self) -> dict[str, Any]:
-        """The reactions, on links at joints, such as `2 at B`, of slides, gears and contacts."""
-        return {name: force for kind in kinds.REACTIONS for name, force in self.named(kind).items()}
+        """The reactions, on links at joints, such as `2 at B`, of slides, gears and contacts; with friction where they
+        are drawn with it."""
+        return {name: force for kind in kinds.REACTIONS
+                for name, force in (self.named(kind) | self.named(kinds.WITH_FRICTION[kind])).items()}
 
     @property
     def balances(self) -> list[Any]:
-        """The balances in the scene's order, by force plans or else by the lever: moments in force * m, forces as
-        complex numbers."""
-        return [*balances(self.scene, {kind: self.named(kind) for kind in kinds.KINDS}).values()]
+        """The balances in the scene's order, with friction where they are drawn with it, by force plans or else by the
+        lever: moments in force * m, forces as complex numbers."""
+        found, ways = {kind: self.named(kind) for kind in kinds.KINDS}, (kinds.RUBBED, kinds.BY_PLANS, kinds.BY_LEVER)
+        return [*balances(self.scene, found, ways).values()]
 
 
 def thing_named(scene: Scene, kind: kinds.ResultKind, of: str) -> str:

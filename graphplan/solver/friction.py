@@ -23,7 +23,7 @@ from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.plane import dot, less, plus, times, turned
 from graphplan.mechanism.units import metre
 from graphplan.solver.equations import Equations
-from graphplan.solver.higher_pairs import first_held, force, leant
+from graphplan.solver.higher_pairs import first_held, force, held_at, leant
 from graphplan.solver.rates import Rates
 from graphplan.solver.statics import Reactions, asked, equilibrium, reactions
 
@@ -139,6 +139,24 @@ def forces(found: Reactions) -> list[Pair]:
               for pair in pairs if pair.name in found.higher)]
 
 
+def borne(found: Reactions) -> dict[str, Pair]:
+    """The forces in slides, gears and contacts, each on its first link, with what leans in them."""
+    scene, facts, whole = found.equations.scene, iter(found.equations.facts), dict[str, Pair]()
+    for pair in scene.binding:
+        own = [next(facts) for _ in pair.states(scene)]
+        if isinstance(pair, Slide) and pair.name in found.slides:
+            across, normal = next(fact for fact in own if isinstance(fact, Along)), turned(pair.direction)
+            size = dot(normal, found.slides[pair.name][0]) / dot(normal, normal)
+            whole[pair.name] = times(size, across.direction)
+        elif isinstance(pair, Gear | Contact) and pair.name in found.higher:
+            total: Pair = (0, 0)
+            for fact, size in zip(own, found.higher[pair.name], strict=True):
+                x, y, _ = held_at(found.equations, fact)
+                total = plus(total, times(size if fact.link == pair.links[0] else -size, (x, y)))
+            whole[pair.name] = total
+    return whole
+
+
 def largest(found: Reactions) -> float:
     """The largest of the forces, and of the moments at the mechanism's reach: what is nothing beside it is nothing."""
     arm = found.equations.reach / metre(found.equations.scene.units)
@@ -195,23 +213,49 @@ def rubbing(scene: Scene, rates: Rates) -> Rubbing:
 
     What rounding could make of what moves fastest does not move.
     """
-    frictions, reach, omega = asked(scene).frictions, rates.equations.reach, {**rates.omega, FRAME: 0}
+    loads, reach = asked(scene), rates.equations.reach
     points = (abs(float(x)) for v in (rates.velocity, rates.slide_velocity) for pair in v.values() for x in pair)
-    still = ROUNDING * rates.condition * max(*points, *(abs(float(turn)) * reach for turn in omega.values()))
-    circles = {f.at: f.radius * f.coefficient for f in frictions}
-    coefficients = {f.links: f.coefficient for f in frictions}
+    still = ROUNDING * rates.condition * max(*points, *(abs(float(turn)) * reach for turn in rates.omega.values()), 0.0)
+    circles = {f.at: f.radius * f.coefficient for f in loads.frictions}
+    coefficients = {frozenset(f.links): f.coefficient for f in loads.frictions}
     journals, guides = dict[tuple[str, str], Number](), dict[Slide | Contact, Number]()
-    for joint in scene.revolutes:
-        for link in joint.links[1:]:
-            speed = float(omega[link] - omega[joint.links[0]]) * reach
-            journals[joint.at, link] = -circles.get(joint.at, Fraction(0)) * sign(speed, still)
-    for slide in scene.slides:
-        speed = float(dot(rates.slide_velocity[slide.name], slide.direction)) / math.hypot(*slide.direction)
-        guides[slide] = -coefficients.get(slide.links, Fraction(0)) * sign(speed, still)
-    for contact in scene.contacts:
-        speed = float(contact_slip(rates, contact)) / math.hypot(*contact.normal(scene.points))
-        guides[contact] = -coefficients.get(contact.links, Fraction(0)) * sign(speed, still)
+    for joint, link, turning in turnings(rates):
+        rests = name_in_joint(joint, link) in loads.resting
+        against = 0 if rests else -sign(float(turning) * reach, still)
+        journals[joint, link] = circles.get(joint, Fraction(0)) * against
+    for pair, slip in slips(rates):
+        along = pair.direction if isinstance(pair, Slide) else pair.normal(scene.points)
+        against = 0 if pair.name in loads.resting else -sign(float(slip) / math.hypot(*along), still)
+        guides[pair] = coefficients.get(frozenset(pair.links), Fraction(0)) * against
     return Rubbing(journals, guides)
+
+
+def turnings(rates: Rates) -> Iterator[tuple[str, str, Number]]:
+    """Of every journal its joint, the link in it, and how fast that turns on the link that carries the pin."""
+    omega = {**rates.omega, FRAME: 0}
+    for joint in rates.equations.scene.revolutes:
+        for link in joint.links[1:]:
+            yield joint.at, link, omega[link] - omega[joint.links[0]]
+
+
+def slips(rates: Rates) -> Iterator[tuple[Slide | Contact, Number]]:
+    """How fast each slide and contact slides, in as many times its direction's or its normal's length as it has."""
+    scene = rates.equations.scene
+    for slide in scene.slides:
+        yield slide, dot(rates.slide_velocity[slide.name], slide.direction)
+    for contact in scene.contacts:
+        yield contact, contact_slip(rates, contact)
+
+
+def resting(rates: Rates, vanishes: Callable[[Number], bool]) -> frozenset[str]:
+    """The names of the pairs that stand still: those whose turning or sliding `vanishes`."""
+    journals = (name_in_joint(joint, link) for joint, link, turning in turnings(rates) if vanishes(turning))
+    return frozenset((*journals, *(pair.name for pair, slip in slips(rates) if vanishes(slip))))
+
+
+def name_in_joint(joint: str, link: str) -> str:
+    """The name of a journal: of the link in the joint."""
+    return f"{link} at {joint}"
 
 
 def contact_slip(rates: Rates, contact: Contact) -> Number:
@@ -220,13 +264,16 @@ def contact_slip(rates: Rates, contact: Contact) -> Number:
     In as many times the normal's length as it has.
     """
     fact = next(contact.states(rates.equations.scene))
-    def velocity(link: str) -> Pair:
-        if link == FRAME:
-            return 0, 0
-        arm, base = rates.equations.arm(link, contact.at), rates.equations.bases[link]
-        return plus(rates.velocity[base], times(rates.omega[link], turned(arm)))
+    slip = less(moved_with(rates, fact.link, contact.at), moved_with(rates, fact.on, contact.at))
+    return dot(slip, turned(first_held(rates.equations, contact)))
 
-    return dot(less(velocity(fact.link), velocity(fact.on)), turned(first_held(rates.equations, contact)))
+
+def moved_with(rates: Rates, link: str, place: str) -> Pair:
+    """The velocity of a place as a point of a link."""
+    if link == FRAME:
+        return 0, 0
+    arm, base = rates.equations.arm(link, place), rates.equations.bases[link]
+    return plus(rates.velocity[base], times(rates.omega[link], turned(arm)))
 
 
 def sign(value: float, least: float) -> int:
@@ -242,10 +289,11 @@ def delivered(found: Reactions) -> Number:
     scene, rates = found.equations.scene, found.rates
     power: Number = Fraction(0)
     for balance, value in zip(asked(scene).balances, found.balances, strict=True):
+        (one, other), omega = balance.links, {**rates.omega, FRAME: 0}
         if isinstance(value, tuple):
-            power += dot(value, rates.velocity[balance.at])
+            power += dot(value, less(moved_with(rates, one, balance.at), moved_with(rates, other, balance.at)))
         else:
-            power += value * metre(scene.units) * rates.omega[balance.link]
+            power += value * metre(scene.units) * (omega[one] - omega[other])
     return power
 
 

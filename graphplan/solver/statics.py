@@ -190,9 +190,10 @@ def power(scene: Scene, exact: bool = False) -> tuple[Pair | Number, ...]:
 
     Fails as `reactions` does.
     """
-    rates, units = solve(scene, exact), [unit(balance) for balance in asked(scene).balances]
+    rates, balances = solve(scene, exact), asked(scene).balances
     loads, motions = acting(scene, rates), list(virtual(rates, exact))
-    system = Elimination([dict(enumerate(powers(rates, units, motion))) for motion in motions], len(units))
+    system = Elimination([{k: sum(powers(rates, unit(balance), motion)) for k, balance in enumerate(balances)}
+                          for motion in motions], len(balances))
     right = [-sum(powers(rates, loads, motion)) for motion in motions]
     if exact:
         require_fractions(scene, right)
@@ -200,7 +201,8 @@ def power(scene: Scene, exact: bool = False) -> tuple[Pair | Number, ...]:
     if values is None or system.free or rows.ready(exact).free:
         raise not_held(rows, exact)
     found: Iterable[Number] = values if exact else map(float, values)
-    return tuple(times(v, one.value) if isinstance(one, Force) else v for v, one in zip(found, units, strict=True))
+    return tuple(v if one.direction is None else times(v, one.direction)
+                 for v, one in zip(found, balances, strict=True))
 
 
 def virtual(rates: Rates, exact: bool) -> Iterator[dict[str, Rate]]:
@@ -212,11 +214,14 @@ def virtual(rates: Rates, exact: bool) -> Iterator[dict[str, Rate]]:
         yield equations.rates(solved(equations, linear, right), zero)
 
 
-def unit(balance: Balance) -> Load:
-    """The balance with a moment of 1, or with its direction as its force."""
+def unit(balance: Balance) -> tuple[Load, ...]:
+    """The balance with a moment of 1, or with its direction as its force, and its counterpart on another moving link.
+    """
     if balance.direction is None:
-        return Moment(balance.link, Fraction(1))
-    return Force(balance.link, balance.at, balance.direction)
+        return tuple(Moment(link, Fraction(sign)) for link, sign in zip(balance.links, (1, -1), strict=True)
+                     if link != FRAME)
+    return tuple(Force(link, balance.at, times(sign, balance.direction))
+                 for link, sign in zip(balance.links, (1, -1), strict=True) if link != FRAME)
 
 
 def powers(rates: Rates, loads: Iterable[Load], motion: dict[str, Rate]) -> Iterator[Number]:

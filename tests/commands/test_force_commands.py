@@ -170,8 +170,14 @@ def test_unbalanced_scene_is_refused(monkeypatch: pytest.MonkeyPatch, capsys: py
 
 
 def test_balance_without_work_is_singular(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    """A balance along the crank does no work in this pose: exit status 3, with the links that it does not hold."""
-    assert ran(["solve"], REST.replace("[-4, 3]", "[3, 4]"), monkeypatch) == 3
+    """A balance along the crank does no work in this pose: forces are null, and the motion is told; where forces alone
+    are asked for it is exit status 3, with the links that they do not hold."""
+    text = REST.replace("[-4, 3]", "[3, 4]")
+    told = solved(text, monkeypatch, capsys)
+    assert told["balance"]["force"] is None
+    assert "cannot hold the motion" in told["reasons"]["balance"]["2"]
+    assert told["points"]["B"]["velocity"] == [0.0, 0.0]
+    assert ran(["solve"], text + "[find]\nreactions = 'all'\n", monkeypatch) == 3
     err = capsys.readouterr().err
     assert "singular pose of links 1, 2, 3" in err
     assert "the balance cannot hold the motion in this pose" in err

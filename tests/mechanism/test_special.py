@@ -212,12 +212,15 @@ def test_what_hangs_on_it_has_its_reactions_drawn(machine: Machine) -> None:
     assert any("statically indeterminate" in note for note in found.drawing.notes)
 
 
-def test_a_reaction_that_statics_cannot_tell_is_refused_by_name() -> None:
-    """Asked for alone it is a fault that names it; asked for beside others at its joint it is named in the results."""
+def test_a_reaction_that_statics_cannot_tell_is_null_by_name() -> None:
+    """What is asked for and statically indeterminate is null, with the reason; the others at its joint are told."""
     text = loaded(MACHINES[0]) + '\n[find]\nreactions = ["{}"]'
-    with pytest.raises(SceneError, match="the reaction 4 at D is statically indeterminate"):
-        parse(text.format("D"), "asked")
-    assert data(report(parse(text.format("A"), "asked")))["indeterminate"] == ["2 at A"]
+    for point, name in ("D", "4 at D"), ("A", "2 at A"):
+        told = data(report(parse(text.format(point), "asked")))
+        assert told["indeterminate"] == [name]
+        assert "statically indeterminate" in told["reasons"]["reactions"][name]
+        null = [f"{one['on']} at {one['at']}" for one in told["reactions"] if one["force"] is None]
+        assert null == [name]
 
 
 @pytest.mark.parametrize("name", [name for name in packaged() if not load(name).motions])

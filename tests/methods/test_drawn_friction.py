@@ -77,12 +77,14 @@ def test_the_balance_pays_for_what_is_rubbed(groups: list[str]) -> None:
 def test_kinytskyi(plan: str) -> None:
     """The lambda mechanism: two rounds stand; Kinytskyi's power sum of the first forces is a third of a percent off."""
     found = report(load("kinytskyi"), plan=plan)
-    told = data(found)["friction"]
+    printed = data(found)
+    told = printed["friction"]
     assert told["rounds"] == 2
     assert "friction: the forces no longer change after round 2" in found.drawing.forms
-    drawn, stands = (one["balance"][0]["moment"] for one in (told, told["stands"]))
+    drawn, stands = printed["balance"]["moment"], told["stands"]["balance"][0]["moment"]
     assert drawn == pytest.approx(stands, rel=1e-12)
     assert drawn == pytest.approx(6.4180678727, rel=1e-10)
+    assert printed["without_friction"]["balance"]["moment"] == pytest.approx(5.7291762403, rel=1e-10)
     assert told["efficiency"] == pytest.approx(0.8926637, rel=1e-6)
     assert told["efficiency"] == pytest.approx(0.8950101, rel=1 / 300)
 
@@ -166,9 +168,9 @@ coefficient = 0.057
 
 def test_a_bearing_without_force_has_no_friction() -> None:
     """Rotors whose bearings bear nothing are not self-locking: no force has no direction, and rubs nothing."""
-    told = data(report(parse(ROTORS, "rotors")))["friction"]
-    for found in told["balance"], told["stands"]["balance"]:
-        assert [balance["moment"] for balance in found] == pytest.approx([13.0, 2.0], rel=1e-15)
+    told = data(report(parse(ROTORS, "rotors")))
+    for found in told, told["friction"]["stands"], told["without_friction"]:
+        assert [balance["moment"] for balance in found["balance"]] == pytest.approx([13.0, 2.0], rel=1e-15)
 
 
 def test_at_rest_there_is_no_friction() -> None:
@@ -179,8 +181,12 @@ def test_at_rest_there_is_no_friction() -> None:
     assert "friction" not in data(report(scene.with_drives([replace(drive, rate=Fraction(0))])))
 
 
-def test_exact_leaves_journals_out() -> None:
-    """Exact numbers leave friction out where journals rub, as the size of a reaction is a root."""
+def test_exact_numbers_have_no_friction_of_journals() -> None:
+    """The size of a reaction is a root: where journals rub exact numbers are those without friction, and it is said."""
     scene = rough(load("jaanimets-11"), Fraction(1, 10))
     assert "friction" in data(report(scene))
-    assert "friction" not in data(report(scene, exact=True))
+    found = report(scene, exact=True)
+    told = data(found)
+    assert told["balance"]["moment"] is None
+    assert "root" in told["reasons"]["balance"]["1"]
+    assert told["without_friction"]["balance"]["moment"] == str(found.results["balance moment"]["1"])

@@ -36,11 +36,11 @@ from graphplan.cycle.turn import Turn
 from graphplan.errors import Refused
 from graphplan.machine.integrals import settled
 from graphplan.machine.reduced.breaks import refined, samples
-from graphplan.machine.reduced.friction_drawing import RUBBED_REACTION, rubbed_drawing
+from graphplan.machine.reduced.friction_drawing import rubbed_drawing, with_resting_pairs
 from graphplan.machine.reduced.recordings import Recordings, Results
 from graphplan.machine.reduced.reduced_loads import LoadValues, acting
 from graphplan.machine.reduced.unit_motion import Rates, UnitMotion, at_unit_rate
-from graphplan.mechanism.model import FRAME, Balance, Find, Force, Friction, Loads, Scene, Slide
+from graphplan.mechanism.model import FRAME, Find, Force, Friction, Loads, Scene, Slide
 from graphplan.mechanism.plane import times
 from graphplan.mechanism.units import NEWTONS, weight
 from graphplan.methods import kinds
@@ -49,6 +49,7 @@ from graphplan.phrases import said
 
 Vanishing = Callable[[Results, Turn], tuple[Array, Array]]
 M_F = "M_F"
+JOINT_FORCE, SLIDE_FORCE = (kinds.WITH_FRICTION[kind] for kind in (kinds.REACTION, kinds.SLIDE_REACTION))
 NOTHING = 1e-12  # of the drive's rates, or of the largest reaction
 HAIR = 1e-10  # of the cycle: so far beside a break it is seen how pairs move there
 STANDS = 1e-9  # of the balance: what one round of friction more may change
@@ -95,7 +96,7 @@ class FrictionOverCycle:
     def __init__(self, scene: Scene, motion: UnitMotion, ends: tuple[float, float]):
         assert scene.loads is not None
         self.motion, self.speed, self.ends = motion, mean_speed(scene), ends
-        self.scene = held = kinetostatic(scene, self.speed)
+        self.scene = held = with_resting_pairs(kinetostatic(scene, self.speed), motion, samples(motion, ends))
         assert held.loads is not None
         self.values = LoadValues(held, [*acting(held, held.loads)])
         self.frictions = [one for one in held.loads.frictions if one.coefficient and (one.radius or not one.at)]
@@ -116,12 +117,12 @@ class FrictionOverCycle:
         """The friction at some travels; at a break that which it has on one side, -1 or 1. Fails with `Refused` where
         the mechanism locks itself: where one round of friction more changes the forces, as none is in equilibrium."""
         travel = self.beside(travel, side)
-        found, _ = self._forces(self.recordings, travel, side, gaps=True)
-        if (torn := ~np.isfinite(self._delivered(found, kinds.RUBBED))).any():
+        found, turn = self._forces(self.recordings, travel, side, gaps=True)
+        if (torn := ~np.isfinite(self._delivered(found, turn, kinds.RUBBED))).any():
             travel = np.where(torn, travel + side * HAIR * (self.ends[1] - self.ends[0]), travel)
-            found, _ = self._forces(self.recordings, travel, side)
-        plain, rubbed = (self._delivered(found, way) for way in (kinds.BY_PLANS, kinds.RUBBED))
-        further = self._delivered(self._forces(self._further, travel, side)[0], kinds.RUBBED)
+            found, turn = self._forces(self.recordings, travel, side)
+        plain, rubbed = (self._delivered(found, turn, way) for way in (kinds.BY_PLANS, kinds.RUBBED))
+        further = self._delivered(*self._forces(self._further, travel, side), kinds.RUBBED)
         size = np.maximum(np.abs(plain), np.abs(rubbed))
         if locked := np.flatnonzero(~(np.abs(further - rubbed) <= STANDS * size)).tolist():
             at = told(self.scene, float(travel[locked[0]]))
@@ -152,7 +153,7 @@ class FrictionOverCycle:
                    for load in self.values.over_speed(self.motion, turn, rates)}
         return self.values.in_units(values, turn)
 
-    def _delivered(self, found: Results, way: str) -> Array:
+    def _delivered(self, found: Results, turn: Turn, way: str) -> Array:
         """What the drives give together for a unit of travel, in SI."""
         loads, total = self.scene.loads, np.zeros(())
         assert loads is not None
@@ -165,8 +166,9 @@ class FrictionOverCycle:
             if balance.direction is None:
                 total = total + value * float(drive.rate) / self.motion.metres
             else:
-                along = complex(*map(float, balance.direction))
-                total = total + (value * along.conjugate()).real / abs(along) * float(drive.rate)
+                along = self.values.along(self.scene.driven_slide(drive), turn)
+                sense = 1 if drive.link == balance.link else -1
+                total = total + sense * (value * np.conj(along)).real * float(drive.rate)
         return np.asarray(self.power * total)
 
     def _losses(self, found: Results) -> Iterator[tuple[str, Array]]:
@@ -175,11 +177,11 @@ class FrictionOverCycle:
         for one in self.frictions:
             for journal in self._journals(one):
                 circle = float(one.radius * one.coefficient)
-                force = found[RUBBED_REACTION][JointForce(one.at, journal[0]).name]
+                force = found[JOINT_FORCE][JointForce(one.at, journal[0]).name]
                 turning = self._turning(found, journal)
                 yield journal_name(one, *journal), -self.power * circle * np.abs(force) * np.abs(turning)
             for slide in self._slides(one):
-                slip, force = found[kinds.SLIDE_VELOCITY][slide.name], found[RUBBED_REACTION][slide.name]
+                slip, force = found[kinds.SLIDE_VELOCITY][slide.name], found[SLIDE_FORCE][slide.name]
                 yield slide.name, -self.power * np.abs((np.conj(slip) * force).real)
 
     def _journals(self, one: Friction) -> list[tuple[str, str]]:
@@ -218,7 +220,7 @@ class FrictionOverCycle:
 
     def _brackets(self, found: Results, turn: Turn) -> Iterator[Bracket]:
         """Between which of the samples something vanishes; what is next to nothing at a sample is passed over."""
-        every = [np.abs(force) for force in found[RUBBED_REACTION].values()]
+        every = [np.abs(force) for kind in (JOINT_FORCE, SLIDE_FORCE) for force in found.get(kind, {}).values()]
         largest = max((float(np.nanmax(sizes)) for sizes in every), default=0.0)
         for of, size in [of for one in self.frictions for of in self._vanishing(one, largest)]:
             values, _ = of(found, turn)
@@ -226,7 +228,7 @@ class FrictionOverCycle:
                 if values[i] * values[j] < 0 and j - i <= 2:
                     yield Bracket(of, i, j)
         for name in (JointForce(one.at, link).name for one in self.frictions for link, _ in self._journals(one)):
-            force = found[RUBBED_REACTION][name]
+            force = found[JOINT_FORCE][name]
             for i, j in pairwise(np.flatnonzero(np.abs(force) > NOTHING * largest).tolist()):
                 if (force[i] * force[j].conj()).real < 0 and j - i <= 2:
                     yield Bracket(partial(self._turns_round, name, force[i].conj()), i, j)
@@ -252,10 +254,10 @@ class FrictionOverCycle:
 
     def _presses(self, slide: Slide, found: Results, turn: Turn) -> tuple[Array, Array]:
         back = np.conj(self.values.along(slide, turn))
-        return (back * found[RUBBED_REACTION][slide.name]).imag, np.full(turn.travel.shape, np.nan)
+        return (back * found[SLIDE_FORCE][slide.name]).imag, np.full(turn.travel.shape, np.nan)
 
     def _turns_round(self, name: str, back: complex, found: Results, turn: Turn) -> tuple[Array, Array]:
-        return (found[RUBBED_REACTION][name] * back).real, np.full(turn.travel.shape, np.nan)
+        return (found[JOINT_FORCE][name] * back).real, np.full(turn.travel.shape, np.nan)
 
 
 @dataclass(frozen=True)
@@ -312,15 +314,10 @@ def mean_speed(scene: Scene) -> float:
 
 def kinetostatic(scene: Scene, speed: float) -> Scene:
     """The scene at a constant mean speed of its first drive, with a balance at each drive; at rest with weights alone,
-    moving only so that friction has a sense. Fails with `Refused` where a drive acts between two moving links."""
+    moving only so that friction has a sense."""
     moved, loads = at_unit_rate(scene), scene.loads
     assert loads is not None
-    if any(drive.on != FRAME for drive in moved.drives):
-        raise Refused("friction", said("a drive acts between two moving links, and balances act on the frame alone"),
-                      "drives on the frame")
-    guides = (moved.driven_slide(drive) if drive.slides else None for drive in moved.drives)
-    balances = tuple(Balance(drive.link, slide.at, slide.direction) if slide else Balance(drive.link)
-                     for drive, slide in zip(moved.drives, guides, strict=True))
+    balances = tuple(map(moved.balance_of, moved.drives))
     if speed:
         moved = moved.with_drives(one.driven_at(Fraction(one.rate) * Fraction(speed), 0) for one in moved.drives)
     else:

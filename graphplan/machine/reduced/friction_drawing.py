@@ -1,43 +1,49 @@
-"""The force polygons of a machine with friction, of which the reactions of the last round are read, too."""
+"""The force polygons of a machine with friction, and which of its pairs never move."""
 
 from __future__ import annotations
 
-from graphplan.mechanism import units
-from graphplan.mechanism.model import Scene
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from graphplan.cycle.linkage import Array
+from graphplan.machine.reduced.unit_motion import Rates, UnitMotion
+from graphplan.mechanism.model import FRAME, Find, Scene
+from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
-from graphplan.methods.forces.free_bodies import DrawnForces, reaction_on
-from graphplan.methods.forces.friction import rubbing
-from graphplan.methods.forces.groups import ForceTransfer
+from graphplan.methods.forces.groups import ForceTransfer, pairs
 from graphplan.methods.forces.loaded import Loaded
-from graphplan.methods.forces.loading import Loading
-from graphplan.methods.kinds import ResultKind
 from graphplan.methods.motion.alternatives import ways
 from graphplan.methods.motion.network import Network
 from graphplan.methods.panels import JointForce
 from graphplan.methods.styles import Style
-from graphplan.phrases import said
 
-RUBBED_REACTION = ResultKind(said("reaction with friction"), units.FORCE, pair=True)
-
-
-class RubbedForces(Loaded):
-    """Draws one scene with its forces by polygons, and reads what the pairs that rub bear in the last round."""
-
-    def note_rubbed(self, loading: Loading, forces: DrawnForces) -> None:
-        """Keep the balances with friction, and the reactions of journals and slides that rub."""
-        super().note_rubbed(loading, forces)
-        for journal in rubbing(loading.net.scene, forces):
-            point = journal.point if journal.point in forces.scene.points else journal.friction.at
-            self.read(RUBBED_REACTION, JointForce(journal.friction.at, journal.link).name,
-                      *reaction_on(forces, self.board, point, journal.link))
-        leaning = {frozenset(friction.links) for friction in self.loads.frictions if friction.coefficient}
-        for slide in self.scene.slides:
-            if frozenset(slide.links) in leaning and slide in forces.slides:
-                self.read(RUBBED_REACTION, slide.name, *forces.slides[slide])
+STANDS_STILL = 1e-9  # of the drive's rate, at the mechanism's reach for what slides: what is slower everywhere rests
 
 
 def rubbed_drawing(scene: Scene, method: str = "") -> Construction:
     """The polygons of a scene with friction, drawn by the best way of its motion, by a method if one is named."""
     plans = ForceTransfer(scene)
-    return next(ways(Network(scene), method, lambda planner: RubbedForces(
+    return next(ways(Network(scene), method, lambda planner: Loaded(
         scene, planner, Style(lever=False), plans).draw()))[0]
+
+
+def with_resting_pairs(scene: Scene, motion: UnitMotion, travel: Array) -> Scene:
+    """The scene with the names of the journals and slides that stand still at all of these travels."""
+    assert scene.loads is not None
+    slides = tuple(slide.name for slide in scene.slides)
+    whole = UnitMotion(scene, motion.motion, Find((), (), (), scene.moving, slides))
+    rates = whole.velocities(whole.turn(travel))
+    return replace(scene, loads=replace(scene.loads, resting=frozenset(_resting(scene, motion, rates))))
+
+
+def _resting(scene: Scene, motion: UnitMotion, rates: Rates) -> Iterator[str]:
+    for point, link, pin in pairs(scene):
+        one, other = (0.0 if name == FRAME else rates.of(kinds.OMEGA, name) for name in (link, pin))
+        if np.max(np.abs(one - other), initial=0.0) <= STANDS_STILL:
+            yield JointForce(point, link).name
+    reach = scene.extent * motion.metres if motion.turns else 1.0
+    for slide in scene.slides:
+        if np.max(np.abs(rates.of(kinds.SLIDE_VELOCITY, slide.name)), initial=0.0) <= STANDS_STILL * reach:
+            yield slide.name

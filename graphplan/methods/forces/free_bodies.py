@@ -154,17 +154,25 @@ class FreeBodies:
         with board.on(self.panel, group.links, begun(roman(forces.corners + 1), self.panel.words)):
             self.origin = self.numbered(board.begin(plan=self.panel))
             self._chain()
-        for site in (balance for balance in loading.loads.balances if balance.link in group.links and balance.at):
-            assert site.direction is not None
-            with board.on(MECHANISM, group.links, line_of_action(self.letter(site))):
-                at = pose.points[site.at]
-                line = board.guide(at, dx=site.direction[0], dy=site.direction[1])
-            self.known[site] = Known(None, line, at)
+        for site in (balance for balance in loading.loads.balances if balance.at):
+            if {*site.links} & {*group.links} and not group.done.intersection(site.links):
+                with board.on(MECHANISM, group.links, line_of_action(self.letter(site))):
+                    self.known[site] = Known(None, self._line_of(site), pose.points[site.at])
         for slide in group.scene.slides:
             if has_line(slide) and not group.done.intersection(slide.links) and {*slide.links} & {*group.links}:
                 with board.on(MECHANISM, group.links, line_of_action(self.letter(slide))):
                     line = board.perpendicular(pose.guide(slide), pose.points[slide.at])
                 self.known[slide] = Known(None, line, pose.points[slide.at])
+
+    def _line_of(self, balance: Balance) -> Mark:
+        """The line of a balancing force: between two moving links that of the guide that it drives, which leans for
+        the slide's own force alone."""
+        at, slides = self.pose.points[balance.at], self.group.scene.slides
+        guide = next((slide for slide in slides if {*slide.links} == {*balance.links}), None)
+        if balance.on != FRAME and guide is not None:
+            return self.board.parallel(self.loading.pose.guide(guide), at)
+        assert balance.direction is not None
+        return self.board.guide(at, dx=balance.direction[0], dy=balance.direction[1])
 
     def numbered(self, mark: Mark) -> Mark:
         """A corner of the polygon, with the next numeral if it has none."""
@@ -213,6 +221,10 @@ class FreeBodies:
             one, other = (slide.along, slide.link) if slide.link == link else (slide.link, slide.along)
             span = signed(self.forces.slides[slide], 1 if slide.link == link else -1)
             yield Acting(self.forces.seats[slide], *span, pair_letter(one, other))
+        for balance, sign in self._solved_balances(link):
+            if balance.at:
+                yield Acting(self.pose.points[balance.at], *signed(self.forces.balances[balance], sign),
+                             balance_letter(balance))
 
     def _couples_of_slides(self, link: str) -> Iterator[Pair]:
         """The couples of the slides that join a link to solved groups."""
@@ -220,6 +232,15 @@ class FreeBodies:
             pair = self.forces.pairs[slide]
             if pair is not None:
                 yield signed_pair(pair, 1 if slide.link == link else -1)
+        for balance, sign in self._solved_balances(link):
+            pair = None if balance.at else self.forces.moments[balance]
+            if pair is not None:
+                yield signed_pair(pair, sign)
+
+    def _solved_balances(self, link: str) -> list[tuple[Balance, int]]:
+        """The balances between a link and one of a solved group, each with the sign in which it acts on the link."""
+        return [(balance, 1 if balance.link == link else -1) for balance in self.loading.loads.balances
+                if link in balance.links and {*balance.links} & self.group.done]
 
     def _solved_slides(self, link: str) -> list[Slide]:
         """The slides that join a link to solved groups."""
@@ -351,7 +372,7 @@ class FreeBodies:
     def idle(self) -> bool:
         """Whether nothing acts on the group, so that all its reactions are nothing."""
         return not any(self.chains[link] or self.couples[link] for link in self.group.links) and not any(
-            balance.link in self.group.links for balance in self.loading.loads.balances) and not any(
+            {*balance.links} & {*self.group.links} for balance in self.loading.loads.balances) and not any(
             self._passed(point) for point in self.group.points)
 
     def _passed(self, point: str) -> bool:

@@ -24,7 +24,7 @@ from graphplan.methods.forces.free_bodies import DrawnForces, Span, reaction_on
 from graphplan.methods.forces.higher_pairs import TouchingGuide, line_of_pressure, on_first, posed_for, toothed
 from graphplan.methods.forces.loading import Loading
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import MECHANISM, both, link_named, slide_named
+from graphplan.methods.panels import MECHANISM, JointForce, both, link_named, slide_named
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
 
@@ -43,6 +43,11 @@ class Journal:
     pin: str
 
 
+def journal_point(point: str, link: str) -> str:
+    """The joint of a link alone with the pin of a journal: a name that no point of a scene has."""
+    return f"{point} of {link}"
+
+
 def journals(scene: Scene) -> Iterator[Journal]:
     """The journals that rub, each of a link in that which carries the pin."""
     assert scene.loads is not None
@@ -50,12 +55,22 @@ def journals(scene: Scene) -> Iterator[Journal]:
         if friction.at and friction.radius * friction.coefficient:
             pin, *others = scene.links_of[friction.at]
             for link in sorted(others, key=by_name):
-                yield Journal(friction, f"{friction.at} of {link}", link, pin)
+                yield Journal(friction, journal_point(friction.at, link), link, pin)
 
 
 def rubbing(scene: Scene, forces: DrawnForces) -> Iterator[Journal]:
     """The journals that rub, but for those of links that stand for rolling."""
     return (journal for journal in journals(scene) if journal.link in forces.scene.links)
+
+
+def sliding(loading: Loading, forces: DrawnForces) -> Iterator[tuple[Slide, Number]]:
+    """The slides and contacts that rub, each with its coefficient."""
+    coefficients = {frozenset(friction.links): friction.coefficient for friction in loading.loads.frictions}
+    for slide in forces.scene.slides:
+        coefficient = coefficients.get(frozenset(slide.links))
+        pair = slide.given if isinstance(slide, TouchingGuide) else slide
+        if coefficient and pair and not isinstance(slide, RollingGuide) and pair.name not in loading.loads.resting:
+            yield slide, coefficient
 
 
 def rough(scene: Scene) -> Scene:
@@ -79,10 +94,7 @@ class Rubbed:
         self.velocity, self.loading, self.forces, self.board = velocity, loading, forces, loading.board
         self.posed = posed_for(loading.pose, forces.scene)
         self.touching = {journal: self._touching(journal) for journal in rubbing(loading.net.scene, forces)}
-        coefficients = {frozenset(friction.links): friction.coefficient for friction in loading.loads.frictions}
-        self.leaning = {slide: self._leaning(slide, coefficients[frozenset(slide.links)])
-                        for slide in forces.scene.slides if coefficients.get(frozenset(slide.links))
-                        and not isinstance(slide, RollingGuide)}
+        self.leaning = {slide: self._leaning(slide, coefficient) for slide, coefficient in sliding(loading, forces)}
         self.leaning |= {guide: self._pressing(guide) for guide in toothed(forces.scene)}
 
     @property
@@ -98,7 +110,7 @@ class Rubbed:
         at, points = journal.friction.at, self.loading.pose.points
         arm, pair = self._arm(journal), (journal.link, journal.pin)
         tail, head = self._reaction(journal)
-        if tail is head:
+        if tail is head or JointForce(at, journal.link).name in self.loading.loads.resting:
             return points[at]
         why = said("the friction of the journal {0}, of {1} in {2}", at, *map(link_named, pair))
         with self.board.on(MECHANISM, pair, stages.journal(why)):

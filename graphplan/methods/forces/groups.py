@@ -7,13 +7,14 @@ from functools import cached_property
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import Contact, Scene, Slide
+from graphplan.mechanism.model import Contact, Gear, Scene, Slide
 from graphplan.mechanism.order import lower
+from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods import kinds
 from graphplan.methods.forces import stages as told
 from graphplan.methods.forces.force_plan import ForcePolygon
 from graphplan.methods.forces.free_bodies import DrawnForces, Span, reaction_on
-from graphplan.methods.forces.friction import rough
+from graphplan.methods.forces.friction import journal_point, rough
 from graphplan.methods.forces.higher_pairs import (
     TouchingGuide,
     bearing,
@@ -136,21 +137,38 @@ def balances(loading: Loading, forces: DrawnForces, way: str) -> Iterator[Result
 
 def results(scene: Scene, loading: Loading, forces: DrawnForces, board: Board) -> Iterator[Result]:
     """What is read of the force plans: kind, name and marks of everything that is asked for and told."""
-    asked = scene.find.reactions
+    yield from bearing_forces(scene, loading, forces, board)
+    yield from balances(loading, forces, kinds.BY_PLANS)
+
+
+def results_with_friction(scene: Scene, loading: Loading, forces: DrawnForces, board: Board) -> Iterator[Result]:
+    """The same of a round of friction."""
+    for kind, name, marks in bearing_forces(scene, loading, forces, board):
+        yield kinds.WITH_FRICTION[kind], name, marks
+    yield from balances(loading, forces, kinds.RUBBED)
+
+
+def bearing_forces(scene: Scene, loading: Loading, forces: DrawnForces, board: Board) -> Iterator[Result]:
+    """The reactions that are asked for, as far as they are told: in a round of friction each journal has its own joint.
+    """
+    def asked(name: str) -> bool:
+        return scene.find.reactions is None or name in scene.find.reactions
+
     for point, link, _ in pairs(scene):
-        if (asked is None or point in asked) and _told(scene, forces, point, link):
-            yield kinds.REACTION, JointForce(point, link).name, reaction_on(forces, board, point, link)
+        own = journal_point(point, link)
+        joint = own if own in forces.scene.points else point
+        if asked(point) and _told(forces.scene, forces, joint, link):
+            yield kinds.REACTION, JointForce(point, link).name, reaction_on(forces, board, joint, link)
     for slide in scene.slides:
-        if (asked is None or slide.name in asked) and slide in forces.slides:
+        if asked(slide.name) and slide in forces.slides:
             yield kinds.SLIDE_REACTION, slide.name, forces.slides[slide]
             yield kinds.SLIDE_MOMENT, slide.name, _moment(loading, slide, forces)
-    for gear, span in forces.teeth.items():
-        if asked is None or gear.name in asked:
-            yield kinds.GEAR_REACTION, gear.name, span
+    for guide in forces.slides:
+        if isinstance(guide, RollingGuide) and isinstance(guide.given, Gear) and asked(guide.given.name):
+            yield kinds.GEAR_REACTION, guide.given.name, forces.teeth.get(guide.given, on_first(guide, forces))
     for contact in scene.contacts:
-        if (touching := touching_force(forces, board, contact)) and (asked is None or contact.name in asked):
+        if (touching := touching_force(forces, board, contact)) and asked(contact.name):
             yield kinds.CONTACT_REACTION, contact.name, touching
-    yield from balances(loading, forces, kinds.BY_PLANS)
 
 
 def arms(scene: Scene, forces: DrawnForces, board: Board, pose: Pose, named: Iterable[str]) -> Iterator[Result]:

@@ -62,7 +62,7 @@ class Levers:
             own = len(drives) == 1 and drives[0].rate
             lever = self._lever(None if own else working(self.scene, mode),
                                 LeverPlan.of(None if len(named) == 1 else mode + 1), balance_letter(balance))
-            marks = lever.force(balance) if balance.at else lever.turning(balance.link)
+            marks = lever.force(balance) if balance.at else lever.turning(*balance.links)
             self._found(lever, kinds.balance_kind(kinds.BY_LEVER, balance), name, marks, "balance")
         return self
 
@@ -197,6 +197,8 @@ class Lever:
         assert balance.direction is not None
         with self.board.on(self.panel, (balance.link,), self.stage):
             X = self.end(balance.link, balance.at)
+            if balance.on != FRAME:
+                X = self._relative(self.end(balance.on, balance.at), X)
             dx, dy = balance.direction
             return self._along(X, self.board.guide(X, dx=dx, dy=dy))
 
@@ -243,7 +245,7 @@ def working(scene: Scene, mode: int) -> Assumed:
     speed = round_number(scene.extent / 4)
     own = [drive.driven_at(speed if drive.slides else Fraction(1), Fraction(0)) for drive in ordered_drives(scene)]
     if len(own) > 1 and not balance.at:
-        own = [TurningDrive(balance.link, FRAME, Fraction(1), Fraction(0))]
+        own = [TurningDrive(*balance.links, Fraction(1), Fraction(0))]
     found = [_held(apart.with_drives((drive,)), held) for drive in own]
     return Assumed(next((one for one in found if bracing(one).sound), found[0]), {})
 
@@ -252,11 +254,11 @@ def _held(scene: Scene, balances: list[Balance]) -> Scene:
     """The scene with supports in the place of balances."""
     for nth, balance in enumerate(balances):
         if balance.direction is None:
-            still = TurningDrive(balance.link, FRAME, Fraction(0), Fraction(0))
+            still = TurningDrive(*balance.links, Fraction(0), Fraction(0))
             scene = scene.with_drives((*scene.drives, still))
         else:
             (dx, dy), block = balance.direction, f"support {nth + 1} of {balance.link}"
-            across = Slide(block, FRAME, balance.at, (-dy, dx))
+            across = Slide(block, balance.on, balance.at, (-dy, dx))
             scene = replace(scene, links=scene.links | {block: (balance.at,)}, written=(*scene.written, across))
     return scene
 

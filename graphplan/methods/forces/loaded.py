@@ -26,16 +26,16 @@ from graphplan.methods.forces.groups import (
     Result,
     Way,
     arms,
-    balances,
     reactions,
     results,
+    results_with_friction,
     touching_force,
 )
 from graphplan.methods.forces.higher_pairs import pushing
 from graphplan.methods.forces.lever import Levers
 from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.forces.statics import PREFERENCES
-from graphplan.methods.kinds import REACTION, RUBBED, SLIDE_MOMENT, SLIDE_REACTION
+from graphplan.methods.kinds import REACTION, SLIDE_MOMENT, SLIDE_REACTION
 from graphplan.methods.motion.acceleration import Normal
 from graphplan.methods.motion.alternatives import EQUAL, growth, ways
 from graphplan.methods.motion.network import Network
@@ -93,8 +93,9 @@ class Loaded(Draughtsman):
             if not self.style.polygons:
                 levers.reactions(self.by_lever)
                 self.notes += levers.notes
-                if self.loads.frictions:
-                    self.notes.append(said("friction is left out: force polygons alone have it"))
+                if _rubs(self.scene):
+                    self.notes.append(said("friction is not drawn: force polygons alone have it; its results "
+                                           "are the analytic solver's"))
             self._note(levers.results, levers.shown)
 
     def _far(self, loading: Loading) -> Iterator[str]:
@@ -119,8 +120,7 @@ class Loaded(Draughtsman):
         self._note(results(self.scene, loading, forces, self.board), forces.shown)
         self.notes += self._pulling(forces)
         self._note(arms(self.scene, forces, self.board, self.pose, self.arms), ())
-        moves = any(drive.rate for drive in self.scene.drives)  # at rest friction has no sense
-        if self.loads.frictions and moves and not self.scene.repeating:
+        if _rubs(self.scene) and not self.scene.repeating:
             self._rounds(velocity, loading, forces)
 
     def _pulling(self, forces: DrawnForces) -> Iterator[Said]:
@@ -150,7 +150,7 @@ class Loaded(Draughtsman):
                 stands = not self.loads.rounds and last.stands(rubbed, self._valued)
             except ConstructionError:  # whoever reads the numbers is told
                 break
-        self.note_rubbed(loading, forces)
+        self._note(results_with_friction(self.scene, loading, forces, self.board), ())
         self.rounds = forces.number
         if self.loads.rounds:
             self.notes.append(said("friction: rounds drawn, as asked: {0}", forces.number))
@@ -158,10 +158,6 @@ class Loaded(Draughtsman):
             self.notes.append(said("friction: the forces no longer change after round {0}", forces.number))
         else:
             self.notes.append(said("friction: the forces still change after {0} rounds", forces.number))
-
-    def note_rubbed(self, loading: Loading, forces: DrawnForces) -> None:
-        """Keep what is asked for of the last round of friction."""
-        self._note(balances(loading, forces, RUBBED), ())
 
     def _valued(self, marks: Sequence[Mark]) -> list[Any]:
         """The values of marks in this pose."""
@@ -174,6 +170,12 @@ class Loaded(Draughtsman):
         self.shown += shown
         for kind, of, marks in found:
             self.read(kind, of, *marks)
+
+
+def _rubs(scene: Scene) -> bool:
+    """Whether there is friction: at rest it has no sense."""
+    assert scene.loads is not None
+    return bool(scene.loads.frictions) and any(drive.rate for drive in scene.drives)
 
 
 def force_arrows(board: Board, marks: list[Mark], shown: Iterable[Shown]) -> tuple[ForceArrow, ...]:
@@ -200,7 +202,9 @@ class Alternatives:
     """Draws the forces of a scene as is asked for; where the lever or the polygons cannot serve, by the other."""
 
     def __init__(self, scene: Scene, style: Style):
-        self.scene, self.style, self.plans = scene, style, ForceTransfer(scene)
+        self.scene, self.plans = scene, ForceTransfer(scene)
+        self.style = replace(style, polygons=style.polygons or _rubs(scene))
+        self.added = self.style.polygons > style.polygons
         self.chosen: dict[Planner, Style] = {}
         self.wary = False  # a way of the motion has failed: of others the motion is tried first
         self.hopeless: list[tuple[Construction, Style]] = []  # forces that could not be drawn, though the motion could
@@ -229,6 +233,8 @@ class Alternatives:
             singular = _singular(found)
             if singular is None:
                 found.notes += [missing(faults[-1].why)] if faults else []
+                if self.added and style.polygons:
+                    found.notes.append(said("friction: force polygons alone have it, so they are drawn, too"))
                 return found
             if not faults and _singular(self._motion(planner)):
                 self.wary = True

@@ -80,7 +80,10 @@ class ForceGroup:
             ends = {slide.link, slide.along}
             if len(ends & part) == 1 and not ends & self.done:
                 found.append((slide, 1 if slide.link in part else -1))
-        return found + [(balance, 1) for balance in _balances(self.scene) if balance.link in part]
+        for balance in _balances(self.scene):
+            if len({*balance.links} & part) == 1 and not {*balance.links} & self.done:
+                found.append((balance, 1 if balance.link in part else -1))
+        return found
 
     def _side(self, point: str, here: list[str]) -> tuple[list[str], int]:
         """The links by whose forces that on the links `here` is told; fewer are better, then the first."""
@@ -114,7 +117,8 @@ class ForceGroup:
 
     def _near(self, link: str) -> set[str]:
         joined = {other for p in self.scene.links[link] if p in self.points for other in self.members(p)}
-        slid = {other for s in self.scene.slides if link in (s.link, s.along) for other in (s.link, s.along)}
+        pairs = *((s.link, s.along) for s in self.scene.slides), *(one.links for one in _balances(self.scene))
+        slid = {other for pair in pairs if link in pair for other in pair}
         return (joined | slid) & set(self.links) - {link}
 
 

@@ -1,0 +1,218 @@
+"""A pose that is singular in part: the links whose motion is determined, and why the rest of what is asked is not.
+
+Links are taken group by group, in the order of motion transfer. A group that is singular is left out, and so is what
+hangs on it. Forces pass against that order: those of a pair are known where no link that is left out loads it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+from graphplan.check.extras import joined
+from graphplan.check.report import Report
+from graphplan.errors import SingularPose
+from graphplan.mechanism.bracing import bracing
+from graphplan.mechanism.equations import System, stages
+from graphplan.mechanism.model import FRAME, Condition, Find, Loads, Scene
+from graphplan.mechanism.structure import structure
+from graphplan.methods.panels import JointForce
+from graphplan.solver import solve
+
+R = TypeVar("R", bound=Report)
+Missing = dict[str, dict[str, str]]
+
+
+@dataclass(frozen=True)
+class RegularPart:
+    """The links of a scene that are determined, as a scene; of all else that is asked why it is not, by printed key
+    and name."""
+
+    scene: Scene
+    missing: Missing
+
+
+def in_part(scene: Scene, reported: Callable[[Scene], R]) -> R:
+    """The report of a scene, or of the part of it that is regular; fails with `SingularPose` where nothing is."""
+    try:
+        return reported(scene)
+    except SingularPose:
+        part = regular_part(scene)
+        if part is None:
+            raise
+        found = reported(part.scene)
+        return replace(found, whole=scene, missing=joined(part.missing, found.missing))
+
+
+def regular_part(scene: Scene) -> RegularPart | None:
+    """The part of a scene that is regular; None where it tells nothing of what is asked."""
+    if scene.assembly is not None:
+        return None
+    dead = _singular_links(scene)
+    kept = [link for link in scene.moving if link not in dead]
+    loads, untold = _loads(scene, kept, dead)
+    bare = _of_links(scene, kept)
+    known, missing = _asked(scene, dead)
+    part = replace(bare, find=known, loads=loads)
+    missing |= untold
+    return RegularPart(part, missing) if kept and _answers(scene, known, kept, loads) else None
+
+
+def _answers(scene: Scene, known: Find, kept: Collection[str], loads: Loads | None) -> bool:
+    """Whether anything is answered: where nothing is asked by name, what drives prescribe is no answer."""
+    told = (known.velocity, known.acceleration, known.links, known.slides, known.poles, known.curvature,
+            known.inflection)
+    if loads is None and scene.find.by_default:
+        return not {*structure(scene).driving}.issuperset(kept)
+    return any(told) or loads is not None
+
+
+def _singular_links(scene: Scene) -> dict[str, str]:
+    """The links whose motion is not determined in this pose, each with the reason."""
+    kept: list[str] = []
+    dead: dict[str, str] = {}
+    for stage in stages(System(scene)):
+        team = [name for sort, name in stage if sort == "link"]
+        part = _of_links(scene, [*kept, *team])
+        try:
+            if team and not bracing(part).sound:
+                dead |= dict.fromkeys(team, f"it hangs on what is singular: {_listed(dead)}")
+                continue
+            if team:
+                solve(part, exact=not scene.irrational)
+            kept += team
+        except SingularPose as singular:
+            dead |= dict.fromkeys(team, f"singular pose of {_listed(team)}: {singular.why}")
+    return dead
+
+
+def _of_links(scene: Scene, links: Collection[str]) -> Scene:
+    """The scene with these moving links alone, and nothing asked."""
+    own = {FRAME, *links}
+    kept = {link: points for link, points in scene.links.items() if link in own}
+    on = {point for points in kept.values() for point in points}
+    return replace(scene, links=kept, written=tuple(pair for pair in scene.written if own.issuperset(pair.links)),
+                   motions={point: motion for point, motion in scene.motions.items() if point in on}, loads=None,
+                   find=Find((), (), (), (), ()), redundant=_named(scene.redundant, own),
+                   repeating=_named(scene.repeating, own))
+
+
+def _named(conditions: tuple[Condition, ...], own: Collection[str]) -> tuple[Condition, ...]:
+    """The conditions on links of a part."""
+    return tuple(condition for condition in conditions if condition.link in own)
+
+
+def _listed(links: Collection[str]) -> str:
+    return f"link{'s' if len(links) > 1 else ''} {' '.join(links)}"
+
+
+# ---- what is asked ---------------------------------------------------------------------------------------------------
+
+
+def _asked(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Missing]:
+    """What is asked of the links that are known, and why nothing is told of the others."""
+    find = asked_by_name(scene)
+    at = {point: next((dead[link] for link in links if link in dead), "") for point, links in scene.links_of.items()
+          if links and all(link in dead for link in links)}
+    guided = {slide.name: slide.links for slide in scene.slides}
+    of: dict[str, dict[str, tuple[str, ...]]] = {
+        "links": {link: (link,) for link in find.links or ()},
+        "slides": {name: guided[name] for name in find.slides or ()},
+        "poles": {name: scene.link_pair(name) for name in find.poles},
+        "curvature": {name: (link,) for name, (_, link) in find.traced.items()},
+        "inflection": {link: (link,) for link in find.inflection},
+    }
+    missing = {key: {name: why for name, links in named.items() if (why := _why(links, dead))}
+               for key, named in of.items()}
+    missing["points"] = {point: at[point] for point in (*find.velocity, *find.acceleration) if point in at}
+    velocity, acceleration = (tuple(point for point in points if point not in at)
+                              for points in (find.velocity, find.acceleration))
+    pairs = None if find.reactions is None else tuple(
+        name for name in find.reactions if sum(link not in dead for link in scene.links_of.get(name, ())) > 1
+        or any(pair.name == name and not _why(pair.links, dead) for pair in scene.guided))
+    links, slides, poles, curvature, inflection = (
+        tuple(name for name in of[key] if name not in missing[key]) for key in of)
+    known = Find(velocity, acceleration, pairs, links, slides, poles, curvature, inflection)
+    return known, {key: named for key, named in missing.items() if named}
+
+
+def _why(links: Collection[str], dead: Mapping[str, str]) -> str:
+    """Why one of these links is not known; nothing where all are."""
+    return next((dead[link] for link in links if link in dead), "")
+
+
+def asked_by_name(scene: Scene) -> Find:
+    """What is asked for, with the links and slides that are where nothing is said of them."""
+    find = scene.find
+    points = {*find.velocity, *find.acceleration}
+    links = find.links if find.links is not None else tuple(
+        link for link in scene.moving if len(points & {*scene.links[link]}) > 1)
+    slides = find.slides if find.slides is not None else tuple(
+        slide.name for slide in scene.slides if slide.at in points)
+    return replace(find, links=links, slides=slides)
+
+
+# ---- forces ----------------------------------------------------------------------------------------------------------
+
+
+def _loads(scene: Scene, kept: Collection[str], dead: Mapping[str, str]) -> tuple[Loads | None, Missing]:
+    """The loads of the links that are known, where their forces can be had, and why others cannot."""
+    loads = scene.loads
+    if loads is None:
+        return None, {}
+    loaded = _loaded(scene, dead)
+    own = {FRAME, *kept}
+    found = replace(loads, masses={link: mass for link, mass in loads.masses.items() if link in own},
+                    forces=tuple(force for force in loads.forces if force.on in own),
+                    moments=tuple(moment for moment in loads.moments if moment.on in own),
+                    frictions=tuple(one for one in loads.frictions if own.issuperset(
+                        one.links or scene.links_of[one.at])))
+    why = next(iter(dead.values()), "")
+    part = replace(_of_links(scene, kept), loads=found)
+    try:
+        if any(balance.link in dead for balance in loads.balances) or not bracing(part, balanced=True).sound:
+            raise SingularPose(why)
+        from graphplan.solver.statics import reactions
+
+        reactions(part)
+    except SingularPose as singular:
+        reason = why or singular.why
+        return None, {"balance": dict.fromkeys(loads.named_balances, reason),
+                      "reactions": {name: reason for name, _ in _reactions(scene)}}
+    untold = {"balance": {name: why for name, one in loads.named_balances.items() if one.link in loaded},
+              "reactions": {name: why for name, links in _reactions(scene)
+                            if not loaded.isdisjoint(links) and _passed(links, loaded, dead)}}
+    return found, {key: named for key, named in untold.items() if named}
+
+
+def _passed(links: Collection[str], loaded: Collection[str], dead: Mapping[str, str]) -> bool:
+    """Whether a pair of these links bears what a link that is left out does to them."""
+    moving = [link for link in links if link != FRAME]
+    return any(link in dead for link in moving) or all(link in loaded for link in moving)
+
+
+def _loaded(scene: Scene, dead: Collection[str]) -> set[str]:
+    """The links that what is left out loads, against the order of the motion: itself, and all on which it hangs."""
+    order = {link: k for k, stage in enumerate(stages(System(scene, balanced=True))) for sort, link in stage
+             if sort == "link"}
+    near: dict[str, set[str]] = {link: set() for link in scene.moving}
+    for pair in scene.binding:
+        for link in pair.links:
+            if link in near:
+                near[link] |= {*pair.links} - {link, FRAME}
+    found, waiting = set(dead), [*dead]
+    for link in waiting:
+        more = {other for other in near[link] if order.get(other, 0) <= order.get(link, 0)} - found
+        found |= more
+        waiting += more
+    return found
+
+
+def _reactions(scene: Scene) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Every reaction by its name, with the links between which it acts."""
+    for joint in scene.revolutes:
+        for link in joint.links[1:]:
+            yield JointForce(joint.at, link).name, (link, joint.links[0])
+    for pair in scene.guided:
+        yield pair.name, pair.links

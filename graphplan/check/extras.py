@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from graphplan.check.paths import NOTHING_MOVES
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
@@ -85,7 +85,7 @@ def at_rest(scene: Scene) -> Reasons:
 
 def asking(scene: Scene, items: Sequence[Item]) -> Scene:
     """The scene with no extras but these."""
-    kept = {kind: tuple(name for own, name in items if own == kind) for kind in EXTRAS}
+    kept: dict[str, Any] = {kind: tuple(name for own, name in items if own == kind) for kind in EXTRAS}
     return replace(scene, find=replace(scene.find, **kept))
 
 

@@ -12,7 +12,7 @@ from typing import Any
 
 NUMBER = re.compile(r"−?\d+(?:\.\d+)?(?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
 POWERS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
-LENGTH = re.compile(rf"(?<![\w.·−²/])({NUMBER.pattern}) mm(?![\w/²·])")
+LENGTH = re.compile(rf"(?<![\w.·−²/])({NUMBER.pattern}) mm(?![\w/²·]| [:·] )")  # not a value
 CLAUSE = re.compile(r"(?<! ): |; |, |(?<=[^\d]) = |\. ")  # what stands before it is no part of an expression
 TOKEN = re.compile(rf"{NUMBER.pattern}|[()²/:·+−-]")
 UNITS = re.compile(r"(?<=[\d)²]) (?:(?:mm|cm|m|in|ft|N|kN|kgf|lbf|kg|g|t|lb|rad|s|min)[²³]?(?:[/·](?:mm|cm|m|in|ft|s|min"
@@ -91,7 +91,7 @@ def spoken_wrong(told: Mapping[str, Any], measure: Callable[[Sequence[int]], flo
     yield from (f"{factor:.4g} times as large: {sentence}" for factor in factors(sentence) if factor > LARGEST)
 
 
-READ = re.compile(rf"= ({NUMBER.pattern})[^=]*; computed")
+READ = re.compile(rf"(?:=|the moment is) ({NUMBER.pattern})[^=]*; computed")
 
 
 def misread(reading: Mapping[str, Any]) -> Iterator[str]:

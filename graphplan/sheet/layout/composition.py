@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
@@ -40,6 +40,7 @@ from graphplan.sheet.plates.plans import Extent, Plans, around
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.plates.view import COARSER, MUCH_COARSER, View, least, plan_box, plan_scale, view, wanted, whole
+from graphplan.sheet.words.lengths import LARGEST
 from graphplan.sheet.words.rows import Placed, TextRow
 from graphplan.sheet.words.tables import Deviations
 from graphplan.sheet.words.texts import RESULTS, Words
@@ -254,13 +255,25 @@ def _scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Pla
     drawing, names, (k_s, told) = plans.drawing, plans.drawing.scene.units, given
     own = Fraction(k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM], COARSER, _lengths(plans, MECHANISM)))
     most: dict[str, Fraction] = {}
+    side = max(*_sides(rooms.values()))
     for panel in plans.panels[1:]:
-        twin = plans.twins[panel]
-        scale = plan_scale(extents[panel], rooms[panel], MUCH_COARSER, _lengths(plans, panel))
+        twin, lengths = plans.twins[panel], _lengths(plans, panel)
+        scale = max(plan_scale(extents[panel], rooms[panel], MUCH_COARSER, lengths),
+                    round_up(extents[panel].longest / side, lengths))
         most[twin] = max(scale, most.get(twin, scale))
+    for source, panel in plans.carried:
+        if panel != MECHANISM:
+            twin, taken = plans.twins[panel], most.get(plans.twins[source], own)
+            most[twin] = max(most[twin], round_up(float(taken) / LARGEST, _lengths(plans, panel)))
     multiples: dict[str, Fraction] = {panel: own / most[plans.twins[panel]] for panel in plans.panels[1:]}
     return Scales(float(own), drawing.kappa, names.length, multiples | told, float(drawing.phi), names.force,
                   drawing.scene.sheet.convention)
+
+
+def _sides(rects: Iterable[Rect]) -> tuple[float, float]:
+    """How wide and how high it is what some rooms take up."""
+    box = around([corner for rect in rects for corner in rect.corners])
+    return box.width, box.height
 
 
 def _legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:

@@ -6,23 +6,14 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from reader import Reader
-from speech import LARGEST, misread, side, spoken_wrong
+from speech import misread, side, spoken_wrong
 
 
 def faults(protocol: Mapping[str, Any], paper: str = "") -> list[str]:
     """All that is wrong in the data of a protocol, drawn on this paper."""
     reader = Reader.of(protocol["steps"])
     longest = side(paper or protocol["pencil"]["paper"])
-    return [*reader.faults, *_large(protocol), *_spoken(protocol, reader, longest)]
-
-
-def _large(protocol: Mapping[str, Any]) -> Iterator[str]:
-    """Steps that draw more than ten times as large what they take."""
-    for step in protocol["steps"]:
-        factor = (step["factor"] or 1.0) * abs(step["parameters"].get("ratio", 1.0) if step["operation"].startswith(
-            "step_") else 1.0)
-        if factor > LARGEST * (1 + 1e-9):
-            yield f"step {step['number']}: {factor:.4g} times as large: {step['sentence']}"
+    return [*reader.faults, *_spoken(protocol, reader, longest)]
 
 
 def _spoken(protocol: Mapping[str, Any], reader: Reader, longest: float) -> Iterator[str]:

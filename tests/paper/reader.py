@@ -187,7 +187,7 @@ STANDING = "given", "begin", "pole"  # what lies where it is put
 # stands in no group lies on the plan of the mark that is made.
 TAKEN: dict[str, tuple[tuple[int, ...], ...]] = {
     "transfer": ((0, 1),), "quarter": ((0, 1),), "step_off": ((0, 1),), "step_across": ((0, 1),),
-    "parallel": ((0,),), "perpendicular": ((0,),), "circle": ((1,),),
+    "parallel": ((0,),), "perpendicular": ((0,),), "lay_along": ((0,),), "circle": ((1,),),
     "balance": ((0, 1, 2), (3, 4)), "couple": ((0, 1),), "inertia_pair": ((0, 1), (2, 3)),
     "touch": ((0, 1, 2), (3, 4)), "lean": ((3, 4),), "pressure_line": ((2, 3),), "resultant": ((1, 2), (3, 4), (5, 6)),
 }  # fmt: skip

@@ -56,18 +56,15 @@ const Numbers = {
   },
 
   sum(form, kinds, told) {
-    const lengths = told.filter((_, k) => k < kinds.length && "mMd".includes(kinds[k]));
-    let found = form === "Σ" ? lengths.reduce((sum, x, k) => k % 2 ? sum + lengths[k - 1] * x : sum, 0) : 1;
-    [...kinds].forEach((kind, k) => {
-      if (form === "Σ") return;
-      if (kind === "m") found *= told[k]; else if (kind === "M") found *= told[k] * told[k]; else if (kind === "d") found *= 1 / told[k];
-    });
-    if (form === "-") found = 1 - found; else if (form === "+") found = 1 + found;
-    [...kinds].forEach((kind, k) => {
-      if (kind === "f") found *= told[k]; else if (kind === "F") found = found * told[k] * told[k];
-      else if (kind === "g") found /= told[k]; else if (kind === "a") found += told[k];
-    });
-    return found;
+    const lengths = [...kinds].map((kind, k) => [told[k], kind]).filter(([, kind]) => "mMd".includes(kind));
+    const joined = (value, x, kind) => kind === "g" ? value / x : kind === "a" ? value + x
+      : kind === "f" ? value * x : value * x * x;
+    let value = 1;
+    if (form === "Σ") value = lengths.reduce((sum, [x], k) => k % 2 ? sum + lengths[k - 1][0] * x : sum, 0);
+    else for (const [x, kind] of lengths) value = joined(value, x, {m: "f", M: "F", d: "g"}[kind]);
+    if (form === "-") value = 1 - value; else if (form === "+") value = 1 + value;
+    [...kinds].forEach((kind, k) => { if (!"mMd".includes(kind)) value = joined(value, told[k], kind); });
+    return value;
   },
 
   rounded(x, kind, level, result) {

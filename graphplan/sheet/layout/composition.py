@@ -52,6 +52,7 @@ SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
 MEASURED, NOTHING = 5.0, 0.02  # mm: the shortest vector that can be measured; and what beside the largest is nothing
 SHORT = 0.2  # by so much smaller, as a logarithm, a plan may be for a vector that can be measured
 CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
+SHRUNK = 3.0  # times as small the mechanism may be for arcs that would be longer than the sheet
 ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
 POOR = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of all letters may find no good place
 UNREADABLE = 0.4  # of them, on paper that is named
@@ -253,9 +254,11 @@ def windows(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Pla
 def _scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans, given: GivenScales) -> Scales:
     """The scales, round if they are not given, for so much room for the marks of each plan; twins have one."""
     drawing, names, (k_s, told) = plans.drawing, plans.drawing.scene.units, given
-    own = Fraction(k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM], COARSER, _lengths(plans, MECHANISM)))
+    side, lengths = max(*_sides(rooms.values())), _lengths(plans, MECHANISM)
+    own = Fraction(k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM], COARSER, lengths))
+    if not k_s and (times := extents[MECHANISM].longest / side / float(own)) <= SHRUNK:
+        own = max(own, round_up(times * float(own), lengths))
     most: dict[str, Fraction] = {}
-    side = max(*_sides(rooms.values()))
     for panel in plans.panels[1:]:
         twin, lengths = plans.twins[panel], _lengths(plans, panel)
         scale = max(plan_scale(extents[panel], rooms[panel], MUCH_COARSER, lengths),

@@ -182,15 +182,14 @@ class Plans:
         return Extent(box, tuple(spot for far, spot in extra if far > tiny), tuple(nice), self._longest(panel))
 
     def _longest(self, panel: str) -> float:
-        """The longest vector that is laid off on a plan, or the largest radius of an arc."""
-        found = [0.0]
+        """The longest vector that is laid off on a plan or taken from it, or the largest radius of an arc."""
+        found, plan = [0.0], self.plan_of_step
         for step in self.drawing.drawn.steps:
-            if self.plan_of_step[step.index] != panel:
-                continue
-            if step.op.gives == CIRCLE:
+            if step.op.gives == CIRCLE and plan[step.index] == panel:
                 found.append(math.sqrt(float(self.drawing.values[step.index][2])))
-            elif step.root is not None and step.op.gives == POINT and self.plan_of_step[step.root] == panel:
-                found.append(math.dist(self.spot(step.root), self.spot(step.index)))
+            ends = [(step.root, step.index)] if step.root is not None and step.op.gives == POINT else []
+            ends += [step.args[:2]] if step.op.movement in CARRIED[:2] else []
+            found += [math.dist(self.spot(p), self.spot(q)) for p, q in ends if plan[p] == plan[q] == panel]
         return max(filter(math.isfinite, found))
 
     def _with_paths(self, box: Rect, motion: TracedMotion) -> Rect:

@@ -100,17 +100,24 @@ def holding(kinds: str, numbers: Sequence[float]) -> int:
 
 def _value(form: str, kinds: str, numbers: Sequence[float]) -> float:
     """What printed numbers come to."""
-    lengths = [number for number, kind in zip(numbers, kinds, strict=False) if kind in LENGTHS]
-    found = sum(lengths[k] * lengths[k + 1] for k in range(0, len(lengths), 2)) if form == "Σ" else 1.0
+    lengths = [(number, kind) for number, kind in zip(numbers, kinds, strict=False) if kind in LENGTHS]
+    value = 1.0
+    if form == "Σ":
+        value = sum(lengths[k][0] * lengths[k + 1][0] for k in range(0, len(lengths), 2))
+    else:
+        for number, kind in lengths:
+            value = _with(value, number, {"m": "f", "M": "F", "d": "g"}[kind])
+    value = {"-": 1.0 - value, "+": 1.0 + value}.get(form, value)
     for number, kind in zip(numbers, kinds, strict=False):
-        if kind in LENGTHS and form != "Σ":
-            found *= number if kind == "m" else number * number if kind == "M" else 1.0 / number if number else math.nan
-    found = 1.0 - found if form == "-" else 1.0 + found if form == "+" else found
-    for number, kind in zip(numbers, kinds, strict=False):
-        if kind in "fFga":
-            found = {"f": found * number, "F": found * number * number, "a": found + number}.get(
-                kind, found / number if number else math.nan)
-    return found
+        value = value if kind in LENGTHS else _with(value, number, kind)
+    return value
+
+
+def _with(value: float, number: float, kind: str) -> float:
+    """A value multiplied or divided by a number, or with it added."""
+    if kind == "g":
+        return value / number if number else math.nan
+    return value + number if kind == "a" else value * number if kind == "f" else value * number * number
 
 
 def rounded(number: float, kind: str, level: int, *, result: bool = False) -> float:

@@ -15,8 +15,9 @@ POWERS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 LENGTH = re.compile(rf"(?<![\w.·−²/])({NUMBER.pattern}) mm(?![\w/²·]| [:·] )")  # not a value
 CLAUSE = re.compile(r"(?<! ): |; |, |(?<=[^\d]) = |\. ")  # what stands before it is no part of an expression
 TOKEN = re.compile(rf"{NUMBER.pattern}|[()²/:·+−-]")
-UNITS = re.compile(r"(?<=[\d)²]) (?:(?:mm|cm|m|in|ft|N|kN|kgf|lbf|kg|g|t|lb|rad|s|min)[²³]?(?:[/·](?:mm|cm|m|in|ft|s|min"
+UNITS = re.compile(r"(?<=[\d)⁰¹²³⁴⁵⁶⁷⁸⁹]) (?:(?:mm|cm|m|in|ft|N|kN|kgf|lbf|kg|g|t|lb|rad|s|min)[²³]?(?:[/·](?:mm|cm|m|in|ft|s|min"
                    r"|kg)[²³]?)*)(?![\w.])")
+LETTER = re.compile(r"[^\W\d_⁰¹²³⁴⁵⁶⁷⁸⁹]")
 LEAST = 0.01  # mm: what lies within it is one
 LARGEST = 10.0
 SIDES = {"A4": 297, "A3": 420, "A2": 594, "A1": 841, "A0": 1189}
@@ -49,9 +50,9 @@ def sums(sentence: str) -> Iterator[tuple[str, str]]:
     bare = UNITS.sub("", sentence)
     parts = re.split(r" = ", bare)
     for left, right in zip(parts, parts[1:], strict=False):
-        expression = CLAUSE.split(left)[-1].strip()
+        expression = CLAUSE.split(LETTER.split(left)[-1])[-1].strip()
         printed = NUMBER.match(right)
-        if printed and re.search(r"[·:/+−²] ?|²", expression[1:]) and not re.search(r"[^\W\d_²]", expression):
+        if printed and re.search(r"[·:/+−²] ?|²", expression[1:]) and not LETTER.search(expression):
             yield expression, printed.group()
 
 

@@ -9,8 +9,8 @@ from random import Random
 from typing import Any
 
 import pytest
-from drawn import printed, protocol, random_scenes
-from judged import faults
+from protocols import printed, protocol, random_scenes
+from protocol_faults import faults
 from reader import OPERATIONS, STANDING, Reader
 from speech import false_sums, sums
 
@@ -129,7 +129,7 @@ def test_a_sum_that_does_not_hold_is_found() -> None:
 
 def test_the_reader_shares_no_geometry() -> None:
     """It imports nothing of graphplan, so that it cannot repeat its faults."""
-    for name in ("reader", "speech", "judged"):
+    for name in ("reader", "speech", "protocol_faults"):
         assert "graphplan" not in [line.split()[1].split(".")[0] for line in Path(__file__).with_name(
             f"{name}.py").read_text("utf-8").splitlines() if line.startswith(("import ", "from "))]
     assert len(OPERATIONS) > 25

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 OFF = 0.01  # mm: how far off a mark may be
 TURNED = 1e-4  # of one mm: how far off the way of a line may be over the length of one mm
+SHORTEST = 1e-3  # mm: of a shorter vector no way is seen
 UNSEEN = 1e-9  # mm, or of two vectors mm²: of what is so small no sense is seen
 Step = Mapping[str, Any]
 
@@ -171,6 +172,7 @@ OPERATIONS: dict[str, Operation] = {
     "lay_along": lambda m, p, f: m[1] + p["length"] * m[0].way,
     "lay_off": lambda m, p, f: m[0] + complex(p["vector"][0], -p["vector"][1]),
     "pick": lambda m, p, f: foot(m[0], m[1]) + p["ahead"] * m[0].way,
+    "divide": lambda m, p, f: m[3] + dot(m[1] - m[0], m[2] - m[0]) / abs(m[1] - m[0]) ** 2 * (m[4] - m[3]),
     "shift": lambda m, p, f: Line(m[0].through + f * (m[2] - m[1]), m[0].way),
     "balance": lambda m, p, f: balancing(m, f),
     "couple": lambda m, p, f: m[2] + 1j * unit(m[1] - m[0]) * p["moment"] / abs(m[1] - m[0]),
@@ -188,7 +190,7 @@ STANDING = "given", "begin", "pole"  # what lies where it is put
 TAKEN: dict[str, tuple[tuple[int, ...], ...]] = {
     "transfer": ((0, 1),), "quarter": ((0, 1),), "step_off": ((0, 1),), "step_across": ((0, 1),),
     "parallel": ((0,),), "perpendicular": ((0,),), "lay_along": ((0,),), "circle": ((1,),),
-    "balance": ((0, 1, 2), (3, 4)), "couple": ((0, 1),), "inertia_pair": ((0, 1), (2, 3)),
+    "divide": ((0, 1, 2),), "balance": ((0, 1, 2), (3, 4)), "couple": ((0, 1),), "inertia_pair": ((0, 1), (2, 3)),
     "touch": ((0, 1, 2), (3, 4)), "lean": ((3, 4),), "pressure_line": ((2, 3),), "resultant": ((1, 2), (3, 4), (5, 6)),
 }  # fmt: skip
 
@@ -243,14 +245,17 @@ class Reader:
                     for group in groups if len({plans[place] for place in group}) > 1)
 
     def measure(self, marks: Sequence[int]) -> float:
-        """What a ruler measures between marks: a distance, a radius, an arm, or the part of a vector square to a way.
-        """
+        """What a ruler measures between marks: a distance, a radius, an arm, or the part of a vector square to a way;
+        no number where the way is too short to be seen."""
         read = [self.marks[mark] for mark in marks]
         if len(read) == 2 and marks[0] == marks[1]:
             return read[0].radius if isinstance(read[0], Circle) else read[0] if isinstance(read[0], float) else 0.0
         spots: list[Any] = [mark.centre if isinstance(mark, Circle) else mark for mark in read]
         if len(spots) == 2:
             return abs(spots[1] - spots[0])
+        force = spots[2:4] if len(spots) == 4 else spots[1:3] if len(spots) == 5 else spots[:2]
+        if abs(force[1] - force[0]) < SHORTEST:
+            return math.nan
         if len(spots) == 4:
             return abs(cross(unit(spots[3] - spots[2]), spots[1] - spots[0]))
         if len(spots) == 5:

@@ -13,7 +13,7 @@ from typing import Any
 NUMBER = re.compile(r"−?\d+(?:\.\d+)?(?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
 POWERS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 LENGTH = re.compile(rf"(?<![\w.·−²/])({NUMBER.pattern}) mm(?![\w/²·]| [:·] )")  # not a value
-CLAUSE = re.compile(r"(?<! ): |; |, |(?<=[^\d]) = |\. ")  # what stands before it is no part of an expression
+CLAUSE = re.compile(r"(?<! ): |\.\) |; |, |(?<=[^\d]) = |\. ")  # what stands before it is no part of an expression
 TOKEN = re.compile(rf"{NUMBER.pattern}|[()²/:·+−-]")
 UNITS = re.compile(r"(?<=[\d)⁰¹²³⁴⁵⁶⁷⁸⁹]) (?:(?:mm|cm|m|in|ft|N|kN|kgf|lbf|kg|g|t|lb|rad|s|min)[²³]?(?:[/·](?:mm|cm|m|in|ft|s|min"
                    r"|kg)[²³]?)*)(?![\w.])")
@@ -80,7 +80,7 @@ def spoken_wrong(told: Mapping[str, Any], measure: Callable[[Sequence[int]], flo
     if re.search(r"\b(nan|inf|NaN)\b|\(\)", sentence):
         yield f"no number: {sentence}"
     lengths = [(length["mm"], measure(length["marks"])) for length in told["lengths"]]
-    yield from (f"{mm:.4g} mm measures {found:.4g}: {sentence}" for mm, found in lengths if not abs(mm - found) <= LEAST)
+    yield from (f"{mm:.4g} mm measures {found:.4g}: {sentence}" for mm, found in lengths if abs(mm - found) > LEAST)
     for text in LENGTH.findall(sentence):
         spoken = abs(number(text))
         if lengths and not any(abs(spoken - mm) <= 0.501 * last_digit(text) + 1e-4 for _, mm in lengths):

@@ -83,7 +83,8 @@ const Numbers = {
   result(kinds, ...numbers) {
     const level = numbers.pop(), form = "+-Σ".includes(kinds[0]) ? kinds[0] : "", own = kinds.slice(form.length, -1);
     if (level < Numbers.levels.length - 1) return numbers.at(-1);
-    return Numbers.sum(form, own, numbers.map((x, k) => k < own.length ? Numbers.rounded(x, own[k], level) : x));
+    const value = Numbers.sum(form, own, numbers.map((x, k) => k < own.length ? Numbers.rounded(x, own[k], level) : x));
+    return Number.isFinite(value) ? value : numbers.at(-1);
   },
 
   inFigures(x, count) {

@@ -83,7 +83,8 @@ def result_at(level: int, kinds: str, numbers: Sequence[float]) -> float:
     if level < len(LEVELS) - 1:
         return numbers[-1]
     form, own = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
-    return _value(form, own, [rounded(number, kind, level) for number, kind in zip(numbers[:-1], own, strict=False)])
+    value = _value(form, own, [rounded(number, kind, level) for number, kind in zip(numbers[:-1], own, strict=False)])
+    return value if math.isfinite(value) else numbers[-1]
 
 
 def holding(kinds: str, numbers: Sequence[float]) -> int:

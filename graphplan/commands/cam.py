@@ -130,7 +130,6 @@ def _data(drawing: CamDrawing, ending: str, options: argparse.Namespace, toleran
         return scene_text(drawing.cam, options.at or 0.0)
     if ending == "json":
         from graphplan.cams.numbers import numbers
-
         from graphplan.output.cams.sheet import CamSheet
         from graphplan.output.panelled import PAPERS
 

@@ -19,7 +19,16 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_diagrams, add_pencil, add_steps, count, on_sheet, pencil, refuse_steps, with_steps
+from graphplan.commands.choices import (
+    add_diagrams,
+    add_pencil,
+    add_steps,
+    count,
+    on_sheet,
+    pencil,
+    refuse_steps,
+    with_steps,
+)
 from graphplan.commands.output import SHEETS, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 

@@ -9,8 +9,8 @@ from random import Random
 from typing import Any
 
 import pytest
-from protocols import printed, protocol, random_scenes
 from protocol_faults import faults
+from protocols import printed, protocol, random_scenes
 from reader import OPERATIONS, STANDING, Reader
 from speech import false_sums, sums
 
@@ -57,7 +57,7 @@ def drawn(scene: Scene, **how: Any) -> dict[str, Any] | None:
 @pytest.mark.parametrize(("name", "way"), list(product(SCENES, range(len(WAYS) + len(LOADED)))) if THOROUGH else [
     (name, k) for k, name in enumerate(SCENES)])
 def test_protocols_of_packaged_scenes_can_be_executed(name: str, way: int) -> None:
-    """Marks, lengths, factors, sums and readings of each packaged scene, each in one of the ways that it has, or all."""
+    """Marks, lengths, factors, sums and readings of each packaged scene, each in one of its ways or all."""
     scene = gp.load(name)
     how = ways(scene)[way % len(ways(scene))]
     told = drawn(scene, **how)

@@ -35,8 +35,7 @@ const Numbers = {
 
   // ---- sums that hold as printed: as graphplan/sheet/words/sums.py has them
 
-  levels: [[1, 1, 4, 4], [1, 1, 3, 4], [2, 1, 4, 5], [2, 1, 3, 5], [2, 2, 4, 5], [3, 2, 4, 6], [3, 2, 3, 6],
-    [3, 3, 4, 7], [4, 3, 4, 8], [4, 2, 2, 8]],
+  levels: [[1, 1, 4, 4], [2, 1, 4, 5], [2, 2, 4, 5], [3, 2, 4, 6], [3, 3, 4, 7], [4, 3, 4, 8], [4, 2, 3, 8]],
 
   level(kinds, ...numbers) {
     if (!numbers.every(Number.isFinite)) return 0;
@@ -77,7 +76,7 @@ const Numbers = {
 
   resultFigures(x, level) {
     const power = Numbers.power(x);
-    return power <= 2 ? Numbers.levels[level][2] : level < 4 ? 4 : Math.max(4, Math.min(power + 1, 7));
+    return power <= 2 ? Numbers.levels[level][2] : level < 2 ? 4 : Math.max(4, Math.min(power + 1, 7));
   },
 
   result(kinds, ...numbers) {

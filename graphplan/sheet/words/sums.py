@@ -21,9 +21,8 @@ from functools import cached_property
 from graphplan.phrases import Said, Unknown, decimals, digits
 
 # By level: decimals of mm, decimals of a result in mm, figures of another result, figures of what is no length.
-LEVELS = ((1, 1, 4, 4), (1, 1, 3, 4), (2, 1, 4, 5), (2, 1, 3, 5), (2, 2, 4, 5), (3, 2, 4, 6), (3, 2, 3, 6), (3, 3, 4, 7),
-          (4, 3, 4, 8), (4, 2, 2, 8))
-WHOLE = 4  # from this level on all whole figures of a result are printed
+LEVELS = ((1, 1, 4, 4), (2, 1, 4, 5), (2, 2, 4, 5), (3, 2, 4, 6), (3, 3, 4, 7), (4, 3, 4, 8), (4, 2, 3, 8))
+WHOLE = 2  # from this level on all whole figures of a result are printed
 HALF = 0.499  # of the last printed digit: how far off what the printed numbers come to may be
 EXACT, MOST_FIGURES = 1e-9, 8  # of a figure: within it all of it is printed, where so many figures do
 LENGTHS, FORMS = "mMd", "+-Σ"

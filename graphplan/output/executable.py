@@ -1,4 +1,4 @@
-"""What whoever executes a step on paper must know beside its operation: operands, numbers, and the factor between plans.
+"""What is needed to execute a step on paper beside its operation: operands, numbers, the factor between plans.
 
 All of it is in mm of paper, with x to the right and y down as `paper` has it. A pure number stays what it is.
 """

@@ -48,7 +48,7 @@ def printed(scene: str, *options: str, text: str = "") -> dict[str, Any] | None:
 
 
 def random_scenes(seed: int) -> Iterator[Scene]:
-    """The scenes of one seed: a linkage, one with gears and contacts, and both under load where a balance holds them."""
+    """The scenes of one seed: a linkage, one with gears and contacts, and both under load where it can be held."""
     sys.path.append(str(Path(__file__).parents[1] / "random"))
     from gearings import gearing
     from linkages import linkage, scenes

@@ -73,7 +73,7 @@ def distance(drawn: Mark, told: Mark) -> float:
     return abs(drawn - told) if isinstance(drawn, complex | float) and isinstance(told, complex | float) else math.inf
 
 
-# ---- the operations, each from the marks that it reads, its parameters and the factor ---------------------------------
+# ---- the operations, each from the marks that it reads, its parameters and the factor
 
 Operation = Callable[[Sequence[Any], Mapping[str, Any], float], Mark]
 
@@ -185,8 +185,8 @@ OPERATIONS: dict[str, Operation] = {
 }
 STANDING = "given", "begin", "pole"  # what lies where it is put
 
-# Operands of which only a vector, an opening or a direction is taken: each group lies on one plan, whichever it is. What
-# stands in no group lies on the plan of the mark that is made.
+# Operands of which only a vector, an opening or a direction is taken: each group lies on one plan, whichever it is.
+# What stands in no group lies on the plan of the mark that is made.
 TAKEN: dict[str, tuple[tuple[int, ...], ...]] = {
     "transfer": ((0, 1),), "quarter": ((0, 1),), "step_off": ((0, 1),), "step_across": ((0, 1),),
     "parallel": ((0,),), "perpendicular": ((0,),), "lay_along": ((0,),), "circle": ((1,),),

@@ -8,15 +8,17 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import pairwise
 from typing import Any
 
 NUMBER = re.compile(r"−?\d+(?:\.\d+)?(?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
 POWERS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 LENGTH = re.compile(rf"(?<![\w.·−²/])({NUMBER.pattern}) mm(?![\w/²·]| [:·] )")  # not a value
-CLAUSE = re.compile(r"(?<! ): |\.\) |; |, |(?<=[^\d]) = |\. ")  # what stands before it is no part of an expression
+# what stands before it is no part of an expression
+CLAUSE = re.compile(r"(?<! ): |\.\) |; |, |(?<=[^\d]) = |\. ")
 TOKEN = re.compile(rf"{NUMBER.pattern}|[()²/:·+−-]")
-UNITS = re.compile(r"(?<=[\d)⁰¹²³⁴⁵⁶⁷⁸⁹]) (?:(?:mm|cm|m|in|ft|N|kN|kgf|lbf|kg|g|t|lb|rad|s|min)[²³]?(?:[/·](?:mm|cm|m|in|ft|s|min"
-                   r"|kg)[²³]?)*)(?![\w.])")
+UNITS = re.compile(r"(?<=[\d)⁰¹²³⁴⁵⁶⁷⁸⁹]) (?:(?:mm|cm|m|in|ft|N|kN|kgf|lbf|kg|g|t|lb|rad|s|min)"
+                   r"[²³]?(?:[/·](?:mm|cm|m|in|ft|s|min|kg)[²³]?)*)(?![\w.])")
 LETTER = re.compile(r"[^\W\d_⁰¹²³⁴⁵⁶⁷⁸⁹]")
 LEAST = 0.01  # mm: what lies within it is one
 LARGEST = 10.0
@@ -49,7 +51,7 @@ def sums(sentence: str) -> Iterator[tuple[str, str]]:
     """The expressions of a sentence that it says the value of, each with that value as printed."""
     bare = UNITS.sub("", sentence)
     parts = re.split(r" = ", bare)
-    for left, right in zip(parts, parts[1:], strict=False):
+    for left, right in pairwise(parts):
         expression = CLAUSE.split(LETTER.split(left)[-1])[-1].strip()
         printed = NUMBER.match(right)
         if printed and re.search(r"[·:/+−²] ?|²", expression[1:]) and not LETTER.search(expression):
@@ -83,9 +85,9 @@ def spoken_wrong(told: Mapping[str, Any], measure: Callable[[Sequence[int]], flo
     yield from (f"{mm:.4g} mm measures {found:.4g}: {sentence}" for mm, found in lengths if abs(mm - found) > LEAST)
     for text in LENGTH.findall(sentence):
         spoken = abs(number(text))
-        if lengths and not any(abs(spoken - mm) <= 0.501 * last_digit(text) + 1e-4 for _, mm in lengths):
-            if not any(text == printed for _, printed in sums(sentence)):
-                yield f"{text} mm is none of its lengths: {sentence}"
+        measured = any(abs(spoken - mm) <= 0.501 * last_digit(text) + 1e-4 for _, mm in lengths)
+        if lengths and not measured and all(text != printed for _, printed in sums(sentence)):
+            yield f"{text} mm is none of its lengths: {sentence}"
         if spoken > longest:
             yield f"{text} mm is longer than the paper: {sentence}"
     yield from (f"{sum_}: {sentence}" for sum_ in false_sums(sentence))

@@ -36,8 +36,8 @@ def corner(step: Step) -> bool:
 class Extent:
     """The size of what a plan shows: `core` must be on paper, `extra` should be if it does not cost too much.
 
-    `nice` is room for half circles, and for what is shown of the motion, taken where it costs nothing; `longest` is what
-    is laid off or struck there.
+    `nice` is room for half circles, and for what is shown of the motion, taken where it costs nothing; `longest` is
+    the longest vector or radius.
     """
 
     core: Rect
@@ -188,7 +188,7 @@ class Plans:
             if step.op.gives == CIRCLE and plan[step.index] == panel:
                 found.append(math.sqrt(float(self.drawing.values[step.index][2])))
             ends = [(step.root, step.index)] if step.root is not None and step.op.gives == POINT else []
-            ends += [step.args[:2]] if step.op.movement in CARRIED[:2] else []
+            ends += [(step.args[0], step.args[1])] if step.op.movement in CARRIED[:2] else []
             found += [math.dist(self.spot(p), self.spot(q)) for p, q in ends if plan[p] == plan[q] == panel]
         return max(filter(math.isfinite, found))
 

@@ -91,7 +91,8 @@ def spoken_wrong(told: Mapping[str, Any], measure: Callable[[Sequence[int]], flo
         if spoken > longest:
             yield f"{text} mm is longer than the paper: {sentence}"
     yield from (f"{sum_}: {sentence}" for sum_ in false_sums(sentence))
-    yield from (f"{factor:.4g} times as large: {sentence}" for factor in factors(sentence) if factor > LARGEST)
+    if "sentence" in told:  # in a reading it is a scale
+        yield from (f"{factor:.4g} times as large: {sentence}" for factor in factors(sentence) if factor > LARGEST)
 
 
 READ = re.compile(rf"(?:=|the moment is) ({NUMBER.pattern})[^=]*; computed")

@@ -7,7 +7,7 @@ is its key in the catalogues of `words`. The sentence of a drawing step has its 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -93,6 +93,18 @@ class Unknown(ABC):
         """What stands for it in so many significant digits, or where that is 0 in tenths."""
 
     @abstractmethod
+    def level(self, kinds: str, numbers: Sequence[Any]) -> Any:
+        """At which level a sum of numbers of these kinds holds as printed (sheet/words/sums.py)."""
+
+    @abstractmethod
+    def result(self, kinds: str, numbers: Sequence[Any]) -> Any:
+        """The result of such a sum as it is printed at this level."""
+
+    @abstractmethod
+    def printed(self, number: Any, kind: str) -> Said:
+        """A number of a sum at this level, by its kind."""
+
+    @abstractmethod
     def hypot(self, other: Any) -> Any:
         """The length of a vector of which it is a component, and what other number is the other."""
 
@@ -115,7 +127,12 @@ def in_any_case(tell: Callable[[], Said]) -> Said:
 
 def tenths(value: float) -> Said:
     """A number of mm as it is read off a ruler."""
-    return figures(value.place(0) if isinstance(value, Unknown) else f"{value:z.1f}".replace("-", "−"))
+    return figures(value.place(0)) if isinstance(value, Unknown) else decimals(value, 1)
+
+
+def decimals(value: float, count: int) -> Said:
+    """A number with so many decimals."""
+    return figures(f"{value:z.{count}f}".replace("-", "−"))
 
 
 def digits(value: float, count: int = 4) -> Said:

@@ -18,7 +18,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
-from graphplan.commands.choices import add_language, add_paper, add_pencil, count
+from graphplan.commands.choices import add_language, add_paper, add_pencil, add_steps, count, refuse_steps, with_steps
 from graphplan.commands.output import DOTS, SHEETS, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 from graphplan.mechanism.presentation import FRAMES
@@ -47,6 +47,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--frame", choices=FRAMES, help="frame and title block; without it the task's, or iso")
     add_language(command)
     add_pencil(command)
+    add_steps(command)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -66,6 +67,7 @@ def run(options: argparse.Namespace) -> int:
     scene = replace(scene, sheet=replace(scene.sheet, **said))
     ending, messages = kind(options.output, ENDINGS, "balance"), Messages(options.quiet)
     drawn_alone(options, ending)
+    refuse_steps(options, ending)
     if options.pencil:
         raise Refused("--pencil", "this is a linkage, whose numbers are not drawn", "leave it out")
     if ending == ".toml":
@@ -85,7 +87,12 @@ def run(options: argparse.Namespace) -> int:
 
         write_sheets(sheets(found, scene.sheet.paper or None), options.output, ending.removeprefix("."), options.dpi)
     else:
-        write(table(found.before) if ending == ".csv" else as_json(numbers(found), rows=True), options.output)
+        from graphplan.output.machine.balance_sheet import BalanceSheet
+        from graphplan.output.panelled import PAPERS
+
+        paper = scene.sheet.paper or PAPERS[0]
+        data = with_steps(options, numbers(found), lambda: BalanceSheet(paper, found))
+        write(table(found.before) if ending == ".csv" else as_json(data, rows=True), options.output)
     return 0
 
 

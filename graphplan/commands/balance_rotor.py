@@ -6,7 +6,7 @@ import argparse
 from dataclasses import replace
 
 from graphplan.commands.balance import drawn_alone
-from graphplan.commands.choices import pencil
+from graphplan.commands.choices import pencil, refuse_steps, with_steps
 from graphplan.commands.output import Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 
@@ -24,6 +24,7 @@ def run(options: argparse.Namespace, text: str) -> int:
 
     ending = kind(options.output, ENDINGS, "rotor")
     _asked(options, ending)
+    refuse_steps(options, ending)
     task = parse(text, options.scene)
     said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
     messages, found = Messages(options.quiet), balanced(replace(task, sheet=replace(task.sheet, **said)))
@@ -33,7 +34,8 @@ def run(options: argparse.Namespace, text: str) -> int:
     if ending == ".csv":
         write(table(found), options.output)
     elif ending == ".json":
-        write(as_json(numbers(one_sheet(found, check, pencil(options))), rows=True), options.output)
+        sheet = one_sheet(found, check, pencil(options))
+        write(as_json(with_steps(options, numbers(sheet), lambda: sheet), rows=True), options.output)
     else:
         write_sheets(sheets(found, check, pencil(options)), options.output, ending[1:], options.dpi)
     return 0

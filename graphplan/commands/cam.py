@@ -45,7 +45,7 @@ import os
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_language, add_paper, count
+from graphplan.commands.choices import add_language, add_paper, add_steps, count, refuse_steps, with_steps
 from graphplan.commands.output import DOTS, STANDARD, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 from graphplan.mechanism.presentation import FRAMES
@@ -72,6 +72,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--tolerance", type=float, metavar="LENGTH",
         help=f"how far arcs may be off the profile, in the task's lengths ({TOLERANCE})")
     add_language(command)
+    add_steps(command)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -82,6 +83,7 @@ def run(options: argparse.Namespace) -> int:
 
     ending = kind(options.output, ENDINGS, "cam").removeprefix(".")
     _asked(options, ending)
+    refuse_steps(options, f".{ending}")
     messages, task = Messages(options.quiet), load(options.task)
     said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
     task = replace(task, sheet=replace(task.sheet, **said))
@@ -128,7 +130,11 @@ def _data(drawing: CamDrawing, ending: str, options: argparse.Namespace, toleran
         return scene_text(drawing.cam, options.at or 0.0)
     if ending == "json":
         from graphplan.cams.numbers import numbers
+        from graphplan.output.cams.sheet import CamSheet
+        from graphplan.output.panelled import PAPERS
 
-        return as_json(numbers(drawing, options.positions or POSITIONS, tolerance, check))
+        data = numbers(drawing, options.positions or POSITIONS, tolerance, check)
+        paper = drawing.cam.task.sheet.paper or PAPERS[0]
+        return as_json(with_steps(options, data, lambda: CamSheet(paper, drawing, check)))
     written: str | bytes = loaded("dxf", "cad.profile").profile_dxf(drawing.cam, tolerance)
     return written

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from graphplan.accuracy.pencil import Pencil
     from graphplan.check.report import Report
     from graphplan.mechanism.model import Scene
+    from graphplan.output.panelled import Panelled
 
 MOST_ROUNDS = 50  # of friction that are drawn, each in force plans of its own
 
@@ -41,6 +42,26 @@ def count(option: str, least: int, most: int | None = None) -> Callable[[str], i
         return number
 
     return read
+
+
+def add_steps(command: argparse.ArgumentParser) -> None:
+    """The option that gives the steps of a drawing in JSON."""
+    command.add_argument("--steps", action="store_true", help="in JSON the steps of the drawing too, to be executed on "
+                         "paper as those of `graphplan steps --json`")
+
+
+def with_steps(options: argparse.Namespace, data: dict[str, Any],
+               sheet: Callable[[], Panelled]) -> dict[str, Any]:
+    """Numbers, with the steps of their sheet where these are asked for."""
+    from graphplan.output.panel_protocol import protocol
+
+    return {**data, "protocol": protocol(sheet())} if options.steps else data
+
+
+def refuse_steps(options: argparse.Namespace, ending: str) -> None:
+    """Refuse steps in what is no JSON."""
+    if options.steps and ending not in ("", ".json"):
+        raise Refused("--steps", f"a {ending} has no use for it", "leave it out, or -o FILE.json")
 
 
 # --- declared ------------------------------------------------------------------------------------------------------

@@ -19,7 +19,17 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_diagrams, add_pencil, count, on_sheet, pencil, question
+from graphplan.commands.choices import (
+    add_diagrams,
+    add_pencil,
+    add_steps,
+    count,
+    on_sheet,
+    pencil,
+    question,
+    refuse_steps,
+    with_steps,
+)
 from graphplan.commands.output import SHEETS, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 
@@ -27,6 +37,7 @@ if TYPE_CHECKING:
     from graphplan.accuracy.pencil import Pencil
     from graphplan.machine.flywheel.found import FlywheelResult
     from graphplan.mechanism.model import Scene
+    from graphplan.output.machine.flywheel_sheet import FlywheelSheet
 
 ENDINGS = (".json", ".csv", *SHEETS)
 FEWEST, MOST = 12, 360
@@ -46,6 +57,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add_pencil(command)
     add("--task", action="store_true", help="the sheet with what is given alone, and tables to fill in")
     add_diagrams(command)
+    add_steps(command)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -55,6 +67,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.output.machine.flywheel_numbers import numbers, table
 
     ending, messages = kind(options.output, ENDINGS, "flywheel"), Messages(options.quiet)
+    refuse_steps(options, ending)
     text = source_text(options.scene, options.scene)
     scene = on_sheet(options, _asked(parse(text, options.scene, by_drive=True), options))
     question(options, scene)
@@ -72,8 +85,19 @@ def run(options: argparse.Namespace) -> int:
         write_sheets(pages, options.output, ending[1:], options.dpi)
     else:
         error, _ = pencil_errors(result, pencil(options))
-        write(table(result) if ending == ".csv" else as_json(numbers(result, error), rows=True), options.output)
+        if ending == ".csv":
+            write(table(result), options.output)
+        else:
+            write(as_json(with_steps(options, numbers(result, error), lambda: _sheet(result)), rows=True),
+                  options.output)
     return 0
+
+
+def _sheet(result: FlywheelResult) -> FlywheelSheet:
+    """The sheet on the scene's paper, or on A2."""
+    from graphplan.output.machine.flywheel_sheet import PAPERS, FlywheelSheet
+
+    return FlywheelSheet(result.scene.sheet.paper or PAPERS[0], result)
 
 
 def _asked(scene: Scene, options: argparse.Namespace) -> Scene:

@@ -17,7 +17,15 @@ from __future__ import annotations
 import argparse
 import math
 
-from graphplan.commands.choices import add_diagrams, count, on_sheet, question
+from graphplan.commands.choices import (
+    add_diagrams,
+    add_steps,
+    count,
+    on_sheet,
+    question,
+    refuse_steps,
+    with_steps,
+)
 from graphplan.commands.output import SHEETS, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 
@@ -37,6 +45,7 @@ def options(command: argparse.ArgumentParser) -> None:
         help=f"in how many equal parts of the travel ({POSITIONS})")
     add("--steady", action="store_true", help="the cycle that repeats itself")
     add_diagrams(command)
+    add_steps(command)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -47,6 +56,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.output.machine import motion_numbers
 
     ending = kind(options.output, ENDINGS, "motion")
+    refuse_steps(options, ending)
     for name in ("speed", "travel"):
         if (value := getattr(options, name)) is not None and not math.isfinite(value):
             raise Refused(f"--{name}", f"{value:g}", "give a number")
@@ -69,5 +79,9 @@ def run(options: argparse.Namespace) -> int:
     elif ending == ".csv":
         write(motion_numbers.text(found, positions), options.output)
     else:
-        write(as_json(motion_numbers.numbers(found, drawing, check, positions)), options.output)
+        from graphplan.output.machine.motion_sheet import PAPERS, MotionSheet
+
+        data = with_steps(options, motion_numbers.numbers(found, drawing, check, positions), lambda: MotionSheet(
+            scene.sheet.paper or PAPERS[0], found, min(positions, MOST)))
+        write(as_json(data), options.output)
     return 0

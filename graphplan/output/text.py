@@ -14,6 +14,7 @@ from graphplan.kernel.stages import Equation, Stage
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM
 from graphplan.methods.positions import layout
+from graphplan.output.executable import OnPaper
 from graphplan.phrases import arranged, coordinates, joined, said
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.scales import Scales
@@ -139,6 +140,7 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
     (stages, stage_of), spoken = told.stages, {one.index: one for one in told.steps}
     compound_of = {one.index: number for number, compound in enumerate(drawing.compounds)
                    for one in compound.movements}
+    on_paper = OnPaper(drawing.values, composition.plans.plan_of_step.__getitem__, composition.scales.of)
     for plate in composition.plates.steps:
         step, number, words = plate.step, stage_of.get(plate.index), spoken.get(plate.index)
         entries.append({
@@ -157,6 +159,7 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
             "form": str(step.choice or ""),
             "reason": step.choice.reason() if step.choice and step.choice.compound.weighed else "",
             "links": list(step.links),
+            **on_paper.told(step),
             "value": list(drawing.values[step.index]),
             "paper": list(plate.paper(composition.arrangement.height)),
         })

@@ -14,9 +14,9 @@ const Numbers = {
   // what Python's round(x, 1) gives: of two tenths that are as near the even one
   tenths(x) { return Number.isFinite(x) ? Number(Numbers.fixed(x)) : x; },
 
-  fixed(x) {
-    const text = x.toFixed(1), tie = Number.isInteger(4 * x) && !Number.isInteger(2 * x);  // k + 1/4 or k + 3/4
-    return tie && Number(text.at(-1)) % 2 ? (x - Math.sign(x) * 0.0625).toFixed(1) : text;
+  fixed(x, count = 1) {
+    const text = x.toFixed(count), half = x * 2 ** (count + 1), tie = Number.isInteger(half) && half % 2;
+    return tie && Number(text.at(-1)) % 2 ? (x - Math.sign(x) * 0.25 / 10 ** count).toFixed(count) : text;
   },
 
   // what Python's format(x, f".{count}g") makes of a number, a power of ten apart
@@ -31,6 +31,81 @@ const Numbers = {
       return [own, Number(rest) - count + 1];
     }
     return [own, Number(power) - count + 1];
+  },
+
+  // ---- sums that hold as printed: as graphplan/sheet/words/sums.py has them
+
+  levels: [[1, 1, 4, 4], [2, 1, 4, 5], [2, 2, 4, 5], [3, 2, 4, 6], [3, 3, 4, 7], [4, 3, 4, 8], [4, 2, 3, 8]],
+
+  level(kinds, ...numbers) {
+    if (!numbers.every(Number.isFinite)) return 0;
+    const form = "+-Σ".includes(kinds[0]) ? kinds[0] : "", own = kinds.slice(form.length), last = own.length - 1;
+    const holds = (_, level) => {
+      const told = numbers.map((x, k) => Numbers.rounded(x, own[k], level, k === last));
+      const found = Numbers.sum(form, own.slice(0, last), told);
+      let digit = 10 ** -Numbers.levels[level][1];
+      if (!"mMd".includes(own[last])) {
+        const power = Numbers.power(numbers[last]), x = 10 ** (power - Numbers.resultFigures(numbers[last], level) + 1);
+        digit = power >= 7 ? x : Math.min(1, x);
+      }
+      return Math.abs(found - told[last]) <= 0.499 * digit;
+    };
+    const found = Numbers.levels.findIndex(holds);
+    return found < 0 ? Numbers.levels.length - 1 : found;
+  },
+
+  sum(form, kinds, told) {
+    const lengths = [...kinds].map((kind, k) => [told[k], kind]).filter(([, kind]) => "mMd".includes(kind));
+    const joined = (value, x, kind) => kind === "g" ? value / x : kind === "a" ? value + x
+      : kind === "f" ? value * x : value * x * x;
+    let value = 1;
+    if (form === "Σ") value = lengths.reduce((sum, [x], k) => k % 2 ? sum + lengths[k - 1][0] * x : sum, 0);
+    else for (const [x, kind] of lengths) value = joined(value, x, {m: "f", M: "F", d: "g"}[kind]);
+    if (form === "-") value = 1 - value; else if (form === "+") value = 1 + value;
+    [...kinds].forEach((kind, k) => { if (!"mMd".includes(kind)) value = joined(value, told[k], kind); });
+    return value;
+  },
+
+  rounded(x, kind, level, result) {
+    const [operand, own, , figures] = Numbers.levels[level];
+    if ("mMd".includes(kind)) return Number(Numbers.fixed(x, result ? own : operand));
+    return Numbers.inFigures(x, result ? Numbers.resultFigures(x, level) : Numbers.figuresOf(x, figures));
+  },
+
+  power(x) { return Number(x.toExponential(6).split("e")[1]); },
+
+  resultFigures(x, level) {
+    const power = Numbers.power(x);
+    return power <= 2 ? Numbers.levels[level][2] : level < 2 ? 4 : Math.max(4, Math.min(power + 1, 7));
+  },
+
+  result(kinds, ...numbers) {
+    const level = numbers.pop(), form = "+-Σ".includes(kinds[0]) ? kinds[0] : "", own = kinds.slice(form.length, -1);
+    if (level < Numbers.levels.length - 1) return numbers.at(-1);
+    const value = Numbers.sum(form, own, numbers.map((x, k) => k < own.length ? Numbers.rounded(x, own[k], level) : x));
+    return Number.isFinite(value) ? value : numbers.at(-1);
+  },
+
+  inFigures(x, count) {
+    const [own, last] = Numbers.significant(x, count);
+    return Number(`${own}e${last}`);
+  },
+
+  figuresOf(x, figures) {
+    for (let count = figures; count <= 8; count++) {
+      if (Math.abs(Numbers.inFigures(x, count) - x) <= 1e-9 * Math.abs(x)) return count;
+    }
+    return figures;
+  },
+
+  // a number of a sum by its kind: r and v are results in mm and in figures
+  told(x, kind, level) {
+    if (!Number.isFinite(x)) return "–";
+    const [operand, own, , figures] = Numbers.levels[level];
+    if ("mMdr".includes(kind)) {
+      return Numbers.fixed(x, kind === "r" ? own : operand).replace(/^-(0\.0+)$/, "$1").replace("-", "−");
+    }
+    return Numbers.written(x, kind === "v" ? Numbers.resultFigures(x, level) : Numbers.figuresOf(x, figures));
   },
 
   // as graphplan.phrases.digits writes a number: at most `count` figures, or with 0 of them in tenths
@@ -52,7 +127,7 @@ const Numbers = {
   },
 };
 
-const PLACES = /\uE000(\d+):(\d+)\uE004|\uE001(\d+)\uE002|\uE003|\uE004/g;
+const PLACES = /\uE000(\d+):([a-zA-Z]?)(\d+)\uE004|\uE001(\d+)\uE002|\uE003|\uE004/g;
 
 class Template {
   // `text` as texts.py tells it, the decimal sign of its language in `signs`
@@ -63,8 +138,8 @@ class Template {
     for (const found of text.matchAll(PLACES)) {
       if (found.index > done) this.parts.push(text.slice(done, found.index));
       done = found.index + found[0].length;
-      this.parts.push(found[1] !== undefined ? {number: Number(found[1]), count: Number(found[2])}
-        : found[3] !== undefined ? {either: Number(found[3])} : {mark: found[0]});
+      this.parts.push(found[1] !== undefined ? {number: Number(found[1]), kind: found[2], count: Number(found[3])}
+        : found[4] !== undefined ? {either: Number(found[4])} : {mark: found[0]});
     }
     if (done < text.length) this.parts.push(text.slice(done));
   }
@@ -81,7 +156,8 @@ class Template {
     return told;
   }
 
-  written({number, count}, numbers) {
-    return Numbers.written(numbers[number], count).replace(/[.,]/g, sign => this.signs[sign] ?? sign);
+  written({number, kind, count}, numbers) {
+    const told = kind ? Numbers.told(numbers[number], kind, numbers[count]) : Numbers.written(numbers[number], count);
+    return told.replace(/[.,]/g, sign => this.signs[sign] ?? sign);
   }
 }

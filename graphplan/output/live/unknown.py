@@ -4,6 +4,7 @@ A text that is told of them has places for its numbers, and where its words hang
 in which it is right. In a text stand, in characters of private use,
 
     PLACE output : figures END          a number, in so many significant figures, or with 0 of them in tenths
+    PLACE output : kind level END       a number of a sum, by its kind, at the level that this other output is
     EITHER output THEN one ELSE other END   the one where that output of the tape is above zero, else the other
 """
 
@@ -17,10 +18,23 @@ from typing import Any
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.tape.record import Symbol, Tape
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer
-from graphplan.phrases import Said, Undecided, Unknown, arranged, in_any_case
+from graphplan.phrases import Said, Undecided, Unknown, arranged, figures, in_any_case
+from graphplan.sheet.words.sums import FORMS
 
 PLACE, EITHER, THEN, ELSE, END = map(chr, range(0xE000, 0xE005))
-LIVE = JAVASCRIPT._replace(written={**JAVASCRIPT.written, "tenths": "tenths({})", "hypot": "hypot({}, {})"})
+LEVEL, RESULT = "level ", "result "  # before the kinds of the numbers of which these are worked out
+
+
+class _Written(dict[str, str]):
+    """How operations are written, those of sums by the kinds of their numbers."""
+
+    def __missing__(self, operation: str) -> str:
+        name, kinds = operation.split(" ")
+        return f'{name}("{kinds}", {", ".join("{}" for _ in kinds.lstrip(FORMS))}{", {}" * (name == RESULT[:-1])})'
+
+
+LIVE = JAVASCRIPT._replace(written=_Written(
+    {**JAVASCRIPT.written, "tenths": "tenths({})", "hypot": "hypot({}, {})"}))
 
 
 @dataclass
@@ -64,7 +78,7 @@ class Later:
         writer = Writer(self.tape, LIVE)
         body = writer.statements([*self.outputs])
         told = ",".join(writer.text[place] for place in self.outputs)
-        return "\n".join(["function (v, s, {tenths, hypot}) {", *body, f"return [{told}];", "}"])
+        return "\n".join(["function (v, s, {tenths, hypot, level, result}) {", *body, f"return [{told}];", "}"])
 
 
 class Asked(Undecided):
@@ -135,6 +149,22 @@ class Number(Unknown):
 
     def __bool__(self) -> bool:
         return self.later.positive(abs(self))
+
+    def level(self, kinds: str, numbers: Sequence[Any]) -> Number:
+        return self._of_sum(LEVEL + kinds, numbers)
+
+    def result(self, kinds: str, numbers: Sequence[Any]) -> Number:
+        return self._of_sum(RESULT + kinds, (*numbers, self))
+
+    def _of_sum(self, operation: str, numbers: Sequence[Any]) -> Number:
+        """What is worked out of the numbers of a sum."""
+        tape = self.later.tape
+        places = (tape.place(getattr(number, "symbol", number)) for number in numbers)
+        return Number(self.later, tape.done(operation, *places))
+
+    def printed(self, number: Any, kind: str) -> Said:
+        symbol = getattr(number, "symbol", number)
+        return figures(f"{PLACE}{self.later.output(symbol)}:{kind}{self.later.output(self.symbol)}{END}")
 
     def hypot(self, other: Any) -> Number:
         tape = self.later.tape

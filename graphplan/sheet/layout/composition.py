@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
@@ -40,6 +40,7 @@ from graphplan.sheet.plates.plans import Extent, Plans, around
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.plates.view import COARSER, MUCH_COARSER, View, least, plan_box, plan_scale, view, wanted, whole
+from graphplan.sheet.words.lengths import LARGEST
 from graphplan.sheet.words.rows import Placed, TextRow
 from graphplan.sheet.words.tables import Deviations
 from graphplan.sheet.words.texts import RESULTS, Words
@@ -51,6 +52,7 @@ SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
 MEASURED, NOTHING = 5.0, 0.02  # mm: the shortest vector that can be measured; and what beside the largest is nothing
 SHORT = 0.2  # by so much smaller, as a logarithm, a plan may be for a vector that can be measured
 CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
+SHRUNK = 4.0  # times as small the mechanism may be for arcs that would be longer than the sheet
 ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
 POOR = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of all letters may find no good place
 UNREADABLE = 0.4  # of them, on paper that is named
@@ -254,15 +256,29 @@ def windows(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Pla
 def _scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans, given: GivenScales) -> Scales:
     """The scales, round if they are not given, for so much room for the marks of each plan; twins have one."""
     drawing, names, (k_s, told) = plans.drawing, plans.drawing.scene.units, given
-    own = Fraction(k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM], COARSER, _lengths(plans, MECHANISM)))
+    side, lengths = max(*_sides(rooms.values())), _lengths(plans, MECHANISM)
+    own = Fraction(k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM], COARSER, lengths))
+    if not k_s and (times := extents[MECHANISM].longest / side / float(own)) <= SHRUNK:
+        own = max(own, round_up(times * float(own), lengths))
     most: dict[str, Fraction] = {}
     for panel in plans.panels[1:]:
-        twin = plans.twins[panel]
-        scale = plan_scale(extents[panel], rooms[panel], MUCH_COARSER, _lengths(plans, panel))
+        twin, lengths = plans.twins[panel], _lengths(plans, panel)
+        scale = max(plan_scale(extents[panel], rooms[panel], MUCH_COARSER, lengths),
+                    round_up(extents[panel].longest / side, lengths))
         most[twin] = max(scale, most.get(twin, scale))
+    for source, panel in plans.carried:
+        if panel != MECHANISM:
+            twin, taken = plans.twins[panel], most.get(plans.twins[source], own)
+            most[twin] = max(most[twin], round_up(float(taken) / LARGEST, _lengths(plans, panel)))
     multiples: dict[str, Fraction] = {panel: own / most[plans.twins[panel]] for panel in plans.panels[1:]}
     return Scales(float(own), drawing.kappa, names.length, multiples | told, float(drawing.phi), names.force,
                   drawing.scene.sheet.convention)
+
+
+def _sides(rects: Iterable[Rect]) -> tuple[float, float]:
+    """How wide and how high it is what some rooms take up."""
+    box = around([corner for rect in rects for corner in rect.corners])
+    return box.width, box.height
 
 
 def _legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:

@@ -23,6 +23,7 @@ from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.words.tongue import ENGLISH, Tongue
 
 NOTHING = 1e-9  # of the mechanism: a plan that is no larger is a spot, and rounding all that it shows
+CARRIED = Movement.LAID_OFF, Movement.TURNED, Movement.STRUCK
 A_BIT = 1.4  # how much larger the mechanism plan may be for the paths of its points
 
 
@@ -35,12 +36,14 @@ def corner(step: Step) -> bool:
 class Extent:
     """The size of what a plan shows: `core` must be on paper, `extra` should be if it does not cost too much.
 
-    `nice` is room for half circles, and for what is shown of the motion, taken where it costs nothing.
+    `nice` is room for half circles, and for what is shown of the motion, taken where it costs nothing; `longest` is
+    the longest vector or radius.
     """
 
     core: Rect
     extra: tuple[Spot, ...]
     nice: tuple[Spot, ...] = ()
+    longest: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -81,6 +84,15 @@ class Plans:
     def twins(self) -> dict[str, Panel]:
         """For each plan the one at whose scale it is drawn."""
         return {panel: panel.twin for panel in self.panels}
+
+    @cached_property
+    def carried(self) -> list[tuple[Panel, Panel]]:
+        """The plans from which lengths are carried over to others, with those, in drawing order."""
+        plan, found = self.plan_of_step, dict[tuple[Panel, Panel], None]()
+        for step in self.drawing.drawn.steps:
+            if step.op.afar and step.op.movement in CARRIED and not step.quantity:
+                found[plan[step.args[step.op.afar[0]]], plan[step.index]] = None
+        return [(source, own) for source, own in found if source != own]
 
     @cached_property
     def marks_on(self) -> dict[int, tuple[int, ...]]:
@@ -162,7 +174,18 @@ class Plans:
             box = self._with_paths(box, self.motion)
             nice += [*self.motion.path_ends, *self.motion.position_ends, *self.motion.centrode_ends]
         extra = sorted((_beyond(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
-        return Extent(box, tuple(spot for far, spot in extra if far > tiny), tuple(nice))
+        return Extent(box, tuple(spot for far, spot in extra if far > tiny), tuple(nice), self._longest(panel))
+
+    def _longest(self, panel: str) -> float:
+        """The longest vector that is laid off on a plan or taken from it, or the largest radius of an arc."""
+        found, plan = [0.0], self.plan_of_step
+        for step in self.drawing.drawn.steps:
+            if step.op.gives == CIRCLE and plan[step.index] == panel:
+                found.append(math.sqrt(float(self.drawing.values[step.index][2])))
+            ends = [(step.root, step.index)] if step.root is not None and step.op.gives == POINT else []
+            ends += [(step.args[0], step.args[1])] if step.op.movement in CARRIED[:2] else []
+            found += [math.dist(self.spot(p), self.spot(q)) for p, q in ends if plan[p] == plan[q] == panel]
+        return max(filter(math.isfinite, found))
 
     def _with_paths(self, box: Rect, motion: TracedMotion) -> Rect:
         """The box with the paths of points, where that makes it but a bit larger and no scale is given."""

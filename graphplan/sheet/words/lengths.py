@@ -1,7 +1,8 @@
 """Lengths of paper: what a step lays off or takes between the compasses' points, as the hand measures it.
 
 A given quantity is divided by the scale of its plan; a vector of another plan is carried over by the scales of both; a
-moment is a force in mm times its arm in mm over the other arm. Spoken are tenths of a millimetre.
+moment is a force in mm times its arm in mm over the other arm. Spoken are tenths of a millimetre, and more digits where
+what is worked out would else not hold as printed.
 """
 
 from __future__ import annotations
@@ -16,9 +17,11 @@ from graphplan.kernel.program import Panel, Program, Step
 from graphplan.methods.construction import Compound
 from graphplan.phrases import Said, Unknown, arranged, digits, joined, said, tenths, unit
 from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.words.sums import Sum
 
 SAME = 5e-4  # of a length carried over: what differs by less is as long
 NOTHING = 0.05  # mm: what is shorter has no length on paper
+LARGEST = 10.0  # so many times as large a length may be drawn as it is taken
 LENGTH = Quantity("", "length")
 COMPONENTS = Movement.LAID_BY_COMPONENTS, Movement.LAID_ALONG
 
@@ -32,7 +35,12 @@ class Measure(NamedTuple):
 
     @property
     def told(self) -> Said:
-        return joined((tenths(self.mm), unit("mm")), " ")
+        return in_mm(tenths(self.mm))
+
+
+def in_mm(written: Said) -> Said:
+    """A number as a length on paper."""
+    return joined((written, unit("mm")), " ")
 
 
 class Length(NamedTuple):
@@ -72,9 +80,14 @@ class Lengths:
         match compound.step.op.sizing, compound.step.args, dict(compound.inner):
             case Sizing.SQUARE, (K, A, m, w, _), {"E": E}:
                 speed, arm, found = self.between(m, w), self.between(K, A), self.between(E, A)
-                times, v = self.per_mm(w) / self.per_mm(A), tenths(speed.mm)
-                v = v if abs(times - 1) <= SAME else arranged("({0} · {1})", v, digits(times))
-                told = arranged("v²/{0} = {1}² : {2} = {3}", self.side(K, A), v, tenths(arm.mm), found.told)
+                times = self.times(w, A)
+                if times is None:
+                    total = Sum("Mdm", (speed.mm, arm.mm, found.mm))
+                    v = total[0]
+                else:
+                    total = Sum("MFdm", (speed.mm, times, arm.mm, found.mm))
+                    v = arranged("({0} · {1})", total[0], total[1])
+                told = arranged("v²/{0} = {1}² : {2} = {3}", self.side(K, A), v, total[-2], in_mm(total[-1]))
                 return (Length(told, (speed, arm, found)),)
             case Sizing.DOUBLE, (_, B, *_), {"K": K}:
                 half = self.between(K, B)
@@ -86,6 +99,13 @@ class Lengths:
     def per_mm(self, index: int) -> float:
         """Lengths of the scene for a mm where a step is drawn."""
         return self.scales.of(self.plan(index))
+
+    def times(self, source: int, own: int) -> float | None:
+        """How much larger what lies where one mark does is where another does; nothing where it is as large."""
+        if self.plan(source) == self.plan(own):
+            return None
+        times = self.per_mm(source) / self.per_mm(own)
+        return None if abs(times - 1) <= SAME else times
 
     def mm(self, P: int, Q: int) -> float:
         """How far apart two marks of one plan are."""
@@ -145,7 +165,10 @@ class Lengths:
         """A length, and where it is another where it is taken from, how it follows from that one."""
         if source.mm < NOTHING or self._alike(source, laid):
             return Length(laid.told, (laid,))
-        told = arranged("{0} · {1} = {2}", source.told, digits(laid.mm / source.mm), laid.told)
+        factors = _factors(laid.mm / source.mm)
+        product = Sum(f"m{'f' * len(factors)}m", (source.mm, *factors, laid.mm))
+        times = joined((product[k + 1] for k in range(len(factors))), " · ")
+        told = arranged("{0} · {1} = {2}", in_mm(product[0]), times, in_mm(product[-1]))
         return Length(told, (source, laid))
 
     def _alike(self, one: Measure, other: Measure) -> bool:
@@ -154,9 +177,10 @@ class Lengths:
     def _given(self, quantity: Quantity, laid: Measure, where: int) -> Said:
         """A quantity with its value, over the scale of its plan."""
         per, symbol = self.scale(quantity.kind, where)
-        value = joined((digits(laid.mm * per), unit(symbol)), " ")
-        told = (arranged("{0} · {1} = {2}", value, digits(1 / per), laid.told) if self.scales.convention == "drawn"
-                else arranged("{0} : {1} = {2}", value, digits(per), laid.told))
+        drawn = self.scales.convention == "drawn"
+        quotient = Sum("ffm" if drawn else "fgm", (laid.mm * per, 1 / per if drawn else per, laid.mm))
+        value = joined((quotient[0], unit(symbol)), " ")
+        told = arranged("{0} · {1} = {2}" if drawn else "{0} : {1} = {2}", value, quotient[1], in_mm(quotient[-1]))
         return arranged("{0}: {1}", quantity.written, told) if quantity.written else told
 
     def scale(self, kind: str, where: int) -> tuple[float, str]:
@@ -179,8 +203,15 @@ class Lengths:
         force, lever, arm = self.between(p, q), self.arm(Y, C, p, q), self.between(Y, X)
         found = self.between(m, step.index)
         per, symbol = self.scale("force", step.index)
-        told = arranged("P·h/{0} = {1} · {2} : {3} = {4} ({5})", self.side(Y, X), *map(tenths, (
-            force.mm, lever.mm, arm.mm)), found.told, joined((digits(found.mm * per), unit(symbol)), " "))
+        times = self.times(q, m)
+        if times is None:
+            total = Sum("mmdm", (force.mm, lever.mm, arm.mm, found.mm))
+            taken = total[0]
+        else:
+            total = Sum("mfmdm", (force.mm, times, lever.mm, arm.mm, found.mm))
+            taken = arranged("{0} · {1}", total[0], total[1])
+        told = arranged("P·h/{0} = {1} · {2} : {3} = {4} ({5})", self.side(Y, X), taken, total[-3], total[-2],
+                        in_mm(total[-1]), joined((digits(found.mm * per), unit(symbol)), " "))
         return Length(told, (force, lever, arm, found))
 
     def _couple(self, step: Step) -> Length:
@@ -215,13 +246,27 @@ class Lengths:
         """How far a couple shifts a force."""
         C, p, q, P, R, a, b = step.args
         measures = self.between(a, b), self.arm(P, R, a, b), self.between(p, q), self.between(C, step.index)
-        told = arranged("{0} · {1} : {2} = {3}", *(tenths(one.mm) for one in measures[:3]), measures[3].told)
+        times = self.times(b, q)
+        if times is None:
+            total = Sum("mmdm", tuple(one.mm for one in measures))
+            taken = total[0]
+        else:
+            total = Sum("mfmdm", (measures[0].mm, times, *(one.mm for one in measures[1:])))
+            taken = arranged("{0} · {1}", total[0], total[1])
+        told = arranged("{0} · {1} : {2} = {3}", taken, total[-3], total[-2], in_mm(total[-1]))
         return Length(told, measures)
 
     def _whole(self, step: Step) -> Length:
         """What was found beforehand, as it is laid off here."""
         whole = self.between(step.args[4], step.index)
         return Length(whole.told, (whole,))
+
+
+def _factors(times: float, parts: int = 3) -> tuple[float, ...]:
+    """A factor, in up to so many parts where it is too large to be taken at once."""
+    if parts == 1 or times <= LARGEST * (1 + SAME):
+        return (times,)
+    return (*_factors(times / LARGEST, parts - 1), LARGEST)
 
 
 WORKED_OUT: dict[Sizing, Callable[[Lengths, Step], Length]] = {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -16,8 +15,9 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.methods.recorded import Reading
 from graphplan.methods.results import thing_named
-from graphplan.phrases import Said, arranged, digits, in_any_case, joined, phrase, said, tenths, unit
-from graphplan.sheet.words.lengths import NOTHING, Length, Lengths, Measure, size
+from graphplan.phrases import Said, arranged, digits, in_any_case, joined, phrase, said, unit
+from graphplan.sheet.words.lengths import NOTHING, Length, Lengths, Measure, in_mm, size
+from graphplan.sheet.words.sums import Sum
 
 # Places that are told by how far they are from another mark, and what that length is called.
 FROM = {kinds.CENTRE: phrase("radius of curvature, {0}"),
@@ -67,37 +67,45 @@ class Readings:
             return self._way(reading)
         kind, dimension, value = reading.kind, reading.kind.dimension, self.values[reading.kind][reading.of]
         marks = [self.drawing.drawn.wanted[position] for position in reading.marks]
+        computed = size(*value) if isinstance(value, tuple) else value
         if dimension in VECTORS:
             start, end = marks[-2:]
             steps = self.lengths.program.steps
             if steps[start].op.gives == LINE or (long := self.lengths.mm(start, end)) < NOTHING:
                 return None
-            found = self._vector(dimension, Measure(long, (start, end)), kind.group)
+            read = self._vector(dimension, Measure(long, (start, end)), kind.group)
         elif dimension == units.MOMENT:
-            found = self._moment(marks)
+            if len(marks) == 1:
+                return self._no_moment(reading, computed)
+            read = self._moment(marks)
         elif self.lengths.mm(*marks[:2]) < NOTHING:
             return None  # no ruler tells how a link turns that is nothing on paper
         else:
-            found = self._turning(reading, marks)
-        computed = size(*value) if isinstance(value, tuple) else value
-        length, read = found
+            read = self._turning(reading, marks)
         symbol = unit(dimension.unit(self.drawing.scene.units).replace("^2", "²").replace("*", "·"))
-        told = said("{0}: {1} = {2}; computed {3}", self._name(kind, reading.of), length.told,
-                    joined((digits(read), symbol), " "), digits(computed))
-        return Measured(kind, reading.of, length._replace(told=told), read, computed)
+        return self._read(reading, self._name(kind, reading.of), read, symbol, computed)
 
     def _way(self, reading: Reading) -> Measured | None:
         """A radius or a diameter, from where a place is measured."""
         start, end = (self.drawing.drawn.wanted[position] for position in reading.marks)
         if (long := self.lengths.mm(start, end)) < NOTHING:
             return None
-        length, read = self._vector(units.LENGTH, Measure(long, (start, end)), reading.kind.group)
+        read = self._vector(units.LENGTH, Measure(long, (start, end)), reading.kind.group)
         (x, y), (u, v) = self.values[reading.kind][reading.of], self.drawing.values[start][:2]
-        computed = size(x - u, y - v)
         symbol = unit(units.LENGTH.unit(self.drawing.scene.units))
-        told = said("{0}: {1} = {2}; computed {3}", FROM[reading.kind](reading.of), length.told,
-                    joined((digits(read), symbol), " "), digits(computed))
-        return Measured(reading.kind, reading.of, length._replace(told=told), read, computed)
+        return self._read(reading, FROM[reading.kind](reading.of), read, symbol, size(x - u, y - v))
+
+    def _read(self, reading: Reading, name: Said, read: Read, symbol: Said, computed: float) -> Measured:
+        """What is read, beside what is computed."""
+        told = said("{0}: {1} = {2}; computed {3}", name, read.told, joined((read.total[-1], symbol), " "),
+                    digits(computed))
+        return Measured(reading.kind, reading.of, Length(told, read.measures), read.total.value, computed)
+
+    def _no_moment(self, reading: Reading, computed: float) -> Measured:
+        """The moment of no force."""
+        told = said("{0}: no force has an arm about it, so the moment is 0; computed {1}",
+                    self._name(reading.kind, reading.of), digits(computed))
+        return Measured(reading.kind, reading.of, Length(told, ()), 0.0, computed)
 
     def _name(self, kind: ResultKind, of: str) -> Said:
         """What a result is called: v_B, omega_3; of pairs and balances in words."""
@@ -105,16 +113,16 @@ class Readings:
             return said("{0} of {1}", kind.words, thing_named(self.drawing.scene, kind, of))
         return arranged("{0}_{1}", kind.dimension.letter, of)
 
-    def _vector(self, dimension: Dimension, length: Measure, group: str) -> tuple[Length, float]:
+    def _vector(self, dimension: Dimension, length: Measure, group: str) -> Read:
         """A vector, by the scale of its plan."""
         start, end = length.marks
         group = group if dimension != units.LENGTH else "length"
         per, _ = self.lengths.scale(group, end)
-        read, text = round(length.mm, 1) * per, self.lengths.program.text
-        told = arranged("{0} · {1}", said("from {0} to {1}: {2}", text(start), text(end), length.told), digits(per))
-        return Length(told, (length,)), read
+        total, text = Sum("mff", (length.mm, per, length.mm * per)), self.lengths.program.text
+        told = said("from {0} to {1}: {2}", text(start), text(end), in_mm(total[0]))
+        return Read(arranged("{0} · {1}", told, total[1]), (length,), total)
 
-    def _turning(self, reading: Reading, marks: Sequence[int]) -> tuple[Length, float]:
+    def _turning(self, reading: Reading, marks: Sequence[int]) -> Read:
         """How a link turns, by the difference of two points' vectors over their distance.
 
         Where orthogonal velocities begin at their points, it is the part by which the image is shorter than the link.
@@ -122,51 +130,61 @@ class Readings:
         P, R, p0, p1, r0, r1 = marks
         drawing, lengths = self.drawing, self.lengths
         u, side, excess = lengths.vector(P, R), lengths.between(P, R), float(reading.excess)
-        tempo, names = float(drawing.tempo.unit), lengths.side(P, R)
+        tempo, names, more = float(drawing.tempo.unit), lengths.side(P, R), (excess,) if excess else ()
+        tail = "af" if excess else "f"
         if drawing.turned and reading.kind == kinds.OMEGA and (p0, r0) == (P, R):
             image = lengths.between(p1, r1)
             x, y = lengths.vector(p1, r1)
             sign = 1 if x * u[0] + y * u[1] >= 0 else -1
-            read = (1 - sign * round(image.mm, 1) / round(side.mm, 1)) * tempo
-            ratio = arranged("(1 − {0}/{1})" if sign > 0 else "(1 + {0}/{1})", tenths(image.mm), tenths(side.mm))
+            rate = (1 - sign * image.mm / side.mm) * tempo + excess
+            total = Sum(("-" if sign > 0 else "+") + "mdf" + tail, (image.mm, side.mm, tempo, *more, rate))
+            ratio = arranged("(1 − {0}/{1})" if sign > 0 else "(1 + {0}/{1})", total[0], total[1])
             told = said("from {0} to {1}: {2}, {3} = {4}: {5}", lengths.program.text(p1), lengths.program.text(r1),
-                        image.told, names, side.told, arranged("{0} · {1}", ratio, digits(tempo)))
-            return Length(_more(told, excess), (image, side)), read + excess
+                        in_mm(total[0]), names, in_mm(total[1]), arranged("{0} · {1}", ratio, total[2]))
+            return Read(_more(told, excess, total), (image, side), total)
         one, two = lengths.vector(p0, p1), lengths.vector(r0, r1)
         w = two[0] - one[0], two[1] - one[1]
         across = u[0] * w[1] - u[1] * w[0]
         across = across if not (drawing.turned and reading.kind == kinds.OMEGA) else -(u[0] * w[0] + u[1] * w[1])
         mm = across / size(*u) / lengths.per_mm(r1)
         part = Measure(abs(mm), (P, R, p0, p1, r0, r1))
-        per, symbol = lengths.scale(reading.kind.group, r1)
-        rate = round(mm, 1) * per / (round(side.mm, 1) * lengths.per_mm(R))
-        whole = joined((digits(round(part.mm, 1) * per), unit(symbol)), " ")
-        told = said("tangential part {0} · {1} = {2}, over {3} = {4} · {5}", part.told, digits(per), whole, names,
-                    side.told, digits(lengths.per_mm(R)))
-        return Length(_more(told, excess), (part, side)), rate + excess
+        (per, _), link = lengths.scale(reading.kind.group, r1), lengths.per_mm(R)
+        total = Sum("mfdg" + tail, (mm, per, side.mm, link, *more, mm * per / (side.mm * link) + excess))
+        told = said("tangential part over {0}: {1}", names, arranged(
+            "{0} · {1} : ({2} · {3})", in_mm(total[0]), total[1], in_mm(total[2]), total[3]))
+        return Read(_more(told, excess, total), (part, side), total)
 
-    def _moment(self, marks: Sequence[int]) -> tuple[Length, float]:
+    def _moment(self, marks: Sequence[int]) -> Read:
         """The moment of forces about a point, each in mm times its arm."""
         pole, *rest = marks
-        lengths, total = self.lengths, 0.0
-        terms, measures = list[Said](), list[Measure]()
-        per = math.nan
+        lengths, metre = self.lengths, float(units.metre(self.drawing.scene.units))
+        measures, numbers = list[Measure](), list[float]()
         for C, tail, head in zip(*[iter(rest)] * 3, strict=True):
             force, lever = lengths.between(tail, head), lengths.lever(pole, C, tail, head)
-            metre = float(units.metre(self.drawing.scene.units))
-            per = lengths.scale(kinds.FORCES, head)[0] * lengths.per_mm(C) / metre
-            total += round(force.mm, 1) * round(lever, 1) * per
-            terms.append(in_any_case(partial(_term, force.mm, lever, "+" if terms else "")))
             measures += [force, lengths.arm(pole, C, tail, head)]
-        told = said("forces times arms ({0}) mm² · {1}", joined(terms, " "), digits(per))
-        return Length(told, tuple(measures)), total
+            numbers += [force.mm, lever]
+        per = lengths.scale(kinds.FORCES, rest[-1])[0] * lengths.per_mm(rest[-3]) / metre
+        whole = sum(numbers[k] * numbers[k + 1] for k in range(0, len(numbers), 2)) * per
+        total = Sum("Σ" + "m" * len(numbers) + "ff", (*numbers, per, whole))
+        terms = [in_any_case(partial(_term, total, k)) for k in range(0, len(numbers), 2)]
+        told = said("forces times arms ({0}) mm² · {1}", joined(terms, " "), total[-2])
+        return Read(told, tuple(measures), total)
 
 
-def _term(force: float, lever: float, plus: str) -> Said:
-    """A moment, in mm times mm."""
-    return arranged("{0}{1} · {2}", "−" if lever < 0 else plus, tenths(force), tenths(abs(lever)))
+class Read(NamedTuple):
+    """How something is read: in words up to its value, from what it measures, by which sum."""
+
+    told: Said
+    measures: tuple[Measure, ...]
+    total: Sum
 
 
-def _more(told: Said, excess: float) -> Said:
+def _term(total: Sum, place: int) -> Said:
+    """A moment, in mm times mm, with its sign."""
+    sign = "−" if total.numbers[place + 1] < 0 else "+" if place else ""
+    return arranged(f"{sign}{{0}} · {{1}}", total[place], total.size(place + 1))
+
+
+def _more(told: Said, excess: float, total: Sum) -> Said:
     """A turning and what a drive adds to it."""
-    return arranged("{0} + {1}", told, digits(excess)) if excess else told
+    return arranged("{0} + {1}", told, total[-2]) if excess else told

@@ -1,0 +1,57 @@
+"""The steps of a sheet of panels as data, in the form of `graphplan steps --json`: to be executed on paper.
+
+`paper` is in mm from the origin of the step's own plan, x to the right and y down: where a plan lies on its panel is
+the panel's affair.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from graphplan.kernel.kinds import LINE, OPENING, POINT
+from graphplan.kernel.program import Step
+from graphplan.output.executable import OnPaper
+from graphplan.output.panelled import Panelled
+
+
+def protocol(sheet: Panelled) -> dict[str, Any]:
+    """The paper of a sheet and the steps of its construction, those that are given first."""
+    drawn, say = sheet.recorded, sheet.tongue
+    program, plans = drawn.program, drawn.plans
+    on_paper = OnPaper(drawn.values, plans.__getitem__, drawn.scales.of)
+    stages = {step.index: number for number, (_, steps) in enumerate(program.stages) for step in steps}
+    entries = []
+    for step in program.steps:
+        number = max(0, program.number(step.index))
+        entries.append({
+            "number": number, "makes": say(program.text(step.index)), "kind": step.op.gives,
+            "operation": step.op.name, "instrument": step.op.instrument,
+            "reads": [say(program.text(arg)) for arg in step.args], "plan": plans[step.index],
+            "sentence": say(sheet.spoken(step) if number else program.told(step.index)),
+            "lengths": [{"mm": one.mm, "marks": list(one.marks)} for length in _lengths(sheet, step) if number
+                        for one in length.measures],
+            "stage": stages.get(step.index), "why": say(step.why), **on_paper.told(step),
+            "value": list(map(float, drawn.values[step.index])),
+            "paper": place(step, drawn.values[step.index], on_paper.per(step.index)),
+        })  # fmt: skip
+    titles = [{"title": say(stage.title), "law": say(stage.law)} for stage, _ in program.stages]
+    return {"paper": sheet.paper, "stages": titles, "steps": entries}
+
+
+def _lengths(sheet: Panelled, step: Step) -> Sequence[Any]:
+    return sheet.measure(sheet.recorded.plans[step.index]).of(step)
+
+
+def place(step: Step, value: Sequence[Any], per_mm: float) -> list[float]:
+    """Where a mark lies, in mm from the origin of its plan, y down."""
+    numbers = [float(number) for number in value]
+    if step.op.gives == POINT:
+        return [numbers[0] / per_mm, -numbers[1] / per_mm + 0.0]
+    if step.op.gives == LINE:
+        a, b, c = numbers
+        size = math.hypot(a, b)
+        return [-a / size + 0.0, b / size + 0.0, -c / size / per_mm + 0.0]
+    radius = math.sqrt(max(numbers[-1], 0.0)) / per_mm
+    return [radius] if step.op.gives == OPENING else [numbers[0] / per_mm, -numbers[1] / per_mm + 0.0, radius]

@@ -1,0 +1,156 @@
+"""Sums and products as they are spoken: every number in so many digits that what is printed holds as it is printed.
+
+A ruler reads tenths of a millimetre. Where the printed product of tenths is not the printed result, one number more is
+told, and so on; given quantities and scales are told in full. Each number of a sum is of a kind, by a letter:
+
+    m  mm that are multiplied        M  mm that are squared        d  mm by which it is divided
+    f  a figure that multiplies      F  one that is squared        g  one that divides      a  one that is added
+
+Before them a sign says what the product of mm is taken from or added to 1, or Σ that mm are multiplied two and two and
+added; the kind of the result, m or f, is the last letter. Where no digits do, the result is what the printed numbers
+come to.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from graphplan.phrases import Said, Unknown, decimals, digits
+
+# By level: decimals of mm, decimals of a result in mm, figures of another result, figures of what is no length.
+LEVELS = ((1, 1, 4, 4), (2, 1, 4, 5), (2, 2, 4, 5), (3, 2, 4, 6), (3, 3, 4, 7), (4, 3, 4, 8), (4, 2, 3, 8))
+WHOLE = 2  # from this level on all whole figures of a result are printed
+HALF = 0.499  # of the last printed digit: how far off what the printed numbers come to may be
+EXACT, MOST_FIGURES = 1e-9, 8  # of a figure: within it all of it is printed, where so many figures do
+LENGTHS, FORMS = "mMd", "+-Σ"
+
+
+@dataclass(frozen=True)
+class Sum:
+    """The numbers of a sum, the result last, with their kinds."""
+
+    kinds: str
+    numbers: tuple[float, ...]
+
+    @cached_property
+    def level(self) -> int | Unknown:
+        """The first at which it holds as printed; the last where none does."""
+        unknown = next((number for number in self.numbers if isinstance(number, Unknown)), None)
+        if unknown is None:
+            return holding(self.kinds, self.numbers)
+        level: Unknown = unknown.level(self.kinds, self.numbers)
+        return level
+
+    def __getitem__(self, place: int) -> Said:
+        """A number as it is printed; -1 is the result."""
+        last = place % len(self.numbers) == len(self.numbers) - 1
+        return self._written(place, self.result if last else self.numbers[place])
+
+    def size(self, place: int) -> Said:
+        """The same without its sign."""
+        return self._written(place, abs(self.numbers[place]))
+
+    def _written(self, place: int, number: float) -> Said:
+        kind, result = self.kinds.lstrip(FORMS)[place], place % len(self.numbers) == len(self.numbers) - 1
+        if isinstance(self.level, Unknown):
+            return self.level.printed(number, ("r" if kind in LENGTHS else "v") if result else kind)
+        of_operand, of_result, _, figures = LEVELS[self.level]
+        if kind in LENGTHS:
+            return decimals(number, of_result if result else of_operand)
+        return digits(number, result_figures(number, self.level) if result else figures_of(number, figures))
+
+    @cached_property
+    def result(self) -> float:
+        """The result that is printed, before it is rounded."""
+        if isinstance(self.level, Unknown):
+            result: float = self.level.result(self.kinds, self.numbers)
+            return result
+        return result_at(self.level, self.kinds, self.numbers)
+
+    @property
+    def value(self) -> float:
+        """What the result is as printed; unknown as it is, where it is not known yet."""
+        number = self.result
+        return number if isinstance(self.level, Unknown) else rounded(number, self.kinds[-1], self.level, result=True)
+
+
+def result_at(level: int, kinds: str, numbers: Sequence[float]) -> float:
+    """The result, or at the last level what the printed numbers come to."""
+    if level < len(LEVELS) - 1:
+        return numbers[-1]
+    form, own = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
+    value = _value(form, own, [rounded(number, kind, level) for number, kind in zip(numbers[:-1], own, strict=False)])
+    return value if math.isfinite(value) else numbers[-1]
+
+
+def holding(kinds: str, numbers: Sequence[float]) -> int:
+    """The first level at which a sum holds as printed, the last where none does."""
+    form, kinds = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
+    for level in range(len(LEVELS)):
+        told = [rounded(number, kind, level) for number, kind in zip(numbers[:-1], kinds[:-1], strict=True)]
+        result = rounded(numbers[-1], kinds[-1], level, result=True)
+        found = _value(form, kinds, told)
+        if abs(found - result) <= HALF * _last_digit(numbers[-1], kinds[-1], level):
+            return level
+    return len(LEVELS) - 1
+
+
+def _value(form: str, kinds: str, numbers: Sequence[float]) -> float:
+    """What printed numbers come to."""
+    lengths = [(number, kind) for number, kind in zip(numbers, kinds, strict=False) if kind in LENGTHS]
+    value = 1.0
+    if form == "Σ":
+        value = sum(lengths[k][0] * lengths[k + 1][0] for k in range(0, len(lengths), 2))
+    else:
+        for number, kind in lengths:
+            value = _with(value, number, {"m": "f", "M": "F", "d": "g"}[kind])
+    value = {"-": 1.0 - value, "+": 1.0 + value}.get(form, value)
+    for number, kind in zip(numbers, kinds, strict=False):
+        value = value if kind in LENGTHS else _with(value, number, kind)
+    return value
+
+
+def _with(value: float, number: float, kind: str) -> float:
+    """A value multiplied or divided by a number, or with it added."""
+    if kind == "g":
+        return value / number if number else math.nan
+    return value + number if kind == "a" else value * number if kind == "f" else value * number * number
+
+
+def rounded(number: float, kind: str, level: int, *, result: bool = False) -> float:
+    """A number as it is printed at a level."""
+    of_operand, of_result, _, figures = LEVELS[level]
+    if kind in LENGTHS:
+        return float(f"{number:.{of_result if result else of_operand}f}")
+    return float(f"{number:.{result_figures(number, level) if result else figures_of(number, figures)}g}")
+
+
+def result_figures(number: float, level: int) -> int:
+    """In how many figures a result is printed: in few only where they tell all whole ones."""
+    power = _power(number)
+    return LEVELS[level][2] if power <= 2 else 4 if level < WHOLE else max(4, min(power + 1, 7))
+
+
+def _power(number: float) -> int:
+    """The power of ten of the first figure."""
+    return int(f"{number:e}".partition("e")[2])
+
+
+def figures_of(number: float, figures: int) -> int:
+    """In how many figures one is printed: in so many, or in more where these are all that it has."""
+    for count in range(figures, MOST_FIGURES + 1):
+        if abs(float(f"{number:.{count}g}") - number) <= EXACT * abs(number):
+            return count
+    return figures
+
+
+def _last_digit(number: float, kind: str, level: int) -> float:
+    """What one of the last printed digit of a result is, and of what is printed in whole numbers 1."""
+    if kind in LENGTHS:
+        return 10.0 ** -LEVELS[level][1]
+    power = _power(number)
+    unit = 10.0 ** (power - result_figures(number, level) + 1)
+    return unit if power >= 7 else min(1.0, unit)

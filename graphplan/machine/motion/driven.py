@@ -14,11 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.travel import told, travel_unit
 from graphplan.errors import Refused
 from graphplan.machine.integrals import Piecewise, Reals, settled
 from graphplan.machine.reduced.reduction import Reduction
 from graphplan.mechanism.load_tables import LoadTable
+from graphplan.mechanism.travel import travel_text, travel_unit
 
 NOTHING = 1e-9  # of the largest inertia: less is none
 SAMPLES = 48  # places of the cycle that show how large moments and inertias are
@@ -147,6 +147,6 @@ def _heavy(inertia: Piecewise, reduction: Reduction) -> None:
     values = inertia.at(travel)
     least = int(np.argmin(values))
     if not values[least] > NOTHING * values.max():
-        where = told(reduction.scene, float(travel[least] / reduction.unit))
+        where = travel_text(reduction.scene, float(travel[least] / reduction.unit))
         raise Refused("the machine", f"its reduced inertia is nothing at {where}",
                       "[masses] with the inertia of the first drive's link")

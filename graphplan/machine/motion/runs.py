@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from graphplan.cycle.travel import TURN
 from graphplan.errors import Refused
 from graphplan.machine.flywheel import energy, wittenbauer
 from graphplan.machine.motion.characteristics import TURNS, RunUp, limit_cycle, nominal, run_up, steady
@@ -17,6 +16,7 @@ from graphplan.machine.motion.driven import Driven, driven
 from graphplan.machine.motion.true_motion import TrueMotion, moved
 from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.travel import TURN
 
 TURN_TOLD = 360.0  # degrees
 FARTHEST = 1000  # turns that a motion is followed

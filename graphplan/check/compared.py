@@ -129,7 +129,7 @@ def _number(ours: Any, theirs: Any, scale: float) -> Compared:
     """One number, whatever it is made of."""
     if isinstance(theirs, Bounded):
         most = abs(theirs.value) + theirs.error
-        if most <= NOTHING * scale and abs(ours) <= CLOSE * scale:  # proven to be nothing, and drawn so but for rounding
+        if most <= NOTHING * scale and abs(ours) <= CLOSE * scale:  # proven to be zero, and drawn so but for rounding
             return Compared(0.0, 0.0, 0.0, UP * most, theirs.size)
         gap = abs(ours - theirs.value)
         if max(abs(theirs.value), gap) <= theirs.error and abs(ours) <= CLOSE * theirs.size:

@@ -63,6 +63,11 @@ class Piecewise:
         low, high = self.edges[panel], self.edges[panel + 1]
         return _sums(self.terms[..., panel, :], (2 * x - low - high) / (high - low))
 
+    def beside(self, size: npt.ArrayLike) -> Piecewise:
+        """The same functions, each zero where it is rounding alone beside a size, shape () or (k,)."""
+        largest = np.abs(self.terms).max(axis=(-2, -1), initial=0.0)
+        return replace(self, terms=np.where((largest > TOLERANCE * np.asarray(size))[..., None, None], self.terms, 0.0))
+
     @property
     def whole(self) -> Reals:
         """The integral over the whole range, shape (...)."""
@@ -121,7 +126,7 @@ def settled(function: Callable[[Reals], Reals], breaks: Sequence[float], size: n
 
     Reads a function of travels of shape (n,), which gives (n,) or, of several functions at once, (k, n); two or more
     breaks that grow, between which it is smooth (corners that are not named cost panels and not accuracy); and, of a
-    function in which larger numbers cancel, how large these are, shape () or (k,).
+    function in which larger numbers cancel, how large these are, shape () or (k,): what is rounding beside them is 0.
     Fails with `Refused` where the values have no limit, or are none.
     """
     waiting = _begun(breaks)
@@ -135,7 +140,7 @@ def settled(function: Callable[[Reals], Reals], breaks: Sequence[float], size: n
         kept.append((waiting[fine], terms[..., fine, :]))
         count, rough = count + len(waiting), waiting[~fine]
         if not len(rough):
-            return _joined(kept)
+            return _joined(kept).beside(size)
         if count > MOST:
             break
         waiting = _split(rough)

@@ -16,6 +16,7 @@ import numpy as np
 
 from graphplan.errors import Refused
 from graphplan.machine.integrals import Piecewise, Reals, settled
+from graphplan.machine.reduced.machine_size import ROUNDED
 from graphplan.machine.reduced.reduction import Reduction
 from graphplan.mechanism.load_tables import LoadTable
 from graphplan.mechanism.travel import travel_text, travel_unit
@@ -125,7 +126,7 @@ def driven(reduction: Reduction, wheel: float = 0.0, closing: float = 0.0) -> Dr
     sample = reduction.at(np.linspace(first, last, SAMPLES + 2)[1:-1])
     sizes = np.zeros(3 + 2 * len(sample.speed_loads))
     sizes[1] = abs(sample.inertia).max()
-    sizes[2] = sum(abs(moment).max() for moment in sample.by.values())
+    sizes[2] = max(sum(abs(moment).max() for moment in sample.by.values()), ROUNDED * reduction.size.moment)
     edges = [first, *(float(x) for x in reduction.breaks if first < x < last), last]
     curves = [replace(curve, edges=curve.edges * reduction.unit) for curve in settled(rows, edges, sizes)]
     _heavy(curves[0], reduction)

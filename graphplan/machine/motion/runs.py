@@ -104,16 +104,17 @@ def _end(machine: Driven, travel: float | None, stops: bool) -> float:
 
 
 def _with_wheel(scene: Scene, found: Reduction) -> tuple[Reduction, Driven]:
-    """The machine with the flywheel that is asked for and what closes its cycle: a moment, or its loads scaled."""
+    """The machine with the flywheel that is asked for, if it needs one, and what closes its cycle: a moment, or its
+    loads scaled."""
     wanted = scene.flywheel
     if wanted is None:
         return found, driven(found)
     speed = abs(float(wanted.speed)) * found.unit
     cycle = energy.steady(found, speed, wanted.closes, found.changing)
-    wheel = (wittenbauer.turning(cycle, float(wanted.inertia or 0)) if wanted.unevenness is None
-             else wittenbauer.sized(cycle, float(wanted.unevenness)))
+    wheel = (wittenbauer.turning(cycle, float(wanted.inertia or 0)).inertia if wanted.unevenness is None
+             else wittenbauer.needed(cycle, float(wanted.unevenness)))
     found = found.scaled(cycle.factor)
-    return found, driven(found, wheel.inertia, cycle.closing)
+    return found, driven(found, wheel, cycle.closing)
 
 
 def _compared(found: Run, speed: float) -> Run:

@@ -29,6 +29,7 @@ from graphplan.errors import Refused
 from graphplan.machine.reduced.breaks import breaks, common_period, in_order
 from graphplan.machine.reduced.friction import M_F, CycleLosses, FrictionOverCycle, cycle_losses
 from graphplan.machine.reduced.lever_drawing import lever_drawing
+from graphplan.machine.reduced.machine_size import MachineSize, machine_size
 from graphplan.machine.reduced.reduced_loads import LoadValues, SpeedLoad, acting, loads_with
 from graphplan.machine.reduced.unit_motion import ACCELERATIONS, VELOCITIES, Rates, UnitMotion, moving_points
 from graphplan.mechanism.model import FRAME, Find, Mass, Scene
@@ -86,6 +87,11 @@ class Reduction:
         self.friction = FrictionOverCycle(scene, self.motion, ends) if rubs else None
         found = breaks(self.values, self.motion, ends)
         self.breaks = in_order([*found, *self.friction.edges.tolist()], ends) if self.friction else found
+
+    @cached_property
+    def size(self) -> MachineSize:
+        """How large inertia and moment are, beside which a number is zero."""
+        return machine_size(self.scene)
 
     @property
     def changing(self) -> tuple[str, ...]:

@@ -154,7 +154,7 @@ class Network:
         return {point: _followed(pairs, point) for point in pairs}
 
     def _coincident_points(self) -> dict[tuple[str, str], str]:
-        """Points of a guide's link that mark the place under a sliding point: A3 on link 3 under A, or under A2 of link 2.
+        """Points of a guide's link that mark the place under a sliding point: A3 on link 3 under A, or under A2 on 2.
 
         The names say so. What lies there by chance in this pose is a point of its own.
         """

@@ -30,14 +30,14 @@ class Machine:
         self.ways: dict[str, complex] = {}
         rng.choice((self._slider, self._rocker, self._yoke, self._block))()
         if rng.random() < 0.4:
-            self._slider(start=rng.choice([name for name in self.points if name not in self.links["frame"]]))
+            self._slider(rng.choice([name for name in self.points if name not in (*self.links["frame"], *self.ways)]))
 
     def _slider(self, start: str = "A") -> None:
         """A connecting rod with a slider on the frame, beyond all that its joint can reach."""
         way = cmath.rect(1.0, math.radians(self.rng.choice((*GRAVITY, self.rng.uniform(0, 360)))))
         joint, k = self.points[start], len(self.links)
         off = self.rng.choice((0.0, self.rng.uniform(-0.1, 0.1))) * self.reach
-        rod = self.reach * self.rng.uniform(2.0, 2.6)
+        rod = self.reach * self.rng.uniform(2.2, 2.8)
         across = off - (joint / way).imag
         end, link = f"B{k}", str(k)
         self.points[end] = joint + way * complex(math.sqrt(rod**2 - across**2), across)

@@ -34,8 +34,8 @@ class RunUp:
 
 
 def work(machine: Driven, omega: Reals) -> tuple[Reals, Reals]:
-    """The work of all loads over a cycle at constant speeds, shape (k,), and that of their sizes, the moment that closes
-    the cycle counted apart."""
+    """The work of all loads over a cycle at constant speeds, shape (k,), and that of their sizes; the moment that
+    closes the cycle counts by itself."""
     nodes, weights = np.polynomial.legendre.leggauss(24)
     edges = machine.reduced[0].edges
     low, width = edges[:-1, None], np.diff(edges)[:, None]

@@ -24,7 +24,7 @@ WIDEST = 8  # panels at least in the whole range, that no wave passes between th
 MOST, DEEPEST = 4096, 64  # panels, and times that one is halved: what needs more has no limit somewhere
 TAIL = 3  # terms at the end of a series that tell how far it is from settled
 SOUGHT = 24  # places in a panel between which a sign is seen to change
-NOTHING = 1e-14  # of the largest value: has no sign
+SIGNLESS = 1e-14  # of the largest value: has no sign
 HALVINGS = 60  # of an interval with a root: to the last digit
 
 
@@ -91,7 +91,7 @@ class Piecewise:
         low, high = self.edges[:-1, None], self.edges[1:, None]
         places = ((low + high) / 2 + (high - low) / 2 * grid).ravel()
         values = _sums(self.terms[:, None, :], grid[None, :]).ravel()
-        signs = np.where(np.abs(values) > NOTHING * np.abs(values).max(), np.sign(values), 0.0)
+        signs = np.where(np.abs(values) > SIGNLESS * np.abs(values).max(), np.sign(values), 0.0)
         seen = np.flatnonzero(signs)
         changed = signs[seen[:-1]] != signs[seen[1:]]
         first, last = seen[:-1][changed], seen[1:][changed]
@@ -116,7 +116,7 @@ class Piecewise:
         places = np.unique(np.concatenate([slope.roots(), self.edges]))
         left, right = self.at(places, -1), self.at(places, 1)
         least, most = np.minimum(left, right), np.maximum(left, right)
-        close = NOTHING * max(most.max(), -least.min())
+        close = SIGNLESS * max(most.max(), -least.min())
         down, up = np.argmax(least <= least.min() + close), np.argmax(most >= most.max() - close)
         return (float(places[down]), float(least.min())), (float(places[up]), float(most.max()))
 

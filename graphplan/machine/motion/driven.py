@@ -21,7 +21,7 @@ from graphplan.machine.reduced.reduction import Reduction
 from graphplan.mechanism.load_tables import LoadTable
 from graphplan.mechanism.travel import travel_text, travel_unit
 
-NOTHING = 1e-9  # of the largest inertia: less is none
+NO_INERTIA = 1e-9  # of the largest inertia: less is none
 SAMPLES = 48  # places of the cycle that show how large moments and inertias are
 
 
@@ -147,7 +147,7 @@ def _heavy(inertia: Piecewise, reduction: Reduction) -> None:
     travel = (low + (high - low) * np.linspace(0, 1, 9)).ravel()
     values = inertia.at(travel)
     least = int(np.argmin(values))
-    if not values[least] > NOTHING * values.max():
+    if not values[least] > NO_INERTIA * values.max():
         where = travel_text(reduction.scene, float(travel[least] / reduction.unit))
         raise Refused("the machine", f"its reduced inertia is nothing at {where}",
                       "[masses] with the inertia of the first drive's link")

@@ -20,8 +20,8 @@ from graphplan.machine.motion.runs import run
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 
-# the weights of 0, 9, 13 and 16 move across gravity, 67 runs evenly
-SEEDS = range(200) if os.environ.get("TESTS") == "thorough" else (0, 9, 13, 16, 67)
+# the weights of 0, 9, 13 and 16 move across gravity, 67 runs evenly; balanced, a mass centre of 124 lies in its hinge
+SEEDS = range(200) if os.environ.get("TESTS") == "thorough" else (0, 9, 13, 16, 67, 124)
 CLOSE = 1e-8  # of the largest: what second opinions may differ by
 
 

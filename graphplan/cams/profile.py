@@ -230,7 +230,9 @@ def _pressure(cam: Cam, faults: Faults) -> None:
 
 
 def _enough(task: Task) -> str:
-    """Which base circle keeps the pressure angles."""
+    """Which base circle keeps the pressure angles; those of a flat face do not hang on it."""
+    if task.follower.flat:
+        return "a smaller stroke, or a larger angle"
     try:
         least = based(replace(task, cam=replace(task.cam, base=PRESSURE))).base
     except GraphplanError:

@@ -47,6 +47,12 @@ def test_cams_follow_their_laws(first: int) -> None:
     assert cams > TOGETHER / 2
 
 
+def test_a_face_that_leans_too_far_is_refused() -> None:
+    """A flat face on an arm beyond the pressure angle that is allowed is refused in words."""
+    with pytest.raises(SceneError, match="a smaller stroke"):
+        made(parse(task_text(719), "cam 719"))
+
+
 def test_a_cam_that_crosses_itself_does_not_follow_its_law() -> None:
     """An arm that swings past the line of centres draws a loop: it is refused, and the search misses the law there."""
     stages = (90, "sine", "stroke = 200"), (90, "sine", "stroke = -200"), (180, "dwell", "")

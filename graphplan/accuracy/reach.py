@@ -19,13 +19,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.cycle.relations import Relations, relations
-from graphplan.cycle.travel import paces
 from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, Step, evaluate
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.travel import paces
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Compound, Construction
 from graphplan.sheet.cycle_frames import SAME, given_in, scene_in

@@ -167,7 +167,7 @@ class Cam:
             names = said("the rise"), said("the return")
             for way, usual, name in zip((1, -1), USUAL[self.task.follower.oscillates], names, strict=True):
                 angle, size = self.steepest[way]
-                if size > usual:
+                if size > usual + JUST:
                     yield said("at {0}° the pressure angle of {1} is {2}°; as a rule it is {3}° at most",
                                digits(angle), name, digits(size), digits(usual))
 
@@ -230,7 +230,9 @@ def _pressure(cam: Cam, faults: Faults) -> None:
 
 
 def _enough(task: Task) -> str:
-    """Which base circle keeps the pressure angles."""
+    """Which base circle keeps the pressure angles; those of a flat face do not hang on it."""
+    if task.follower.flat:
+        return "a smaller stroke, or a larger angle"
     try:
         least = based(replace(task, cam=replace(task.cam, base=PRESSURE))).base
     except GraphplanError:
@@ -251,8 +253,9 @@ def _hollow(cam: Cam, faults: Faults) -> None:
     _dropping(cam, "flat face", faults)
     angle, size = cam.narrowest
     least = float(cam.task.cam.least)
-    if size <= 0 or size < least - JUST * cam.pair.base:
-        why = "it is hollow there, so that the face loses it" if size < 0 else "it is too narrow"
+    nothing = JUST * cam.pair.base
+    if size <= nothing or size < least - nothing:
+        why = "it is hollow there, so that the face loses it" if size < -nothing else "it is too narrow"
         what = f"at {shown(angle)} degrees the profile's radius of curvature is {shown(size)}: {why}"
         faults.add("cam.base", what, _broad(cam))
 
@@ -271,7 +274,7 @@ def _undercut(cam: Cam, faults: Faults) -> None:
     if follower.contact != POINTED:
         _dropping(cam, "roller", faults)
     angle, size = cam.narrowest
-    if size <= cam.roller:
+    if size <= cam.roller + JUST * cam.pair.base:
         faults.add("follower.radius", f"at {shown(angle)} degrees the path of the roller's centre has the radius of "
                    f"curvature {shown(size)}: a roller of {shown(cam.roller)} cuts the profile under",
                    f"half of it, {shown(size / 2)}, or a larger base circle")
@@ -296,14 +299,28 @@ def _pivot(cam: Cam, faults: Faults) -> None:
 
 def _crossing(cam: Cam, faults: Faults) -> None:
     """Note where the profile, or the path of the roller's centre, crosses itself."""
-    import shapely
-
     curves = [("cam.base", "the path of the roller's centre", cam.pitch_curve)] if isinstance(cam.pair, Rolled) else []
     for where, what, curve in [*curves, ("cam.base", "the profile", cam.outline)]:
-        ring = shapely.Polygon(np.column_stack((curve.real, curve.imag)))
-        if not ring.is_valid:
-            reason = shapely.is_valid_reason(ring)
-            x, y = (float(part) for part in reason[reason.index("[") + 1 : reason.index("]")].split())
-            faults.add(where, f"{what} crosses itself at ({shown(x)}, {shown(y)})", "a larger base circle, or a "
-                       "smaller roller")
+        if crossing := _self_crossing(curve):
+            faults.add(where, f"{what} crosses itself at ({shown(crossing.real)}, {shown(crossing.imag)})",
+                       "a larger base circle, or a smaller roller")
             return
+
+
+def _self_crossing(curve: Array) -> complex | None:
+    """Where a closed curve crosses itself; None where no loop of it is larger than rounding of its extent.
+
+    Where pieces of the law meet, the end of one may lie beyond the beginning of the next by rounding.
+    """
+    import shapely
+
+    ring = shapely.LinearRing(np.column_stack((curve.real, curve.imag)))
+    loops = shapely.get_parts(shapely.polygonize([shapely.node(ring)]))
+    sizes = [math.dist((low, left), (high, right)) for low, left, high, right in shapely.bounds(loops)]
+    least = JUST * float(np.ptp(curve.real) + np.ptp(curve.imag))
+    large = sorted((size, k) for k, size in enumerate(sizes) if size > least)
+    if len(large) < 2:
+        return None
+    (_, smallest), *others = large
+    rest = shapely.union_all(loops[[k for _, k in others]]).boundary
+    return complex(*shapely.shortest_line(loops[smallest].boundary, rest).coords[0])

@@ -26,6 +26,7 @@ POINTED, ROLLER, FLAT = "point", "roller", "flat"
 PRESSURE, CONVEX, SMALLEST = "pressure angle", "convex", "smallest"
 TURNS = {"counter-clockwise": 1, "clockwise": -1}
 LEAST, MOST = 6, 72  # divisions of the turn
+LEVEL = 1e-9  # of the largest lift: a lift of no more is none
 
 
 @dataclass(frozen=True)
@@ -257,10 +258,10 @@ def _checked(task: Task, faults: Faults) -> None:
     turn, rest = law.closed
     if turn != 360:
         faults.add("law", f"its stages take {shown(turn)} degrees", "stages of 360 degrees together")
-    if rest:
+    if abs(rest) > LEVEL * law.largest(0) / law.times:
         faults.add("law", f"after one turn the lift is {shown(rest)}", "strokes that add up to 0")
     at, depth = law.extremum(lambda angles, one: -one.at(angles))
-    if depth > 1e-9 * law.largest(0) / law.times:
+    if depth > LEVEL * law.largest(0) / law.times:
         faults.add("law", f"the lift is {shown(-depth)} at {shown(at)} degrees, below where it begins",
                    "begin with the stage in which the follower is lowest")
     if not any(stage.stroke or stage.motion == TABLE for stage in task.stages):

@@ -171,8 +171,7 @@ class Proofs(Domain):
 def assembled(scene: Scene, given: Scene, by: Bounds) -> Scene:
     """A pose that is constructed, in numbers with bounds: where its steps lead from the given scene in such numbers."""
     assert scene.assembly is not None
-    travels = scene.assembly.travels
-    assembly = replace(scene.assembly, given=given, moves=moved_on(given, travels, by.reckoning))
+    assembly = replace(scene.assembly, given=given, moves=moved_on(given, scene.assembly.shifts, by.reckoning))
     board = Board()
     drawn = Assembler(board, scene, assembly)
     guides = {slide: drawn.guide(slide) for slide in scene.slides}

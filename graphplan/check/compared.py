@@ -16,10 +16,9 @@ from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.solver.bounds import UP, Bounded
 
-NOTHING = 2.0**-64  # of the largest of a kind
+NOTHING = 2.0**-64  # of the largest of a kind: a number that is proven to be smaller is zero
 DIGITS = 1e-9  # of a number: what its bound may be at most
 CLOSE = 1e-12  # of a number: differences up to this are rounding in any construction
-ZERO = 1e-250  # a bound that proves a zero
 
 Results = Mapping[str, Mapping[str, Any]]
 # Of these nothing is proven: they count beside the largest of their group.
@@ -129,8 +128,9 @@ def _vector(ours: tuple[Any, ...], theirs: tuple[Any, ...], least: float, scale:
 def _number(ours: Any, theirs: Any, scale: float) -> Compared:
     """One number, whatever it is made of."""
     if isinstance(theirs, Bounded):
-        if not theirs.value and theirs.error <= ZERO and abs(ours) <= CLOSE * scale:
-            return Compared(0.0, 0.0, 0.0, 0.0, theirs.size)  # proven to be nothing, and drawn so but for rounding
+        most = abs(theirs.value) + theirs.error
+        if most <= NOTHING * scale and abs(ours) <= CLOSE * scale:  # proven to be zero, and drawn so but for rounding
+            return Compared(0.0, 0.0, 0.0, UP * most, theirs.size)
         gap = abs(ours - theirs.value)
         if max(abs(theirs.value), gap) <= theirs.error and abs(ours) <= CLOSE * theirs.size:
             gap, ours = abs(theirs.value), 0.0  # no digit of it is known: it may be nothing, and so it is printed

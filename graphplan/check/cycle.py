@@ -17,6 +17,7 @@ from graphplan.check.poses import Round, gaps, groups, sound
 from graphplan.check.trusted import construct
 from graphplan.cycle.centrodes import Centrodes, rolling
 from graphplan.cycle.curves import Curve, passed
+from graphplan.cycle.pose import in_pose
 from graphplan.cycle.turn import Turn, followed
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.mechanism.model import FRAME, Scene, Slide
@@ -28,6 +29,7 @@ from graphplan.phrases import Said, said
 
 TURN = 2 * np.pi
 MOST = 4  # diagrams that stand side by side
+ELSEWHERE = 3  # poses in which steps are recorded where those of the given pose do not serve
 Progress = Callable[[str, int, int], None]
 
 
@@ -84,9 +86,14 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
     left = Round.reached(scene, turn.points, turn.guides, turn.loads)
     found = Cycle(scene, drawing, turn, drawing.blank(positions), dict(turn.faults),
                   {kind: np.full(positions, np.nan) for kind in groups(drawing)}, centrodes=rolling(motion, travel))
-    for name, other in _forms(drawing, method, plan, inertia):
-        if not left.places.size:
-            break
+
+    def elsewhere() -> Iterator[tuple[str, Scene]]:
+        """Poses in which nothing was drawn yet: their steps rely on nothing that coincides in the given pose alone."""
+        for _ in range(ELSEWHERE if found.faults.keys() & {*left.places.tolist()} else 0):
+            pose = int(left.places[left.places.size // 2])
+            yield f"the steps of pose {pose}", in_pose(scene, turn, pose)
+
+    for name, other in _forms(drawing, elsewhere(), method, plan, inertia):
         drawn = other.evaluate(left.points, left.guides, loads=left.loads, workers=workers, compiled=machine,
                                progress=told("plans"))
         apart = gaps(left, other, drawn.results, told("check"))
@@ -97,6 +104,8 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
             found.otherwise.update((int(place), name) for place in left.places[kept])
         _enter(found, left, drawn.results, apart, kept | (other is drawing))
         left = left.some(~kept)
+        if not left.places.size:
+            break
     faults = {k: why for k, why in sorted(found.faults.items()) if k not in found.otherwise}
     for z in (*(z for named in found.results.values() for z in named.values()), *found.gaps.values()):
         z[list(faults)] = np.nan  # near a limit there are numbers, and they say nothing
@@ -111,16 +120,26 @@ def _construct(scene: Scene, **how: str) -> Construction:
         return unchecked(scene, **how)  # type: ignore[arg-type]
 
 
-def _forms(drawing: Construction, method: str, plan: str, inertia: str) -> Iterator[tuple[str, Construction]]:
-    """The recorded construction; then, where the form is free, those that go another way through a ring."""
+def _forms(drawing: Construction, elsewhere: Iterator[tuple[str, Scene]], method: str, plan: str,
+           inertia: str) -> Iterator[tuple[str, Construction]]:
+    """The recorded construction; then, where the form is free, those that go another way through a ring; then those
+    that are recorded elsewhere."""
     yield "", drawing
     for name in () if method else METHODS:
-        try:
-            other = unchecked(drawing.scene, method=name, plan=plan, inertia=inertia)
-        except GraphplanError:
-            continue
-        if other.ways != drawing.ways:
+        other = _recorded(drawing.scene, name, plan, inertia)
+        if other and other.ways != drawing.ways:
             yield ", ".join(other.ways), other
+    for name, scene in elsewhere:
+        if other := _recorded(scene, method, plan, inertia):
+            yield name, other
+
+
+def _recorded(scene: Scene, method: str, plan: str, inertia: str) -> Construction | None:
+    """The construction in a scene's own pose, if there is one."""
+    try:
+        return unchecked(scene, method=method, plan=plan, inertia=inertia)
+    except GraphplanError:
+        return None
 
 
 def _enter(found: Cycle, part: Round, results: Mapping[str, Mapping[str, Any]], apart: Mapping[str, Any],

@@ -66,7 +66,7 @@ def _pose(found: Report) -> dict[str, Any]:
     """The travel of a constructed pose, of each drive where there are several, and where its points are."""
     if found.scene.assembly is None:
         return {}
-    travels = [float(travel) for travel in found.scene.assembly.travels[:len(found.scene.drives)]]
+    travels = [float(travel) for travel in found.scene.assembly.travels]
     points = {name: [number(part) for part in map(float, at)] for name, at in found.scene.points.items()}
     extreme = found.scene.assembly.extreme
     told = {} if extreme is None else {"extreme": extreme.way, "link": extreme.link, "time_ratio": extreme.time_ratio}

@@ -77,13 +77,8 @@ def link_motion(scene: Scene, positions: int) -> LinkMotion:
     still, results = np.zeros(positions, dtype=complex), found.results
     velocity, acceleration = ({name: results[kind].get(name, still) for name in pins}
                               for kind in ("velocity", "acceleration"))
-    return LinkMotion(sense(scene) * travel, closed, found.turn.points, found.turn.guides, found.faults, moved, at,
+    return LinkMotion(travel, closed, found.turn.points, found.turn.guides, found.faults, moved, at,
                       velocity, acceleration, results["omega"], results["alpha"])
-
-
-def sense(scene: Scene) -> int:
-    """In which sense the first drive moves: 1, or -1 where it turns clockwise, or against its guide's direction."""
-    return -1 if scene.drives[0].rate < 0 else 1
 
 
 def _span(scene: Scene, positions: int) -> tuple[tuple[float, float], bool]:
@@ -97,6 +92,4 @@ def _span(scene: Scene, positions: int) -> tuple[tuple[float, float], bool]:
         low, high = (round(math.degrees(end), 12) for end in (low, high))
     step = (high - low) / positions
     ends = (low, high - step) if motion.whole else (low + step / 2, high - step / 2)
-    if sense(scene) < 0:
-        ends = (-ends[0], -ends[1]) if motion.whole else ends[::-1]
     return ends, motion.whole

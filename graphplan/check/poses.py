@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.arithmetics import FLOATS
-from graphplan.check.compared import CLOSE, NOTHING, compared, drawn_sizes, each, plain, sliding, weight
+from graphplan.check.compared import CLOSE, NOTHING, compared, drawn_sizes, each, plain, scales, sliding, weight
 from graphplan.check.report import by_part, opinion
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
@@ -182,7 +182,11 @@ def sound(part: Round, drawing: Construction, results: Results, apart: Mapping[s
 
 def _sound(pose: Round, drawing: Construction, ours: Results, worst: float) -> dict[str, float]:
     """The differences of one pose that is sound, by group: beside the bounds that are proven there, or where none are,
-    beside the condition; nothing of one that is not."""
+    beside the condition; nothing of one that is not.
+
+    A pose of a cycle is known to rounding of the mechanism, and so are its numbers: those that are nothing beside the
+    largest of their kind count beside that one.
+    """
     scene = alone(pose.posed)
     try:
         told = opinion(scene, FLOATS)
@@ -195,12 +199,15 @@ def _sound(pose: Round, drawing: Construction, ours: Results, worst: float) -> d
         return {kind_of(kind).group: float(worst) for kind in ours} if holds else {}
     numbers = compared(drawing, ours, truth, lambda part, name: max(
         float(_read_from(scene, truth, part, name)), float(_rolling(scene, told.rates, part))))
-    found = dict.fromkeys(groups(drawing), 0.0)
+    found, largest = dict.fromkeys(groups(drawing), 0.0), scales(drawing, truth)
     for kind, named in numbers.items():
+        scale = largest[kind_of(kind).group] / weight(drawing, kind)
         for number in (number for vector in named.values() for number in vector):
-            if not (number.close or number.gap <= SAFETY * (number.bound - number.gap)):
+            nothing = number.near and abs(number.value) <= CLOSE * scale
+            if not (number.close or nothing or number.gap <= SAFETY * (number.bound - number.gap)):
                 return {}
-            found[kind_of(kind).group] = max(found[kind_of(kind).group], float(number.beside("gap")))
+            gap = number.gap / scale if nothing else number.beside("gap")
+            found[kind_of(kind).group] = max(found[kind_of(kind).group], float(gap))
     return found
 
 

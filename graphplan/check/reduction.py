@@ -8,7 +8,6 @@ number counts beside the size of what cancels in it.
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import Any
 
@@ -18,6 +17,7 @@ from graphplan.check.compared import CLOSE
 from graphplan.check.poses import BLOCK, EPSILON, SAFETY, Round, alone
 from graphplan.errors import Disagreement, GraphplanError
 from graphplan.machine.reduced.friction import M_F
+from graphplan.machine.reduced.machine_size import ROUNDED
 from graphplan.machine.reduced.reduced_loads import loads_with
 from graphplan.machine.reduced.reduction import Reduced, Reduction
 from graphplan.machine.reduced.unit_motion import at_unit_rate
@@ -65,7 +65,7 @@ def checked(reduction: Reduction, travel: Any, side: int = 1) -> dict[str, float
             opinion = Opinion(reduction, travel[k : k + 1], side)
             ours = smooth(reduction.at(travel[k : k + 1], side), what)[0]
             truth = opinion.truth[what].value[0]
-            if abs(ours - truth) <= CLOSE * opinion.usual[what]:
+            if abs(ours - truth) <= CLOSE * getattr(reduction.size, what):
                 gap[k] = 0.0  # beside what these masses and loads do elsewhere both are nothing
             elif not gap[k] <= SAFETY * EPSILON * opinion.condition:
                 where = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
@@ -82,9 +82,10 @@ def weights_gap(reduction: Reduction, travel: Any) -> float:
     Fails with `Disagreement` where that is more than rounding.
     """
     by, projected = reduction.at(travel).by, reduction.projections(travel)
-    size = max((float(np.max(np.abs(moment), initial=0.0)) for moment in projected.values()), default=0.0)
     worst = max((float(np.max(np.abs(by[name] - moment))) for name, moment in projected.items()), default=0.0)
-    gap = worst / size if size else worst
+    least = ROUNDED * reduction.size.moment
+    size = max([least, *(float(np.max(np.abs(moment), initial=0.0)) for moment in projected.values())])
+    gap = worst / size if worst else 0.0
     if gap > CLOSE:
         raise Disagreement(reduction.scene.name, "weights", "otherwise by the lever", "by their projections", gap)
     return gap
@@ -102,9 +103,9 @@ def lever(reduction: Reduction, travel: float = 0.0) -> tuple[Construction, floa
         x, y = map(float, drawing.scene.driven_slide(drive).direction)
         balance = (complex(balance) * complex(x, -y)).real / abs(complex(x, y))
     drawn = -reduction.sense * balance * float(NEWTONS[reduction.scene.units.force])
-    size = max((abs(float(part[0])) for part in found.by.values()), default=0.0)
     told = float(smooth(found, "moment")[0])
-    gap = abs(drawn - told) / size if size else abs(drawn)
+    size = max([ROUNDED * reduction.size.moment, *(abs(float(part[0])) for part in found.by.values())])
+    gap = abs(drawn - told) / size if drawn != told else 0.0
     if gap > CLOSE and not gap <= SAFETY * EPSILON * Opinion(reduction, np.array([travel]), 1).condition:
         raise Disagreement(reduction.scene.name, "lever", f"{drawn:.15g}", f"{told:.15g}", gap)
     return drawing, float(gap)
@@ -122,7 +123,7 @@ def friction_gap(reduction: Reduction, travel: Any) -> float:
     turn = reduction.motion.turn(travel)
     rates = reduction.motion.velocities(turn)
     found, values = rubbing.at(travel), rubbing.loads(travel, turn, rates)
-    worst, usual = 0.0, Opinion(reduction, travel[:1], 1).usual["moment"]
+    worst, usual = 0.0, reduction.size.moment
     for k in range(travel.size):
         assert rubbing.scene.loads is not None
         acting = loads_with(rubbing.scene.loads, {name: complex(z[k]) for name, z in values.items()})
@@ -178,22 +179,6 @@ class Opinion:
         twice = self._kinetic(self.rates.acceleration, self.rates.alpha)
         return {"inertia": self._kinetic(self.rates.velocity, self.rates.omega), "moment": self._power(),
                 "slope": twice * (2 / self.unit)}
-
-    @property
-    def usual(self) -> dict[str, float]:
-        """About how large inertia, moment and slope are: if all masses and loads moved as the mechanism's reach does.
-        """
-        loads, units = self.scene.loads, self.scene.units
-        assert loads is not None
-        arm = self.scene.extent * self.metres if self.motion.turns else 1.0
-        masses = [float(m.mass) * arm**2 + float(m.inertia) / self.unit**2 for m in loads.masses.values()]
-        forces = [math.hypot(*map(float, force.value)) * arm for force in loads.forces]
-        forces += [abs(float(moment.value)) / self.unit for moment in loads.moments]
-        weights = [float(m.mass) * math.hypot(*map(float, loads.gravity)) * arm for m in loads.masses.values()]
-        kilogram, newton = float(KILOGRAMS[units.mass]), float(NEWTONS[units.force])
-        inertia = kilogram * sum(masses)
-        return {"inertia": inertia, "moment": kilogram * sum(weights) + newton * sum(forces),
-                "slope": inertia / self.unit}
 
     def gaps(self, found: Reduced) -> Gaps:
         """The differences of what was found."""

@@ -66,7 +66,7 @@ def _film(drawing: Construction, composition: Composition, moved: Loop, seconds:
     """The sheets of a loop, in its order; where nothing can be drawn, which is told, the mechanism alone."""
     from graphplan.accuracy.reach import constructions
     from graphplan.check.poses import checked
-    from graphplan.cycle.travel import travel_unit
+    from graphplan.mechanism.travel import travel_unit
     from graphplan.output.animation import Film
     from graphplan.phrases import arranged, digits, unit
     from graphplan.sheet.cycle_frames import sheets

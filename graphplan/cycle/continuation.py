@@ -22,7 +22,8 @@ import numpy as np
 from graphplan.cycle.groups import Group
 from graphplan.cycle.linkage import Array, Linkage
 from graphplan.cycle.newton import Lies
-from graphplan.cycle.travel import TURN, afford, travel_unit
+from graphplan.cycle.travel import afford
+from graphplan.mechanism.travel import TURN, travel_unit
 
 Progress = Callable[[float], None]
 """Is told how much of the path is followed, from 0 to 1."""

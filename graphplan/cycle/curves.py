@@ -99,16 +99,16 @@ def passed(name: str, unit: str, travel: Reals, rate: float, s: Reals, v: Reals,
              period: float | None = None, travel_unit: str = "rad") -> Curve:
     """The curve of positions that a drive passes at a constant rate.
 
-    Where `period` is given it closes: the first position, so much travel later, is added at the end. A drive that runs
-    back passes the positions in reverse. Angles need not be unwrapped.
+    `travel` counts in the sense in which the drive moves; positions that run back are taken in reverse. Where `period`
+    is given it closes: the first position, so much travel later, is added at the end. Angles need not be unwrapped.
     """
     arrays = [np.asarray(array, dtype=float) for array in (travel, s, v, a)]
+    if arrays[0][0] > arrays[0][-1]:
+        arrays = [array[::-1] for array in arrays]
     if period is not None:
         arrays = [np.append(array, array[0] + over) for array, over in zip(arrays, (period, 0, 0, 0), strict=True)]
-    if rate < 0:
-        arrays = [array[::-1] for array in arrays]
     travel, s, v, a = arrays
-    time = (travel - travel[0]) / rate
+    time = (travel - travel[0]) / abs(rate)
     return Curve(name, unit, travel, time, _unwrapped(s) if unit == "rad" else s, v, a, period is not None, travel_unit)
 
 

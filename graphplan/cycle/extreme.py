@@ -15,6 +15,7 @@ from fractions import Fraction
 from graphplan.cycle.turn import follow
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Extreme, Scene
+from graphplan.mechanism.travel import sense
 from graphplan.methods.motion.network import Network
 from graphplan.phrases import Said, said
 
@@ -83,17 +84,18 @@ def _hold(scene: Scene, link: str, joint: str) -> str | complex | None:
 
 
 def _travel(scene: Scene, one: Extreme) -> float | None:
-    """How far the drive goes to an extreme position, in degrees: on from the given pose, else back; none where it does
-    not come there."""
+    """How far the drive goes to an extreme position in its sense, in degrees: on from the given pose, else back; none
+    where it does not come there."""
     at = {name: complex(*map(float, place)) for name, place in scene.points.items()}
     O, A, B = at[one.pivot], at[one.pin], at[one.joint]
     long = abs(B - A) + WAYS[one.way] * abs(A - O)
     if abs(long) <= SAME * scene.extent:
         return None
-    sense = 1 if scene.drives[0].on == FRAME else -1
+    drive = scene.drives[0]
+    way = sense(drive) * (1 if drive.on == FRAME else -1)
     for joint in _crossings(scene, one, O, B, abs(long), at):
         arm = WAYS[one.way] * (joint - O) / long
-        turn = sense * math.degrees(cmath.phase(arm / (A - O))) % 360
+        turn = way * math.degrees(cmath.phase(arm / (A - O))) % 360
         for travel in (turn, turn - 360):
             found = follow(scene, 1, (travel, travel))
             if 0 not in found.faults and abs(found.points[one.joint][0] - joint) <= SAME * scene.extent:

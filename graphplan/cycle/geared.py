@@ -1,4 +1,4 @@
-"""How far gears turn links: the travels that the drives of a train give it, each link laid off as if it were driven.
+"""How far gears turn links: what the drives of a train give it, each link laid off as if it were driven.
 
 The turns obey the same ratios as their rates, as long as the centres keep apart: exact in fractions.
 """
@@ -18,15 +18,15 @@ from graphplan.phrases import said
 Row = dict[str, Fraction]  # what links' turns are multiplied by in a sum, which is the value of ""
 
 
-def driven_by_gears(scene: Scene, travels: tuple[Fraction, ...]) -> tuple[Scene, tuple[Fraction, ...]]:
-    """The scene with drives in the place of its gears, and the travels of all drives.
+def driven_by_gears(scene: Scene, shifts: tuple[Fraction, ...]) -> tuple[Scene, tuple[Fraction, ...]]:
+    """The scene with drives in the place of its gears, and how far all drives go, counter-clockwise or along.
 
     Fails with `Refused` where that is not so: of a rack, and of gears whose line of centres no train alone turns.
     """
     if not scene.gears and not scene.contacts:
-        return scene, travels
-    rows = [_row((drive.link, 1), (drive.on, -1), turn=travel)
-            for drive, travel in zip(scene.drives, travels, strict=True) if not drive.slides]
+        return scene, shifts
+    rows = [_row((drive.link, 1), (drive.on, -1), turn=shift)
+            for drive, shift in zip(scene.drives, shifts, strict=True) if not drive.slides]
     rows += [row for gear in scene.gears if (row := _ratio(scene, gear))]
     turns = _determined(rows) | {FRAME: Fraction(0)}
     more, led = _led(scene, turns)
@@ -37,7 +37,7 @@ def driven_by_gears(scene: Scene, travels: tuple[Fraction, ...]) -> tuple[Scene,
     others = replace(scene, written=tuple(pair for pair in scene.written if pair not in scene.gears), redundant=(),
                      repeating=())
     return (others.with_drives((*scene.drives, *more)),
-            (*travels, *(turns[drive.link] - turns[drive.on] for drive in more)))
+            (*shifts, *(turns[drive.link] - turns[drive.on] for drive in more)))
 
 
 def _led(scene: Scene, turns: Row) -> tuple[list[TurningDrive], set[str]]:

@@ -9,11 +9,11 @@ import numpy as np
 
 from graphplan.cycle.linkage import Array, number
 from graphplan.cycle.rates import Moved
-from graphplan.cycle.travel import travel_unit
 from graphplan.mechanism.load_tables import SPEED, LoadTable
-from graphplan.mechanism.load_values import STANDING, driven, guide_origin, sense
+from graphplan.mechanism.load_values import STANDING, guide_origin, onward
 from graphplan.mechanism.model import Force, Scene, Slide
 from graphplan.mechanism.order import changing_loads
+from graphplan.mechanism.travel import travel_unit
 
 AHEAD = 1e-4
 """How far ahead, in radians or of the mechanism's extent, a slide at a dead point is seen to move."""
@@ -46,19 +46,18 @@ def _way(force: Force, points: Mapping[str, Array]) -> Any:
 def _values(scene: Scene, table: LoadTable, travel: Array, points: Mapping[str, Array], guides: Mapping[str, Array],
             motion: Motion) -> Array:
     """What a table says at these travels."""
-    moved = driven(scene)
     if table.over == SPEED:
         return table.at(np.full(travel.shape, abs(float(scene.drives[0].rate)))) + 0 * travel
     if not table.slide:
         reached = np.isfinite(np.sum(list(points.values()), axis=0))
-        return table.at(np.where(reached, sense(moved) * travel / travel_unit(scene)[0], np.nan))
+        return table.at(np.where(reached, travel / travel_unit(scene)[0], np.nan))
     slide = next(slide for slide in scene.slides if slide.name == table.slide)
     way = direction(slide, points, guides)
     speeds = slide_rate(slide, motion(travel), points[slide.at], way)
     if table.over_speed:
-        return table.at(speeds * float(scene.drives[0].rate))
+        return table.at(speeds * abs(float(scene.drives[0].rate)))
     places = place(scene, slide, points, way)
-    senses = _strokes(slide, motion, travel, speeds * sense(moved), scene, points, guides)
+    senses = _strokes(slide, motion, travel, speeds * onward(scene), scene, points, guides)
     return table.at(places, np.where(senses, senses, next(iter(table.strokes))))
 
 
@@ -90,7 +89,7 @@ def slide_rate(slide: Slide, links: Mapping[str, Moved], at: Array, way: Any) ->
 def _strokes(slide: Slide, motion: Motion, travel: Array, speeds: Array, scene: Scene, points: Mapping[str, Array],
              guides: Mapping[str, Array]) -> Array:
     """The sense in which a slide moves, 1 or -1, or at a dead point begins to; 0 where neither can be told."""
-    first = driven(scene).drives[0]
+    first = scene.drives[0]
     reach = 1.0 if first.slides else scene.extent
     senses = np.sign(np.where(np.abs(speeds) > STANDING * reach, speeds, 0.0))
     dead = np.flatnonzero((senses == 0) & np.isfinite(speeds))
@@ -98,9 +97,9 @@ def _strokes(slide: Slide, motion: Motion, travel: Array, speeds: Array, scene: 
         way = {name: z[dead] for name, z in guides.items()}
         here = {name: z[dead] for name, z in points.items()}
         for ahead in (1.0, -1.0):  # at the end of the way what it came by, turned
-            step = ahead * sense(driven(scene)) * AHEAD * (scene.extent if first.slides else 1.0)
+            step = ahead * onward(scene) * AHEAD * (scene.extent if first.slides else 1.0)
             links = motion(travel[dead] + step)
-            rates = ahead * sense(driven(scene)) * slide_rate(slide, links, here[slide.at], direction(slide, here, way))
+            rates = ahead * onward(scene) * slide_rate(slide, links, here[slide.at], direction(slide, here, way))
             told = np.sign(np.where(np.isfinite(rates), rates, 0.0))
             senses[dead] = np.where(senses[dead] == 0, told, senses[dead])
     return senses

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphplan.cycle.travel import TURN, check_drives, closes, paces, travels
+from graphplan.cycle.travel import check_drives, closes, travels
 from graphplan.cycle.turn import RangeOfMotion, Turn
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.travel import TURN, paces
 from graphplan.phrases import said
 
 TURNS = 16  # of the first drive, in which gears must be back

@@ -15,25 +15,26 @@ from graphplan.cycle.turn import Turn, follow, under
 from graphplan.errors import Refused, SingularPose
 from graphplan.mechanism.assembly import moved_on
 from graphplan.mechanism.load_values import filled_in
-from graphplan.mechanism.model import FRAME, Assembly, Drive, Pair, Placement, Scene, Slide
+from graphplan.mechanism.model import FRAME, Assembly, Pair, Placement, Scene, Slide
 from graphplan.mechanism.numerals import TO_A_FLOAT
 from graphplan.mechanism.placements import needs
+from graphplan.mechanism.travel import coordinates, kept_pace
 from graphplan.phrases import said
 
 Travel = Fraction | float | int
 
 
 def at(scene: Scene, travel: Travel | Sequence[Travel] | str) -> Scene:
-    """The scene as it is when its first drive has gone so far, in degrees or in lengths of one that slides.
+    """The scene as it is when its first drive has gone so far in its sense, in degrees or lengths of one that slides.
 
-    The other drives keep pace, or a list says how far each goes. "outer" and "inner" are extreme positions of the link
-    that the first drive's crank swings, "outer 3" of one of several. The pose is constructed from the given one. Fails
-    with `Refused` where nothing leads there, and with `SingularPose` where it is a limit.
+    The other drives keep pace, or a list says how far each goes in its own sense. "outer" and "inner" are extreme
+    positions of the link that the first drive's crank swings, "outer 3" of one of several. The pose is constructed from
+    the given one. Fails with `Refused` where nothing leads there, and with `SingularPose` where it is a limit.
     """
     check_drives(scene)
     turned, travel = extreme(scene, travel) if isinstance(travel, str) else (None, travel)
     travels = _travels(scene, travel)
-    given, gone = driven_by_gears(scene, travels)
+    given, shifts = driven_by_gears(scene, coordinates(scene, travels))
     paced, first = _paced(scene, travels)
     found = follow(paced, 1, (float(first), float(first)))
     if 0 in found.faults:
@@ -41,7 +42,7 @@ def at(scene: Scene, travel: Travel | Sequence[Travel] | str) -> Scene:
         if all(math.isfinite(abs(z[0])) for z in found.points.values()):
             raise SingularPose(why, ())
         raise Refused(f"{scene.name}: the pose", why, said("a travel that the mechanism reaches"))
-    assembly = Assembly(given, gone, moved_on(given, gone, TO_A_FLOAT), under(scene), turned)
+    assembly = Assembly(given, travels, shifts, moved_on(given, shifts, TO_A_FLOAT), under(scene), turned)
     posed = filled_in(in_pose(scene, found, 0), travels[0])
     where = "the pose: constructed at another travel of its drive"
     return replace(posed, placements=_standing(scene), irrational=(*scene.irrational, where), assembly=assembly)
@@ -69,25 +70,14 @@ def _standing(scene: Scene) -> dict[str, Placement]:
 
 
 def _travels(scene: Scene, travel: Travel | Sequence[Travel]) -> tuple[Fraction, ...]:
-    """How far each drive goes, in degrees or lengths."""
+    """How far each drive goes in its sense, in degrees or lengths."""
     given = [travel] if isinstance(travel, Fraction | float | int) else [*travel]
     if len(given) not in (1, len(scene.drives)) or not all(math.isfinite(one) for one in given):
         raise Refused(f"--at {', '.join(map(str, given))}", f"{len(scene.drives)} drives",
                       "one finite travel of the first drive, or one of each")
     if len(given) > 1:
         return tuple(Fraction(one) for one in given)
-    first = scene.drives[0]
-    whole = Fraction(given[0])
-    return whole, *(_kept(whole, first, other) for other in scene.drives[1:])
-
-
-def _kept(travel: Fraction, first: Drive, other: Drive) -> Fraction:
-    """How far a drive goes that keeps pace with the first one, in its own unit."""
-    if not other.rate:
-        return Fraction(0)
-    pace = Fraction(other.rate) / Fraction(first.rate) if first.rate else Fraction(0)
-    units = {(False, True): math.radians(1.0), (True, False): math.degrees(1.0)}
-    return travel * pace * Fraction(units.get((first.slides, other.slides), 1))
+    return kept_pace(scene, Fraction(given[0]))
 
 
 def _paced(scene: Scene, travels: Sequence[Fraction]) -> tuple[Scene, Fraction]:
@@ -95,6 +85,6 @@ def _paced(scene: Scene, travels: Sequence[Fraction]) -> tuple[Scene, Fraction]:
     """
     if len(travels) == 1:
         return scene, travels[0]
-    far = sorted(zip(travels, scene.drives, strict=True), key=lambda one: not one[0])
-    return scene.with_drives(drive.driven_at(float(travel) if drive.slides else math.radians(float(travel)), 0)
-                             for travel, drive in far), far[0][0]
+    far = sorted(zip(coordinates(scene, travels), scene.drives, strict=True), key=lambda one: not one[0])
+    return scene.with_drives(drive.driven_at(float(shift) if drive.slides else math.radians(float(shift)), 0)
+                             for shift, drive in far), abs(far[0][0])

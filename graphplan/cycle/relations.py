@@ -6,7 +6,7 @@ closed by Newton's steps, from where the undragged linkage has them at this trav
 rigidly. All in mm of paper. A pose that does not exist, or to which the steps do not lead, asks for the root of a
 negative number: undefined in every target.
 
-The inputs of the tape, by name: `x O`, `y O` of a free pin; of the drive k `cos k`, `sin k`, or `travel k` in mm; of
+The inputs of the tape, by name: `x O`, `y O` of a free pin; of the drive k `cos k`, `sin k`, or `shift k` in mm; of
 the state i at the first drive's travel `cos state i`, `sin state i`, or `state i`.
 """
 
@@ -33,6 +33,7 @@ from graphplan.errors import GraphplanError
 from graphplan.kernel.tape.record import Symbol, Symbols
 from graphplan.kernel.tape.written import DEEPEST, Language, Writer, function
 from graphplan.mechanism.model import FRAME, Contact, Scene
+from graphplan.mechanism.travel import sense_of_travel
 from graphplan.sheet.plates.view import View
 
 STEPS = 6  # of Newton: enough for pins that are dragged by a tenth of the linkage
@@ -162,12 +163,12 @@ class Relations:
     def _drive(self, turns: bool, rate: float, counted: bool) -> Drive:
         """Which drive it is its rate says, and which way."""
         k = round(abs(rate)) - 1
-        at = [self.tape.input(f"travel {k}")] if counted or not turns else []
-        travel = [far if rate > 0 else -far for far in at]
+        at = [self.tape.input(f"shift {k}")] if counted or not turns else []
+        shift = [far if rate > 0 else -far for far in at]
         if not turns:
-            return Drive(travel[0], None)
+            return Drive(shift[0], None)
         cos, sin = self.tape.input(f"cos {k}"), self.tape.input(f"sin {k}")
-        return Drive((cos, sin if rate > 0 else -sin, *travel), None)
+        return Drive((cos, sin if rate > 0 else -sin, *shift), None)
 
     def _closed(self, group: Group, known: list[Body], arms: Sequence[Spot], drives: Sequence[Drive]) -> list[Body]:
         """A group by Newton's steps, on its branch."""
@@ -247,7 +248,7 @@ class Relations:
 
     @cached_property
     def limits(self) -> tuple[float, float]:
-        """From where to where the first drive travels, in radians or mm."""
+        """From where to where the first drive travels in its sense, in radians or mm."""
         size = self.view.scale if self.scene.drives[0].slides else 1.0
         return float(self.motion.path.travel[0]) * size, float(self.motion.path.travel[-1]) * size
 
@@ -299,27 +300,28 @@ class Relations:
         return Written(terms, *({name: (writer.text[x], writer.text[y]) for name, (x, y) in some.items()}
                                 for some in told))
 
-    def inputs(self, pins: Mapping[str, Spot], travels: Sequence[float]) -> dict[str, float]:
-        """The inputs where some pins (mm) and the drives (radians, or mm) are elsewhere."""
+    def inputs(self, pins: Mapping[str, Spot], shifts: Sequence[float]) -> dict[str, float]:
+        """The inputs where some pins (mm) are elsewhere, and how far the drives have gone (radians, or mm)
+        counter-clockwise or along their directions."""
         found: dict[str, float] = {}
         for name in self.free:
             at = self.places[name]
             found[f"x {name}"], found[f"y {name}"] = pins.get(name, (at.real, at.imag))
-        for k, travel in enumerate(travels):
-            found |= {f"cos {k}": math.cos(travel), f"sin {k}": math.sin(travel), f"travel {k}": travel}
-        states = self.knots.at(travels[0]) if self.knots else [0.0] * len(self.angles)
+        for k, shift in enumerate(shifts):
+            found |= {f"cos {k}": math.cos(shift), f"sin {k}": math.sin(shift), f"shift {k}": shift}
+        states = self.knots.at(sense_of_travel(self.scene) * shifts[0]) if self.knots else [0.0] * len(self.angles)
         for i, state in enumerate(states):
             found |= {f"cos state {i}": math.cos(state), f"sin state {i}": math.sin(state), f"state {i}": state}
         return found
 
-    def place(self, pins: Mapping[str, Spot], travels: Sequence[float]) -> dict[str, Spot] | None:
+    def place(self, pins: Mapping[str, Spot], shifts: Sequence[float]) -> dict[str, Spot] | None:
         """Where all points are on paper, with some pins and the drives elsewhere; none where the pose is not."""
-        found = self.posed(pins, travels)
+        found = self.posed(pins, shifts)
         return found[0] if found else None
 
-    def posed(self, pins: Mapping[str, Spot], travels: Sequence[float]) -> tuple[dict[str, Spot], ...] | None:
+    def posed(self, pins: Mapping[str, Spot], shifts: Sequence[float]) -> tuple[dict[str, Spot], ...] | None:
         """The same, and where guides point that ride on links."""
-        numbers = self.inputs(pins, travels)
+        numbers = self.inputs(pins, shifts)
         try:
             found: tuple[dict[str, Spot], ...] | None = self._run(*[numbers[name] for name in self.asked])
         except (ValueError, ZeroDivisionError, OverflowError):

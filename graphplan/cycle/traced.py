@@ -11,10 +11,10 @@ from graphplan.cycle.centrodes import branches, parted
 from graphplan.cycle.linkage import Array
 from graphplan.cycle.loop import whole_motion
 from graphplan.cycle.stationary import stationary
-from graphplan.cycle.travel import TURN
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.travel import TURN
 from graphplan.phrases import said
 from graphplan.sheet.plates.display import Spot
 from graphplan.sheet.plates.traced_motion import Centrode, PointPath, StationaryCurve, TracedMotion

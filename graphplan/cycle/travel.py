@@ -1,4 +1,4 @@
-"""Travel: how far the first drive goes, in how many poses, and how the other drives keep pace with it.
+"""The poses of a cycle: in how many, and at which travels of the first drive.
 
 What is asked for is refused, with the figure, where this machine's memory could not hold it.
 """
@@ -13,9 +13,9 @@ import numpy as np
 from graphplan.cycle.linkage import Array
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.travel import TURN
 from graphplan.phrases import said
 
-TURN = 2 * math.pi
 POSE = 2048  # bytes for a pose with its results, as measured on mechanisms of four to ten links
 
 
@@ -48,37 +48,10 @@ def check_drives(scene: Scene) -> None:
         raise Refused("the cycle", why, "a scene with a [[drive]] for each degree of freedom")
 
 
-def paces(scene: Scene) -> tuple[float, ...]:
-    """The travel of each drive for a unit of the first one's: its rate over the first one's."""
-    first, *others = (float(drive.rate) for drive in scene.drives)
-    if first == 0 and any(others):
-        raise Refused("the cycle", said("the first drive stands still while another moves"),
-                      "a drive that moves as the first [[drive]]")
-    return (1.0, *(other / first if first else 0.0 for other in others))
-
-
 def closes(scene: Scene, paces: tuple[float, ...]) -> bool:
     """Whether every drive is back where it was after one turn of the first: then going back is going round."""
     return all(pace == 0 if drive.slides else pace == round(pace)
                for drive, pace in zip(scene.drives, paces, strict=True))
-
-
-def travel_unit(scene: Scene) -> tuple[float, str]:
-    """The unit in which the first drive's travel is told, and its name: a degree, or the scene's length."""
-    if scene.drives[0].slides:
-        return 1.0, scene.units.length
-    return math.radians(1.0), "degrees"
-
-
-def told_travels(scene: Scene, travel: Array) -> Array:
-    """Travels as numbers are told: degrees, to the digits that turning radians into them leaves, or lengths."""
-    return travel if scene.drives[0].slides else np.round(np.degrees(travel), 12)
-
-
-def told(scene: Scene, travel: float, digits: int = 6) -> str:
-    """A travel in words: degrees, or the scene's lengths."""
-    unit, name = travel_unit(scene)
-    return f"{travel / unit:.{digits}g} {name}"
 
 
 # ---- memory ----------------------------------------------------------------------------------------------------------

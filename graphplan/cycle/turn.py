@@ -22,9 +22,10 @@ from graphplan.cycle.linkage import Array, Linkage, number
 from graphplan.cycle.loads import loads_at
 from graphplan.cycle.positions import Placing
 from graphplan.cycle.rates import Moved, moved
-from graphplan.cycle.travel import TURN, closes, paces, told, travel_unit, travels
+from graphplan.cycle.travel import closes, travels
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.replaced import guides
+from graphplan.mechanism.travel import TURN, paces, travel_text, travel_unit
 from graphplan.methods.motion.network import Network
 from graphplan.phrases import Said, said
 
@@ -36,12 +37,12 @@ _BACK = 1e-9
 class Turn:
     """n poses of a mechanism around its cycle.
 
-    `travel`: of the first drive from the given pose, real of shape (n,), radians or scene lengths. `points`: complex
-    arrays of shape (n,) in scene units by name, nan where a pose is not reached; a point that only marks the place of a
-    guide under the sliding point goes with that point. `guides`: the directions, complex arrays of shape (n,), of the
-    slides along moving links that are given by a vector, by the slide's name. `faults`: by the pose's place, why it is
-    not reached, or has no velocities at a limit. `closed`: after a full turn of the first drive all is as it was.
-    `motion` is whose poses they are.
+    `travel`: of the first drive from the given pose in its sense, real of shape (n,), radians or scene lengths.
+    `points`: complex arrays of shape (n,) in scene units by name, nan where a pose is not reached; a point that only
+    marks the place of a guide under the sliding point goes with that point. `guides`: the directions, complex arrays of
+    shape (n,), of the slides along moving links that are given by a vector, by the slide's name. `faults`: by the
+    pose's place, why it is not reached, or has no velocities at a limit. `closed`: after a full turn of the first drive
+    all is as it was. `motion` is whose poses they are.
     """
 
     travel: Array
@@ -215,7 +216,7 @@ class Course:
         for limit, beyond in self._beyond():
             for k in np.unique(which[beyond]):
                 reason = reasons[k] or f"{_links(limit.part)} cannot come there from the given pose"
-                because(f"{reason} ({limit.kind} near {told(self.scene, self._place(limit), 4)})",
+                because(f"{reason} ({limit.kind} near {travel_text(self.scene, self._place(limit), 4)})",
                         beyond & (which == k))
         unit, name = travel_unit(self.scene)
         poses = np.flatnonzero(which)

@@ -24,7 +24,7 @@ WIDEST = 8  # panels at least in the whole range, that no wave passes between th
 MOST, DEEPEST = 4096, 64  # panels, and times that one is halved: what needs more has no limit somewhere
 TAIL = 3  # terms at the end of a series that tell how far it is from settled
 SOUGHT = 24  # places in a panel between which a sign is seen to change
-NOTHING = 1e-14  # of the largest value: has no sign
+SIGNLESS = 1e-14  # of the largest value: has no sign
 HALVINGS = 60  # of an interval with a root: to the last digit
 
 
@@ -63,6 +63,11 @@ class Piecewise:
         low, high = self.edges[panel], self.edges[panel + 1]
         return _sums(self.terms[..., panel, :], (2 * x - low - high) / (high - low))
 
+    def beside(self, size: npt.ArrayLike) -> Piecewise:
+        """The same functions, each zero where it is rounding alone beside a size, shape () or (k,)."""
+        largest = np.abs(self.terms).max(axis=(-2, -1), initial=0.0)
+        return replace(self, terms=np.where((largest > TOLERANCE * np.asarray(size))[..., None, None], self.terms, 0.0))
+
     @property
     def whole(self) -> Reals:
         """The integral over the whole range, shape (...)."""
@@ -86,7 +91,7 @@ class Piecewise:
         low, high = self.edges[:-1, None], self.edges[1:, None]
         places = ((low + high) / 2 + (high - low) / 2 * grid).ravel()
         values = _sums(self.terms[:, None, :], grid[None, :]).ravel()
-        signs = np.where(np.abs(values) > NOTHING * np.abs(values).max(), np.sign(values), 0.0)
+        signs = np.where(np.abs(values) > SIGNLESS * np.abs(values).max(), np.sign(values), 0.0)
         seen = np.flatnonzero(signs)
         changed = signs[seen[:-1]] != signs[seen[1:]]
         first, last = seen[:-1][changed], seen[1:][changed]
@@ -111,7 +116,7 @@ class Piecewise:
         places = np.unique(np.concatenate([slope.roots(), self.edges]))
         left, right = self.at(places, -1), self.at(places, 1)
         least, most = np.minimum(left, right), np.maximum(left, right)
-        close = NOTHING * max(most.max(), -least.min())
+        close = SIGNLESS * max(most.max(), -least.min())
         down, up = np.argmax(least <= least.min() + close), np.argmax(most >= most.max() - close)
         return (float(places[down]), float(least.min())), (float(places[up]), float(most.max()))
 
@@ -121,7 +126,7 @@ def settled(function: Callable[[Reals], Reals], breaks: Sequence[float], size: n
 
     Reads a function of travels of shape (n,), which gives (n,) or, of several functions at once, (k, n); two or more
     breaks that grow, between which it is smooth (corners that are not named cost panels and not accuracy); and, of a
-    function in which larger numbers cancel, how large these are, shape () or (k,).
+    function in which larger numbers cancel, how large these are, shape () or (k,): what is rounding beside them is 0.
     Fails with `Refused` where the values have no limit, or are none.
     """
     waiting = _begun(breaks)
@@ -135,7 +140,7 @@ def settled(function: Callable[[Reals], Reals], breaks: Sequence[float], size: n
         kept.append((waiting[fine], terms[..., fine, :]))
         count, rough = count + len(waiting), waiting[~fine]
         if not len(rough):
-            return _joined(kept)
+            return _joined(kept).beside(size)
         if count > MOST:
             break
         waiting = _split(rough)

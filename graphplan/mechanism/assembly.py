@@ -10,16 +10,17 @@ from graphplan.mechanism.pairs.pair import Attitude
 from graphplan.mechanism.plane import Number, Pair
 
 
-def moved_on(given: Scene, travels: tuple[Fraction, ...], by: Reckoning) -> tuple[Pair, ...]:
-    """How far each drive of a scene moves its link: the cosine and sine of a turn, or the vector of a shift."""
+def moved_on(given: Scene, shifts: tuple[Fraction, ...], by: Reckoning) -> tuple[Pair, ...]:
+    """How each drive of a scene moves its link by so many degrees or lengths, counter-clockwise or along its direction:
+    the cosine and sine of a turn, or the vector of a shift."""
     found: list[Pair] = []
-    for drive, travel in zip(given.drives, travels, strict=True):
+    for drive, shift in zip(given.drives, shifts, strict=True):
         if not drive.slides:
-            found.append(by.heading(travel)[:2])
+            found.append(by.heading(shift)[:2])
             continue
         x, y = given.driven_slide(drive).direction
         square = x * x + y * y
-        part = travel / by.root(Fraction(square) if isinstance(square, float) else square)[0]
+        part = shift / by.root(Fraction(square) if isinstance(square, float) else square)[0]
         found.append((x * part, y * part))
     return tuple(found)
 

@@ -19,6 +19,7 @@ from graphplan.mechanism.model import Force, Moment, Scene, Slide
 from graphplan.mechanism.numerals import exactly, is_exact, root
 from graphplan.mechanism.pairs.pair import FRAME, Along, Rate, Side, Sides, Statement
 from graphplan.mechanism.plane import Number, Pair, dot, less, times
+from graphplan.mechanism.travel import sense_of_travel
 
 IRRATIONAL = "{}: its value in this pose"  # of a table whose value fractions do not hold
 STANDING = 1e-9
@@ -78,9 +79,9 @@ def driven(scene: Scene) -> Scene:
     return scene.with_drives((first.driven_at(Fraction(-1 if first.change < 0 else 1), Fraction(0)), *others))
 
 
-def sense(scene: Scene) -> int:
-    """The sense in which the first drive moves: 1 or -1."""
-    return -1 if scene.drives and scene.drives[0].rate < 0 else 1
+def onward(scene: Scene) -> int:
+    """Whether the drives move on as their travel counts, 1, or begin to move back from rest, -1."""
+    return sense_of_travel(driven(scene)) * sense_of_travel(scene)
 
 
 @dataclass(frozen=True)
@@ -97,7 +98,7 @@ class OwnPose:
             rate = first.rate if first else Fraction(0)
             return Fraction(table.value(abs(Fraction(rate)))), isinstance(rate, Fraction)
         if not table.slide:
-            return Fraction(table.value(self.travel * sense(driven(self.scene)))), True
+            return Fraction(table.value(self.travel)), True
         slide = next(slide for slide in self.scene.slides if slide.name == table.slide)
         length, rational = _length(slide.direction)
         if table.over_speed:

@@ -202,15 +202,17 @@ class Extreme:
 @dataclass(frozen=True)
 class Assembly:
     """What a pose is put together from: the links of a scene as they are `given`, moved on by the `travels` of its
-    drives (degrees, or lengths of one that slides). Links that gears turn have drives there in the place of the gears.
+    drives (degrees, or lengths of one that slides), each in its own sense.
 
-    `moves` says the same in the numbers of the given scene: the cosine and sine of a turning drive's travel, the vector
-    of a sliding one's. `riding` are points that only mark the place under a sliding point, each with that point.
-    `extreme` is the extreme position that the pose is, where such was asked for.
+    `shifts` are the same counter-clockwise, or along the direction, of the drives of the given scene: links that gears
+    turn have drives there in their place. `moves` says that in the given scene's numbers: the cosine and sine of a
+    turning drive's shift, the vector of a sliding one's. `riding` are points that only mark the place under a sliding
+    point, each with that point. `extreme` is the extreme position that the pose is, where such was asked for.
     """
 
     given: Scene
     travels: tuple[Fraction, ...]
+    shifts: tuple[Fraction, ...]
     moves: tuple[Pair, ...]
     riding: dict[str, str] = field(default_factory=dict)
     extreme: Extreme | None = None

@@ -75,7 +75,7 @@ def batch(construction: Recorded, points: Mapping[str, Any], guides: Mapping[str
 def _torn(construction: Recorded, points: Mapping[str, Any], results: Results, faults: Faults) -> None:
     """Take the results of poses in which points lie apart on whose coincidence the program relies."""
     places = {name: complex(*map(float, at)) for name, at in construction.scene.points.items()}
-    close = ROUNDED * max((abs(z - next(iter(places.values()))) for z in places.values()), default=0.0)
+    close = _close(construction.scene)
     wandering = {guide.at: guide for guide in rolling_guides(replaced(construction.scene))}
 
     def place(name: str) -> Any:
@@ -95,6 +95,11 @@ def _torn(construction: Recorded, points: Mapping[str, Any], results: Results, f
             for named in results.values():
                 for z in named.values():
                     z[pose] = np.nan
+
+
+def _close(scene: Scene) -> float:
+    """How far apart points may be that coincide."""
+    return ROUNDED * scene.extent
 
 
 def apart(one: str, other: str) -> Said:
@@ -208,7 +213,7 @@ def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[st
     if len(shapes) > 1 or len(next(iter(shapes))) != 1:
         raise Refused("poses", f"the arrays have the shapes {sorted(shapes)}", "one array of shape (n,) a point")
     for name, at in construction.shared.items():  # one mark serves both
-        if name in arrays and not np.array_equal(arrays.setdefault(at, arrays[name]), arrays[name]):
+        if name in arrays and np.any(np.abs(arrays.setdefault(at, arrays[name]) - arrays[name]) > _close(scene)):
             why = "they coincide in the scene and differ here"
             raise Refused(f"points {at} and {name}", why, "the same array for both")
     for guide in rolling_guides(replaced(scene)):

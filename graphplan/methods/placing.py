@@ -145,9 +145,9 @@ class Placing:
                 return self.board.crank(self.mark(weld.at), angle=angle(less(at, root)), name=name)
             before = undone(Attitude(weld.sign * self._move(weld)[0], weld.sign * self._move(weld)[1], 1, 0), at)
             line = self._line(body, before, weld.slide.direction)
-            travel = self.assembly.travels[self.given.drives.index(weld.drive)]
+            shift = self.assembly.shifts[self.given.drives.index(weld.drive)]
             start = self._laid(body, before)
-            return self.board.lay_along(line, start, length=weld.sign * travel, name=name)
+            return self.board.lay_along(line, start, length=weld.sign * shift, name=name)
 
     def _move(self, weld: Any) -> Pair:
         return self.assembly.moves[self.given.drives.index(weld.drive)]

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.travel import printed_travels
 from graphplan.mechanism.units import LENGTH
 from graphplan.methods.kinds import KINDS
 
@@ -75,7 +76,7 @@ def _listed(z: Any) -> Iterator[Any]:
 
 def _travel(scene: Scene, travel: Any) -> tuple[str, Any]:
     """The drive's travel, and its unit."""
-    return (LENGTH.unit(scene.units), travel) if scene.drives[0].slides else ("deg", np.degrees(travel))
+    return LENGTH.unit(scene.units) if scene.drives[0].slides else "deg", printed_travels(scene, travel)
 
 
 def _columns(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results) -> Iterator[tuple[str, Any]]:

@@ -160,10 +160,10 @@ def test_a_period_closes() -> None:
 
 @pytest.mark.parametrize("rate", [2.0, -2.0])
 def test_a_followed_turn_is_closed(rate: float) -> None:
-    """The end of a turn is added, angles are unwrapped, and a drive that runs back passes its positions in reverse."""
-    travel = np.arange(48) * (2 * np.pi / 48)
-    psi = np.angle(np.exp(1j * (travel + np.sin(travel) / 3)))
-    v, a = rate * (1 + np.cos(travel) / 3), -(rate**2) * np.sin(travel) / 3
+    """The end of a turn is added and angles are unwrapped, whichever way the drive turns: its travel counts so."""
+    travel, way = np.arange(48) * (2 * np.pi / 48), np.sign(rate)
+    psi = np.angle(np.exp(1j * way * (travel + np.sin(travel) / 3)))
+    v, a = rate * (1 + np.cos(travel) / 3), -way * rate**2 * np.sin(travel) / 3
     curve = passed("psi_2", "rad", travel, rate, psi, v, a, period=2 * np.pi)
     assert curve.closed
     assert len(curve.time) == 49

@@ -21,11 +21,11 @@ from graphplan.cycle import Turn, follow
 from graphplan.cycle.dyads import assembled
 from graphplan.cycle.groups import Group
 from graphplan.cycle.linkage import Linkage
-from graphplan.cycle.travel import paces
 from graphplan.errors import Refused, SceneError
 from graphplan.mechanism.model import FRAME, Scene, SlidingDrive
 from graphplan.mechanism.scene import packaged
 from graphplan.mechanism.structure import structure
+from graphplan.mechanism.travel import paces
 
 ROUNDING = 2.0**-52
 DRIVEN = [name for name in packaged() if gp.load(name).drives and not gp.load(name).motions]
@@ -36,7 +36,7 @@ def four_bar(crank: float, coupler: float, rocker: float, ground: float, angle: 
     """A four-bar linkage O A B C with its crank at this angle, in degrees."""
     A = f'{{ from = "O", distance = {crank}, angle = {angle} }}'
     B = f'{{ distances = {{ A = {coupler}, C = {rocker} }}, side = "{side}" }}'
-    return gp.parse(four_bars.four_bar("omega = -2", A=A, B=B, C=f"[{ground}, 0]"), "four-bar")
+    return gp.parse(four_bars.four_bar("omega = 2", A=A, B=B, C=f"[{ground}, 0]"), "four-bar")
 
 
 @cache
@@ -292,15 +292,15 @@ def test_drives_keep_pace() -> None:
 
 
 def test_a_ram_travels_in_lengths() -> None:
-    """The rod of the plough's cylinder moves out by the travel, whichever way its drive runs."""
+    """The rod of the plough's cylinder, which its drive draws in, goes in by the travel."""
     scene = gp.load("plough-lift")
     turn = follow(scene, 9, (-8, 8))
-    assert np.allclose(np.abs(turn.points["B"] - turn.points["A"]), 104 + turn.travel, rtol=1e-13, atol=0)
+    assert np.allclose(np.abs(turn.points["B"] - turn.points["A"]), 104 - turn.travel, rtol=1e-13, atol=0)
     assert not turn.faults
 
 
 def test_a_driven_block_shifts_along_its_guide() -> None:
-    """A block that is driven along the frame goes as far as the travel says; points on no link stand still."""
+    """A block that is driven back along the frame goes as far as the travel says; points on no link stand still."""
     text = """
         [points]
         O = [0, 0]
@@ -321,11 +321,11 @@ def test_a_driven_block_shifts_along_its_guide() -> None:
         slide = ["3", "frame"]
         speed = -2"""
     scene = gp.parse(text, "ram")
-    turn = follow(scene, 9, (-5, 3))
+    turn = follow(scene, 9, (-3, 5))
     assert not turn.faults
     assert_holds_together(scene, turn)
     assert np.all(turn.points["Z"] == 4 + 3j)
-    assert np.allclose(turn.points["B"], 80 + 60j + turn.travel * (0.8 + 0.6j), rtol=1e-14, atol=0)
+    assert np.allclose(turn.points["B"], 80 + 60j - turn.travel * (0.8 + 0.6j), rtol=1e-14, atol=0)
 
 
 @pytest.mark.parametrize("name", ["four-bar", "shaper", "slotted-link", "alt-eight-link-2"])

@@ -252,7 +252,7 @@ def test_random_mechanisms_move_as_the_solver_says() -> None:
         turn, links, span = motion.turn(travel), motion.moved(travel), tuple(map(math.degrees, travel[[0, -1]]))
         truth = poses.solve(poses.posed(scene, turn.points, turn.guides), travel.size)
         for link in scene.moving:
-            gap = np.abs(float(scene.drives[0].rate) * links[link].spin - truth.omega[link])
+            gap = np.abs(abs(float(scene.drives[0].rate)) * links[link].spin - truth.omega[link])
             assert gap.max() <= 1e-9 * (2 + np.max(np.abs(truth.omega[link]))), (scene.name, link)
         again = follow(gp.parse(made.text(Random(1)), "shuffled"), 13, span)
         for name, z in turn.points.items():

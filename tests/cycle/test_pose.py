@@ -79,7 +79,7 @@ def test_drives_go_as_far_as_is_said() -> None:
     """Of several drives each has a travel of its own; with one travel they keep pace."""
     scene = gp.load("five-bar")
     pace = [float(drive.rate) for drive in scene.drives]
-    together, apart = gp.at(scene, 20), gp.at(scene, [20, 20 * pace[1] / pace[0]])
+    together, apart = gp.at(scene, 20), gp.at(scene, [20, 20 * abs(pace[1] / pace[0])])
     for point, other in product(scene.points, [apart]):
         assert math.dist(together.points[point], other.points[point]) < 1e-9 * scene.extent
     assert gp.at(scene, [10, 0]).points != gp.at(scene, [0, 10]).points

@@ -10,10 +10,10 @@ from dragged_linkages import DraggedLinkage
 
 import graphplan as gp
 from graphplan.cycle.relations import Relations, relations
-from graphplan.cycle.travel import paces
 from graphplan.cycle.turn import under
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import packaged, parse
+from graphplan.mechanism.travel import paces
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.view import View
 

@@ -14,6 +14,7 @@ from graphplan.machine.flywheel.drawing import drawn
 from graphplan.machine.flywheel.energy import steady
 from graphplan.machine.flywheel.other_methods import methods, rectangles
 from graphplan.machine.flywheel.wittenbauer import by_mean_energy, sized, turning
+from graphplan.machine.reduced.machine_size import MachineSize
 
 TURN = 2 * math.pi
 SPEED, UNEVENNESS = 15.0, 1 / 30
@@ -23,6 +24,7 @@ class Yoke:
     """The scotch yoke of Ozols 1974, 13-6: I = 10 + 4 sin^2 phi, a resisting moment of 200 |sin phi|."""
 
     closed, ends, breaks, unit = True, (0.0, TURN), (math.pi,), 1.0
+    size = MachineSize(14.0, 225.0, 14.0)
 
     def at(self, travel, side=None):
         resisting = -200 * np.abs(np.sin(travel))

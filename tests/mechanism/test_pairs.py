@@ -17,7 +17,6 @@ from graphplan.cycle import closure
 from graphplan.cycle.groups import Group
 from graphplan.cycle.higher import Apart, Geared, Racked
 from graphplan.cycle.linkage import Linkage, direction
-from graphplan.cycle.travel import paces
 from graphplan.mechanism.model import FRAME, Contact, Gear, Scene
 from graphplan.mechanism.pairs import KINDS
 from graphplan.mechanism.pairs.pair import (
@@ -37,6 +36,7 @@ from graphplan.mechanism.pairs.pair import (
 )
 from graphplan.mechanism.plane import dot, less, turned
 from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.travel import paces
 
 STEP = 2.0**-12
 SCENES = packaged()

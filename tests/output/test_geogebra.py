@@ -21,11 +21,11 @@ from objects import NAMES, PLACES, Place, drafted_plates, gap, loose, programs
 
 from graphplan.accuracy.reach import Reached, holding, put_right
 from graphplan.cycle.relations import relations
-from graphplan.cycle.travel import paces
 from graphplan.cycle.turn import under
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import evaluate
+from graphplan.mechanism.travel import paces
 from graphplan.output.exports.geogebra import _GeoGebraWriter, geogebra
 from graphplan.output.exports.ggb_commands import labels
 from graphplan.sheet.cycle_frames import given_in

@@ -40,11 +40,9 @@ def reductions(seeds: range) -> Iterator[tuple[int, Scene, Reduction]]:
         except Refused:  # its first drive stands still, and leads no others
             continue
         low, high = FAR * float(path.travel[0]), FAR * float(path.travel[-1])
-        sense = -1 if scene.drives[0].rate < 0 else 1
         unit = 1.0 if scene.drives[0].slides else math.degrees(1.0)
-        ends = sorted((sense * low * unit, sense * high * unit))
-        if ends[0] < ends[1]:
-            yield seed, scene, reduction(scene, (ends[0], ends[1]))
+        if low < high:
+            yield seed, scene, reduction(scene, (low * unit, high * unit))
 
 
 def delivered_power(scene: Scene, found: Reduction, travel: np.ndarray) -> np.ndarray:

@@ -18,6 +18,7 @@ import numpy as np
 
 from graphplan.errors import Refused
 from graphplan.machine.integrals import Piecewise, Reals, settled
+from graphplan.machine.reduced.machine_size import ROUNDED
 
 if TYPE_CHECKING:
     from graphplan.machine.reduced.reduction import Reduction
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 DRIVE, LOAD = "drive", "load"
 WEIGHT = "G_"  # what the names of weights begin with
 SAMPLES = 25  # travels that tell how large inertia and moments are
-NOTHING = 1e-9  # of the work that is done to and fro: no work
+NO_WORK = 1e-9  # of the work that the loads together do to and fro
 ROUNDING = 1e-14  # of it: what is left of sums that cancel
 
 
@@ -55,7 +56,8 @@ class SteadyCycle:
     @cached_property
     def whole(self) -> Piecewise:
         """The moment of all loads and of the drive: its integral over the cycle is nothing."""
-        return self.moment + self.closing
+        size = sum(float(np.abs(load.terms).max()) for load in self.loads.values())
+        return (self.moment + self.closing).beside(size)
 
     @cached_property
     def energy(self) -> Piecewise:
@@ -95,13 +97,14 @@ def steady(reduction: Reduction, speed: float, closes: str = DRIVE, changing: Co
                       "a first drive that goes round")
     inertia, slope, loads = _reduced(reduction, speed)
     works = {name: float(moment.whole) for name, moment in loads.items()}
-    _weights(loads, works, what)
     closing, factor, span = 0.0, 1.0, float(inertia.edges[-1] - inertia.edges[0])
+    size = max(sum(map(_to_and_fro, loads.values())), reduction.size.moment * span)
+    _weights(works, size, what)
     if closes == LOAD:
-        factor = _factor(loads, works, changing, what)
+        factor = _factor(loads, works, changing, size, what)
         loads = {name: moment * factor if name in changing else moment for name, moment in loads.items()}
     else:
-        done, size = sum(works.values()), sum(map(_to_and_fro, loads.values()))
+        done = sum(works.values())
         closing = -done / span if abs(done) > ROUNDING * size else 0.0
     first, last = reduction.ends
     corners = np.array([at for at in reduction.breaks if first < at < last])
@@ -115,7 +118,7 @@ def _reduced(reduction: Reduction, speed: float) -> tuple[Piecewise, Piecewise, 
     names, rows = reduced_rows(reduction, inside, speed)
     sizes = np.abs(rows).max(axis=1)
     sizes[1] = max(sizes[1], sizes[0])
-    sizes[2:] = np.abs(rows[2:]).sum(axis=0).max(initial=0.0)
+    sizes[2:] = max(np.abs(rows[2:]).sum(axis=0).max(initial=0.0), ROUNDED * reduction.size.moment)
     edges = [first, *(at for at in reduction.breaks if first < at < last), last]
     inertia, slope, *moments = settled(lambda travel: reduced_rows(reduction, travel, speed)[1], edges, sizes)
     return inertia, slope, dict(zip(names, moments, strict=True))
@@ -128,11 +131,11 @@ def reduced_rows(reduction: Reduction, travel: Reals, speed: float) -> tuple[lis
     return [*loads], np.array([reduced.inertia, reduced.slope, *loads.values()])
 
 
-def _weights(loads: Mapping[str, Piecewise], works: Mapping[str, float], what: str) -> None:
-    """Refuse weights that do work over a cycle."""
-    for name, moment in loads.items():
-        if name.startswith(WEIGHT) and abs(works[name]) > NOTHING * _to_and_fro(moment):
-            raise Refused(what, f"the weight {name} does the work {works[name]:.3g} over a turn, so that the machine "
+def _weights(works: Mapping[str, float], size: float, what: str) -> None:
+    """Refuse weights that do work over a cycle, beside the size of all work."""
+    for name, work in works.items():
+        if name.startswith(WEIGHT) and abs(work) > NO_WORK * size:
+            raise Refused(what, f"the weight {name} does the work {work:.3g} over a turn, so that the machine "
                           "does not come back to where it began", "a drive whose turn is a whole cycle")
 
 
@@ -141,16 +144,15 @@ def _to_and_fro(moment: Piecewise) -> float:
     return float(np.abs(moment.terms[..., 0]) @ np.diff(moment.edges))
 
 
-def _factor(loads: Mapping[str, Piecewise], works: Mapping[str, float], changing: Collection[str],
+def _factor(loads: Mapping[str, Piecewise], works: Mapping[str, float], changing: Collection[str], size: float,
             what: str) -> float:
-    """By what the loads that change are multiplied so that the cycle closes."""
+    """By what the loads that change are multiplied so that the cycle closes; `size` is that of all work."""
     if not [name for name in loads if name in changing]:
         raise Refused(f'{what}: closes = "load"', "no load changes", 'a load with `over`, or closes = "drive"')
     done = sum(works[name] for name in changing)
     rest = sum(work for name, work in works.items() if name not in changing)
-    size = sum(map(abs, works.values()))
-    if abs(done) <= NOTHING * size or abs(rest) <= NOTHING * size:
-        which = "that change" if abs(done) <= NOTHING * size else "that do not change"
+    if abs(done) <= NO_WORK * size or abs(rest) <= NO_WORK * size:
+        which = "that change" if abs(done) <= NO_WORK * size else "that do not change"
         raise Refused(f'{what}: closes = "load"', f"the loads {which} do no work over the cycle",
                       'closes = "drive", or other loads')
     return -rest / done

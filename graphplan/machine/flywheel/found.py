@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.cycle.travel import TURN, told_travels
 from graphplan.errors import Refused
 from graphplan.machine.flywheel.drawing import FlywheelDrawing, drawn
 from graphplan.machine.flywheel.energy import SteadyCycle, reduced_rows, steady
@@ -19,6 +18,7 @@ from graphplan.machine.flywheel.wittenbauer import Flywheel, by_mean_energy, siz
 from graphplan.machine.integrals import Reals
 from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.travel import TURN, printed_travels
 from graphplan.mechanism.units import KILOGRAMS
 from graphplan.phrases import Said, digits, said
 
@@ -79,7 +79,7 @@ class FlywheelResult:
 
     def told(self, travel: Any) -> Any:
         """Travels in degrees."""
-        return told_travels(self.scene, travel)
+        return printed_travels(self.scene, travel)
 
     def omega(self, travel: Any) -> Any:
         """The drive's speed at travels, with the flywheel, in rad/s (m/s)."""

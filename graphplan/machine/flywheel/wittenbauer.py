@@ -20,6 +20,8 @@ from graphplan.machine.flywheel.energy import SteadyCycle
 
 ENOUGH = 1e-14  # of a speed: it is found
 MOST = 200  # steps towards the origin's energy
+EVEN = 1e-12  # of a speed: the machine runs evenly but for rounding
+NO_INERTIA = 1e-12  # of the machine's own: a flywheel of less is rounding
 
 
 class Touch(NamedTuple):
@@ -56,7 +58,7 @@ class Flywheel:
     @property
     def unevenness(self) -> float:
         """The degree of unevenness: the range of the speeds by the mean of the largest and the least."""
-        return (self.omega_max - self.omega_min) / ((self.omega_max + self.omega_min) / 2)
+        return abs(self.omega_max - self.omega_min) / ((self.omega_max + self.omega_min) / 2)
 
     def intercept(self, at: float = 0.0) -> float:
         """What the tangents cut off of a parallel to the axis of energies at an inertia, in J."""
@@ -76,14 +78,29 @@ def sized(cycle: SteadyCycle, unevenness: float, what: str = "flywheel") -> Flyw
 
     Fails with `Refused` where the machine needs none.
     """
-    square = cycle.speed**2 / 2
-    upper, lower = (touch(cycle, (1 + way * unevenness / 2) ** 2 * square, way > 0) for way in (1, -1))
-    inertia = (upper.cut - lower.cut) / (upper.slope - lower.slope)
-    if inertia <= 0:
+    upper, lower = _tangents(cycle, unevenness)
+    inertia = needed(cycle, unevenness)
+    if not inertia:
         own = turning(cycle, 0.0).unevenness
+        if own <= EVEN:
+            raise Refused(f"{what}: unevenness {unevenness:g}", "the machine needs no flywheel: it runs evenly",
+                          "masses or loads that change its speed")
         raise Refused(f"{what}: unevenness {unevenness:g}", "the machine needs no flywheel for it: its own unevenness "
                       f"is {own:.4g}", f"an unevenness below {own:.4g}")
     return Flywheel(inertia, upper, lower, upper.cut - upper.slope * inertia)
+
+
+def needed(cycle: SteadyCycle, unevenness: float) -> float:
+    """The flywheel's inertia with which the speed varies so little at most; 0 where the machine needs none."""
+    upper, lower = _tangents(cycle, unevenness)
+    inertia = (upper.cut - lower.cut) / (upper.slope - lower.slope)
+    return inertia if inertia > NO_INERTIA * cycle.mean_inertia else 0.0
+
+
+def _tangents(cycle: SteadyCycle, unevenness: float) -> tuple[Touch, Touch]:
+    """The tangents of the largest and the least speed of an unevenness."""
+    upper, lower = (touch(cycle, ((1 + way * unevenness / 2) * cycle.speed) ** 2 / 2, way > 0) for way in (1, -1))
+    return upper, lower
 
 
 def turning(cycle: SteadyCycle, inertia: float, what: str = "flywheel") -> Flywheel:
@@ -96,7 +113,7 @@ def turning(cycle: SteadyCycle, inertia: float, what: str = "flywheel") -> Flywh
         before = upper.slope
         upper, lower = touch(cycle, upper.slope, above=True), touch(cycle, lower.slope, above=False)
         fast, slow = _speeds(cycle.speed, upper, lower, inertia)
-        if not 0 < slow <= fast:
+        if not 0 < slow <= fast * (1 + EVEN):
             raise Refused(f"{what}: inertia {inertia:g}", f"the machine does not come round with a mean speed of "
                           f"{cycle.speed:g}", "a heavier flywheel, or a higher speed")
         upper, lower = upper._replace(slope=fast**2 / 2), lower._replace(slope=slow**2 / 2)

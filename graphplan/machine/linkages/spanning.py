@@ -8,12 +8,16 @@ hinge.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene
 from graphplan.mechanism.plane import dot, less, plus, times, turned
+
+COINCIDENT = 1e-12
+"""Of the mechanism's extent: points that lie no further apart give no line."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +77,9 @@ class SpanningTree:
         centre = [masses[link].centre] if link in masses else []
         joints = [p for p in scene.links[link] if p in scene.joints]
         ends = [*(hanging.at for hanging in self.hung_on(link)), *joints, *centre, *scene.links[link]]
-        return start, next((end for end in ends if scene.points[end] != scene.points[start]), start)
+        x, y = map(float, scene.points[start])
+        apart = (end for end in ends if math.dist((x, y), map(float, scene.points[end])) > COINCIDENT * scene.extent)
+        return start, next(apart, start)
 
 
 def spanning_tree(scene: Scene) -> SpanningTree:

@@ -34,14 +34,15 @@ class RunUp:
 
 
 def work(machine: Driven, omega: Reals) -> tuple[Reals, Reals]:
-    """The work of all loads over a cycle at constant speeds, shape (k,), and that of their sizes."""
+    """The work of all loads over a cycle at constant speeds, shape (k,), and that of their sizes; the moment that
+    closes the cycle counts by itself."""
     nodes, weights = np.polynomial.legendre.leggauss(24)
     edges = machine.reduced[0].edges
     low, width = edges[:-1, None], np.diff(edges)[:, None]
     travel = (low + width * (nodes + 1) / 2).ravel()
     each = (width / 2 * weights).ravel()
     moment = machine.moment(travel, omega[:, None]) + np.zeros((len(omega), 1))
-    return moment @ each, abs(moment) @ each
+    return moment @ each, (abs(moment - machine.closing) + abs(machine.closing)) @ each
 
 
 def nominal(machine: Driven, near: float) -> float:

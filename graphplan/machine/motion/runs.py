@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from graphplan.cycle.travel import TURN
 from graphplan.errors import Refused
 from graphplan.machine.flywheel import energy, wittenbauer
 from graphplan.machine.motion.characteristics import TURNS, RunUp, limit_cycle, nominal, run_up, steady
@@ -17,6 +16,7 @@ from graphplan.machine.motion.driven import Driven, driven
 from graphplan.machine.motion.true_motion import TrueMotion, moved
 from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.travel import TURN
 
 TURN_TOLD = 360.0  # degrees
 FARTHEST = 1000  # turns that a motion is followed
@@ -104,16 +104,17 @@ def _end(machine: Driven, travel: float | None, stops: bool) -> float:
 
 
 def _with_wheel(scene: Scene, found: Reduction) -> tuple[Reduction, Driven]:
-    """The machine with the flywheel that is asked for and what closes its cycle: a moment, or its loads scaled."""
+    """The machine with the flywheel that is asked for, if it needs one, and what closes its cycle: a moment, or its
+    loads scaled."""
     wanted = scene.flywheel
     if wanted is None:
         return found, driven(found)
     speed = abs(float(wanted.speed)) * found.unit
     cycle = energy.steady(found, speed, wanted.closes, found.changing)
-    wheel = (wittenbauer.turning(cycle, float(wanted.inertia or 0)) if wanted.unevenness is None
-             else wittenbauer.sized(cycle, float(wanted.unevenness)))
+    wheel = (wittenbauer.turning(cycle, float(wanted.inertia or 0)).inertia if wanted.unevenness is None
+             else wittenbauer.needed(cycle, float(wanted.unevenness)))
     found = found.scaled(cycle.factor)
-    return found, driven(found, wheel.inertia, cycle.closing)
+    return found, driven(found, wheel, cycle.closing)
 
 
 def _compared(found: Run, speed: float) -> Run:

@@ -29,7 +29,7 @@ NARROWEST = 1e-13  # of the travel asked for: a stretch that must be narrower le
 SEEN = 24  # places in a stretch between which a sign is seen to change
 HALVINGS = 52  # of an interval in which something changes its sign
 LEAVING = 1e-6  # of a speed: a table that ends so near it is left
-NOTHING = 1e-11  # of the largest moment: what is below it moves nothing from rest
+NO_MOMENT = 1e-11  # of the largest moment: what is below it moves nothing from rest
 
 
 class State(NamedTuple):
@@ -174,7 +174,7 @@ def _starts(machine: Driven, start: float) -> None:
     """Refuse to start where nothing drives the machine from rest."""
     at, still = np.array([start]), np.zeros(1)
     moment, size = float(machine.moment(at, still)[0]), float(abs(machine.reduced[2].terms[..., 0]).max())
-    if not moment > NOTHING * max(size, abs(machine.closing)):
+    if not moment > NO_MOMENT * max(size, abs(machine.closing)):
         why = "holds it" if moment < 0 else "is nothing"
         raise Refused("the motion", f"it does not start: the reduced moment at rest, {moment:.6g}, {why}",
                       "a speed at the beginning (--speed), or loads that drive it there")

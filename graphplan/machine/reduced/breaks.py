@@ -14,11 +14,11 @@ from functools import partial
 import numpy as np
 
 from graphplan.cycle.linkage import Array
-from graphplan.cycle.travel import TURN
 from graphplan.machine.reduced.reduced_loads import LoadValues
 from graphplan.machine.reduced.unit_motion import UnitMotion
 from graphplan.mechanism.load_tables import TRAVEL, LoadTable
 from graphplan.mechanism.model import Slide
+from graphplan.mechanism.travel import TURN
 from graphplan.methods import kinds
 
 SAMPLES = 360  # of the motion in each turn, between which a slide changes its sense once at most

@@ -31,7 +31,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.cycle.linkage import Array
-from graphplan.cycle.travel import told
 from graphplan.cycle.turn import Turn
 from graphplan.errors import Refused
 from graphplan.machine.integrals import settled
@@ -42,6 +41,7 @@ from graphplan.machine.reduced.reduced_loads import LoadValues, acting
 from graphplan.machine.reduced.unit_motion import Rates, UnitMotion, at_unit_rate
 from graphplan.mechanism.model import FRAME, Find, Force, Friction, Loads, Scene, Slide
 from graphplan.mechanism.plane import times
+from graphplan.mechanism.travel import travel_text
 from graphplan.mechanism.units import NEWTONS, weight
 from graphplan.methods import kinds
 from graphplan.methods.panels import JointForce
@@ -125,7 +125,7 @@ class FrictionOverCycle:
         further = self._delivered(*self._forces(self._further, travel, side), kinds.RUBBED)
         size = np.maximum(np.abs(plain), np.abs(rubbed))
         if locked := np.flatnonzero(~(np.abs(further - rubbed) <= STANDS * size)).tolist():
-            at = told(self.scene, float(travel[locked[0]]))
+            at = travel_text(self.scene, float(travel[locked[0]]))
             raise Refused("friction", said("the mechanism locks itself at a travel of {0}", at), "less friction")
         return Rubbed(plain, plain - rubbed, dict(self._losses(found)))
 

@@ -23,15 +23,17 @@ import numpy as np
 from graphplan.cycle.linkage import Array
 from graphplan.cycle.loop import whole_motion
 from graphplan.cycle.pose import in_pose
-from graphplan.cycle.travel import TURN, check_drives, told, travels
+from graphplan.cycle.travel import check_drives, travels
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import Refused
 from graphplan.machine.reduced.breaks import breaks, common_period, in_order
 from graphplan.machine.reduced.friction import M_F, CycleLosses, FrictionOverCycle, cycle_losses
 from graphplan.machine.reduced.lever_drawing import lever_drawing
+from graphplan.machine.reduced.machine_size import MachineSize, machine_size
 from graphplan.machine.reduced.reduced_loads import LoadValues, SpeedLoad, acting, loads_with
 from graphplan.machine.reduced.unit_motion import ACCELERATIONS, VELOCITIES, Rates, UnitMotion, moving_points
 from graphplan.mechanism.model import FRAME, Find, Mass, Scene
+from graphplan.mechanism.travel import TURN, travel_text
 from graphplan.mechanism.units import KILOGRAMS
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
@@ -85,6 +87,11 @@ class Reduction:
         self.friction = FrictionOverCycle(scene, self.motion, ends) if rubs else None
         found = breaks(self.values, self.motion, ends)
         self.breaks = in_order([*found, *self.friction.edges.tolist()], ends) if self.friction else found
+
+    @cached_property
+    def size(self) -> MachineSize:
+        """How large inertia and moment are, beside which a number is zero."""
+        return machine_size(self.scene)
 
     @property
     def changing(self) -> tuple[str, ...]:
@@ -191,16 +198,14 @@ def reduction(scene: Scene, span: tuple[float, float] | None = None, *, compiled
     if loads is None or not (loads.masses or loads.forces or loads.moments):
         raise Refused("reduction", said("the scene has neither masses nor loads"),
                       "give it [masses], [[forces]] or [[moments]]")
-    sense = -1 if scene.drives[0].rate < 0 else 1
     if span is None:
         motion = _whole(scene)
         return Reduction(scene, motion, (0.0, float(motion.path.travel[-1])), compiled)
     low, high = sorted(float(end) for end in travels(scene, 2, span))
     if low == high:
         raise Refused("the cycle", said("the span has no length"), "two different travels")
-    lower, upper = sorted((sense * low, sense * high))
-    motion = RangeOfMotion(scene, min(0.0, lower), max(0.0, upper), closed=False)
-    _reached(scene, motion, lower, upper)
+    motion = RangeOfMotion(scene, min(0.0, low), max(0.0, high), closed=False)
+    _reached(scene, motion, low, high)
     return Reduction(scene, motion, (low, high), compiled)
 
 
@@ -222,4 +227,4 @@ def _reached(scene: Scene, motion: RangeOfMotion, low: float, high: float) -> No
     for limit, beyond in ((motion.path.lower, -low), (motion.path.upper, high)):
         if limit and beyond >= abs(limit.travel):
             raise Refused("the cycle", said("the mechanism stops at a {0} at {1}", limit.kind,
-                                            told(scene, limit.travel, 10)), "a span that ends before")
+                                            travel_text(scene, limit.travel, 10)), "a span that ends before")

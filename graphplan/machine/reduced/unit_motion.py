@@ -18,6 +18,7 @@ from graphplan.cycle.turn import RangeOfMotion, Turn
 from graphplan.errors import Refused
 from graphplan.machine.reduced.recordings import Recordings
 from graphplan.mechanism.model import FRAME, Find, Scene
+from graphplan.mechanism.travel import sense
 from graphplan.mechanism.units import METRES
 from graphplan.methods import kinds
 from graphplan.methods.construct import construct
@@ -42,7 +43,7 @@ class Rates:
 class UnitMotion:
     """The scene's motion as far as `motion` goes, at a unit rate in the sense in which its first drive moves.
 
-    `sense` is that sense, 1 or -1: travels here, in radians or scene lengths, count in it. `unit` is the size of a unit
+    `sense` is that sense, 1 or -1; travels are in radians or scene lengths. `unit` is the size of a unit
     of travel in SI: 1 of radians where the drive `turns`, else the `metres` of a length. `period` is the travel after
     which all is back, 0 where that is never. `find` is what is asked of the motion.
     """
@@ -50,7 +51,7 @@ class UnitMotion:
     def __init__(self, scene: Scene, motion: RangeOfMotion, find: Find, compiled: bool = False):
         self.motion, self.compiled = motion, compiled
         first = scene.drives[0]
-        self.sense = -1 if first.rate < 0 else 1
+        self.sense = sense(first)
         self.period = float(motion.path.travel[-1]) if motion.whole else 0.0
         self.metres = float(METRES[scene.units.length])
         self.turns = not first.slides
@@ -61,7 +62,6 @@ class UnitMotion:
     def turn(self, travel: Array) -> Turn:
         """Where everything is at these travels, of a closed motion at any; fails with `Refused` where a pose is not
         reached."""
-        travel = self.sense * travel
         if self.period:
             travel = np.mod(travel, self.period)
         found = self.motion.turn(travel, self.compiled)

@@ -154,12 +154,16 @@ class Network:
         return {point: _followed(pairs, point) for point in pairs}
 
     def _coincident_points(self) -> dict[tuple[str, str], str]:
-        """Points of a guide's link that the scene puts where the sliding link's point is: one place, named apart."""
+        """Points of a guide's link that mark the place under a sliding point: A3 on link 3 under A, or under A2 on 2.
+
+        The names say so. What lies there by chance in this pose is a point of its own.
+        """
         found = {}
         for slide in (slide for slide in self.all_slides if slide.at not in self.wandering):
             at = self.name(slide.at)
+            marks = {f"{letter}{slide.along}" for letter in (slide.at, slide.at.removesuffix(slide.link))}
             for name in self.links[slide.along]:
-                if name != at and self.spot(name) == self.spot(at):
+                if name in marks and name != at and self.spot(name) == self.spot(at):
                     found[at, slide.along] = name
         return found
 

@@ -1,8 +1,8 @@
 """The linkage of a scene in GeoGebra: its fixed pins can be dragged, its drives have a slider each, and a handle where
 they turn about a fixed pin; every other point is where the relations have it.
 
-A handle is a point of a circle that the slider turns: both together are the drive's travel. The orbit begins where the
-slider has the crank pin, so that the handle stays on it.
+A slider has the drive's travel, in its own sense. A handle is a point of a circle that the slider turns: both together
+are how far the drive has gone. The orbit begins where the slider has the crank pin, so that the handle stays on it.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from xml.etree.ElementTree import Element
 from graphplan.cycle.relations import SPANS, Relations
 from graphplan.cycle.relations import Written as WrittenRelations
 from graphplan.mechanism.model import FRAME, Drive
+from graphplan.mechanism.travel import sense
 from graphplan.output.exports.ggb_commands import DEEPEST, LANGUAGE, number
 from graphplan.output.exports.ggb_xml import CURVES, POINTS, Objects, empty, lettered
 from graphplan.phrases import digits
@@ -27,6 +28,11 @@ ROUND = 359.99  # degrees of an orbit: a whole circle has no beginning
 def slider(k: int) -> str:
     """The label of a drive's slider."""
     return f"drive_{{{k + 1}}}"
+
+
+def in_sense(drive: Drive, text: str) -> str:
+    """A travel as the drive's own coordinate, or that as the travel."""
+    return text if sense(drive) > 0 else f"(-({text}))"
 
 
 def handle(k: int) -> str:
@@ -65,19 +71,20 @@ class Linkage:
     # ---- drives ----------------------------------------------------------------------------------------------------
 
     def _driven(self, k: int, drive: Drive) -> Iterator[tuple[str, str]]:
-        """The inputs that a drive gives: its slider's and its handle's travel together."""
-        scale = self.relations.view.scale
+        """The inputs that a drive gives: its slider's and its handle's shift together."""
+        scale, gone = self.relations.view.scale, in_sense(drive, slider(k))
         self._slider(k, drive)
         if drive.slides:
-            yield f"travel {k}", self.objects.numeric(f"travel_{{{k + 1}}}", f"{number(scale)} * {slider(k)}")
+            yield f"shift {k}", self.objects.numeric(f"travel_{{{k + 1}}}", f"{number(scale)} * {gone}")
             return
         turned = self._handle(k, drive)
-        travel = self.objects.numeric(f"travel_{{{k + 1}}}", f"{slider(k)} + {turned}" if turned else slider(k))
+        shift = self.objects.numeric(f"travel_{{{k + 1}}}", f"{gone} + {turned}" if turned else gone)
         for part in ("cos", "sin"):
             yield f"{part} {k}", self.objects.numeric(f"{part}travel_{{{k + 1}}}".replace("travel", "drive"),
-                                                      f"{part}({travel}°)")
-        if f"travel {k}" in self.relations.asked:  # where it is counted how far links have turned in all
-            yield f"travel {k}", self.objects.numeric(f"turned_{{{k + 1}}}", f"({self._round(travel, k)})°")
+                                                      f"{part}({shift}°)")
+        if f"shift {k}" in self.relations.asked:  # where it is counted how far links have turned in all
+            within = in_sense(drive, self._round(in_sense(drive, shift), k))
+            yield f"shift {k}", self.objects.numeric(f"turned_{{{k + 1}}}", f"({within})°")
 
     def _limits(self, k: int, drive: Drive) -> tuple[float, float]:
         """From where to where the slider goes, in degrees or scene lengths."""
@@ -107,7 +114,7 @@ class Linkage:
         if not pivots or not pins:
             return ""
         arm, pivot = self.places[pins[0]] - self.places[pivots[0]], self.labels[pivots[0]]
-        x, y, angle = number(arm.real), number(arm.imag), f"{slider(k)}°"
+        x, y, angle = number(arm.real), number(arm.imag), f"{in_sense(drive, slider(k))}°"
         begin = self.objects.hidden(self.objects.label("pin"), f"{pivot} + ({x} * cos({angle}) - {y} * sin({angle}), "
                                                                f"{x} * sin({angle}) + {y} * cos({angle}))")
         orbit = f"orbit_{{{k + 1}}}"
@@ -140,7 +147,7 @@ class Linkage:
             yield from chain.from_iterable(((f"cos state {i}", "1"), (f"sin state {i}", "0"), (f"state {i}", "0"))
                                            for i in states)
             return
-        travel = self._round("travel_{1}", 0)
+        travel = self._round(in_sense(self.scene.drives[0], "travel_{1}"), 0)
         unit = 1.0 if self.scene.drives[0].slides else math.radians(1.0)
         part = f"({travel} - {number(knots.low / unit)}) / {number((knots.high - knots.low) / unit)}"
         done = self.objects.numeric("knot_{1}", f"Min[1, Max[0, {part}]]")

@@ -2,9 +2,9 @@
     rows. At a jump, and at the end of a stroke, a load is that into which the motion goes on.  */
 class ChangingLoads {
   constructor(data, linkage, opinion) {
-    Object.assign(this, { tables: data.linkage.changing, drives: data.linkage.drives, unit: data.linkage.unit, linkage, opinion });
+    Object.assign(this, { tables: data.linkage.changing, drives: data.linkage.drives, unit: data.linkage.unit, forward: data.linkage.sense, linkage, opinion });
     const [first] = this.drives;
-    this.sense = first ? Math.sign(first.rate) || Math.sign(first.change) || 1 : 1;
+    this.onward = first && !first.rate && first.change < 0 ? -1 : 1;  // whether it moves as its travel counts
   }
 
   /** What each load is at a knot, {name: [x, y]} or of a moment {name: number}; or a text: why one of them is not known. */
@@ -22,16 +22,16 @@ class ChangingLoads {
 
   value(table, knot, points, guides) {
     const { over, slide, rate } = table;
-    if (over === "speed") return this.read(table, slide ? rate * this.speed(slide, knot, points, guides) : Math.abs(rate), 1);
-    if (!slide) return this.read(table, this.home(table, (this.sense * knot.drives[0]) / this.unit), 1);
+    if (over === "speed") return this.read(table, slide ? Math.abs(rate) * this.speed(slide, knot, points, guides) : Math.abs(rate), 1);
+    if (!slide) return this.read(table, this.home(table, (this.forward * knot.drives[0]) / this.unit), 1);
     const lies = this.linkage.moving(knot, this.rates()), [x, y] = this.opinion.ray(slide, lies, points, guides);
     const [u, v] = slide.origin ? less(points[slide.at], points[slide.origin]) : points[slide.at];
     return this.read(table, u * x + v * y, this.stroke(slide, knot, points, guides) || Number(Object.keys(table.strokes)[0]));
   }
 
-  /** The rates of the drives while the first one moves on in its sense. */
+  /** The rates of the drives as they move on. */
   rates() {
-    return this.drives.map(({ pace }) => this.sense * pace);
+    return this.drives.map(({ pace }) => this.onward * pace);
   }
 
   /** How a slide's position changes with the first drive's travel. */
@@ -44,11 +44,11 @@ class ChangingLoads {
 
   /** The sense in which a slide moves, or at a dead point begins to. */
   stroke(slide, knot, points, guides) {
-    const reach = this.drives[0].slides ? 1 : this.opinion.reach, speed = this.speed(slide, knot, points, guides, this.sense);
+    const reach = this.drives[0].slides ? 1 : this.opinion.reach, speed = this.speed(slide, knot, points, guides, this.onward);
     if (Math.abs(speed) > STANDING * reach) return Math.sign(speed);
     const step = AHEAD * (this.drives[0].slides ? this.opinion.reach : 1), rates = this.rates(), rate = this.linkage.stated(knot, rates);
     const drives = knot.drives.map((from, i) => from + step * rates[i]), state = knot.state.map((one, i) => one + step * rate[i]);
-    return Math.sign(this.speed(slide, this.linkage.placed(drives, rates, state, knot.lies), points, guides, this.sense));
+    return Math.sign(this.speed(slide, this.linkage.placed(drives, rates, state, knot.lies), points, guides, this.onward));
   }
 
   /** Where a travel lies in the first period of a table. */

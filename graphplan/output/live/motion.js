@@ -29,7 +29,7 @@ class Motion {
   /** A new path along the drives' own way from a knot. */
   leave(knot) {
     const { drives, state, lies } = knot, { way, start, span } = this.path;
-    const from = { ...this.linkage.placed(drives, this.way, state, lies), travel: drives[0] ?? 0 };
+    const from = { ...this.linkage.placed(drives, this.way, state, lies), travel: this.data.linkage.sense * (drives[0] ?? 0) };
     this.set(new Path(this.linkage, from, this.way, start, span), { knot: from });
     this.limited = this.still ? this.limited : null;
   }
@@ -295,7 +295,7 @@ class Motion {
   /** From a knot with its path, where the drives lead that turn so far (a sliding one in reaches), or to the limit. */
   along({ knot, path }, change) {
     const { drives, reach } = this.data.linkage, way = change.map((turn, k) => turn * (drives[k].slides ? reach : 1));
-    if (way.length === 1) return { ...path.to(knot.travel + way[0]), path };
+    if (way.length === 1) return { ...path.to(knot.travel + this.data.linkage.sense * way[0]), path };
     const from = { ...this.linkage.placed(knot.drives, way, knot.state, knot.lies), travel: 0 };
     const other = new Path(this.linkage, from, way, path.start, path.span);
     return { ...other.to(1), path: other };
@@ -358,7 +358,7 @@ class Motion {
       else if (way) pair.centres[side] = way;
     });
     for (const load of [scene.forces ?? [], scene.moments ?? []].flat()) {
-      if (load.over === "travel") load.values = load.values.map(([place, value]) => [place - this.changing.sense * this.travel, value]);
+      if (load.over === "travel") load.values = load.values.map(([place, value]) => [place - this.travel, value]);
     }
     this.data.lines.forEach((line, k) => {
       if (line) [scene.balance].flat()[k].direction = line;

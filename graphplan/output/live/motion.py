@@ -19,7 +19,7 @@ from graphplan.cycle.groups import Group
 from graphplan.cycle.higher import share
 from graphplan.cycle.linkage import Linkage, grounded
 from graphplan.cycle.loop import range_of_motion
-from graphplan.cycle.travel import TURN, check_drives, paces, travel_unit
+from graphplan.cycle.travel import check_drives
 from graphplan.cycle.turn import RangeOfMotion, stopped, under
 from graphplan.errors import Refused
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer
@@ -28,6 +28,7 @@ from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.model import FRAME, Force, Scene, Slide
 from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides
+from graphplan.mechanism.travel import TURN, paces, sense_of_travel, travel_unit
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.batch import apart
 from graphplan.methods.construction import Construction
@@ -160,7 +161,8 @@ def _followed(scene: Scene) -> Data:
                "slide": scene.driven_slide(drive).name if drive.slides else ""}
               for drive, pace in zip(scene.drives, rates, strict=True)]
     turns = 1 if why or not scene.gears else max(1, round(range_of_motion(scene).path.travel[-1] / TURN))
-    return {"still": why, "drives": drives, "unit": unit, "span": [*ends], "limits": limits, "turns": turns}
+    return {"still": why, "drives": drives, "sense": sense_of_travel(scene), "unit": unit, "span": [*ends],
+            "limits": limits, "turns": turns}
 
 
 def _limit(limit: Limit | None) -> Data | None:

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.balance import Balancing, MassMotion
-from graphplan.cycle.travel import told_travels
 from graphplan.machine.linkages.counterweights import Counterweight
 from graphplan.machine.linkages.engine import Engine
 from graphplan.machine.linkages.spanning import as_multiple
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.plane import less
+from graphplan.mechanism.travel import printed_travels
 from graphplan.mechanism.units import KILOGRAMS, METRES
 
 HEADINGS = ("S.x", "S.y", "S.vx", "S.vy", "S.ax", "S.ay", "J.x [N]", "J.y [N]", "M [N*m]", "fault")
@@ -152,4 +152,4 @@ def table(motion: MassMotion) -> str:
 
 def _travel(motion: MassMotion) -> Any:
     """The travel in degrees, or lengths of a drive that slides."""
-    return told_travels(motion.centre.scene, motion.travel)
+    return printed_travels(motion.centre.scene, motion.travel)

@@ -38,7 +38,7 @@ class OnPaper:
         """How many mm are drawn for one that is taken on another plan; nothing where all is taken on its own."""
         op, own = step.op, step.index
         sized = op.movement in (Movement.LAID_OFF, Movement.TURNED, Movement.STRUCK)
-        source = step.args[TAKEN[op.sizing]] if op.sizing in TAKEN else step.args[op.afar[0]] if sized else own
+        source = step.args[TAKEN[op.sizing]] if op.sizing in TAKEN else step.args[op.afar[0][0]] if sized else own
         own = step.args[LIKE[op.sizing]] if op.sizing in LIKE else own
         return None if self.plan(source) == self.plan(own) else self.per(source) / self.per(own)
 

@@ -91,7 +91,7 @@ class Plans:
         plan, found = self.plan_of_step, dict[tuple[Panel, Panel], None]()
         for step in self.drawing.drawn.steps:
             if step.op.afar and step.op.movement in CARRIED and not step.quantity:
-                found[plan[step.args[step.op.afar[0]]], plan[step.index]] = None
+                found[plan[step.args[step.op.afar[0][0]]], plan[step.index]] = None
         return [(source, own) for source, own in found if source != own]
 
     @cached_property

@@ -8,6 +8,7 @@ import pytest
 from figures import NAMES, Place, corners, drawn, extremes, figure
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from tiers import sample
 
 from graphplan.kernel import Board
 from graphplan.kernel.claims import broken, unmet
@@ -19,7 +20,7 @@ RANDOMS = st.randoms(use_true_random=False)
 
 
 @pytest.mark.parametrize("name", NAMES)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=sample(10, 60), deadline=None)
 @given(r=RANDOMS)
 def test_claims_hold(name: str, r: Random) -> None:
     """What a primitive draws on random operands keeps all its claims."""

@@ -3,9 +3,10 @@
 A test that is made for every packaged scene is a claim about all of them, and by default it is tried on a few. Which
 ones is a block design: CORE has 21 scenes and BLOCK is a perfect difference set of 21, so that a claim gets five scenes
 of the core, each of these serves a quarter of the claims, and claims share one scene of the core, unless they share all
-five. Two more come from the other scenes in turn, so that each scene is in some claim. `tests/conftest.py` does this
-for whatever is parametrised by scenes, and lets a test that `costly.toml` names try some of its variants alone; a loop
-inside a test asks for its `scenes`, and how often a test of chance tries is its `sample`.
+five, as those of one file do, where sheets and constructions are kept. Two more come from the other scenes in turn, so
+that each scene is in some claim. `tests/conftest.py` does this for whatever is parametrised by scenes, and lets a test
+that `costly.toml` names try some of its variants alone; a loop inside a test asks for its `scenes`, and how often tests
+of chance try is their `sample`.
 """
 
 from __future__ import annotations
@@ -51,8 +52,8 @@ def scenes(claim: str, among: Sequence[str] = (), count: int = A_CLAIM) -> list[
 
 
 def ranked(claim: str) -> list[str]:
-    """All packaged scenes, those first on which a claim is tried: its block of the core with two others among it."""
-    turn, row = divmod(crc32(claim.encode()), len(CORE))
+    """All packaged scenes, those first on which a claim is tried: the block of its file with two others among it."""
+    turn, row = crc32(claim.encode()), crc32(claim.partition("::")[0].encode())
     core = [CORE[(row + step) % len(CORE)] for step in BLOCK]
     others = [name for name in packaged() if name not in CORE]
     others = others[(at := turn % len(others)):] + others[:at]

@@ -78,9 +78,15 @@ MODULES = {dotted(path): path for path in FILES}
 
 
 @cache
+def parsed(path: Path) -> ast.Module:
+    """The syntax of a file."""
+    return ast.parse(path.read_text())
+
+
+@cache
 def imports(path: Path) -> frozenset[str]:
     """The modules that a file imports: at its top, in functions, for the type checker alone, and by their names."""
-    return frozenset(name for node in ast.walk(ast.parse(path.read_text())) for name in _imported(node))
+    return frozenset(name for node in ast.walk(parsed(path)) for name in _imported(node))
 
 
 def _imported(node: ast.AST) -> Iterator[str]:
@@ -235,5 +241,5 @@ def _told_by_name(tree: ast.AST) -> Iterator[ast.AST]:
 @pytest.mark.parametrize("path", [path for path in FILES if folder(path) != "kernel"], ids=named)
 def test_operations_are_told_by_their_records(path: Path) -> None:
     """Outside the kernel nothing hangs on an operation's name: what is to be known of it stands in its record."""
-    found = [f"{named(path)}:{getattr(node, 'lineno', 0)}" for node in _told_by_name(ast.parse(path.read_text()))]
+    found = [f"{named(path)}:{getattr(node, 'lineno', 0)}" for node in _told_by_name(parsed(path))]
     assert not found, f"operations told by name: {', '.join(found)}; ask their movement, root, crossing ..."

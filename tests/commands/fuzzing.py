@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import gc
 import io
-import os
 import re
 import signal
 import sys
@@ -37,11 +36,6 @@ def scenes() -> list[str]:
     """The texts that are spoilt: the packaged scenes, and those that once failed."""
     failed = sorted((Path(__file__).parent.parent / "faults").glob("[0-9]*.toml"))
     return [*(load(name).text for name in packaged()), *(path.read_text(encoding="utf-8") for path in failed)]
-
-
-def times(usual: int) -> int:
-    """How often a test tries: GRAPHPLAN_FUZZ, or as often as continuous integration has time for."""
-    return int(os.environ.get("GRAPHPLAN_FUZZ", usual))
 
 
 # ---- spoiling ------------------------------------------------------------------------------------------------------

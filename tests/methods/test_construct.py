@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
@@ -130,21 +131,19 @@ FAULTS = {
 }
 
 
-def verdicts() -> list[str]:
+def verdicts() -> Iterator[str]:
     """Each group in some poses: ok, or what is wrong with it."""
-    found = []
     for group in sorted(GROUPS):
         for seed in range(4):
             scene = mechanism([group] if group == "class_four" else [group, "rpr"], seed)
             try:
                 structure(scene)
                 first = construct(scene, method="poles")  # the way before any other is taken
-                found.append("ok" if Bench(scene, {"method": "poles"}, exact=True).judged(first).agrees else "wrong")
+                yield "ok" if Bench(scene, {"method": "poles"}, exact=True).judged(first).agrees else "wrong"
             except (SceneError, gp.SingularPose):
                 continue
             except Exception as error:  # a fault may show as any refusal or failure
-                found.append(type(error).__name__)
-    return found
+                yield type(error).__name__
 
 
 def test_without_a_fault_nothing_is_found() -> None:
@@ -157,7 +156,7 @@ def test_seeded_faults_are_caught(fault: str, monkeypatch: pytest.MonkeyPatch) -
     """A fault in the planner or in a plan shows in the comparison with the solver."""
     owner, name, value = FAULTS[fault]
     monkeypatch.setattr(owner, name, value)
-    assert set(verdicts()) != {"ok"}
+    assert any(verdict != "ok" for verdict in verdicts())
 
 
 def test_fractions_stay_fractions() -> None:

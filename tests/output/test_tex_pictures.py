@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import subprocess
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 import pytest
 from laid_out import laid_out
 from tex_pictures import ENGINES, HIDDEN, compiled, lacking, lettered, rendered, strokes, uncovered
+from tiers import THOROUGH, sample
 
 import graphplan as gp
 from graphplan.accuracy.drafted import drafted
@@ -25,13 +25,12 @@ from graphplan.words.tongue import tongue
 
 FORMATS = {"tikz": tikz, "tkz-euclide": tkz_euclide}
 NEEDED = "standalone.cls", "beamer.cls", "adjustbox.sty", "tkz-euclide.sty", "t2aenc.def", "lmodern.sty"
-EVERYTHING = bool(os.environ.get("GRAPHPLAN_TEX"))  # all scenes, engines and languages, which takes half an hour
 EACH = pytest.mark.parametrize(("kind", "name", "engine", "language"), [
     (kind, name, ENGINES[(k + k // len(LANGUAGES) + i) % 3], LANGUAGES[k % len(LANGUAGES)])
     for k, name in enumerate(packaged()) for i, kind in enumerate(FORMATS)
-    if EVERYTHING or (name, kind) in {("slotted-link", "tikz"), ("plough-lift", "tkz-euclide"), ("triad", "tikz")}
+    if THOROUGH or (name, kind) in {("slotted-link", "tikz"), ("plough-lift", "tkz-euclide"), ("triad", "tikz")}
 ])  # fmt: skip
-SPOKEN = LANGUAGES if EVERYTHING else ("uk",)
+SPOKEN = sample(("uk",), LANGUAGES)
 
 
 def composed(name: str, language: str) -> Composition:
@@ -80,7 +79,7 @@ def test_one_document_has_all_pictures(language: str, tmp_path: Path) -> None:
         pytest.skip(f"not at hand: {missing}")
     (tmp_path / "graphplan.sty").write_text(package(), encoding="utf-8")
     pages = list[str]()
-    for name in packaged() if EVERYTHING else ("four-bar", "shaper"):
+    for name in sample(["four-bar", "shaper"], packaged()):
         composition = composed(name, language)
         for k, (kind, export) in enumerate(FORMATS.items()):
             source = export(composition, bare=True, width=0.6 * k)
@@ -97,7 +96,7 @@ def test_slides_are_compiled(engine: str, language: str, tmp_path: Path) -> None
     """Every stage has its slide, between one of the mechanism and one of everything, and nothing is complained of."""
     if missing := lacking(engine, *NEEDED):
         pytest.skip(f"not at hand: {missing}")
-    for name in packaged() if EVERYTHING else ["five-bar"]:
+    for name in sample(["five-bar"], packaged()):
         composition = composed(name, language)
         complaints = compiled(tikz(composition, overlays=True), engine, tmp_path)
         assert [line for line in complaints if not re.search("Rerun|has changed", line)] == []

@@ -30,7 +30,7 @@ OPTIONS = [("--plan", "polar"), ("--plan", "orthogonal"), ("--plan", "triangles"
            ("--method", "trial"), ("--method", "auxiliary"), ("--method", "poles"), ("--strict",), ("--at", "20"),
            ("--at", "outer"), ("--paper", "A2")]  # fmt: skip
 SEEDS = range(400) if THOROUGH else range(3000, 3005)
-CROSSING = "lies on the"  # a step that reads another plan's mark: its fault is told apart
+CROSSING = "lies on the"  # what is said of a step that reads a mark of another plan
 
 
 def ways(scene: Scene) -> list[dict[str, Any]]:
@@ -39,11 +39,8 @@ def ways(scene: Scene) -> list[dict[str, Any]]:
 
 
 def judge(told: dict[str, Any] | None, context: object) -> None:
-    """Nothing is wrong in a protocol; what is recorded across plans is the kernel's to refuse."""
-    found = [] if told is None else faults(told)
-    if any(CROSSING in fault for fault in found):
-        pytest.xfail("a step reads a mark of another plan")
-    assert found == [], context
+    """Nothing is wrong in a protocol."""
+    assert told is None or faults(told) == [], context
 
 
 def drawn(scene: Scene, **how: Any) -> dict[str, Any] | None:

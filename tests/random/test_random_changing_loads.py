@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from fractions import Fraction
 from random import Random
@@ -11,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from loads import loaded_scenes
+from tiers import sample
 
 import graphplan as gp
 from graphplan.check.cycle import cycle
@@ -24,7 +24,7 @@ from graphplan.mechanism.scene import parse
 from graphplan.methods.construct import construct
 from graphplan.solver import poses
 
-LINKAGES = range(int(os.environ.get("LINKAGES", "12")))
+LINKAGES = range(sample(4, 12))
 SPAN, POSES, GIVEN = (-4.0, 6.0), 6, 2  # degrees, or lengths; positions, and which of them is the given pose
 LOAD = re.compile(r'\[\[(forces|moments)\]\]\non = "(.+)"\n(?:at = "(.+)"\n)?value = .*')
 

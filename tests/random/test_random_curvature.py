@@ -8,6 +8,7 @@ from dataclasses import replace
 import pytest
 from gearings import gearing
 from linkages import Linkage, linkage, scenes
+from tiers import sample
 
 from graphplan.check.paths import path_truth
 from graphplan.errors import SingularPose
@@ -17,7 +18,7 @@ from graphplan.methods.construct import construct
 from graphplan.methods.styles import OF_PATHS
 from graphplan.solver import solve
 
-MECHANISMS, TOGETHER = 20, 5
+MECHANISMS, TOGETHER = sample(5, 20), 5
 MADE = {"linkages": linkage, "gearings": gearing}
 
 

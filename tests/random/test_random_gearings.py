@@ -1,22 +1,18 @@
-"""Any mechanism with gears and contacts is constructed as the solver has it, to the last digit, in any order.
-
-More than CI tries: `GEARINGS=500 python -m pytest tests/random/test_random_gearings.py`.
-"""
+"""Any mechanism with gears and contacts is constructed as the solver has it, to the last digit, in any order."""
 
 from __future__ import annotations
-
-import os
 
 import pytest
 from gearings import gearing
 from linkages import scenes
+from tiers import sample
 
 from graphplan.errors import SingularPose
 from graphplan.kernel.numbers import Fractions
 from graphplan.methods.construct import construct
 from graphplan.solver import solve
 
-GEARINGS = int(os.environ.get("GEARINGS", "16"))
+GEARINGS = sample(8, 16)
 TOGETHER = 8  # mechanisms to a test
 STYLES = [(method, plan) for plan in ("orthogonal", "polar", "") for method in ("", "trial", "auxiliary", "poles")]
 

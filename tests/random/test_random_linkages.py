@@ -1,16 +1,13 @@
-"""Any linkage that its drives determine is constructed as the solver has it, to the last digit, in any order.
-
-More than CI tries: `LINKAGES=7000 python -m pytest tests/random`.
-"""
+"""Any linkage that its drives determine is constructed as the solver has it, to the last digit, in any order."""
 
 from __future__ import annotations
 
-import os
 import time
 from fractions import Fraction
 
 import pytest
 from linkages import scenes
+from tiers import sample
 
 from graphplan.errors import SingularPose
 from graphplan.kernel.numbers import Fractions
@@ -18,8 +15,8 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 from graphplan.solver import Rates, solve
 
-LINKAGES = int(os.environ.get("LINKAGES", "100"))
-TOGETHER = 20  # linkages to a test
+LINKAGES = sample(10, 100)
+TOGETHER = sample(5, 20)  # linkages to a test
 LONGEST = 5.0  # seconds for one construction and its numbers
 STYLES = [(method, plan) for plan in ("orthogonal", "polar", "") for method in ("", "trial", "auxiliary", "poles")]
 
@@ -63,5 +60,5 @@ def test_most_linkages_are_regular() -> None:
     """Chance makes few poses singular, and links of every number: the other tests are not empty."""
     found = [next(scenes(seed, orders=1)) for seed in range(LINKAGES)]
     assert sum(rates(scene) is not None for scene in found) > 0.8 * len(found)
-    assert {len(scene.moving) for scene in found} == set(range(1, 10))
+    assert len({len(scene.moving) for scene in found}) > sample(3, 8)
     assert all(isinstance(x, Fraction) for scene in found for at in scene.points.values() for x in at)

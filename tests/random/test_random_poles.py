@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from linkages import linkage
 from polar import with_all_poles
+from tiers import sample
 
 from graphplan.check.trusted import report
 from graphplan.errors import SingularPose
@@ -14,7 +15,7 @@ from graphplan.solver import solve
 TOGETHER = 8  # linkages to a test
 
 
-@pytest.mark.parametrize("first", range(0, 32, TOGETHER))
+@pytest.mark.parametrize("first", range(0, sample(8, 32), TOGETHER))
 def test_poles_are_constructed_exactly(first: int) -> None:
     """However a linkage is driven, and however many of its lines fall in one, every pole is exactly the solver's."""
     agreed = 0

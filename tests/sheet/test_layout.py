@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 from sheets import SCENES, composition_of, drawing_of, outside, pages_of, sheet_of, spots
+from tiers import scenes
 
 import graphplan as gp
 from graphplan.errors import Refused
@@ -89,7 +90,7 @@ def test_the_polar_plans_have_panels_of_their_own(name: str) -> None:
 
 def test_strokes_stay_on_their_panels() -> None:
     """Nothing that is constructed leaves its panel, even where a mark lies far outside."""
-    for name in SCENES:
+    for name in scenes("strokes stay on their panels"):
         sheet = sheet_of(name)
         for item in sheet.items:
             if item.step is not None and item.layer != "text":

@@ -19,6 +19,7 @@ import pytest
 from by_hand import Written, mechanism, move, push, slide, turn
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from tiers import sample
 
 from graphplan.errors import Refused, SingularPose
 from graphplan.mechanism.model import Number, Pair, Scene
@@ -238,7 +239,7 @@ chains = st.integers(0, 4).flatmap(lambda n: st.lists(places, min_size=2 * n + 1
 
 
 @given(chains)
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=sample(25, 150), deadline=None)
 def test_random_chains(scene: Scene) -> None:
     """Any chain of dyads is singular for fractions and floats alike, or rigid exactly and equal up to its condition."""
     try:
@@ -257,7 +258,7 @@ def test_random_chains(scene: Scene) -> None:
 
 
 @given(chains, places)
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=sample(8, 50), deadline=None)
 def test_origin_does_not_matter(scene: Scene, offset: tuple[int, int]) -> None:
     """A scene moved bodily has the same rates, even far away, to the last bit where the move is exact."""
     far = tuple(2**20 * step for step in offset)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import re
 from collections import Counter
 from collections.abc import Iterator
@@ -15,6 +14,7 @@ from typing import Any
 
 import pytest
 from pages import Reader, chromium, opened, page_of
+from tiers import sample
 
 import graphplan as gp
 from graphplan.commands import main
@@ -435,7 +435,7 @@ def test_results_and_words_are_python_s_in_other_poses(browser: Any) -> None:
             assert speed in unescape(told)
 
 
-@pytest.mark.parametrize("name", packaged() if "GRAPHPLAN_LIVE" in os.environ else ("triad-loaded", "shaper"))
+@pytest.mark.parametrize("name", sample(["triad-loaded"], packaged()))
 def test_pages_of_packaged_scenes_move(browser: Any, name: str) -> None:
     """Between its limits a mechanism moves and its points are dragged, and nobody complains."""
     with opened(browser, page_of("live", name, "--choices", "none")) as page:

@@ -1,14 +1,10 @@
-"""The picture of the live page, drawn by JavaScript: in the given pose the sheet's own, in others as Python draws them.
-
-GRAPHPLAN_PICTURES is how many of the packaged scenes are drawn, from the first on; without it a few are.
-"""
+"""The live page's picture, drawn by JavaScript: in the given pose the sheet's own, in others as Python draws them."""
 
 from __future__ import annotations
 
 import cmath
 import json
 import math
-import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -17,6 +13,7 @@ from typing import Any
 
 import pytest
 from pages import chromium
+from tiers import sample
 
 import graphplan as gp
 from graphplan.cycle import follow
@@ -36,8 +33,7 @@ from graphplan.sheet.plates.drawn_step import LAYER
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 
-SAMPLE = "slider-crank", "shaper", "jaanimets-10", "double-butterfly"
-SCENES = packaged()[: int(os.environ["GRAPHPLAN_PICTURES"])] if "GRAPHPLAN_PICTURES" in os.environ else SAMPLE
+SCENES = sample(["slider-crank", "double-butterfly"], packaged())
 POSES = 12  # of a turn
 FAR = 1e9  # mm
 NEAR = 0.0101  # mm: both pictures are rounded to hundredths

@@ -1,0 +1,43 @@
+"""The tests' two tiers: how claims share the packaged scenes, and what costs much."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from itertools import permutations
+from pathlib import Path
+
+import tiers
+from tiers import BLOCK, CORE, ranked, spread
+
+from graphplan.mechanism.scene import packaged
+
+TESTS = Path(__file__).parent
+
+
+def test_any_two_claims_share_a_scene_of_the_core() -> None:
+    """Each distance round the ring of the core lies between two scenes of a block just once."""
+    assert len({*CORE} & {*packaged()}) == len(CORE)
+    assert sorted((a - b) % len(CORE) for a, b in permutations(BLOCK, 2)) == [*range(1, len(CORE))]
+
+
+def test_every_scene_is_in_some_claim() -> None:
+    """Where claims are four times as many as scenes, each scene is tried by some; none is left out in the end."""
+    claims = [ranked(f"claim {k}") for k in range(4 * len(packaged()))]
+    assert {name for claim in claims for name in claim[: tiers.A_CLAIM]} == {*packaged()}
+    assert all(sorted(claim) == sorted(packaged()) for claim in claims)
+
+
+def test_variants_are_taken_at_equal_distances() -> None:
+    """From the first to the last, none twice; one is the first, and none more than there are."""
+    assert spread(range(9), 3) == [0, 4, 8]
+    assert spread(range(9), 1) == [0]
+    assert spread(range(9), 0) == []
+    assert [len({*spread(range(7), count)}) for count in range(10)] == [*range(8), 7, 7]
+
+
+def test_what_costs_much_is_there() -> None:
+    """Each test that the list names stands in its file."""
+    for file, counts in tomllib.loads((TESTS / "shared" / "costly.toml").read_text(encoding="utf-8")).items():
+        text = (TESTS.parent / file).read_text(encoding="utf-8")
+        assert {*counts} <= {*re.findall(r"(?m)^def (\w+)\(", text)}, file

@@ -33,7 +33,7 @@ def decided(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
 
     smooth = replace(scene, loads=replace(loads, frictions=()))
     if exact and any(friction.at and friction.coefficient * friction.radius for friction in loads.frictions):
-        return smooth, ROOTS
+        return smooth, ROOTS if _journals_bear(smooth, {friction.at for friction in loads.frictions}) else ""
     if scene.repeating:
         return smooth, REPEATING
     with suppress(GraphplanError, ArithmeticError):
@@ -43,6 +43,17 @@ def decided(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
     except SingularPose as singular:
         return smooth, singular.why
     return scene, ""
+
+
+def _journals_bear(smooth: Scene, journals: set[str]) -> bool:
+    """Whether any of these joints bears a force without friction; where none does, friction makes none."""
+    from graphplan.solver.statics import reactions
+
+    try:
+        borne = reactions(smooth, exact=True)
+    except SingularPose:
+        return True
+    return any(any(force) for (point, _), force in borne.joints.items() if point in journals)
 
 
 def _resting(scene: Scene) -> frozenset[str]:

@@ -219,7 +219,7 @@ def constructed(curve: Curve, scales: DiagramScales, places: Places) -> tuple[Pr
 
     Reads the positions, by place, at which the abscissa is divided.
     """
-    board = Board()
+    board = Board(coplanar=True)  # one under the other over the same abscissas: an upright passes through all diagrams
     stretches = [_Stretch(board, curve, scales, places, stretch) for stretch in curve.stretches(places)]
     v, a = (axes(board, PANELS[rate], curve.letters[rate], scales.poles[rate]) for rate in QUANTITIES[1:])
     figures = [stretch.found(v, a) for stretch in stretches]

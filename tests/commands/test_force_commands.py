@@ -101,14 +101,17 @@ def test_balance_as_a_force_at_rest(monkeypatch: pytest.MonkeyPatch, capsys: pyt
     assert 3 * x == -4 * y
 
 
-def test_lever_alone_tells_the_balance_alone(monkeypatch: pytest.MonkeyPatch,
+def test_lever_alone_draws_the_balance_alone(monkeypatch: pytest.MonkeyPatch,
                                              capsys: pytest.CaptureFixture[str]) -> None:
-    """With --plan lever no reaction is found unless it is asked for by name; then its pair is freed."""
-    assert solved(REST, monkeypatch, capsys, "--plan", "lever")["reactions"] == []
-    asked = solved(REST + '[find]\nreactions = ["C"]', monkeypatch, capsys, "--plan", "lever", "--exact")["reactions"]
+    """With --plan lever reactions are the solver's, and said to be; one that is asked for by name is drawn, its pair
+    freed."""
     by_plans = solved(REST, monkeypatch, capsys, "--exact")["reactions"]
-    assert [entry["at"] for entry in asked] == ["C"]
-    assert asked[0] in by_plans
+    alone = solved(REST, monkeypatch, capsys, "--plan", "lever", "--exact")
+    assert alone["reactions"] == by_plans
+    assert alone["method"]["force"][-1].startswith("analytic solver alone: frame at O")
+    asked = solved(REST + '[find]\nreactions = ["C"]', monkeypatch, capsys, "--plan", "lever", "--exact")
+    assert [entry for entry in by_plans if entry["at"] == "C"] == asked["reactions"]
+    assert not any(way.startswith("analytic solver") for way in asked["method"]["force"])
 
 
 def test_several_balances_are_a_list(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

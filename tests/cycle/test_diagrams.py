@@ -69,7 +69,7 @@ def crank(positions: int = 96) -> Curve:
 @pytest.mark.parametrize("seed", range(5))
 def test_chords_are_difference_quotients(seed: int) -> None:
     """By chords the ordinate is HO times the strip's difference quotient, exactly, in the middle of the strip."""
-    board, spots = Board(), scattered(Random(seed))
+    board, spots = Board(coplanar=True), scattered(Random(seed))
     rays = by_chords(board, marked(board, spots), axes(board, "v", "v", HO), [""] * 6)
     wanted = [((x + u) / 2, HO * (v - y) / (u - x)) for (x, y), (u, v) in pairwise(spots)]
     assert exact(board, [ray.ordinate for ray in rays]) == wanted
@@ -77,7 +77,7 @@ def test_chords_are_difference_quotients(seed: int) -> None:
 
 def test_tangents_are_central_differences() -> None:
     """By tangents the ordinate at a point is HO times the quotient over the two strips beside it, exactly."""
-    board, spots = Board(), [(Fraction(k), Fraction(k**3, 5)) for k in range(6)]
+    board, spots = Board(coplanar=True), [(Fraction(k), Fraction(k**3, 5)) for k in range(6)]
     rays = by_tangents(board, marked(board, spots), axes(board, "v", "v", HO), [""] * 4)
     wanted = [(Fraction(k), HO * (3 * k * k + 1) / 5) for k in range(1, 5)]
     assert exact(board, [ray.ordinate for ray in rays]) == wanted
@@ -86,7 +86,7 @@ def test_tangents_are_central_differences() -> None:
 @pytest.mark.parametrize("seed", range(5))
 def test_integrating_the_chords_gives_the_diagram_back(seed: int) -> None:
     """Integration of what differentiation by chords gave ends in the points it began with, exactly."""
-    board, spots = Board(), scattered(Random(seed))
+    board, spots = Board(coplanar=True), scattered(Random(seed))
     points, rate = marked(board, spots), axes(board, "v", "v", HO)
     found = [ray.ordinate for ray in by_chords(board, points, rate, [""] * 6)]
     back = integrate(board, found, points[0], points, rate, [""] * 6)

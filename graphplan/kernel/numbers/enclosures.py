@@ -196,9 +196,8 @@ class Enclosures(Domain):
         return value
 
     def sign(self, value: Enclosure, scale: Any) -> Enclosure:
-        if value.ball.contains(0):
-            least = ball(scale).abs_lower() * arb((1, -int(ctx.prec) // 2))  # zero in half of the digits is zero
-            return Enclosure(0 if value.ball.abs_upper() <= least else arb(0, 1))  # else it is of either sense, or none
+        if value.ball.contains(0) and not value.ball.is_zero():
+            return Enclosure(arb(0, 1))  # either sense, or none
         return Enclosure((value.ball > 0) - (value.ball < 0))
 
     @property

@@ -124,7 +124,7 @@ class Opinion {
     let worst = 0;
     for (const k of this.rates.keys()) {
       const lies = this.linkage.moving(knot, this.rates.map((_, i) => (i === k ? 1 : 0)));
-      const loads = [...this.loads(points, acceleration, changes), ...this.balanced(results)];
+      const loads = [...this.loads(points, acceleration, changes), ...this.balanced(results.without_friction ?? results)];
       const terms = this.powers(loads, lies, points), least = this.least(lies);
       const sizes = loads.map(({ force, moment }) => (force ? Math.hypot(...force) : Math.abs(moment) / this.reach) * least);
       const size = Math.max(...terms.map(Math.abs), ...sizes);
@@ -163,7 +163,7 @@ class Opinion {
 
   /** The efficiency: of the balances' powers without friction and with it. */
   efficiency(results, lies, points) {
-    const [smooth, rough] = [results, results.friction].map((told) => this.powers(this.balanced(told), lies, points)
+    const [smooth, rough] = [results.without_friction, results].map((told) => this.powers(this.balanced(told), lies, points)
       .reduce((sum, power) => sum + power, 0));
     if (smooth === 0 && rough === 0) return null;
     if (Math.abs(smooth) <= IDLE * Math.abs(rough)) return 0;

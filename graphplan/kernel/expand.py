@@ -376,11 +376,16 @@ class FormBoard(Verbs):
                and any(claim[0] == "on" and step.args[claim[1]] == line for claim in step.op.claims)]
         return sorted((board.marks[index] for index in on), key=lambda P: dot(self._expander.value(P), (b, -a)))
 
+    def on_sheet(self, P: Mark) -> bool:
+        """Whether a point lies on the sheet of its plan."""
+        return self._expander.windows.get(P.panel, EVERYWHERE).holds(self._expander.value(P))
+
     def clear_of(self, P: Mark, among: Iterable[Mark] | None = None) -> Mark | None:
-        """The point furthest from P, of some or of those on its plan, else of all."""
+        """The point furthest from P, of some or of those on its plan, else of all; on the sheet, if there is one."""
         steps = self._expander.board.steps if among is None else [mark.step for mark in among]
         points = [step for step in steps if step.op.gives == POINT]
         points = [step for step in points if step.panel == P.panel] or points
+        points = [step for step in points if self.on_sheet(self._expander.board.marks[step.index])] or points
         values, here = self._expander.values, self._expander.value(P)
         far = max((step.index for step in points), key=lambda index: math.dist(here, values[index]), default=None)
         return None if far is None or self.one(P, mark := self._expander.board.marks[far]) else mark

@@ -130,7 +130,8 @@ def _sized(s: Any, A: Any, alpha: Any, B: Any) -> tuple[Any, Any]:
     """Where on a locus a trial figure begins, and how large it is: as the link, or on another plan as what is drawn."""
     if s.share_plan(alpha, A):
         return A, B
-    start = s.points_on(alpha)[0]
+    points = s.points_on(alpha)
+    start = next(filter(s.on_sheet, points), points[0])
     far = s.clear_of(start)
     return start, s.transfer(A, B, start) if far is None else far
 

@@ -29,6 +29,7 @@ from graphplan.check.trusted import report
 from graphplan.errors import GraphplanError, Refused
 from graphplan.kernel.kinds import POINT, Movement, plain
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.program import evaluate
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
@@ -171,7 +172,7 @@ def form_of(drawing: Construction) -> str:
 def as_drawn(drawing: Construction) -> Results:
     """What is read off the drawing, each mark made in floats from those before it."""
     found: dict[str, dict[str, Any]] = {}
-    for reading, _, value in readings(drawing, drawing.values, Floats()):
+    for reading, _, value in readings(drawing, evaluate(drawing.drawn, Floats()), Floats()):
         found.setdefault(reading.kind, {})[reading.of] = value
     return found
 

@@ -35,23 +35,20 @@ const Numbers = {
 
   // ---- sums that hold as printed: as graphplan/sheet/words/sums.py has them
 
-  levels: [[1, 1, 4, 4], [2, 1, 4, 5], [2, 2, 4, 5], [3, 2, 4, 6], [3, 3, 4, 7], [4, 3, 4, 8], [4, 2, 3, 8]],
+  levels: [[1, 1, 4, 4], [2, 1, 4, 5], [2, 1, 4, 6], [1, 1, 4, 5]],
+  asPrinted: 2,  // from this level on a result is what the printed numbers come to
 
   level(kinds, ...numbers) {
     if (!numbers.every(Number.isFinite)) return 0;
     const form = "+-Σ".includes(kinds[0]) ? kinds[0] : "", own = kinds.slice(form.length), last = own.length - 1;
+    if (!"mMd".includes(own[last])) return 3;
     const holds = (_, level) => {
       const told = numbers.map((x, k) => Numbers.rounded(x, own[k], level, k === last));
       const found = Numbers.sum(form, own.slice(0, last), told);
-      let digit = 10 ** -Numbers.levels[level][1];
-      if (!"mMd".includes(own[last])) {
-        const power = Numbers.power(numbers[last]), x = 10 ** (power - Numbers.resultFigures(numbers[last], level) + 1);
-        digit = power >= 7 ? x : Math.min(1, x);
-      }
-      return Math.abs(found - told[last]) <= 0.499 * digit;
+      return Math.abs(found - told[last]) <= 0.499 * 10 ** -Numbers.levels[level][1];
     };
-    const found = Numbers.levels.findIndex(holds);
-    return found < 0 ? Numbers.levels.length - 1 : found;
+    const found = Numbers.levels.slice(0, Numbers.asPrinted).findIndex(holds);
+    return found < 0 ? Numbers.asPrinted : found;
   },
 
   sum(form, kinds, told) {
@@ -76,12 +73,12 @@ const Numbers = {
 
   resultFigures(x, level) {
     const power = Numbers.power(x);
-    return power <= 2 ? Numbers.levels[level][2] : level < 2 ? 4 : Math.max(4, Math.min(power + 1, 7));
+    return power <= 2 ? Numbers.levels[level][2] : Math.max(4, Math.min(power + 1, 7));
   },
 
   result(kinds, ...numbers) {
     const level = numbers.pop(), form = "+-Σ".includes(kinds[0]) ? kinds[0] : "", own = kinds.slice(form.length, -1);
-    if (level < Numbers.levels.length - 1) return numbers.at(-1);
+    if (level < Numbers.asPrinted) return numbers.at(-1);
     const value = Numbers.sum(form, own, numbers.map((x, k) => k < own.length ? Numbers.rounded(x, own[k], level) : x));
     return Number.isFinite(value) ? value : numbers.at(-1);
   },
@@ -92,7 +89,7 @@ const Numbers = {
   },
 
   figuresOf(x, figures) {
-    for (let count = figures; count <= 8; count++) {
+    for (let count = figures; count <= 6; count++) {
       if (Math.abs(Numbers.inFigures(x, count) - x) <= 1e-9 * Math.abs(x)) return count;
     }
     return figures;

@@ -1,14 +1,14 @@
 """Sums and products as they are spoken: every number in so many digits that what is printed holds as it is printed.
 
-A ruler reads tenths of a millimetre. Where the printed product of tenths is not the printed result, one number more is
-told, and so on; given quantities and scales are told in full. Each number of a sum is of a kind, by a letter:
+A ruler reads tenths of a millimetre. What is read off is told in tenths, and comes to what these tenths come to. A
+length that is worked out is right to a tenth: where tenths do not give it, hundredths are told. Given quantities and
+scales are told in full. Each number of a sum is of a kind, by a letter:
 
     m  mm that are multiplied        M  mm that are squared        d  mm by which it is divided
     f  a figure that multiplies      F  one that is squared        g  one that divides      a  one that is added
 
 Before them a sign says what the product of mm is taken from or added to 1, or Σ that mm are multiplied two and two and
-added; the kind of the result, m or f, is the last letter. Where no digits do, the result is what the printed numbers
-come to.
+added; the kind of the result is the last letter: m of a length that is worked out, f of what is read off.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from functools import cached_property
 from graphplan.phrases import Said, Unknown, decimals, digits
 
 # By level: decimals of mm, decimals of a result in mm, figures of another result, figures of what is no length.
-LEVELS = ((1, 1, 4, 4), (2, 1, 4, 5), (2, 2, 4, 5), (3, 2, 4, 6), (3, 3, 4, 7), (4, 3, 4, 8), (4, 2, 3, 8))
-WHOLE = 2  # from this level on all whole figures of a result are printed
+LEVELS = ((1, 1, 4, 4), (2, 1, 4, 5), (2, 1, 4, 6), (1, 1, 4, 5))
+PRINTED, READ = 2, 3  # levels from the first of which on a result is what the printed numbers come to; of what is read
 HALF = 0.499  # of the last printed digit: how far off what the printed numbers come to may be
-EXACT, MOST_FIGURES = 1e-9, 8  # of a figure: within it all of it is printed, where so many figures do
+EXACT, MOST_FIGURES = 1e-9, 6  # of a figure: within it all of it is printed, where so many figures do
 LENGTHS, FORMS = "mMd", "+-Σ"
 
 
@@ -37,7 +37,7 @@ class Sum:
 
     @cached_property
     def level(self) -> int | Unknown:
-        """The first at which it holds as printed; the last where none does."""
+        """The first at which it holds as printed, else that of what the printed numbers come to."""
         unknown = next((number for number in self.numbers if isinstance(number, Unknown)), None)
         if unknown is None:
             return holding(self.kinds, self.numbers)
@@ -78,8 +78,8 @@ class Sum:
 
 
 def result_at(level: int, kinds: str, numbers: Sequence[float]) -> float:
-    """The result, or at the last level what the printed numbers come to."""
-    if level < len(LEVELS) - 1:
+    """The result, or what the printed numbers come to."""
+    if level < PRINTED:
         return numbers[-1]
     form, own = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
     value = _value(form, own, [rounded(number, kind, level) for number, kind in zip(numbers[:-1], own, strict=False)])
@@ -87,15 +87,17 @@ def result_at(level: int, kinds: str, numbers: Sequence[float]) -> float:
 
 
 def holding(kinds: str, numbers: Sequence[float]) -> int:
-    """The first level at which a sum holds as printed, the last where none does."""
+    """The first level at which a sum holds as printed, else that of what the printed numbers come to."""
+    if kinds[-1] not in LENGTHS:
+        return READ
     form, kinds = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
-    for level in range(len(LEVELS)):
+    for level in range(PRINTED):
         told = [rounded(number, kind, level) for number, kind in zip(numbers[:-1], kinds[:-1], strict=True)]
         result = rounded(numbers[-1], kinds[-1], level, result=True)
         found = _value(form, kinds, told)
-        if abs(found - result) <= HALF * _last_digit(numbers[-1], kinds[-1], level):
+        if abs(found - result) <= HALF * 10.0 ** -LEVELS[level][1]:
             return level
-    return len(LEVELS) - 1
+    return PRINTED
 
 
 def _value(form: str, kinds: str, numbers: Sequence[float]) -> float:
@@ -131,7 +133,7 @@ def rounded(number: float, kind: str, level: int, *, result: bool = False) -> fl
 def result_figures(number: float, level: int) -> int:
     """In how many figures a result is printed: in few only where they tell all whole ones."""
     power = _power(number)
-    return LEVELS[level][2] if power <= 2 else 4 if level < WHOLE else max(4, min(power + 1, 7))
+    return LEVELS[level][2] if power <= 2 else max(4, min(power + 1, 7))
 
 
 def _power(number: float) -> int:
@@ -145,12 +147,3 @@ def figures_of(number: float, figures: int) -> int:
         if abs(float(f"{number:.{count}g}") - number) <= EXACT * abs(number):
             return count
     return figures
-
-
-def _last_digit(number: float, kind: str, level: int) -> float:
-    """What one of the last printed digit of a result is, and of what is printed in whole numbers 1."""
-    if kind in LENGTHS:
-        return 10.0 ** -LEVELS[level][1]
-    power = _power(number)
-    unit = 10.0 ** (power - result_figures(number, level) + 1)
-    return unit if power >= 7 else min(1.0, unit)

@@ -19,7 +19,7 @@ import numpy as np
 from graphplan.cycle.closure import Body
 from graphplan.cycle.groups import Group
 from graphplan.cycle.linkage import Array, Linkage, direction
-from graphplan.kernel.numbers.floats import ZERO
+from graphplan.kernel.tolerances import ROUNDOFF_TOL
 from graphplan.mechanism.model import FRAME, Contact, Gear, Slide
 
 
@@ -194,7 +194,7 @@ def _met(one: Array, ray: Array, other: Array, across: Array) -> Array:
     """Where the lines through two points meet, if anywhere."""
     sine = (ray.conj() * across).imag
     if isinstance(sine, np.ndarray):
-        sine = np.where(np.abs(sine) > ZERO, sine, np.nan)
+        sine = np.where(np.abs(sine) > ROUNDOFF_TOL, sine, np.nan)
     return one + ray * ((other - one).conj() * across).imag / sine
 
 

@@ -19,11 +19,9 @@ from graphplan.kernel.kinds import LINE, POINT, Claim
 from graphplan.kernel.loci import ahead, along
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, Step
+from graphplan.kernel.tolerances import CLAIM_TOL, MIN_MEASURE, STANDSTILL_TOL
 
-TOLERANCE = 1e-9
-LEAST = 1e-3  # of a figure's extent: what is smaller is measured by this
 SPREAD = 8  # times its rounding that a number may be off
-STILL = 1e-12  # beside the drawing's size: what moves less may be said to stand still
 
 
 # ---- lying on, running along, in proportion ------------------------------------------------------------------------
@@ -163,7 +161,7 @@ def _touches(d: Drawn, P: int, R: int, w: int, p: int, q: int) -> float:
     """The force passes at the radius of the friction circle, and turns against the motion."""
     arm, turned, force = d[R] - d[P], forward(d[w] - d[R], d[R] - d[P]), d[q] - d[p]
     full = d.number("radius") * math.copysign(1.0, turned) * unit(force) / 1j if force else 0j
-    still = abs(turned) <= STILL * d.size or abs(force) <= STILL * d.size
+    still = abs(turned) <= STANDSTILL_TOL * d.size or abs(force) <= STANDSTILL_TOL * d.size
     return min(abs(d[-1] - d[P] - off) for off in (full, 0j if still else full)) / (d.size + abs(arm))
 
 
@@ -171,7 +169,7 @@ def _leans(d: Drawn, l: int, B: int, w: int, p: int, q: int) -> float:
     """The guide is turned by the friction angle: the force square to it is against the sliding."""
     slip, force, way = (d[w] - d[B]) / 1j, dot(d[q] - d[p], 1j * d.way(l)), d.way(l)
     full = d.number("coefficient") * math.copysign(1.0, dot(slip, way)) * math.copysign(1.0, force)
-    still = abs(dot(slip, way)) <= STILL * d.size or abs(force) <= STILL * d.size
+    still = abs(dot(slip, way)) <= STANDSTILL_TOL * d.size or abs(force) <= STANDSTILL_TOL * d.size
     return min(abs(d.way(-1) - unit(way * (1 + 1j * lean))) for lean in (full, 0.0 if still else full))
 
 
@@ -180,7 +178,7 @@ def _presses(d: Drawn, P: int, B: int, p: int, q: int) -> float:
     inwards = d[B] - d[P]
     part = cross(inwards, d[q] - d[p])
     full = 1j * math.copysign(1.0, part) + d.number("coefficient")
-    still = abs(part) <= STILL * d.size * abs(inwards)
+    still = abs(part) <= STANDSTILL_TOL * d.size * abs(inwards)
     return min(abs(cross(d.way(-1), unit(inwards * way))) for way in (full, 1j if still else full))
 
 
@@ -315,7 +313,7 @@ def _residual(claim: Claim, drawn: Drawn) -> float:
     return abs(CLAIMS[claim[0]][0](drawn, *claim[1:]))
 
 
-def unmet(step: Step, values: Sequence[Any], tolerance: float = TOLERANCE,
+def unmet(step: Step, values: Sequence[Any], tolerance: float = CLAIM_TOL,
           extent: float = 0.0, blur: float = 1.0) -> list[tuple[Claim, float]]:
     """The claims that a step breaks, with their residuals; one that is no number breaks its claim.
 
@@ -323,7 +321,7 @@ def unmet(step: Step, values: Sequence[Any], tolerance: float = TOLERANCE,
     numbers alone, which are known `blur` times worse, makes of a residual breaks nothing, as where two points all but
     coincide.
     """
-    least = LEAST * extent
+    least = MIN_MEASURE * extent
     return [(claim, residual) for claim, residual in residuals(step, values, least) if not residual <= tolerance
             and not residual <= SPREAD * blur * _rounding(Drawn(step, values, least), claim, extent)]
 
@@ -339,7 +337,7 @@ def _rounding(drawn: Drawn, claim: Claim, extent: float) -> float:
     return change
 
 
-def broken(program: Program, values: Sequence[Any], tolerance: float = TOLERANCE, extent: float = 0.0,
+def broken(program: Program, values: Sequence[Any], tolerance: float = CLAIM_TOL, extent: float = 0.0,
            blur: float = 1.0) -> Iterator[str]:
     """All claims that a program breaks in one pose, in the letters of the sheet, the first step's first."""
     for step in program.steps:

@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple, Self
 
+from graphplan.kernel.tolerances import CLOSURE_TOL
+
 Vector = tuple[Any, Any]
-CLOSED = 1e-9  # of the linkage: a last correction that is larger leads nowhere
 
 
 class Pin(NamedTuple):
@@ -173,7 +174,7 @@ def closed(d: Any, joints: Sequence[Vector], group: Closure) -> list[Attitude]:
         pose = [_moved(lies, *corrections[3 * i:3 * i + 3]) for i, lies in enumerate(pose)]
     size = sum((abs(x) + abs(y) for x, y in joints), d.lift(0))
     last = sum((abs(one) for one in corrections), d.lift(0))
-    d.sqrt(size * d.lift(CLOSED) - last, "circles-miss", "the lengths of the group's links do not close")
+    d.sqrt(size * d.lift(CLOSURE_TOL) - last, "circles-miss", "the lengths of the group's links do not close")
     return pose
 
 

@@ -14,8 +14,7 @@ from typing import Any, NamedTuple
 from graphplan.kernel.incidence import followed, incident
 from graphplan.kernel.kinds import CIRCLE, Movement
 from graphplan.kernel.program import Panel, Step
-
-ROUNDED = 1e-12  # beside the largest numbers that a mark was made from: what differs by less is one
+from graphplan.kernel.tolerances import COINCIDENCE_TOL
 
 
 class LyingLine(NamedTuple):
@@ -32,12 +31,12 @@ class LyingLine(NamedTuple):
     def holds(self, point: tuple[float, float], reach: float) -> bool:
         """Whether a point, made from numbers as large as `reach`, lies on it."""
         (a, b), (x, y) = self.normal, point
-        return abs(a * x + b * y + self.offset) <= ROUNDED * self.swing * max(self.reach, reach)
+        return abs(a * x + b * y + self.offset) <= COINCIDENCE_TOL * self.swing * max(self.reach, reach)
 
     def along(self, other: LyingLine) -> bool:
         """Whether another line has its direction."""
         (a, b), (c, d) = self.normal, other.normal
-        return abs(a * d - b * c) <= ROUNDED * (self.swing + other.swing)
+        return abs(a * d - b * c) <= COINCIDENCE_TOL * (self.swing + other.swing)
 
     @property
     def drawer(self) -> tuple[str, float]:
@@ -61,7 +60,7 @@ class LyingLines:
         apart."""
         line = self._lying(step)
         ends = [(self.values[place][:2], self.reach[place]) for place in map(step.args.__getitem__, incident(step.op))]
-        part, spread = line.normal[0] * line.normal[0], 4 * ROUNDED * line.swing
+        part, spread = line.normal[0] * line.normal[0], 4 * COINCIDENCE_TOL * line.swing
         for direction in {round(part - spread, 3), round(part + spread, 3)}:
             for old in self._drawers.get((line.plan, direction), ()):
                 if not apart and ends and old.along(line) and all(old.holds(*end) for end in ends):

@@ -8,9 +8,9 @@ from typing import Any
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Step
+from graphplan.kernel.tolerances import ULP
 
 Vector = tuple[int, int]
-ULP = 2.0**-52  # of a number: what its rounding may be
 
 
 class Drawn:

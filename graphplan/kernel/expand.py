@@ -16,15 +16,15 @@ from typing import Any, NamedTuple
 
 from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel.claims import unmet
-from graphplan.kernel.coincidence import ROUNDED, LyingLine, LyingLines, crossing, line_gap, runs_against
+from graphplan.kernel.coincidence import LyingLine, LyingLines, crossing, line_gap, runs_against
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.plans import PlansApart
 from graphplan.kernel.primitives import dot
 from graphplan.kernel.program import Board, Mark, Program, Step, Verbs, error_at
+from graphplan.kernel.tolerances import COINCIDENCE_TOL, FORM_TOL
 from graphplan.kernel.window import EVERYWHERE, Window
 
-AGREE = 1e-6  # beside the figure that is drawn: a form that loses more is none
 FLOATS = Floats()
 
 # What counts as one movement: with set squares and dividers, and with compasses and straightedge alone.
@@ -155,7 +155,7 @@ class Expander:
     def _breaks_a_claim(self, attempt: Attempt) -> bool:
         """Whether a step of a form is not what it should be, as where its curves cross too flat in this pose."""
         values = [*self.values, *attempt.values]
-        return any(unmet(mark.step, values, AGREE, self.extent) for mark in attempt.marks)
+        return any(unmet(mark.step, values, FORM_TOL, self.extent) for mark in attempt.marks)
 
     def _laid(self, attempt: Attempt) -> Mark:
         """What an attempt has drawn, on the board once more."""
@@ -274,8 +274,8 @@ class Expander:
                           and arg.panel == args[op.where].panel), default=read)
         used = (index for step in self.board.steps[before:] for index in (step.index, *step.args))
         reach = max([read, *map(self.reach.__getitem__, used)])
-        lost = ROUNDED * reach / sharpest if sharpest > ROUNDED else 0.0
-        return gap <= max(ROUNDED * read, min(AGREE * spread, lost))
+        lost = COINCIDENCE_TOL * reach / sharpest if sharpest > COINCIDENCE_TOL else 0.0
+        return gap <= max(COINCIDENCE_TOL * read, min(FORM_TOL * spread, lost))
 
     def _judge(self, form: str, before: int) -> Rating | None:
         steps = self.board.steps[before:]
@@ -366,7 +366,7 @@ class FormBoard(Verbs):
 
     def _nothing(self, length: float, *marks: Mark) -> bool:
         """Whether a length is nothing beside the numbers that these marks were made from."""
-        return abs(length) <= ROUNDED * max(self._expander.reach[mark.step.index] for mark in marks)
+        return abs(length) <= COINCIDENCE_TOL * max(self._expander.reach[mark.step.index] for mark in marks)
 
     def points_on(self, l: Mark) -> list[Mark]:
         """The points that a line was drawn through or that were drawn on it, the way it runs."""

@@ -15,8 +15,8 @@ from graphplan.kernel.kinds import POINT
 from graphplan.kernel.numbers import Fractions
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, about_origin
+from graphplan.kernel.tolerances import DIVISOR_SHARE
 
-SHARE = 2.0**-20  # of the terms of a divisor: if less is left of them, too few digits are
 PRECISIONS = 256, 1024, 4096  # bits
 FAR = 2.0**60  # times the mechanism: what floats cannot draw and lies further off no pencil can
 DIGITS = Fraction(1, 2**60)  # of a number: how far off it may be before it is rounded
@@ -51,7 +51,7 @@ def faithful(program: Program) -> Faithful:
         fault = None
     except ConstructionError as error:
         fault = error
-    if fault is None and floats.share >= SHARE:
+    if fault is None and floats.share >= DIVISOR_SHARE:
         return Faithful(values, False, 1.0)
     better = _bounded(program) if find_spec("flint") else _exact(program)
     if fault is not None and (better is None or _far_off(program, better)):

@@ -21,10 +21,10 @@ from graphplan.kernel.kinds import CIRCLE, COMPASSES, PENCIL, POINT, TABLE, Move
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.primitives import cross, dot
+from graphplan.kernel.tolerances import LOCUS_STEP, LOCUS_TOL
 from graphplan.phrases import digits, phrase
 
 SPACING = 12.0, 8.0, 4.0, 2.0, 1.0  # degrees between plans, the widest first that serves
-MISSED = 5e-4  # of the distance of two plans: what a curve through them may be off at most
 NODES = -1.0, 0.0, 1.0, 2.0  # of the parameter, at the plans
 FLOATS = Floats()
 
@@ -63,9 +63,8 @@ def along(d: Any, plans: Sequence[Any], u: Any) -> Vector:
 
 def ahead(plans: Sequence[Any], u: float) -> Vector:
     """How the cubic runs there."""
-    step = 2.0**-12
-    (x, y), (v, w) = (along(FLOATS, plans, u + off) for off in (-step, step))
-    return (v - x) / (2 * step), (w - y) / (2 * step)
+    (x, y), (v, w) = (along(FLOATS, plans, u + off) for off in (-LOCUS_STEP, LOCUS_STEP))
+    return (v - x) / (2 * LOCUS_STEP), (w - y) / (2 * LOCUS_STEP)
 
 
 @primitive((POINT, POINT, POINT, POINT, CIRCLE), POINT, PENCIL,
@@ -177,7 +176,7 @@ class Plans:
                 places = [sketch.plan(pin, hinge, angle) for angle in angles]
             except Undrawable:  # links do not reach each other
                 continue
-            if None not in places and math.dist(true, along(FLOATS, places, u)) <= MISSED * math.dist(*places[1:3]):
+            if None not in places and math.dist(true, along(FLOATS, places, u)) <= LOCUS_TOL * math.dist(*places[1:3]):
                 return [self.plan(pin, hinge, angle) for angle in angles], u
         return None
 

@@ -21,6 +21,7 @@ from graphplan.kernel.kinds import (
     primitive,
 )
 from graphplan.kernel.primitives import apart, cross, dot, size
+from graphplan.kernel.tolerances import COLLINEAR_TOL
 from graphplan.phrases import Said
 
 
@@ -87,8 +88,6 @@ def crank(d: Any, P: Any, /, *, angle: Angle) -> Any:
 
 # ---- further points of a link --------------------------------------------------------------------------------------
 
-FLAT = 1e-13  # of the sides' product: what is no further off the line lies on it
-
 
 def _sides(dx: Any, dy: Any, ux: Any, uy: Any) -> tuple[float, float, float]:
     """Of a vector beside another as floats: their inner and outer product, and the product of their lengths."""
@@ -99,7 +98,7 @@ def _sides(dx: Any, dy: Any, ux: Any, uy: Any) -> tuple[float, float, float]:
 def _on_side(s: Any, P: Any, Q: Any, *, dx: Any, dy: Any, ux: Any, uy: Any) -> Any:
     """A point of the line itself."""
     along, across, whole = _sides(dx, dy, ux, uy)
-    if abs(across) > FLAT * whole:
+    if abs(across) > COLLINEAR_TOL * whole:
         return None
     if not whole:
         return P
@@ -137,8 +136,8 @@ def _laid_by_ordinates(s: Any, l: Any, P: Any, *, dx: Any, dy: Any, ux: Any, uy:
     base = math.hypot(float(ux), float(uy))
     if not (whole and base):
         return P if base else None
-    D = P if abs(along) <= FLAT * whole else s.lay_along(s.parallel(l, P), P, length=along / base)
-    return D if abs(across) <= FLAT * whole else s.lay_along(s.perpendicular(l, D), D, length=across / base)
+    D = P if abs(along) <= COLLINEAR_TOL * whole else s.lay_along(s.parallel(l, P), P, length=along / base)
+    return D if abs(across) <= COLLINEAR_TOL * whole else s.lay_along(s.perpendicular(l, D), D, length=across / base)
 
 
 @primitive((LINE, POINT), POINT, SCALE,
@@ -159,7 +158,7 @@ def set_off(d: Any, l: Any, P: Any, /, *, dx: Any, dy: Any, ux: Any, uy: Any) ->
 
 def _through_both(s: Any, P: Any, Q: Any, *, dx: Any, dy: Any, ux: Any, uy: Any, way: str) -> Any:
     _, across, whole = _sides(dx, dy, ux, uy)
-    if abs(across) > FLAT * whole:
+    if abs(across) > COLLINEAR_TOL * whole:
         return None
     return s.line(P, Q) if way == "on" else s.line(Q, P)
 

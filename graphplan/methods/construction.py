@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel.claims import broken
-from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, STRICT, Expander
+from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander
 from graphplan.kernel.faithful import Faithful, faithful
 from graphplan.kernel.kinds import LINE, POINT, plain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.origin import on_pose, shifted
 from graphplan.kernel.passes import gathered
 from graphplan.kernel.program import Panel, Program, Step
+from graphplan.kernel.tolerances import FORM_TOL
 from graphplan.kernel.window import EVERYWHERE, Window
 from graphplan.methods import kinds
 from graphplan.methods.controls import Control, controls
@@ -182,7 +183,7 @@ class Construction(Recorded, Given):
         """
         with suppress(ConstructionError):
             extent, blur = self.scene.extent, self._faithful.blur
-            return next(chain(broken(self.drawn, self.values, AGREE, extent, blur),
+            return next(chain(broken(self.drawn, self.values, FORM_TOL, extent, blur),
                               broken(self.program, self.truth, extent=extent, blur=blur)), "")
         return ""
 

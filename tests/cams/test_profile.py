@@ -16,7 +16,7 @@ from graphplan.cams.profile import Cam, made
 from graphplan.cams.task import parse
 from graphplan.check.cams import checked
 from graphplan.errors import SceneError
-from graphplan.kernel.expand import AGREE
+from graphplan.kernel.tolerances import FORM_TOL
 from graphplan.mechanism.scene import parse as scene_of
 
 FLAT = 'moves = "translating"\ncontact = "flat"\n'
@@ -151,7 +151,7 @@ def test_drawn_steps_keep_their_claims() -> None:
 
     for name, turns in EVERYWHERE:
         found = drawn(cam(name, turns))
-        assert not list(broken(found.program, found.values, AGREE))
+        assert not list(broken(found.program, found.values, FORM_TOL))
 
 
 def test_a_pose_is_a_scene_with_a_contact() -> None:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.kernel.numbers import Domain
-from graphplan.kernel.numbers.floats import ZERO
+from graphplan.kernel.tolerances import ROUNDOFF_TOL
 
 
 class Arrays(Domain):
@@ -24,7 +24,7 @@ class Arrays(Domain):
         return np.sqrt(self._masked(value, np.less(value, 0), code, why))
 
     def nonzero(self, value: Any, scale: Any, code: str, why: str) -> Any:
-        return self._masked(value, np.abs(value) <= ZERO * scale, code, why)
+        return self._masked(value, np.abs(value) <= ROUNDOFF_TOL * scale, code, why)
 
     def _masked(self, value: Any, bad: Any, code: str, why: str) -> Any:
         if not np.any(bad):
@@ -34,7 +34,7 @@ class Arrays(Domain):
         return np.where(bad, np.nan, value)
 
     def sign(self, value: Any, scale: Any) -> Any:
-        return np.where(np.abs(value) <= ZERO * scale, 0.0, np.sign(value))
+        return np.where(np.abs(value) <= ROUNDOFF_TOL * scale, 0.0, np.sign(value))
 
     def whole(self, value: Any) -> Any:
         bad, self._bad = self._bad, None

@@ -6,9 +6,9 @@ import math
 
 from graphplan.errors import Undrawable
 from graphplan.kernel.numbers import Domain
+from graphplan.kernel.tolerances import ROUNDOFF_TOL
 
 # A difference of two products is noise when it is within a few roundings of them.
-ZERO = 2.0**-50
 
 
 class Floats(Domain):
@@ -20,9 +20,9 @@ class Floats(Domain):
         return math.sqrt(value)
 
     def nonzero(self, value: float, scale: float, code: str, why: str) -> float:
-        if abs(value) <= ZERO * scale or not math.isfinite(value):
+        if abs(value) <= ROUNDOFF_TOL * scale or not math.isfinite(value):
             raise Undrawable(code, why)
         return value
 
     def sign(self, value: float, scale: float) -> float:
-        return 0.0 if abs(value) <= ZERO * scale else math.copysign(1.0, value)
+        return 0.0 if abs(value) <= ROUNDOFF_TOL * scale else math.copysign(1.0, value)

@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.kernel.numbers.floats import ZERO
 from graphplan.kernel.tape.record import Question, Tape, operands
 from graphplan.kernel.tape.written import PYTHON, asked_of, compiled
+from graphplan.kernel.tolerances import NORM_MARGIN, ROUNDOFF_TOL, UNDERFLOW
 
 NOWHERE = np.empty(0, np.intp)
 BLOCK = 4096  # poses at most: with more the calls of numpy become no cheaper
@@ -60,17 +60,13 @@ def refused(before: Any, value: Any, scale: Any = None) -> Any:
     """The poses in which a question fails, or one before it did: nonzero beside the scale? Without one: not negative?
     """
     size = np.absolute(value)
-    fails = value < 0.0 if scale is None else ~((ZERO * scale < size) & (size < np.inf))
+    fails = value < 0.0 if scale is None else ~((ROUNDOFF_TOL * scale < size) & (size < np.inf))
     return fails if before is None else before | fails
-
-
-LOST = 2.0**-1000  # what squares lose of numbers that are too small to be squared, and more
-ROUNDED = 1.0 + 2.0**-20  # what the sum of a block's squares loses by rounding, and more
 
 
 def largest(numbers: Any) -> float:
     """A bound of the sizes in a block: the root of the sum of squares is one call, and it need not be tight."""
-    return ROUNDED * math.sqrt(float(numbers.dot(numbers)) + LOST)
+    return NORM_MARGIN * math.sqrt(float(numbers.dot(numbers)) + UNDERFLOW)
 
 
 def least(numbers: Any) -> float:
@@ -84,7 +80,7 @@ def least(numbers: Any) -> float:
 
 def sign(value: Any, scale: Any, told: Any) -> None:
     """Tell 1, -1, or 0 where a value is nothing beside its scale."""
-    told[:] = np.where(np.absolute(value) <= ZERO * scale, 0.0, np.sign(value))
+    told[:] = np.where(np.absolute(value) <= ROUNDOFF_TOL * scale, 0.0, np.sign(value))
 
 
 class BlockWriter:
@@ -201,7 +197,7 @@ class BlockWriter:
         if question.scale is None:
             self.lines.append(f"if not minimum.reduce({value}) >= 0.0: bad = refused(bad, {value})")
             return
-        self.lines.append(f"if not {self._least(question.value)} > {ZERO!r} * {self._largest(question.scale)}: "
+        self.lines.append(f"if not {self._least(question.value)} > {ROUNDOFF_TOL!r} * {self._largest(question.scale)}: "
                           f"bad = refused(bad, {value}, {self._each(question.scale)})")
 
     def _each(self, place: int) -> str:

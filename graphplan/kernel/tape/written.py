@@ -13,8 +13,8 @@ from functools import lru_cache
 from itertools import count
 from typing import Any, NamedTuple
 
-from graphplan.kernel.numbers.floats import ZERO
 from graphplan.kernel.tape.record import Question, Tape, operands
+from graphplan.kernel.tolerances import ROUNDOFF_TOL
 
 DEEPEST = 13  # operations within each other that one statement may hold
 TWICE = "sign"  # names its operands twice: they must be names
@@ -118,7 +118,7 @@ class Writer:
                 self.text[place] = self.text[place].format(name=name)
             return self.language.loads
         texts = [self.text[a] for a in args]
-        self.text[place] = self.language.written[op].format(*texts, self.language.number(ZERO), name=name)
+        self.text[place] = self.language.written[op].format(*texts, self.language.number(ROUNDOFF_TOL), name=name)
         depth = 1 + max(self._depth[a] for a in args)
         if self.prefix and (self._uses[place] > 1 or depth >= self.deepest):
             return True
@@ -127,7 +127,7 @@ class Writer:
 
     def _question(self, places: tuple[int, ...], name: str) -> str:
         template = self.language.root if len(places) == 1 else self.language.nonzero
-        return template.format(*(self.text[place] for place in places), self.language.number(ZERO), name=name)
+        return template.format(*(self.text[place] for place in places), self.language.number(ROUNDOFF_TOL), name=name)
 
 
 def asked_of(question: Question) -> tuple[int, ...]:

@@ -10,9 +10,10 @@ import numpy as np
 from graphplan.cycle.linkage import Array, number
 from graphplan.cycle.rates import Moved
 from graphplan.mechanism.load_tables import SPEED, LoadTable
-from graphplan.mechanism.load_values import STANDING, guide_origin, onward
+from graphplan.mechanism.load_values import guide_origin, onward
 from graphplan.mechanism.model import Force, Scene, Slide
 from graphplan.mechanism.order import changing_loads
+from graphplan.mechanism.tolerances import DEAD_POINT_TOL
 from graphplan.mechanism.travel import travel_unit
 
 AHEAD = 1e-4
@@ -91,7 +92,7 @@ def _strokes(slide: Slide, motion: Motion, travel: Array, speeds: Array, scene: 
     """The sense in which a slide moves, 1 or -1, or at a dead point begins to; 0 where neither can be told."""
     first = scene.drives[0]
     reach = 1.0 if first.slides else scene.extent
-    senses = np.sign(np.where(np.abs(speeds) > STANDING * reach, speeds, 0.0))
+    senses = np.sign(np.where(np.abs(speeds) > DEAD_POINT_TOL * reach, speeds, 0.0))
     dead = np.flatnonzero((senses == 0) & np.isfinite(speeds))
     if dead.size:
         way = {name: z[dead] for name, z in guides.items()}

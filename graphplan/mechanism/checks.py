@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import replace
-from fractions import Fraction
 from itertools import combinations, islice
 
 from graphplan.errors import by_name
@@ -21,9 +20,7 @@ from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Pair, Scene
 from graphplan.mechanism.numerals import exactly, is_exact
 from graphplan.mechanism.order import ordered_links
 from graphplan.mechanism.structure import mobility
-
-_SAME = Fraction(1, 10**12)
-"""Rounded points that lie apart by less than this part of their coordinates were meant to coincide."""
+from graphplan.mechanism.tolerances import COINCIDENCE_TOL
 
 TRIED, TOLD = 200, 3  # sets of points, in a scene with many loose ends
 
@@ -49,7 +46,7 @@ def _coincide(a: Pair, b: Pair) -> bool:
     if is_exact(a, b):
         return a == b
     (ax, ay), (bx, by) = exactly(a), exactly(b)
-    return max(abs(ax - bx), abs(ay - by)) <= _SAME * max(abs(ax), abs(ay), abs(bx), abs(by))
+    return max(abs(ax - bx), abs(ay - by)) <= COINCIDENCE_TOL * max(abs(ax), abs(ay), abs(bx), abs(by))
 
 
 def check_frame(scene: Scene, faults: Faults) -> None:

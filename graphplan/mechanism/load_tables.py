@@ -15,10 +15,9 @@ from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.mechanism.plane import Number
+from graphplan.mechanism.tolerances import TABLE_END_TOL
 
 TRAVEL, SPEED, SPEED_OF = "travel", "speed", "speed of "
-ROUNDING = Fraction(1, 10**9)
-"""So much of a table's length a place may be off by rounding: beyond its ends, or beside a jump."""
 
 Rows = tuple[tuple[Number, Number], ...]
 
@@ -105,7 +104,7 @@ class LoadTable:
             square = place * place if place > 0 else -place * place
             return sum((c * v for c, v in zip(self.powers, (Fraction(1), place, square), strict=False)), Fraction(0))
         place, rows = self._home(place, after), self.strokes[sense]
-        ways, slack = [sense * p for p, _ in rows], self.length * ROUNDING
+        ways, slack = [sense * p for p, _ in rows], self.length * TABLE_END_TOL
         at = sense * place
         if not ways[0] - slack <= at <= ways[-1] + slack:
             raise self.uncovered(place)
@@ -118,7 +117,7 @@ class LoadTable:
 
     def level(self, place: Number, sense: int) -> bool:
         """Whether the load is the same all about a place, so that rounding of the place does not change it."""
-        near = 1000 * self.length * ROUNDING
+        near = 1000 * self.length * TABLE_END_TOL
         ends = (min(max(place + k * near, min(self.corners)), max(self.corners)) for k in (-1, 1))
         return len({self.value(end, sense) for end in (*ends, place)}) == 1
 
@@ -145,7 +144,7 @@ class LoadTable:
         import numpy as np
 
         rows = self._floats[sense]
-        ways, at, slack = sense * rows[:, 0], sense * places, float(self.length * ROUNDING)
+        ways, at, slack = sense * rows[:, 0], sense * places, float(self.length * TABLE_END_TOL)
         outside = (at < ways[0] - slack) | (at > ways[-1] + slack)
         if outside.any():
             raise self.uncovered(float(places[outside][0]))
@@ -164,7 +163,7 @@ class LoadTable:
         (first, _), period = self.rows[0], self.period
         if not isinstance(places, Fraction):
             first, period = float(first), float(period)
-        slack = period * (ROUNDING if isinstance(places, Fraction) else float(ROUNDING))
+        slack = period * (TABLE_END_TOL if isinstance(places, Fraction) else float(TABLE_END_TOL))
         turns = (places - first + slack) // period if after else -((first - places + slack) // period) - 1
         return places - turns * period
 

@@ -19,12 +19,10 @@ from graphplan.mechanism.model import Force, Moment, Scene, Slide
 from graphplan.mechanism.numerals import exactly, is_exact, root
 from graphplan.mechanism.pairs.pair import FRAME, Along, Rate, Side, Sides, Statement
 from graphplan.mechanism.plane import Number, Pair, dot, less, times
+from graphplan.mechanism.tolerances import DEAD_POINT_TOL
 from graphplan.mechanism.travel import sense_of_travel
 
 IRRATIONAL = "{}: its value in this pose"  # of a table whose value fractions do not hold
-STANDING = 1e-9
-"""A slide is at a dead point where its speed is less than this part of what the drives make at the mechanism's reach.
-"""
 
 
 def guide_origin(scene: Scene, slide: Slide) -> str:
@@ -125,7 +123,8 @@ class OwnPose:
         velocities, accelerations = self._moving
         speed, length = velocities.get(slide.name, Fraction(0)), _length(slide.direction)[0]
         fast = max(abs(float(d.rate)) * (1 if d.slides else self.scene.extent) for d in driven(self.scene).drives)
-        there = speed if abs(speed) > STANDING * fast * float(length) else accelerations.get(slide.name, Fraction(0))
+        least = DEAD_POINT_TOL * fast * float(length)
+        there = speed if abs(speed) > least else accelerations.get(slide.name, Fraction(0))
         return (1 if there > 0 else -1) if there else next(iter(table.strokes))
 
     @cached_property

@@ -17,9 +17,6 @@ _DIGITS = 100
 _DECADES = 60
 """Numbers beyond 10^±60 are refused: their fourth powers would leave the range of a float."""
 
-ROUNDING = Fraction(1, 10**14)
-"""Of a coordinate: what a place may be off by where it was computed in floats."""
-
 ROOT_BITS = 200
 """Bits of an irrational square root: nearly four times a float's, so that one rounding at the end is all there is."""
 

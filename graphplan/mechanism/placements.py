@@ -17,6 +17,7 @@ from graphplan.mechanism.fields import Either, Field, Kind, Named, Names, Table,
 from graphplan.mechanism.items import Item, described, quoted
 from graphplan.mechanism.model import Pair, Placement
 from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, exactly, is_exact, shown
+from graphplan.mechanism.tolerances import TANGENCY_TOL
 from graphplan.mechanism.values import DISTANCE, NUMBER, POINT, VECTOR, choice
 
 
@@ -165,9 +166,6 @@ def _in_order(placements: Mapping[str, Placement], table: Item) -> list[str]:
 # some centre is itself a rounded point.
 
 
-_TANGENT = Fraction(1, 10**12)
-"""Where centres are rounded, arcs whose half-chord squared is below zero by this part of a radius squared do touch."""
-
 Put = tuple[Any, Any, bool]
 
 
@@ -226,7 +224,7 @@ def _half_chord(square: Any, radius_square: Any, rounded: bool, sharp: Reckoning
     """Half the chord that two curves cut out, from its square, and whether it is exact; none where they do not meet."""
     if square >= 0:
         return sharp.root(square)
-    return (Fraction(0) if rounded and square >= -_TANGENT * radius_square else None), False
+    return (Fraction(0) if rounded and square >= -TANGENCY_TOL * radius_square else None), False
 
 
 RULES: dict[str, Callable[[dict[str, Any], Where, bool, Reckoning], Put]] = {

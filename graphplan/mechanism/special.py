@@ -26,8 +26,8 @@ from graphplan.mechanism.order import Key, by_name
 from graphplan.mechanism.pairs.pair import Attitude, Statement
 from graphplan.mechanism.pairs.revolute import across
 from graphplan.mechanism.placements import placed_by
+from graphplan.mechanism.tolerances import SERIES_TOL
 
-NOTHING = Decimal("1e-40")  # the coefficients are about 1, and good to twice as many digits and more
 ORDER = 4
 """How far the motion is continued: velocities, accelerations, and twice more for links that can all but move."""
 
@@ -148,7 +148,7 @@ class _Course:
     def starts(self, link: str) -> bool:
         """Whether a link has a velocity."""
         x, y, _, sine = self._attitudes["link", link]
-        return any(abs(series.terms[1]) > NOTHING for series in (x, y, sine))
+        return any(abs(series.terms[1]) > SERIES_TOL for series in (x, y, sine))
 
     def excess(self, fact: Statement) -> Decimal:
         """What the lower orders leave over in a statement at this order."""
@@ -190,7 +190,7 @@ class _Echelon:
                 for k, c in row.terms.items():
                     terms[k] = terms.get(k, 0) - factor * c
                 del terms[row.pivot]
-        terms = {k: c for k, c in terms.items() if abs(c) > NOTHING}
+        terms = {k: c for k, c in terms.items() if abs(c) > SERIES_TOL}
         self._rows.append(_Row(terms, max(terms, key=lambda k: abs(terms[k]), default=None), taken))
         return bool(terms)
 
@@ -204,7 +204,7 @@ class _Echelon:
         for i in range(last, -1, -1):
             for k, factor in self._rows[i].taken.items() if i in weights else ():
                 weights[k] = weights.get(k, Decimal(0)) - weights[i] * factor
-        return {i for i, weight in weights.items() if abs(weight) > NOTHING}
+        return {i for i, weight in weights.items() if abs(weight) > SERIES_TOL}
 
     def solve(self, right: Sequence[Decimal], chosen: Mapping[Unknown, Decimal]) -> dict[Unknown, Decimal] | None:
         """The solution with chosen values of what is free; None where the right-hand side contradicts the equations."""
@@ -212,7 +212,8 @@ class _Echelon:
         for row, side in zip(self._rows, right, strict=True):
             sides.append(side - sum((f * sides[i] for i, f in row.taken.items()), Decimal(0)))
         size = max(map(abs, right), default=Decimal(0))
-        if any(row.pivot is None and abs(side) > NOTHING * size for row, side in zip(self._rows, sides, strict=True)):
+        least = SERIES_TOL * size
+        if any(row.pivot is None and abs(side) > least for row, side in zip(self._rows, sides, strict=True)):
             return None
         values = dict(chosen)
         for row, side in zip(reversed(self._rows), reversed(sides), strict=True):

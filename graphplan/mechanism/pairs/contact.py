@@ -4,23 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphplan.mechanism.directions import GUIDE, Written
 from graphplan.mechanism.fields import Field, Kind, Names, Row, Rows, Table
 from graphplan.mechanism.items import Item, described
-from graphplan.mechanism.numerals import ROUNDING, exactly
+from graphplan.mechanism.numerals import exactly
 from graphplan.mechanism.pairs.pair import ROLLING, TOUCHING, Along, KinematicPair, Rolling, Statement, Touching
 from graphplan.mechanism.plane import Pair, dot, less, turned
+from graphplan.mechanism.tolerances import NORMAL_SINE_TOL, PLACE_TOL
 from graphplan.mechanism.values import FLAG, POINT, TWO_LINKS, centres_on
 from graphplan.phrases import phrase
 
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
-
-NEAR = Fraction(1, 10**9)
-"""Sine of the angle by which a point may be off the normal."""
 
 
 @dataclass(frozen=True)
@@ -147,7 +144,8 @@ def _fits(contact: Contact, row: Row, key: str) -> bool:
         return True  # the point has its own fault
     points = {name: exactly(at) for name, at in row.names.placed.items()}
     normal = exactly(contact.normal(points))
-    item, rounding = row.items[key], ROUNDING * max(abs(part) for name in (*named, contact.at) for part in points[name])
+    item = row.items[key]
+    rounding = PLACE_TOL * max(abs(part) for name in (*named, contact.at) for part in points[name])
     if not any(normal):
         one = "two corners" if points[contact.at] == points[named[0]] else "two profiles of the same curvature"
         item.fault(f"the centres {' and '.join(named)} coincide: {one}", "centres that lie apart")
@@ -158,7 +156,7 @@ def _fits(contact: Contact, row: Row, key: str) -> bool:
             item.fault(f"{point} is the centre and the point of contact: a corner does not roll", "rolling = false")
             return False
         square, long = dot(normal, normal), dot(arm, arm)
-        if dot(normal, turned(arm)) ** 2 > NEAR**2 * square * long + 2 * rounding**2 * (square + long):
+        if dot(normal, turned(arm)) ** 2 > NORMAL_SINE_TOL**2 * square * long + 2 * rounding**2 * (square + long):
             what = "not square to the direction" if contact.direction is not None else "not in line with the centres"
             told = (f"{contact.at} and {point} are {what}" if contact.direction is not None
                     else f"{contact.at} is {what} {' and '.join(named)}")

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from graphplan.mechanism.directions import GUIDE, Written
 from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
 from graphplan.mechanism.items import Item
-from graphplan.mechanism.numerals import ROUNDING, TO_A_FLOAT, exactly, is_exact, root, shown, shown_apart
+from graphplan.mechanism.numerals import TO_A_FLOAT, exactly, is_exact, root, shown, shown_apart
 from graphplan.mechanism.pairs.pair import ROLLING, KinematicPair, OnRack, Rolling, Statement
 from graphplan.mechanism.plane import Number, Pair, dot, less, plus, times, turned
+from graphplan.mechanism.tolerances import LENGTH_TOL, PLACE_TOL
 from graphplan.mechanism.values import AMOUNT, CENTRES, DISTANCE, FLAG, RADII, TEETH, TWO_LINKS, centres_on, choice
 from graphplan.phrases import phrase
 
@@ -22,9 +23,6 @@ if TYPE_CHECKING:
 
 LOADS = ("forces", "moments", "friction", "masses", "balance")
 """The tables that load a scene: without them nothing hangs on pressure angles."""
-
-NEAR = Fraction(1, 10**9)
-"""Lengths that differ by less than this part of the larger were meant to be equal, however they are written."""
 
 
 @dataclass(frozen=True)
@@ -153,7 +151,7 @@ def _ratio(row: Row) -> bool:
     if teeth is None and radii is None:
         row.item.fault("neither teeth nor radii", "teeth = [24, 36], or radii = [48, 72]")
         return False
-    if teeth and radii and abs(teeth[0] * radii[1] - teeth[1] * radii[0]) > NEAR * teeth[0] * radii[1]:
+    if teeth and radii and abs(teeth[0] * radii[1] - teeth[1] * radii[0]) > LENGTH_TOL * teeth[0] * radii[1]:
         row.items["radii"].fault("the radii {} and {} are not as the teeth {} and {}".format(
             *map(shown, (*radii, *teeth))), "radii in the ratio of the teeth, or teeth alone")
         return False
@@ -188,7 +186,7 @@ def _misfit(row: Row, belt: str, internal: bool) -> tuple[str, str, str] | None:
         what = f"{told} is no more than {what} = {shown(least)}: the belt cannot be laid"
         return (key, what, "centres further apart") if key == "radii" and distance <= least else None
     whole, what = (r2 - r1, "difference") if internal else (r1 + r2, "sum")
-    slack = NEAR * max(r1 + r2, distance) + ROUNDING * max(abs(part) for end in ends for part in exactly(end))
+    slack = LENGTH_TOL * max(r1 + r2, distance) + PLACE_TOL * max(abs(part) for end in ends for part in exactly(end))
     if key == "teeth" or abs(distance - whole) <= slack:
         return None
     far, near = shown_apart(distance, whole)

@@ -23,11 +23,11 @@ from graphplan.cycle.travel import check_drives
 from graphplan.cycle.turn import RangeOfMotion, stopped, under
 from graphplan.errors import Refused
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer
-from graphplan.mechanism.load_tables import ROUNDING
 from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.model import FRAME, Force, Scene, Slide
 from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides
+from graphplan.mechanism.tolerances import TABLE_END_TOL
 from graphplan.mechanism.travel import TURN, paces, sense_of_travel, travel_unit
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.batch import apart
@@ -222,7 +222,7 @@ def _changing(scene: Scene, moving: Mapping[str, int]) -> Iterator[Data]:
             "name": name, "link": moving[load.on], "force": bool(force), **force, "strokes": strokes,
             "over": "speed" if table.over_speed else "place", "period": float(table.period),
             "rate": float(scene.drives[0].rate), "powers": [*map(float, table.powers)] or None,
-            "slack": float(table.length * ROUNDING) if strokes else 0.0,
+            "slack": float(table.length * TABLE_END_TOL) if strokes else 0.0,
             "slide": slide and {**_slide(slide, moving), "origin": guide_origin(scene, slide)},
             "why": said("the table of {0} goes from {1} to {2}", name, *map(digits, known)) if strokes else "",
         }  # fmt: skip

@@ -14,7 +14,8 @@ from typing import Any, NamedTuple
 from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
-from graphplan.solver.bounds import UP, Bounded
+from graphplan.solver.bounds import Bounded
+from graphplan.solver.tolerances import MARGIN
 
 NOTHING = 2.0**-64  # of the largest of a kind: a number that is proven to be smaller is zero
 DIGITS = 1e-9  # of a number: what its bound may be at most
@@ -130,11 +131,11 @@ def _number(ours: Any, theirs: Any, scale: float) -> Compared:
     if isinstance(theirs, Bounded):
         most = abs(theirs.value) + theirs.error
         if most <= NOTHING * scale and abs(ours) <= CLOSE * scale:  # proven to be zero, and drawn so but for rounding
-            return Compared(0.0, 0.0, 0.0, UP * most, theirs.size)
+            return Compared(0.0, 0.0, 0.0, MARGIN * most, theirs.size)
         gap = abs(ours - theirs.value)
         if max(abs(theirs.value), gap) <= theirs.error and abs(ours) <= CLOSE * theirs.size:
             gap, ours = abs(theirs.value), 0.0  # no digit of it is known: it may be nothing, and so it is printed
-        return Compared(ours, theirs.value, gap, UP * (gap + theirs.error), max(theirs.size, abs(ours)),
+        return Compared(ours, theirs.value, gap, MARGIN * (gap + theirs.error), max(theirs.size, abs(ours)),
                         close=gap <= theirs.error)
     if isinstance(ours, Fraction | int):
         gap = abs(ours - theirs)

@@ -12,9 +12,7 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.mechanism import numerals
-
-ROUNDING = 2.0**-53  # of a result: half a unit in its last place
-UP = 1 + 2.0**-50  # more than the roundings of a bound itself
+from graphplan.solver.tolerances import MARGIN, ROUNDOFF
 
 
 class Unproven(ArithmeticError):
@@ -46,7 +44,7 @@ class Bounded:
         if not two.size:
             return self
         value = self.value + two.value
-        return Bounded(value, UP * (self.error + two.error + ROUNDING * abs(value)), self.size + two.size)
+        return Bounded(value, MARGIN * (self.error + two.error + ROUNDOFF * abs(value)), self.size + two.size)
 
     def __sub__(self, other: Any) -> Bounded:
         return self + -bounded(other)
@@ -59,8 +57,8 @@ class Bounded:
         if two.value in (0.0, 1.0, -1.0) and not two.error:
             return Bounded(self.value * two.value, self.error * abs(two.value), self.size * abs(two.value))
         value, a, b = self.value * two.value, abs(self.value), abs(two.value)
-        error = a * two.error + b * self.error + self.error * two.error + ROUNDING * abs(value)
-        return Bounded(value, UP * error, max(a * two.size, b * self.size))
+        error = a * two.error + b * self.error + self.error * two.error + ROUNDOFF * abs(value)
+        return Bounded(value, MARGIN * error, max(a * two.size, b * self.size))
 
     def __truediv__(self, other: Any) -> Bounded:
         two = other if type(other) is Bounded else bounded(other)
@@ -68,8 +66,8 @@ class Bounded:
         if not least > 0:
             raise Unproven("a divisor may be zero")
         value = self.value / two.value
-        error = (self.error + abs(value) * two.error) / least + ROUNDING * abs(value)
-        return Bounded(value, UP * error, max(self.size, abs(value) * two.size) / abs(two.value))
+        error = (self.error + abs(value) * two.error) / least + ROUNDOFF * abs(value)
+        return Bounded(value, MARGIN * error, max(self.size, abs(value) * two.size) / abs(two.value))
 
     def __rtruediv__(self, other: Any) -> Bounded:
         return bounded(other) / self
@@ -99,14 +97,14 @@ class Bounded:
     def root(self) -> Bounded:
         """The square root of a number that is known not to be negative."""
         if self.value <= self.error:
-            most = math.sqrt(max(self.value, 0.0) + self.error) * UP
+            most = math.sqrt(max(self.value, 0.0) + self.error) * MARGIN
             return Bounded(most / 2, most / 2, most)
         value = math.sqrt(self.value)
-        return Bounded(value, UP * (self.error / value + ROUNDING * value), max(value, self.size / (2 * value)))
+        return Bounded(value, MARGIN * (self.error / value + ROUNDOFF * value), max(value, self.size / (2 * value)))
 
     def overlaps(self, other: Bounded) -> bool:
         """Whether the two may be one number."""
-        return abs(self.value - other.value) <= UP * (self.error + other.error)
+        return abs(self.value - other.value) <= MARGIN * (self.error + other.error)
 
 
 def bounded(number: Any) -> Bounded:
@@ -117,7 +115,7 @@ def bounded(number: Any) -> Bounded:
         return Bounded(float(number))
     whole = number.as_integer_ratio()
     value = whole[0] / whole[1]
-    return Bounded(value) if value.as_integer_ratio() == whole else Bounded(value, UP * ROUNDING * abs(value))
+    return Bounded(value) if value.as_integer_ratio() == whole else Bounded(value, MARGIN * ROUNDOFF * abs(value))
 
 
 PI = Bounded(math.pi, 2.0**-52)
@@ -125,4 +123,4 @@ PI = Bounded(math.pi, 2.0**-52)
 
 def heading(degrees: Fraction) -> tuple[Bounded, Bounded]:
     """Cosine and sine of an angle in degrees: each is within four roundings of one."""
-    return tuple(Bounded(float(part), 4 * ROUNDING) for part in numerals.heading(degrees)[:2])  # type: ignore[return-value]
+    return tuple(Bounded(float(part), 4 * ROUNDOFF) for part in numerals.heading(degrees)[:2])  # type: ignore[return-value]

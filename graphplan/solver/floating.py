@@ -14,17 +14,11 @@ from numpy.typing import NDArray
 
 from graphplan.mechanism.model import Number
 from graphplan.solver.blocks import Block, blocks
+from graphplan.solver.tolerances import NULL_VECTOR_TOL, SINGULAR_TOL
 
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 Sparse = Sequence[Mapping[int, Number]]
-
-# Coordinates and their differences carry a rounding of about 2^-52 each, which moves every singular value by up to
-# n 2^-52 sigma_max, and the decomposition as much again; with a margin, anything below 8 times that may be zero.
-ROUNDING = 8 * 2.0**-52
-
-# A null vector is known to about its gap's rounding; half of the digits tell what moves from what stands still.
-STANDS_STILL = 2.0**-26
 
 SWEEPS = 4
 POWERS = 20  # of a matrix of many blocks: after so many the longest vector hardly grows any more
@@ -78,7 +72,7 @@ class Decomposed:
         own, self._known, self._before = dense[:, : self.columns.size], dense[:, self.columns.size :], before
         self._play, self.matrix = play, np.hstack([own, self._known @ play[before]])
         self._left, self.sigma, self._right = np.linalg.svd(self.matrix)
-        least = max(own.shape, default=0) * ROUNDING * self.sigma.max(initial=0.0)
+        least = max(own.shape, default=0) * SINGULAR_TOL * self.sigma.max(initial=0.0)
         self._rank = int(np.sum(self.sigma > least))
         self.blur = float(self.sigma[0] / self.sigma[self._rank - 1]) if self._rank else 1.0
 
@@ -128,7 +122,7 @@ class Floating:
             found = [block.transposed for block in reversed(found)]
         self._entries, self._rows, self._columns, self._blocks = entries, rows, columns, found
         self._parts, self._free = decomposed(entries, found)
-        self._tolerance = max(entries.shape, default=0) * ROUNDING
+        self._tolerance = max(entries.shape, default=0) * SINGULAR_TOL
 
     @property
     def condition(self) -> float:
@@ -174,7 +168,7 @@ class Floating:
     def free(self) -> frozenset[int]:
         """The columns that the system leaves undetermined."""
         play = np.linalg.norm(np.linalg.qr(self._free)[0], axis=1)
-        return frozenset(int(j) for j in np.flatnonzero(play > STANDS_STILL * play.max(initial=0.0)))
+        return frozenset(int(j) for j in np.flatnonzero(play > NULL_VECTOR_TOL * play.max(initial=0.0)))
 
     def conflict(self, right: Sequence[Number]) -> frozenset[int]:
         """The rows that contradict each other with this right-hand side."""
@@ -224,7 +218,7 @@ def _first(matrix: Array) -> list[int]:
     for i, row in enumerate(matrix):
         rest = row - known.T @ (known @ row)
         rest -= known.T @ (known @ rest)  # once more, for orthogonality to the last digit
-        if np.linalg.norm(rest) > STANDS_STILL:
+        if np.linalg.norm(rest) > NULL_VECTOR_TOL:
             kept.append(i)
             known = np.vstack([known, rest / np.linalg.norm(rest)])
     return kept

@@ -26,14 +26,10 @@ from graphplan.solver.equations import Equations
 from graphplan.solver.higher_pairs import first_held, force, held_at, leant
 from graphplan.solver.rates import Rates
 from graphplan.solver.statics import Reactions, asked, equilibrium, reactions
+from graphplan.solver.tolerances import FORCE_TOL, FRICTION_TOL, POWER_TOL, SLIP_TOL
 
 GROWING = tuple(Fraction(share, 4) for share in (1, 2, 3, 4))
 ROUNDS = 20
-STANDS = 1e-14  # times the condition of the system: how close two rounds are at the end
-NOTHING = 8 * 2.0**-52  # times the condition, of the largest force: a smaller one has no direction
-
-ROUNDING = 8 * 2.0**-52  # times the condition of the rates: what moves more slowly beside the rest stands still
-IDLE = 1e-12  # of the power with friction: what the balances give without it is nothing but rounding
 
 
 @dataclass(frozen=True)
@@ -69,7 +65,7 @@ def with_friction(scene: Scene, rounds: int = 0, exact: bool = False) -> Frictio
 
 def settled(last: Reactions, against: Rubbing, exact: bool) -> Reactions:
     """The reactions that lean as they themselves say, from reactions that do nearly so."""
-    close = STANDS * last.condition
+    close = FRICTION_TOL * last.condition
     for _ in range(ROUNDS):
         now = further(last, against, exact)
         if max(map(math.dist, forces(now), forces(last)), default=0.0) <= close * largest(now):
@@ -89,7 +85,7 @@ def further(last: Reactions, against: Rubbing, exact: bool) -> Reactions:
 
 def _leant(last: Reactions, against: Rubbing) -> Iterator[Statement]:
     """The supports of the scene, each pair's turned aside by friction as its last force says; none by no force."""
-    least = NOTHING * last.condition * largest(last)
+    least = FORCE_TOL * last.condition * largest(last)
 
     def arm(joint: Revolute, link: str, force: Pair) -> Number:
         circle = against.journals[joint.at, link]
@@ -215,7 +211,7 @@ def rubbing(scene: Scene, rates: Rates) -> Rubbing:
     """
     loads, reach = asked(scene), rates.equations.reach
     points = (abs(float(x)) for v in (rates.velocity, rates.slide_velocity) for pair in v.values() for x in pair)
-    still = ROUNDING * rates.condition * max(*points, *(abs(float(turn)) * reach for turn in rates.omega.values()), 0.0)
+    still = SLIP_TOL * rates.condition * max(*points, *(abs(float(turn)) * reach for turn in rates.omega.values()), 0.0)
     circles = {f.at: f.radius * f.coefficient for f in loads.frictions}
     coefficients = {frozenset(f.links): f.coefficient for f in loads.frictions}
     journals, guides = dict[tuple[str, str], Number](), dict[Slide | Contact, Number]()
@@ -305,6 +301,6 @@ def efficiency(smooth: Any, rubbed: Any) -> Any:
     """
     if not smooth and not rubbed:
         return None
-    if abs(smooth) <= IDLE * abs(rubbed):
+    if abs(smooth) <= POWER_TOL * abs(rubbed):
         return 0 * rubbed
     return smooth / rubbed if smooth > 0 else rubbed / smooth

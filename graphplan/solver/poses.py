@@ -21,11 +21,9 @@ from graphplan.solver import rates, statics
 from graphplan.solver.blocks import Block, blocks
 from graphplan.solver.equations import Equations, Row, held, moved
 from graphplan.solver.higher_pairs import pushes
+from graphplan.solver.tolerances import POSE_SINGULAR_TOL
 
 TOGETHER = 24  # unknowns that one dense block has at most: over many poses small blocks cost no more than their sum
-
-_ROUNDING = 2.0**-44
-"""Below this part of the largest a singular value counts as zero."""
 
 
 class Sized:
@@ -181,7 +179,7 @@ def _shortest(matrix: Any, sides: Any) -> Any:
     columns = _lengths(matrix, 1)
     rows = _lengths(matrix / columns, 2)
     left, sigma, right = np.linalg.svd(matrix / columns / rows, full_matrices=False)
-    regular = sigma[:, -1:] > _ROUNDING * sigma[:, :1]
+    regular = sigma[:, -1:] > POSE_SINGULAR_TOL * sigma[:, :1]
     weights = np.divide(1.0, sigma, out=np.full_like(sigma, np.nan), where=regular)
     found = right.swapaxes(1, 2) @ (weights[:, :, None] * (left.swapaxes(1, 2) @ (sides / rows)))
     return found / columns.swapaxes(1, 2)

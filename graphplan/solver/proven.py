@@ -19,14 +19,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.solver.blocks import Block, blocks
-from graphplan.solver.bounds import ROUNDING, Bounded, Unproven, bounded
+from graphplan.solver.bounds import Bounded, Unproven, bounded
+from graphplan.solver.tolerances import MIN_BOUND, ROUNDOFF
 
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 
 ROUNDS = 12  # of widening the bound until it holds itself
 WIDER = 1.125
-LEAST = 1e-290  # a bound that a zero with nothing to round has: it holds a wider one strictly
 
 
 class Found(NamedTuple):
@@ -127,10 +127,10 @@ class _Part:
                     + self._known_off @ (np.abs(known.values) + known.errors))
         shaken, lost = self._shaken(vectors)
         up = 1 + float(_roundings(np.array(2 * values.size + vectors.shape[1])))  # of the sums that make a bound
-        errors = self._errors(up * (self._far @ residual + np.abs(shaken).sum(axis=1) + lost) + LEAST, up)
+        errors = self._errors(up * (self._far @ residual + np.abs(shaken).sum(axis=1) + lost) + MIN_BOUND, up)
         terms = self._far @ (parts + self._known_sizes @ known.sizes + sides.sizes)
         own = Found(values, errors, self._own(values, terms, known.sizes * self._known_scales))
-        box = np.diag(up * (self._miss @ errors + lost) + LEAST)
+        box = np.diag(up * (self._miss @ errors + lost) + MIN_BOUND)
         passed = np.hstack([shaken, self._inverse * (up * residual), box])[self.outlets]
         return own, _held(passed, self._scales[self.outlets])
 
@@ -178,4 +178,4 @@ def _held(vectors: Array, scales: Array) -> Array:
 
 def _roundings(terms: NDArray[Any]) -> Array:
     """The relative error that a sum of so many products, and what is done with it, has at most."""
-    return 1.01 * ROUNDING * (terms + 4.0)
+    return 1.01 * ROUNDOFF * (terms + 4.0)

@@ -21,13 +21,13 @@ from graphplan.methods.forces.changing import given_loads
 from graphplan.methods.recorded import Recorded
 from graphplan.methods.replay import guide_steps, replay_of
 from graphplan.methods.results import Given
+from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Said, said
 
 Coordinates = dict[str | int, dict[str, Any]]
 Results = dict[str, dict[str, Any]]
 Faults = dict[int, str]
 Progress = Callable[[int, int], None]
-ROUNDED = 1e-9  # of the extent: points that are no further apart coincide
 STRETCH = 1 << 16  # poses between two reports of progress, and to one worker at a time
 
 
@@ -99,7 +99,7 @@ def _torn(construction: Recorded, points: Mapping[str, Any], results: Results, f
 
 def _close(scene: Scene) -> float:
     """How far apart points may be that coincide."""
-    return ROUNDED * scene.extent
+    return EXTENT_TOL * scene.extent
 
 
 def apart(one: str, other: str) -> Said:

@@ -16,9 +16,9 @@ from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Program
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM
+from graphplan.methods.tolerances import CONTROL_TOL
 
 SHARP = 0.2  # the sine under which two lines cross well enough to show a pole
-APART = 1e-6  # beside the mechanism: what is nearer is one, and shorter vectors show no direction
 Line = tuple[Any, Any, Any]
 
 
@@ -54,12 +54,12 @@ def controls(scene: Scene, program: Program, values: Sequence[Any], ends: Mappin
     for link in scene.moving:
         drawn = {ends[name]: name for name in scene.links[link] if name in ends}
         lines = {(start, end): _through(values[start], values[end]) for start, end in drawn
-                 if math.dist(values[start], values[end]) > APART * size}
+                 if math.dist(values[start], values[end]) > CONTROL_TOL * size}
         pair = max(combinations(lines, 2), key=lambda two: _sine(*map(lines.__getitem__, two)), default=None)
         if pair is None or _sine(*(lines[one] for one in pair)) < SHARP:
             continue
         pole = _meet(*(lines[one] for one in pair))
-        if shown(pole) and all(math.dist(pole, mark) > APART * size for mark in marks):
+        if shown(pole) and all(math.dist(pole, mark) > CONTROL_TOL * size for mark in marks):
             for other in lines:
                 if other not in pair:
                     three = (*pair, other)

@@ -8,9 +8,8 @@ from collections.abc import Sequence
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Number, Pair
+from graphplan.methods.tolerances import PARALLEL_TOL
 from graphplan.phrases import digits
-
-FLAT = 1e-13  # of the product of lengths: vectors that are no further apart run alike
 
 
 def figure(v: Pair, u: Pair) -> dict[str, Number]:
@@ -27,13 +26,13 @@ def angle(v: Pair) -> Angle:
 def alike(v: Pair, u: Pair) -> bool:
     """Whether a vector runs along another, or has no length."""
     (x, y), (a, b) = map(float, v), map(float, u)
-    return abs(a * y - b * x) <= FLAT * (abs(a) + abs(b)) * (abs(x) + abs(y))
+    return abs(a * y - b * x) <= PARALLEL_TOL * (abs(a) + abs(b)) * (abs(x) + abs(y))
 
 
 def same_place(one: Pair, other: Pair) -> bool:
     """Whether two places of a figure are one."""
     pairs = zip(map(float, one), map(float, other), strict=True)
-    return all(abs(p - q) <= FLAT * (abs(p) + abs(q)) for p, q in pairs)
+    return all(abs(p - q) <= PARALLEL_TOL * (abs(p) + abs(q)) for p, q in pairs)
 
 
 def widest(drawn: Sequence[tuple[Pair, Mark]]) -> tuple[tuple[Pair, Mark], tuple[Pair, Mark]] | None:

@@ -26,10 +26,9 @@ from graphplan.methods.forces.loading import Loading
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, JointForce, both, link_named, slide_named
 from graphplan.methods.poses import Pose
+from graphplan.methods.tolerances import FRICTION_TOL, SHORT_FORCE
 from graphplan.phrases import said
 
-STANDS = 1e-12  # of the largest force, at the mechanism's extent: how far off its circle or its line a force may be
-SHORT = 1e-9  # of the mechanism's extent: a force that is drawn shorter is nothing
 Valued = Callable[[Sequence[Mark]], list[Any]]
 
 
@@ -157,9 +156,9 @@ class Rubbed:
         size, far = self.loading.scene.extent, [0.0]
         forces = [values[k + 1 : k + 3] for k in range(len(moved), len(values), 3)]
         forces += [values[k + 2 : k + 4] for k in range(0, len(moved), 4)]
-        largest = max([SHORT * size, *(math.dist(*force) for force in forces)])
+        largest = max([SHORT_FORCE * size, *(math.dist(*force) for force in forces)])
         for T, new, tail, head in zip(*[iter(values[: len(moved)])] * 4, strict=True):
             far.append(abs((new[0] - T[0]) * (head[1] - tail[1]) - (new[1] - T[1]) * (head[0] - tail[0])) / size)
         for (a, b, _), tail, head in zip(*[iter(values[len(moved) :])] * 3, strict=True):
             far.append(abs((head[0] - tail[0]) * b - (head[1] - tail[1]) * a) / math.hypot(a, b))
-        return max(far) <= STANDS * largest
+        return max(far) <= FRICTION_TOL * largest

@@ -20,7 +20,7 @@ from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction, ForceArrow
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.forces.free_bodies import DrawnForces, Shown
-from graphplan.methods.forces.friction import SHORT, Rubbed
+from graphplan.methods.forces.friction import Rubbed
 from graphplan.methods.forces.groups import (
     ForceTransfer,
     Result,
@@ -43,10 +43,10 @@ from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import both, link_named, slide_named
 from graphplan.methods.styles import Style
+from graphplan.methods.tolerances import REACTION_TOL, SHORT_FORCE
 from graphplan.phrases import Phrase, Said, phrase, said
 
 NEAR = 2.0  # extents of the mechanism: where a slide's reaction acts further away, its line is not drawn
-SMALL = 1e-6  # of the largest reaction: a slide's that is smaller has no line to speak of
 MOST_PICKS = 4  # at how many places a trial of forces may begin
 TEXTBOOK = "polygons", 0
 MOST_FAILURES = 3  # ways of a motion whose forces could not be drawn, before no more are tried
@@ -108,9 +108,9 @@ class Loaded(Draughtsman):
                 return
             force = math.dist(home, end)
             couple = abs((R[0] - P[0]) * (tip[1] - end[1]) - (R[1] - P[1]) * (tip[0] - end[0]))
-            if force <= SHORT * size or couple > NEAR * size * force:
+            if force <= SHORT_FORCE * size or couple > NEAR * size * force:
                 yield link
-                if couple > SHORT * size * size:
+                if couple > SHORT_FORCE * size * size:
                     self.notes.append(said("{0}: its inertia force is small compared with its couple; they are not "
                                            "combined", link_named(link)))
 
@@ -134,7 +134,7 @@ class Loaded(Draughtsman):
                 tail, head = self._valued(span)
             except ConstructionError:  # whoever reads the numbers is told
                 return
-            if (head[0] - tail[0]) * way[0] + (head[1] - tail[1]) * way[1] < -SHORT * self.scene.extent**2:
+            if (head[0] - tail[0]) * way[0] + (head[1] - tail[1]) * way[1] < -SHORT_FORCE * self.scene.extent**2:
                 yield said("the contact of {0} can only push, and its force pulls: something else must press them "
                            "together, such as a spring", both(contact.links))
 
@@ -315,10 +315,10 @@ def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Constructi
         return found
     slides, moments = values.get(SLIDE_REACTION, {}), values.get(SLIDE_MOMENT, {})
     sizes = {name: math.hypot(*force) for name, force in slides.items()}
-    least = SMALL * max((math.hypot(*force) for force in (*values.get(REACTION, {}).values(), *slides.values())),
+    least = REACTION_TOL * max((math.hypot(*force) for force in (*values.get(REACTION, {}).values(), *slides.values())),
                         default=0.0)
     size = found.scene.extent
-    least, reach = max(least, SHORT * size / float(found.phi)), NEAR * size / float(metre(found.scene.units))
+    least, reach = max(least, SHORT_FORCE * size / float(found.phi)), NEAR * size / float(metre(found.scene.units))
     near = tuple(name for name, size in sizes.items() if size > least and abs(moments[name]) <= reach * size)
     drawn = draw(near) if near else found
     drawn.notes = found.notes + [

@@ -22,12 +22,12 @@ from graphplan.kernel.program import Program
 from graphplan.methods.kinds import ACCELERATION, ORDER, VELOCITY
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
+from graphplan.methods.tolerances import PERTURBATION
 from graphplan.phrases import digits, joined, said
 
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
 
-SHAKE = 1e-9  # of a value; small enough for first order, large enough to stand out from rounding
 HANDS = 3  # how often the construction is drawn with another shaking
 EQUAL = 10.0  # growths within this factor count as equal: then the fewest steps win
 WILD = 1e4  # growth from which on a pose may be a singular one of this way: another is sought
@@ -183,7 +183,7 @@ def _shaking(drawn: Callable[[Random | None], list[Any] | None]) -> float:
             return math.inf
         gaps = [abs(p - q) for one, two in zip(shaken, steady, strict=True) for p, q in zip(one, two, strict=True)]
         most = max([most, *gaps])
-    return most / size / SHAKE
+    return most / size / PERTURBATION
 
 
 def _drawn(program: Program, hand: Random | None) -> list[Any] | None:
@@ -195,6 +195,6 @@ def _drawn(program: Program, hand: Random | None) -> list[Any] | None:
         except Undrawable:
             return None
         if hand is not None and step.op.movement is not Movement.GIVEN:
-            value = tuple(number * (1 + SHAKE * hand.uniform(-1, 1)) for number in value)
+            value = tuple(number * (1 + PERTURBATION * hand.uniform(-1, 1)) for number in value)
         values.append(value)
     return [values[index] for index in program.wanted]

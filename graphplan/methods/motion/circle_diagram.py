@@ -22,15 +22,14 @@ from typing import Any, NamedTuple
 
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Scene
+from graphplan.methods.tolerances import INFINITY_TOL, PENCIL, SINE_TOL
 
 Vector = tuple[Any, Any, Any]
 Unit = tuple[float, float, float]  # the same on the unit sphere
 Sides = tuple[str, str]  # the two links of a pole, in the order of the diagram
 Rests = frozenset[tuple[Sides, str]]  # lines through poles: of which side, and by which third link
-PENCIL = 1e-3  # how far off a point is that is given or marked, beside the mechanism
 EQUAL = 3.0  # errors within this factor count as equal: then the fewest lines win
 WILD = 1e3  # times a pencil's error: such a pole waits for better lines
-ONE = 1e-9  # the sine of an angle below which two vectors are one
 
 
 def cross(u: Vector, v: Vector) -> Vector:
@@ -124,7 +123,8 @@ class CircleDiagram:
     def _best(self, sides: Sides) -> FoundPole | None:
         """The pole by the fewest lines of those that cross well."""
         crossing = [((one.error + two.error + PENCIL) / angle, one, two)
-                    for one, two in combinations(self._lines(sides), 2) if (angle := sine(one.unit, two.unit)) > ONE]
+                    for one, two in combinations(self._lines(sides), 2)
+                    if (angle := sine(one.unit, two.unit)) > SINE_TOL]
         least = min((error for error, _, _ in crossing), default=0.0)
         sharp = ((error, one, two, one.rests | two.rests) for error, one, two in crossing if error <= EQUAL * least)
         best = min(sharp, key=lambda found: (len(found[3]), found[0]), default=None)
@@ -148,7 +148,7 @@ class CircleDiagram:
             if P is None or Q is None:
                 return None
             known = None
-            if (angle := self.sine(P.at, Q.at)) > ONE:
+            if (angle := self.sine(P.at, Q.at)) > SINE_TOL:
                 at, error = cross(P.at, Q.at), (P.error + Q.error + PENCIL) / angle
                 rests = P.rests | Q.rests | {(sides, third)}
                 known = KnownLine(PoleLine(third), at, self._unit(at, dual=True), error, rests)
@@ -179,11 +179,11 @@ class CircleDiagram:
     def distance(self, sides: Sides) -> float:
         """How far a pole is from the mechanism's middle, in sizes of the mechanism; infinite of one at infinity."""
         u, v, w = self._unit(self.found[sides].at, dual=False)
-        return math.hypot(u, v) / abs(w) if abs(w) > ONE**2 else math.inf
+        return math.hypot(u, v) / abs(w) if abs(w) > SINE_TOL**2 else math.inf
 
     def at_infinity(self, sides: Sides) -> bool:
         """Whether a pole is at infinity: exactly so, or beside rounding."""
         x, y, w = self.found[sides].at
         if isinstance(w, Fraction | int):
             return bool(w == 0)
-        return bool(abs(self._unit((x, y, w), dual=False)[2]) <= 1e-13)
+        return bool(abs(self._unit((x, y, w), dual=False)[2]) <= INFINITY_TOL)

@@ -38,16 +38,16 @@ from graphplan.methods.motion.curve_stages import (
     centre_by_rates,
     centre_of,
     circle_of,
-pole_of,
+    pole_of,
 )
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.time_scale import apart
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, link_named
 from graphplan.methods.poses import Pose
+from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Phrase, Said, phrase, said
 
-NONE = 1e-9  # beside the mechanism: what is less is nothing, and further than its inverse at infinity
 BY_CENTRES, BY_RATES = said("two known centres"), said("velocities and accelerations")
 SPECIAL: dict[str, Phrase] = {
     kinds.STRAIGHT: phrase("{0}: the path is straight to second order, its centre of curvature is at infinity"),
@@ -186,7 +186,7 @@ class Curves:
         for way in ways:
             with suppress(ConstructionError, Refused):
                 circle = way()
-                if all(abs(part) < self.scene.extent / NONE
+                if all(abs(part) < self.scene.extent / EXTENT_TOL
                        for mark in self.values(circle.pole, circle.inflection) for part in mark):
                     return circle
         return None
@@ -341,9 +341,9 @@ class Curves:
         """By Euler and Savary, Bobillier or Hartmann."""
         marks = circle.pole, self.point(point), circle.inflection
         P, M, W0 = (complex(*place) for place in self.values(*marks))
-        if abs(P - M) <= NONE * self.scene.extent:
+        if abs(P - M) <= EXTENT_TOL * self.scene.extent:
             return kinds.CUSP, marks[:2]
-        if abs(((P - M) * (W0 - M).conjugate()).real) <= NONE * abs(P - M) * max(abs(W0 - M), abs(P - M)):
+        if abs(((P - M) * (W0 - M).conjugate()).real) <= EXTENT_TOL * abs(P - M) * max(abs(W0 - M), abs(P - M)):
             return kinds.STRAIGHT, marks
         return kinds.CENTRE, (marks[1], self._curved(circle, point))
 
@@ -370,7 +370,7 @@ class Curves:
     def _together(self, *two: Mark) -> bool:
         """Whether two marks fall on one place in this pose; not where they cannot be drawn there."""
         try:
-            return math.dist(*self.values(*two)) <= NONE * self.scene.extent
+            return math.dist(*self.values(*two)) <= EXTENT_TOL * self.scene.extent
         except ConstructionError:
             return False
 

@@ -28,8 +28,6 @@ from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.gear import Gear
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.motion.circle_diagram import (
-    ONE,
-    PENCIL,
     CircleDiagram,
     DrawnCircle,
     DrawnSide,
@@ -41,10 +39,10 @@ from graphplan.methods.motion.circle_diagram import (
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, link_named, listed, pole_letter
 from graphplan.methods.poses import Pose
+from graphplan.methods.tolerances import MIN_SIZE, PENCIL, PLACE_TOL, SINE_TOL
 from graphplan.phrases import Said, joined, said
 
 MOST = 6  # points of a link whose velocities are looked at
-SAME = 1e-12  # of their coordinates: points no further apart are one, as far as floats tell
 NEAR = 1.5  # sizes of the mechanism: a pole no further from its middle is marked
 KENNEDY = said("the poles of three links relative to each other lie on one line (Aronhold-Kennedy)")
 PITCH_POINT = said("the links roll on each other in the pitch point: there they have one velocity")
@@ -323,11 +321,11 @@ class Poles:
         if self.seen.one(X, Y):
             return
         pairs = [(self.board.side(X, x), self.board.side(Y, y))]
-        if self._sine(*pairs[0]) <= ONE:
+        if self._sine(*pairs[0]) <= SINE_TOL:
             tips = [self.board.step_across(P, p, P, ratio=-1) for P, p in (one, two)]
             pairs = [(self.board.side(X, Y), self.board.side(*tips))]
         for k, l in pairs:
-            if (sine := self._sine(k, l)) > ONE:
+            if (sine := self._sine(k, l)) > SINE_TOL:
                 yield FoundPole(cross(self.seen[k], self.seen[l]), PENCIL / sine, (PoleLine("1", k), PoleLine("2", l)),
                                 round=self.diagram.rounds + 1)
 
@@ -364,9 +362,9 @@ class _Seen:
     def one(self, P: Mark, Q: Mark) -> bool:
         """Whether two points fall on one place."""
         p, q = self[P], self[Q]
-        size = max(1e-300, *(abs(float(part)) for part in (*p[:2], *q[:2])))
+        size = max(MIN_SIZE, *(abs(float(part)) for part in (*p[:2], *q[:2])))
         gap = abs(p[0] - q[0]) + abs(p[1] - q[1])
-        return bool(gap == 0 if isinstance(self.domain, Fractions) else gap <= SAME * size)
+        return bool(gap == 0 if isinstance(self.domain, Fractions) else gap <= PLACE_TOL * size)
 
     def _value(self, mark: Mark) -> Any:
         """The value of a mark, and of all that it is made from."""

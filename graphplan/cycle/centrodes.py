@@ -13,10 +13,8 @@ import numpy as np
 
 from graphplan.cycle.linkage import Array
 from graphplan.cycle.rates import Moved
+from graphplan.cycle.tolerances import TURNING_TOL
 from graphplan.cycle.turn import RangeOfMotion
-
-ALIKE = 2.0**-40
-"""Links that turn on each other by less than this part of what their points move, turn alike."""
 
 FINER = 12
 """How often the travel between two poles is halved at most."""
@@ -37,7 +35,7 @@ def centrodes(links: Mapping[str, Moved], link: str, on: str) -> Centrodes:
     """The centrodes of a link that moves relative to another."""
     one, other = links[link], links[on]
     turning, slip = one.spin - other.spin, one.velocity - other.velocity_at(one.base)
-    turning = np.where(np.abs(turning) > ALIKE * (np.abs(one.spin) + np.abs(other.spin)), turning, np.nan)
+    turning = np.where(np.abs(turning) > TURNING_TOL * (np.abs(one.spin) + np.abs(other.spin)), turning, np.nan)
     with np.errstate(all="ignore"):
         pole = one.base + 1j * slip / turning
     return Centrodes(other.carried_back(pole), one.carried_back(pole))

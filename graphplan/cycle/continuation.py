@@ -22,6 +22,7 @@ import numpy as np
 from graphplan.cycle.groups import Group
 from graphplan.cycle.linkage import Array, Linkage
 from graphplan.cycle.newton import Lies
+from graphplan.cycle.tolerances import CROSSING_STEP, LONGER_MISS, MIN_STEP, SHORTER_MISS, SINGULAR_TOL
 from graphplan.cycle.travel import afford
 from graphplan.mechanism.travel import TURN, travel_unit
 
@@ -43,26 +44,8 @@ BESIDE = 4
 _KNOT = 512
 """Bytes for each link in a step, as measured on long travels."""
 
-FINEST = 2.0**-36
-"""The finest step, of the longest. Near a limit a pose changes with its root, so half of these digits stand there."""
-
 SLACK = 16
 """How many finest steps a limit may lie beyond the last knot: a step is only taken where several fit before it."""
-
-EASY, HARD = 2.0**-13, 2.0**-8
-"""Where the prediction missed by less, of the step, the next step is twice as long; by more, half as long.
-
-What lies between the knots is then predicted so well that one correction is enough for most poses.
-"""
-
-SINGULAR = 2.0**-22
-"""The smallest determinant of a part, of that in the given pose: below it, rounding may choose the branch."""
-
-ACROSS = 2.0**-12
-"""The step, of the longest, that leads straight through a change point, and nowhere beyond a limit position.
-
-It tells the change point to as small a part of itself: rounding weighs there as much.
-"""
 
 
 class Knot(NamedTuple):
@@ -75,7 +58,7 @@ class Knot(NamedTuple):
 
     def regular(self, start: Knot) -> bool:
         """Whether it is on the branch of the given pose, and not too near to where another meets it."""
-        return bool((self.determinants / start.determinants >= SINGULAR).all())
+        return bool((self.determinants / start.determinants >= SINGULAR_TOL).all())
 
 
 class Limit(NamedTuple):
@@ -150,7 +133,7 @@ class Continuation:
         self.lower, self.upper, self.progress = lower, upper, progress or (lambda done: None)
         self.longest = LONGEST * min((upper - lower if drive.slides else TURN) / abs(pace) for drive, pace
                                       in zip(linkage.scene.drives, linkage.paces, strict=True) if pace)
-        self.finest = FINEST * self.longest
+        self.finest = MIN_STEP * self.longest
         self.pace = max(abs(pace) / (linkage.reach if drive.slides else 1) for drive, pace
                         in zip(linkage.scene.drives, linkage.paces, strict=True))
         if self.longest:
@@ -194,12 +177,12 @@ class Continuation:
             if isinstance(knot, int) or not knot.regular(start):
                 step /= 2
                 if abs(step) < self.finest:
-                    return self._stopped(knots, math.copysign(ACROSS * self.longest, step))
+                    return self._stopped(knots, math.copysign(CROSSING_STEP * self.longest, step))
                 continue
             missed = float(self._weighed(knot.state - predicted, predicted).max(initial=0.0)) / size
-            if missed <= EASY and 2 * abs(step) <= self.longest:
+            if missed <= LONGER_MISS and 2 * abs(step) <= self.longest:
                 step *= 2
-            elif missed > HARD:
+            elif missed > SHORTER_MISS:
                 step /= 2
             knots.append(knot)
             at = travel
@@ -254,7 +237,7 @@ class Continuation:
         travel = before.travel + (travel - before.travel) / (1 - float(ratio[i]))
         there = last._replace(travel=travel, state=_ahead([before, beyond], travel))
         knots = [knot for knot in knots if abs(knot.travel) < abs(travel)]
-        return [*knots, there], Limit(travel, ACROSS * abs(step), self.linkage.parts[i], True)
+        return [*knots, there], Limit(travel, CROSSING_STEP * abs(step), self.linkage.parts[i], True)
 
 
 def _ahead(knots: Sequence[Knot], travel: float) -> Array:

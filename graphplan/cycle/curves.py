@@ -12,13 +12,13 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from graphplan.cycle.tolerances import RATE_TOL, TIME_TOL
 from graphplan.errors import Refused
 from graphplan.sheet.layout.scales import round_up
 
 Reals = npt.NDArray[np.float64]
 Places = npt.NDArray[np.int_]
 QUANTITIES = ("s", "v", "a")
-ROUNDING = 2.0**-40  # of the whole time: times read back from the paper are not beyond the ends for less
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +87,7 @@ class Curve:
         It errs by the fourth order of the positions' distance, where the graphical methods err by the second.
         """
         found = np.full(np.shape(times), np.nan)
-        slack = ROUNDING * (self.time[-1] - self.time[0])
+        slack = TIME_TOL * (self.time[-1] - self.time[0])
         for part in self.stretches(np.arange(len(self.time))):
             t, y = self.time[part], self.values(quantity)[part]
             inside = (times >= t[0] - slack) & (times <= t[-1] + slack)
@@ -136,7 +136,6 @@ def _through_four(t: Reals, y: Reals, times: Reals) -> Reals:
 
 LENGTH, HEIGHT = 150.0, 60.0  # the room for the axis of time and for each diagram's ordinates, in mm
 NEAREST, FARTHEST = 5.0, 40.0  # a pole nearer than this, in mm, tells no slopes apart; a farther one has no room
-NOTHING = 2.0**-30  # rates below this part of what the motion would need to show are rounding alone
 
 
 @dataclass(frozen=True)
@@ -200,7 +199,7 @@ def sizes(curve: Curve, places: Places) -> dict[str, float]:
     for rate in QUANTITIES[1:]:
         values = curve.values(rate)[places]
         span = float(max(values.max(), 0) - min(values.min(), 0))
-        found[rate] = span if span * period > NOTHING * magnitude else 0.0
+        found[rate] = span if span * period > RATE_TOL * magnitude else 0.0
         magnitude = max(span, magnitude / period)
     return found
 

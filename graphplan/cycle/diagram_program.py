@@ -23,7 +23,8 @@ from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from graphplan.cycle.curves import QUANTITIES, ROUNDING, Curve, DiagramScales, Places, Reals
+from graphplan.cycle.curves import QUANTITIES, Curve, DiagramScales, Places, Reals
+from graphplan.cycle.tolerances import TIME_TOL
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
@@ -156,7 +157,7 @@ class _Stretch:
     def __init__(self, board: Board, curve: Curve, scales: DiagramScales, places: Places, stretch: Places):
         self.board, self.curve, self.scales = board, curve, scales
         self.numbers, times = [list(places).index(place) for place in stretch], curve.time[stretch]
-        self.even = bool(np.ptp(np.diff(times)) <= ROUNDING * (curve.time[-1] - curve.time[0]))
+        self.even = bool(np.ptp(np.diff(times)) <= TIME_TOL * (curve.time[-1] - curve.time[0]))
         self.closed = curve.closed and bool(curve.known.all())
         middles = (times[1:] + times[:-1]) / 2
         self.points = self._marked("s", self._at("s", self.numbers), times, curve.s[stretch])

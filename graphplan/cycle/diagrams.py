@@ -11,12 +11,12 @@ import numpy as np
 
 from graphplan.cycle.curves import Curve, DiagramScales, Places, Reals, diagram_scales, sizes
 from graphplan.cycle.diagram_program import INTEGRATED, Found, Ray, Spot, constructed
+from graphplan.cycle.tolerances import ORDINATE_TOL
 from graphplan.errors import Refused
 from graphplan.kernel.program import Program
 
 NARROWEST = 300  # strips of half a millimetre: no ray can be drawn in a narrower one
 MOST, FEWEST = 24, 8  # strips of a division: more rays cannot be told apart, fewer show no curve
-ROUNDING = 2.0**-40  # errors below this part of the largest ordinate have no order
 
 
 @dataclass(frozen=True)
@@ -121,6 +121,6 @@ def _halved(curve: Curve, scales: DiagramScales, places: Places) -> tuple[dict[F
 def _error(found: Found, miss: _Misses, halved: tuple[dict[Found, _Misses], float]) -> Error:
     """The error of one curve found; its order is the power of the strips' width with which it goes."""
     (others, ratio), order = halved, None
-    if found in others and min(miss.rms, others[found].rms) > ROUNDING * miss.largest:
+    if found in others and min(miss.rms, others[found].rms) > ORDINATE_TOL * miss.largest:
         order = math.log(others[found].rms / miss.rms, ratio)
     return Error(found, float(np.abs(miss.by).max()) / miss.largest, miss.rms / miss.largest, order)

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
+from graphplan.cycle.tolerances import PLACE_TOL
 from graphplan.cycle.turn import follow
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Extreme, Scene
@@ -20,7 +21,6 @@ from graphplan.methods.motion.network import Network
 from graphplan.phrases import Said, said
 
 WAYS = {"outer": 1, "inner": -1}  # on which side of the pivot the crank lies, seen from the joint, where b > r
-SAME = 1e-6  # of the extent: the cycle comes to this place
 
 
 def extreme(scene: Scene, asked: str) -> tuple[Extreme, Fraction]:
@@ -89,7 +89,7 @@ def _travel(scene: Scene, one: Extreme) -> float | None:
     at = {name: complex(*map(float, place)) for name, place in scene.points.items()}
     O, A, B = at[one.pivot], at[one.pin], at[one.joint]
     long = abs(B - A) + WAYS[one.way] * abs(A - O)
-    if abs(long) <= SAME * scene.extent:
+    if abs(long) <= PLACE_TOL * scene.extent:
         return None
     drive = scene.drives[0]
     way = sense(drive) * (1 if drive.on == FRAME else -1)
@@ -98,7 +98,7 @@ def _travel(scene: Scene, one: Extreme) -> float | None:
         turn = way * math.degrees(cmath.phase(arm / (A - O))) % 360
         for travel in (turn, turn - 360):
             found = follow(scene, 1, (travel, travel))
-            if 0 not in found.faults and abs(found.points[one.joint][0] - joint) <= SAME * scene.extent:
+            if 0 not in found.faults and abs(found.points[one.joint][0] - joint) <= PLACE_TOL * scene.extent:
                 return travel
     return None
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from graphplan.cycle.dyads import Placed
 from graphplan.cycle.planar import Planar, planar
+from graphplan.cycle.tolerances import PIN_TOL
 from graphplan.kernel.kinds import Movement, made_by
 from graphplan.kernel.tape.record import Symbols
 from graphplan.mechanism.directions import vector
@@ -15,8 +16,6 @@ from graphplan.mechanism.model import FRAME, Placement, Scene
 from graphplan.mechanism.numerals import exactly
 from graphplan.mechanism.placements import needs
 from graphplan.sheet.plates.view import View
-
-SAME = 1e-6  # mm: how near places of the frame are that are one
 
 Spot = tuple[Any, Any]  # symbols, or numbers where nothing moves it
 
@@ -40,7 +39,7 @@ class Ground:
 
     def at(self, place: complex) -> Planar:
         """Where the frame's point is that was given at this place."""
-        pin = next((name for name in self.pins if abs(self.places[name] - place) < SAME), None)
+        pin = next((name for name in self.pins if abs(self.places[name] - place) < PIN_TOL), None)
         return planar(place) if pin is None else self.pins[pin]
 
     def ray(self, along: complex) -> Planar:

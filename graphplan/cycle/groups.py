@@ -18,6 +18,7 @@ from graphplan.cycle.closure import Body, Closing, Layout, Mesh, Seat, Spin
 from graphplan.cycle.higher import Apart, Geared, Racked
 from graphplan.cycle.linkage import Linkage, direction
 from graphplan.cycle.newton import Corrected, Lies
+from graphplan.cycle.tolerances import CLOSURE_TOL, CORRECTION_TOL, DETERMINANT_TOL
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.pairs.pair import TOUCHING, Along, Turning
 
@@ -28,12 +29,6 @@ NEAR = 1 / 64
 
 SHRINKING = 1 / 4
 """The largest further correction, of the one before."""
-
-SETTLED = 2.0**-13
-"""A quarter of the digits: a correction below it, of the step, leaves half of them, and the next one leaves none."""
-
-CLOSED = 2.0**-26
-"""Half of the digits: a correction below it, of the step, leaves none."""
 
 
 class End(NamedTuple):
@@ -95,12 +90,12 @@ class Group:
             except (ZeroDivisionError, OverflowError, ValueError):  # singular, or a state that has gone to infinity
                 return None
             far = self._far(found.corrections, state)
-            if not far <= allowed or abs(found.determinant) < newton.NOTHING:
+            if not far <= allowed or abs(found.determinant) < DETERMINANT_TOL:
                 return None
             state = [value - correction for value, correction in zip(state, found.corrections, strict=True)]
-            if settled or far <= CLOSED * size:
+            if settled or far <= CLOSURE_TOL * size:
                 return state, found
-            settled = far <= SETTLED * size
+            settled = far <= CORRECTION_TOL * size
             allowed = NEAR * size if settled else SHRINKING * far
 
     def _far(self, corrections: Sequence[float], state: Sequence[float]) -> float:

@@ -9,15 +9,13 @@ import numpy as np
 
 from graphplan.cycle.linkage import Array, number
 from graphplan.cycle.rates import Moved
+from graphplan.cycle.tolerances import LOOK_AHEAD
 from graphplan.mechanism.load_tables import SPEED, LoadTable
 from graphplan.mechanism.load_values import guide_origin, onward
 from graphplan.mechanism.model import Force, Scene, Slide
 from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.tolerances import DEAD_POINT_TOL
 from graphplan.mechanism.travel import travel_unit
-
-AHEAD = 1e-4
-"""How far ahead, in radians or of the mechanism's extent, a slide at a dead point is seen to move."""
 
 Motion = Callable[[Array], Mapping[str, Moved]]
 """Gives how every link lies and moves at some travels."""
@@ -98,7 +96,7 @@ def _strokes(slide: Slide, motion: Motion, travel: Array, speeds: Array, scene: 
         way = {name: z[dead] for name, z in guides.items()}
         here = {name: z[dead] for name, z in points.items()}
         for ahead in (1.0, -1.0):  # at the end of the way what it came by, turned
-            step = ahead * onward(scene) * AHEAD * (scene.extent if first.slides else 1.0)
+            step = ahead * onward(scene) * LOOK_AHEAD * (scene.extent if first.slides else 1.0)
             links = motion(travel[dead] + step)
             rates = ahead * onward(scene) * slide_rate(slide, links, here[slide.at], direction(slide, here, way))
             told = np.sign(np.where(np.isfinite(rates), rates, 0.0))

@@ -12,16 +12,11 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 from graphplan.cycle.closure import RESIDUE, TRAVEL, Body, Drive, Layout, Row, Vector, bodies, left_open, rotated
+from graphplan.cycle.tolerances import TINY_PIVOT
 from graphplan.kernel.tape.blocks import Blocks
 from graphplan.kernel.tape.machine import Machine
 from graphplan.kernel.tape.record import Symbol, Symbols, Tape
 from graphplan.kernel.tape.written import function
-
-_TINY = 1e-150
-"""Stands for a pivot that is nothing: a rotation is one then, too."""
-
-NOTHING = 1e-140
-"""A determinant below it has such a pivot."""
 
 
 class Step(NamedTuple):
@@ -53,7 +48,7 @@ def step(rows: Sequence[Row], width: int, sqrt: Callable[[Any], Any]) -> Step:
 
 def _cleared(one: Row, two: Row, column: int, sqrt: Callable[[Any], Any]) -> tuple[Row, Row]:
     """Two rows rotated so that the second has nothing in a column."""
-    a, b = one[column] + _TINY, two[column]
+    a, b = one[column] + TINY_PIVOT, two[column]
     size = sqrt(a * a + b * b)
     cos, sin = a / size, b / size
     first: Row = {column: size}

@@ -16,8 +16,9 @@ from graphplan.cycle import closure, newton
 from graphplan.cycle.closure import Body
 from graphplan.cycle.continuation import Path
 from graphplan.cycle.dyads import Failure, assembled
-from graphplan.cycle.groups import NEAR, SETTLED, SHRINKING, Group
+from graphplan.cycle.groups import NEAR, SHRINKING, Group
 from graphplan.cycle.linkage import Array, Linkage
+from graphplan.cycle.tolerances import CORRECTION_TOL, RESIDUE_TOL
 from graphplan.mechanism.model import FRAME
 
 BLOCK = 2048
@@ -25,9 +26,6 @@ BLOCK = 2048
 
 _FEW = 4096
 """For fewer poses a tape is not worth its writing."""
-
-_CLOSED = 2.0**-54
-"""The square of a correction, of the step: what it leaves is below rounding."""
 
 
 class Placing:
@@ -147,10 +145,10 @@ def _settled(group: Group, known: Sequence[Body], travel: Array, state: Array, s
     far[n:] /= np.maximum(1.0, np.abs(state[n:]))  # as the path weighs changes
     far = far.max(axis=0)
     trusted = (far <= allowed) & (np.sign(determinant) == sense)
-    again = np.flatnonzero(trusted & ~settled & (far * far > _CLOSED * size))
+    again = np.flatnonzero(trusted & ~settled & (far * far > RESIDUE_TOL * size))
     if again.size:
         far, size = far[again], size[again]
-        settled = far <= SETTLED * size
+        settled = far <= CORRECTION_TOL * size
         rest, trusted[again] = _settled(group, [_some(body, again) for body in known], travel[again],
                                         (state - corrections)[:, again], size, sense,
                                         np.where(settled, NEAR * size, SHRINKING * far), settled, run)

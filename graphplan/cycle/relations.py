@@ -28,6 +28,7 @@ from graphplan.cycle.higher import touching
 from graphplan.cycle.linkage import Linkage, grounded
 from graphplan.cycle.loop import range_of_motion
 from graphplan.cycle.planar import planar
+from graphplan.cycle.tolerances import RELATION_TOL
 from graphplan.cycle.turn import RangeOfMotion, under
 from graphplan.errors import GraphplanError
 from graphplan.kernel.tape.record import Symbol, Symbols
@@ -37,7 +38,6 @@ from graphplan.mechanism.travel import sense_of_travel
 from graphplan.sheet.plates.view import View
 
 STEPS = 6  # of Newton: enough for pins that are dragged by a tenth of the linkage
-CLOSE = 1e-5  # the largest last correction, in radians and reaches: its square is what is left
 SPANS = 180  # between the knots of a state
 
 Spot = tuple[Any, Any]  # symbols, or numbers where nothing moves it
@@ -184,7 +184,7 @@ class Relations:
             state = newton.corrected(layout, state, step.corrections)
         reach = super(_OnPaper, self._on_paper).reach
         far = [move if i < layout.angles else move / reach for i, move in enumerate(step.corrections)]
-        sure = 0.0 * self.tape.sqrt(self.tape.place(CLOSE**2 - sum(move * move for move in far)))
+        sure = 0.0 * self.tape.sqrt(self.tape.place(RELATION_TOL**2 - sum(move * move for move in far)))
         sure = sure + 0.0 * self.tape.sqrt(self.tape.place(step.determinant * self._sense(group)))
         state = [(one[0] + sure, *one[1:]) if isinstance(one, tuple) else one + sure for one in state]
         return closure.bodies(layout, known, arms, drives, state, moving=False)

@@ -16,10 +16,10 @@ import numpy as np
 
 from graphplan.cycle.centrodes import centrodes
 from graphplan.cycle.linkage import Array
+from graphplan.cycle.tolerances import RATE_STEP
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.mechanism.model import FRAME
 
-STEP = 2e-4  # of the whole travel, between poses from which rates are taken
 RAYS = 7200  # of half a turn
 FIRST, SECOND = np.array([1, -8, 0, 8, -1]) / 12, np.array([-1, 16, -30, 16, -1]) / 12
 
@@ -30,7 +30,7 @@ def stationary(motion: RangeOfMotion, link: str) -> tuple[Array, Array] | None:
     None where the link does not turn there, or the mechanism does not move on to both sides.
     """
     whole = float(np.ptp(motion.path.travel))
-    step = STEP * whole
+    step = RATE_STEP * whole
     travel = step * np.arange(-2, 3)
     links = motion.moved(travel % whole if motion.whole else travel)
     spin, poles = links[link].spin, centrodes(links, link, FRAME).fixed

@@ -11,6 +11,7 @@ from graphplan.cycle.centrodes import branches, parted
 from graphplan.cycle.linkage import Array
 from graphplan.cycle.loop import whole_motion
 from graphplan.cycle.stationary import stationary
+from graphplan.cycle.tolerances import POLE_TOL
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Scene
@@ -21,7 +22,6 @@ from graphplan.sheet.plates.traced_motion import Centrode, PointPath, Stationary
 
 FINE = 720  # spots of a path, in each turn
 AWAY = 4.0  # of the mechanism's half extent: so far from its middle a centrode is drawn
-STILL = 1e-9  # of that: a pole that moves by less stays in its place
 
 
 def traced(scene: Scene) -> TracedMotion | None:
@@ -112,7 +112,7 @@ def _carriers(motion: RangeOfMotion, link: str) -> Iterator[tuple[str, Spot]]:
 
 def _whole(part: Array, far: float) -> Array:
     """A branch; one spot of it where the pole stays in one place."""
-    return part[:1] if np.abs(part - part[0]).max() < STILL * far else part
+    return part[:1] if np.abs(part - part[0]).max() < POLE_TOL * far else part
 
 
 def _spot(place: complex) -> Spot:

@@ -22,15 +22,13 @@ from graphplan.cycle.linkage import Array, Linkage, number
 from graphplan.cycle.loads import loads_at
 from graphplan.cycle.positions import Placing
 from graphplan.cycle.rates import Moved, moved
+from graphplan.cycle.tolerances import RETURN_TOL
 from graphplan.cycle.travel import closes, travels
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.replaced import guides
 from graphplan.mechanism.travel import TURN, paces, travel_text, travel_unit
 from graphplan.methods.motion.network import Network
 from graphplan.phrases import Said, said
-
-_BACK = 1e-9
-"""Links that are so near to where they were, in radians and reaches, are back."""
 
 
 @dataclass(frozen=True)
@@ -118,7 +116,7 @@ class RangeOfMotion:
         state = iter(found.tolist())
         apart = [abs(2 * math.sin(value / 2) if i < group.layout.angles else value)
                  for group in self.groups for i, value in zip(range(group.unknowns), state, strict=False)]
-        return max(apart, default=0.0) <= _BACK
+        return max(apart, default=0.0) <= RETURN_TOL
 
     def turn(self, travel: Array, compiled: bool = False) -> Turn:
         """The poses at these travels, an array of shape (n,) in any order."""

@@ -19,6 +19,16 @@ from graphplan.cycle.groups import Group
 from graphplan.cycle.higher import share
 from graphplan.cycle.linkage import Linkage, grounded
 from graphplan.cycle.loop import range_of_motion
+from graphplan.cycle.tolerances import (
+    CLOSURE_TOL,
+    CORRECTION_TOL,
+    CROSSING_STEP,
+    DETERMINANT_TOL,
+    LONGER_MISS,
+    MIN_STEP,
+    SHORTER_MISS,
+    SINGULAR_TOL,
+)
 from graphplan.cycle.travel import check_drives
 from graphplan.cycle.turn import RangeOfMotion, stopped, under
 from graphplan.errors import Refused
@@ -118,10 +128,10 @@ def _plain(value: Any) -> Any:
 
 RULES = {
     "longest": continuation.LONGEST * TURN, "first": continuation.FIRST, "back": continuation.BACK,
-    "beside": continuation.BESIDE, "finest": continuation.FINEST, "slack": continuation.SLACK,
-    "easy": continuation.EASY, "hard": continuation.HARD, "singular": continuation.SINGULAR,
-    "across": continuation.ACROSS, "nothing": newton.NOTHING, "near": groups.NEAR, "shrinking": groups.SHRINKING,
-    "settled": groups.SETTLED, "closed": groups.CLOSED,
+    "beside": continuation.BESIDE, "finest": MIN_STEP, "slack": continuation.SLACK,
+    "easy": LONGER_MISS, "hard": SHORTER_MISS, "singular": SINGULAR_TOL,
+    "across": CROSSING_STEP, "nothing": DETERMINANT_TOL, "near": groups.NEAR, "shrinking": groups.SHRINKING,
+    "settled": CORRECTION_TOL, "closed": CLOSURE_TOL,
 }  # fmt: skip
 """By what the path is guarded: the constants of `cycle`."""
 

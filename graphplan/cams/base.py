@@ -23,10 +23,10 @@ import numpy as np
 from graphplan.cams.follower import FlatOscillating, FlatTranslating, Lifts, Oscillating, Pair, Translating
 from graphplan.cams.law import ROUNDS, Law, Stretch
 from graphplan.cams.task import CONVEX, PRESSURE, SMALLEST, Limits, Task
+from graphplan.cams.tolerances import ARM_ANGLE
 from graphplan.errors import Refused
 from graphplan.mechanism.numerals import shown
 
-LEAST = 1e-9  # radians: an arm that lies on the line of centres
 SCAN, HALVINGS = 180, 48  # angles of an arm that are tried, before the best is searched between two of them
 
 
@@ -137,7 +137,7 @@ def _arm_angle(task: Task) -> float:
     if angle is None:
         raise Refused(f"{task.name}: cam.base", f"no base circle keeps the pressure angle at a centre distance of "
                       f"{shown(a)} and an arm of {shown(l)}", "another centre distance or arm, or larger angles")
-    if angle < LEAST:
+    if angle < ARM_ANGLE:
         raise Refused(f"{task.name}: cam.base", "the pressure angle is never reached, so there is no smallest base "
                       "circle", "a radius")
     return angle

@@ -18,6 +18,7 @@ from typing import Any
 
 from graphplan.cams.follower import FlatOscillating, Oscillating, Pair, Translating
 from graphplan.cams.profile import Cam
+from graphplan.cams.tolerances import DIRECTION_TOL, ZERO_LENGTH
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
@@ -167,7 +168,7 @@ class _Inversion:
         self.lifted = [self.A]
         for k in range(1, self.count):
             s = self._law(k, 0)
-            self.lifted.append(self._lifted(k, s) if abs(s) > 1e-12 * self.pair.base else self.A)
+            self.lifted.append(self._lifted(k, s) if abs(s) > ZERO_LENGTH * self.pair.base else self.A)
 
     def _lifted(self, k: int, s: float) -> Mark:
         """The follower lifted by so much where it stands at first."""
@@ -212,7 +213,7 @@ class _Inversion:
     def _pole(self, k: int) -> Mark:
         """The relative pole of cam and follower."""
         far = pole(self.pair, self._law(k, 1))
-        if abs(far) <= 1e-12 * self.pair.base:
+        if abs(far) <= ZERO_LENGTH * self.pair.base:
             return self.O
         told = "a·ψ′/(1 ± ψ′)" if self.oscillates else "ds/dφ"
         return self.board.lay_along(self.rays[k], self.O, length=far, name=f"P_{k}", quantity=_length(told),
@@ -247,4 +248,4 @@ def _length(written: str) -> Quantity:
 
 def _clean(part: float) -> float:
     """A component of a direction that is 0, 1 or -1 where rounding alone makes it another."""
-    return float(round(part)) if abs(part - round(part)) < 1e-15 else part
+    return float(round(part)) if abs(part - round(part)) < DIRECTION_TOL else part

@@ -18,10 +18,10 @@ from typing import Any
 import numpy as np
 
 from graphplan.cams.motions import ORDERS, Piece
+from graphplan.cams.tolerances import JUMP_TOL, MIN_SIZE
 
 Array = Any
 
-SMALL = 1e-9  # of the largest value: a jump that is none
 HARD, SOFT = 1, 2  # the orders of the derivatives that jump
 PARTS, FINER, ROUNDS = 90, 16, 9  # of a piece in which the largest value is searched, then so often again
 
@@ -121,8 +121,8 @@ class Law:
     @cached_property
     def jumps(self) -> tuple[Jump, ...]:
         """The hard and soft shocks in the order of the turn."""
-        scale = [max(self.largest(order), 1e-300) for order in range(ORDERS)]
-        return tuple(jump for jump in self._joints() if abs(jump.after - jump.before) > SMALL * scale[jump.order])
+        scale = [max(self.largest(order), MIN_SIZE) for order in range(ORDERS)]
+        return tuple(jump for jump in self._joints() if abs(jump.after - jump.before) > JUMP_TOL * scale[jump.order])
 
     def largest(self, order: int) -> float:
         """About how large the derivative of an order is where it is largest."""

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 from graphplan.cams.follower import FlatOscillating, Oscillating, Translating
 from graphplan.cams.profile import Cam
+from graphplan.cams.tolerances import ZERO_LENGTH
 from graphplan.mechanism.numerals import shown
 
 CAM, FOLLOWER = "1", "2"
@@ -26,7 +27,7 @@ def scene_text(cam: Cam, angle: float) -> str:
     straight = not abs(touch.radius[0]) < STRAIGHT * pair.base
     points = {CENTRE: 0j, TOUCHED: point}
     own, touching = _follower(cam, points, end)
-    middle = "" if straight else CENTRE if abs(centre) < 1e-12 * pair.base else PROFILE
+    middle = "" if straight else CENTRE if abs(centre) < ZERO_LENGTH * pair.base else PROFILE
     if middle == PROFILE:
         points[PROFILE] = centre
     profile = f'"{middle}"' if middle else _vector(tangent)

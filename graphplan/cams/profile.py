@@ -19,6 +19,7 @@ from graphplan.cams.base import based, least_flat, lifts_of, narrowest, steepest
 from graphplan.cams.follower import Flat, Pair, Rolled, Touch
 from graphplan.cams.law import HARD, SOFT, Law, Stretch
 from graphplan.cams.task import POINTED, PRESSURE, Task
+from graphplan.cams.tolerances import ANGLE_TOL_DEG, FLAT_ARC, LENGTH_TOL
 from graphplan.errors import GraphplanError, SceneError
 from graphplan.mechanism.items import Faults
 from graphplan.mechanism.numerals import shown
@@ -31,7 +32,6 @@ QUARTER = 90.0  # degrees: no arc of the outline is longer than this part of the
 USUAL = {False: (30.0, 60.0), True: (45.0, 70.0)}  # pressure angles of rise and return, as a rule; by oscillating
 HARD_SHOCK = phrase("at {0} the velocity jumps: a hard shock, the acceleration is infinite")
 SOFT_SHOCK = phrase("at {0} the acceleration jumps: a soft shock")
-JUST = 1e-9  # degrees or of a length: by so much a limit may seem to be overstepped
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ class Cam:
         angles = np.linspace(low, high, 2 * HALF + 1)
         spots = self.pair.turned(self.touched(one, angles).point, angles)
         bulge = _bulge(*spots[::HALF])
-        if BETWEEN * _off(spots, bulge) <= tolerance or high - low < JUST:
+        if BETWEEN * _off(spots, bulge) <= tolerance or high - low < ANGLE_TOL_DEG:
             yield ArcOfProfile(complex(spots[0]), bulge)
             return
         yield from self._fitted(one, low, (low + high) / 2, tolerance)
@@ -123,7 +123,7 @@ class Cam:
         start, centre = (complex(self.pair.turned(spot, angle)[0]) for spot in (touch.point, touch.roller))
         angle = np.array([float(after.start)])
         end = complex(self.pair.turned(self.touched(after, angle).point, angle)[0])
-        if abs(end - start) < JUST * self.pair.base:
+        if abs(end - start) < LENGTH_TOL * self.pair.base:
             return []
         if not self.roller:
             return [ArcOfProfile(start, 0.0)]
@@ -167,7 +167,7 @@ class Cam:
             names = said("the rise"), said("the return")
             for way, usual, name in zip((1, -1), USUAL[self.task.follower.oscillates], names, strict=True):
                 angle, size = self.steepest[way]
-                if size > usual + JUST:
+                if size > usual + ANGLE_TOL_DEG:
                     yield said("at {0}° the pressure angle of {1} is {2}°; as a rule it is {3}° at most",
                                digits(angle), name, digits(size), digits(usual))
 
@@ -179,7 +179,7 @@ def _bulge(start: complex, middle: complex, end: complex) -> float:
         return 0.0
     x, y = ((middle - start) / half - 1).real, ((middle - start) / half - 1).imag
     # the circle through -1, 1 and x + iy has its centre on the axis of ordinates
-    if abs(y) < 1e-12:
+    if abs(y) < FLAT_ARC:
         return 0.0
     centre = (x * x + y * y - 1) / (2 * y)
     radius = math.hypot(1, centre)
@@ -224,7 +224,7 @@ def _pressure(cam: Cam, faults: Faults) -> None:
         return
     for key, way, most in (("rise", 1, limits.rise), ("return", -1, limits.back)):
         angle, size = cam.steepest[way]
-        if most is not None and size > float(most) + JUST:
+        if most is not None and size > float(most) + ANGLE_TOL_DEG:
             what = f"at {shown(angle)} degrees it is {shown(size)}, above {shown(most)}"
             faults.add(f"cam.pressure_angle.{key}", what, _enough(cam.task))
 
@@ -253,7 +253,7 @@ def _hollow(cam: Cam, faults: Faults) -> None:
     _dropping(cam, "flat face", faults)
     angle, size = cam.narrowest
     least = float(cam.task.cam.least)
-    nothing = JUST * cam.pair.base
+    nothing = LENGTH_TOL * cam.pair.base
     if size <= nothing or size < least - nothing:
         why = "it is hollow there, so that the face loses it" if size < -nothing else "it is too narrow"
         what = f"at {shown(angle)} degrees the profile's radius of curvature is {shown(size)}: {why}"
@@ -274,11 +274,11 @@ def _undercut(cam: Cam, faults: Faults) -> None:
     if follower.contact != POINTED:
         _dropping(cam, "roller", faults)
     angle, size = cam.narrowest
-    if size <= cam.roller + JUST * cam.pair.base:
+    if size <= cam.roller + LENGTH_TOL * cam.pair.base:
         faults.add("follower.radius", f"at {shown(angle)} degrees the path of the roller's centre has the radius of "
                    f"curvature {shown(size)}: a roller of {shown(cam.roller)} cuts the profile under",
                    f"half of it, {shown(size / 2)}, or a larger base circle")
-    elif size - cam.roller < least - JUST * cam.pair.base:
+    elif size - cam.roller < least - LENGTH_TOL * cam.pair.base:
         faults.add("cam.least_radius", f"at {shown(angle)} degrees the profile's radius of curvature is "
                    f"{shown(size - cam.roller)}, below {shown(least)}", "a smaller roller, or a larger base circle")
 
@@ -317,7 +317,7 @@ def _self_crossing(curve: Array) -> complex | None:
     ring = shapely.LinearRing(np.column_stack((curve.real, curve.imag)))
     loops = shapely.get_parts(shapely.polygonize([shapely.node(ring)]))
     sizes = [math.dist((low, left), (high, right)) for low, left, high, right in shapely.bounds(loops)]
-    least = JUST * float(np.ptp(curve.real) + np.ptp(curve.imag))
+    least = LENGTH_TOL * float(np.ptp(curve.real) + np.ptp(curve.imag))
     large = sorted((size, k) for k, size in enumerate(sizes) if size > least)
     if len(large) < 2:
         return None

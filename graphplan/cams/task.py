@@ -13,6 +13,7 @@ from typing import Any
 
 from graphplan.cams.law import Law, Stage
 from graphplan.cams.motions import DWELL, MOTIONS, TABLE, spline
+from graphplan.cams.tolerances import LIFT_TOL
 from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
 from graphplan.mechanism.items import Faults, Item, Vector, described
 from graphplan.mechanism.model import Presentation
@@ -26,7 +27,6 @@ POINTED, ROLLER, FLAT = "point", "roller", "flat"
 PRESSURE, CONVEX, SMALLEST = "pressure angle", "convex", "smallest"
 TURNS = {"counter-clockwise": 1, "clockwise": -1}
 LEAST, MOST = 6, 72  # divisions of the turn
-LEVEL = 1e-9  # of the largest lift: a lift of no more is none
 
 
 @dataclass(frozen=True)
@@ -258,10 +258,10 @@ def _checked(task: Task, faults: Faults) -> None:
     turn, rest = law.closed
     if turn != 360:
         faults.add("law", f"its stages take {shown(turn)} degrees", "stages of 360 degrees together")
-    if abs(rest) > LEVEL * law.largest(0) / law.times:
+    if abs(rest) > LIFT_TOL * law.largest(0) / law.times:
         faults.add("law", f"after one turn the lift is {shown(rest)}", "strokes that add up to 0")
     at, depth = law.extremum(lambda angles, one: -one.at(angles))
-    if depth > LEVEL * law.largest(0) / law.times:
+    if depth > LIFT_TOL * law.largest(0) / law.times:
         faults.add("law", f"the lift is {shown(-depth)} at {shown(at)} degrees, below where it begins",
                    "begin with the stage in which the follower is lowest")
     if not any(stage.stroke or stage.motion == TABLE for stage in task.stages):

@@ -17,10 +17,10 @@ from graphplan.check.compared import CLOSE
 from graphplan.check.poses import BLOCK, EPSILON, SAFETY, Round, alone
 from graphplan.errors import Disagreement, GraphplanError
 from graphplan.machine.reduced.friction import M_F
-from graphplan.machine.reduced.machine_size import ROUNDED
 from graphplan.machine.reduced.reduced_loads import loads_with
 from graphplan.machine.reduced.reduction import Reduced, Reduction
 from graphplan.machine.reduced.unit_motion import at_unit_rate
+from graphplan.machine.tolerances import MACHINE_SHARE
 from graphplan.mechanism.load_tables import LoadTable
 from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.model import FRAME, Force, Loads
@@ -83,7 +83,7 @@ def weights_gap(reduction: Reduction, travel: Any) -> float:
     """
     by, projected = reduction.at(travel).by, reduction.projections(travel)
     worst = max((float(np.max(np.abs(by[name] - moment))) for name, moment in projected.items()), default=0.0)
-    least = ROUNDED * reduction.size.moment
+    least = MACHINE_SHARE * reduction.size.moment
     size = max([least, *(float(np.max(np.abs(moment), initial=0.0)) for moment in projected.values())])
     gap = worst / size if worst else 0.0
     if gap > CLOSE:
@@ -104,7 +104,7 @@ def lever(reduction: Reduction, travel: float = 0.0) -> tuple[Construction, floa
         balance = (complex(balance) * complex(x, -y)).real / abs(complex(x, y))
     drawn = -reduction.sense * balance * float(NEWTONS[reduction.scene.units.force])
     told = float(smooth(found, "moment")[0])
-    size = max([ROUNDED * reduction.size.moment, *(abs(float(part[0])) for part in found.by.values())])
+    size = max([MACHINE_SHARE * reduction.size.moment, *(abs(float(part[0])) for part in found.by.values())])
     gap = abs(drawn - told) / size if drawn != told else 0.0
     if gap > CLOSE and not gap <= SAFETY * EPSILON * Opinion(reduction, np.array([travel]), 1).condition:
         raise Disagreement(reduction.scene.name, "lever", f"{drawn:.15g}", f"{told:.15g}", gap)

@@ -15,16 +15,15 @@ import numpy as np
 import numpy.typing as npt
 
 from graphplan.errors import Refused
+from graphplan.machine.tolerances import COUNT_TOL, SERIES_TOL, SIGN_TOL
 
 Reals = npt.NDArray[np.float64]
 
 NODES = 16  # of a panel: a full turn of a linkage takes one to four dozen panels
-TOLERANCE = 1e-13  # of the largest value: terms of a series below it are rounding
 WIDEST = 8  # panels at least in the whole range, that no wave passes between the nodes
 MOST, DEEPEST = 4096, 64  # panels, and times that one is halved: what needs more has no limit somewhere
 TAIL = 3  # terms at the end of a series that tell how far it is from settled
 SOUGHT = 24  # places in a panel between which a sign is seen to change
-SIGNLESS = 1e-14  # of the largest value: has no sign
 HALVINGS = 60  # of an interval with a root: to the last digit
 
 
@@ -66,7 +65,8 @@ class Piecewise:
     def beside(self, size: npt.ArrayLike) -> Piecewise:
         """The same functions, each zero where it is rounding alone beside a size, shape () or (k,)."""
         largest = np.abs(self.terms).max(axis=(-2, -1), initial=0.0)
-        return replace(self, terms=np.where((largest > TOLERANCE * np.asarray(size))[..., None, None], self.terms, 0.0))
+        kept = (largest > SERIES_TOL * np.asarray(size))[..., None, None]
+        return replace(self, terms=np.where(kept, self.terms, 0.0))
 
     @property
     def whole(self) -> Reals:
@@ -91,7 +91,7 @@ class Piecewise:
         low, high = self.edges[:-1, None], self.edges[1:, None]
         places = ((low + high) / 2 + (high - low) / 2 * grid).ravel()
         values = _sums(self.terms[:, None, :], grid[None, :]).ravel()
-        signs = np.where(np.abs(values) > SIGNLESS * np.abs(values).max(), np.sign(values), 0.0)
+        signs = np.where(np.abs(values) > SIGN_TOL * np.abs(values).max(), np.sign(values), 0.0)
         seen = np.flatnonzero(signs)
         changed = signs[seen[:-1]] != signs[seen[1:]]
         first, last = seen[:-1][changed], seen[1:][changed]
@@ -116,7 +116,7 @@ class Piecewise:
         places = np.unique(np.concatenate([slope.roots(), self.edges]))
         left, right = self.at(places, -1), self.at(places, 1)
         least, most = np.minimum(left, right), np.maximum(left, right)
-        close = SIGNLESS * max(most.max(), -least.min())
+        close = SIGN_TOL * max(most.max(), -least.min())
         down, up = np.argmax(least <= least.min() + close), np.argmax(most >= most.max() - close)
         return (float(places[down]), float(least.min())), (float(places[up]), float(most.max()))
 
@@ -134,7 +134,7 @@ def settled(function: Callable[[Reals], Reals], breaks: Sequence[float], size: n
     for _ in range(DEEPEST):
         terms = _series(function, waiting)
         if not kept:
-            limit = TOLERANCE * np.maximum(size, np.abs(terms).max(axis=(-2, -1)))[..., None]
+            limit = SERIES_TOL * np.maximum(size, np.abs(terms).max(axis=(-2, -1)))[..., None]
         tail, widths = np.abs(terms[..., -TAIL:]).max(axis=-1), (waiting[:, 1] - waiting[:, 0]) / whole
         fine = ((tail <= limit) | (tail * widths <= limit / 16)).reshape(-1, len(waiting)).all(axis=0)
         kept.append((waiting[fine], terms[..., fine, :]))
@@ -151,7 +151,7 @@ def settled(function: Callable[[Reals], Reals], breaks: Sequence[float], size: n
 def _begun(breaks: Sequence[float]) -> Reals:
     """The first panels, shape (p, 2)."""
     edges = np.unique(np.asarray(breaks, dtype=float))
-    parts = np.ceil(np.diff(edges) / (edges[-1] - edges[0]) * WIDEST - 1e-9).astype(int)
+    parts = np.ceil(np.diff(edges) / (edges[-1] - edges[0]) * WIDEST - COUNT_TOL).astype(int)
     rows = [np.linspace(low, high, count + 1) for low, high, count in zip(edges, edges[1:], parts, strict=False)]
     return np.concatenate([np.stack([row[:-1], row[1:]], axis=1) for row in rows])
 

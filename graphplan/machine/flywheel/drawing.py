@@ -28,11 +28,11 @@ from graphplan.machine.flywheel.room import Room, laid_out, plans_of
 from graphplan.machine.flywheel.wittenbauer import Flywheel, Touch
 from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Reals
+from graphplan.machine.tolerances import LINE_TOL_MM, PLAN_TOL
 from graphplan.phrases import Said, digits, said
 
 FLYWHEEL = Panel("flywheel", said("flywheel"), said("Moment, energy, inertia and the energy-mass diagram"))
 FEW, MOST = 6, 720  # plans, those included with which the error of the strips is found
-STRAIGHT = 1e-6  # mm: three points so near to a line lie on it
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +132,7 @@ class _Sheet:
         self.found: dict[str, list[Mark]] = {}
         self.told = np.degrees(self.plans.travels)
         even = (self.plans.travels - cycle.ends[0]) / cycle.span * positions
-        self.numbers = np.floor(even + 1e-6).astype(int).tolist()  # a corner has that of the plan before it, primed
+        self.numbers = np.floor(even + PLAN_TOL).astype(int).tolist()  # a corner has that of the plan before it, primed
 
     @property
     def drawing(self) -> FlywheelDrawing:
@@ -290,4 +290,4 @@ def _straight(travels: Reals, heights: Reals) -> bool:
     """Whether three points lie on a line."""
     first, middle, last = heights
     part = (travels[1] - travels[0]) / (travels[2] - travels[0])
-    return bool(abs(middle - first - part * (last - first)) < STRAIGHT)
+    return bool(abs(middle - first - part * (last - first)) < LINE_TOL_MM)

@@ -18,7 +18,7 @@ import numpy as np
 
 from graphplan.errors import Refused
 from graphplan.machine.integrals import Piecewise, Reals, settled
-from graphplan.machine.reduced.machine_size import ROUNDED
+from graphplan.machine.tolerances import CANCELLED_WORK_TOL, MACHINE_SHARE, WORK_TOL
 
 if TYPE_CHECKING:
     from graphplan.machine.reduced.reduction import Reduction
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 DRIVE, LOAD = "drive", "load"
 WEIGHT = "G_"  # what the names of weights begin with
 SAMPLES = 25  # travels that tell how large inertia and moments are
-NO_WORK = 1e-9  # of the work that the loads together do to and fro
-ROUNDING = 1e-14  # of it: what is left of sums that cancel
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +103,7 @@ def steady(reduction: Reduction, speed: float, closes: str = DRIVE, changing: Co
         loads = {name: moment * factor if name in changing else moment for name, moment in loads.items()}
     else:
         done = sum(works.values())
-        closing = -done / span if abs(done) > ROUNDING * size else 0.0
+        closing = -done / span if abs(done) > CANCELLED_WORK_TOL * size else 0.0
     first, last = reduction.ends
     corners = np.array([at for at in reduction.breaks if first < at < last])
     return SteadyCycle(speed, inertia, slope, loads, closing, factor, tuple(changing), corners)
@@ -118,7 +116,7 @@ def _reduced(reduction: Reduction, speed: float) -> tuple[Piecewise, Piecewise, 
     names, rows = reduced_rows(reduction, inside, speed)
     sizes = np.abs(rows).max(axis=1)
     sizes[1] = max(sizes[1], sizes[0])
-    sizes[2:] = max(np.abs(rows[2:]).sum(axis=0).max(initial=0.0), ROUNDED * reduction.size.moment)
+    sizes[2:] = max(np.abs(rows[2:]).sum(axis=0).max(initial=0.0), MACHINE_SHARE * reduction.size.moment)
     edges = [first, *(at for at in reduction.breaks if first < at < last), last]
     inertia, slope, *moments = settled(lambda travel: reduced_rows(reduction, travel, speed)[1], edges, sizes)
     return inertia, slope, dict(zip(names, moments, strict=True))
@@ -134,7 +132,7 @@ def reduced_rows(reduction: Reduction, travel: Reals, speed: float) -> tuple[lis
 def _weights(works: Mapping[str, float], size: float, what: str) -> None:
     """Refuse weights that do work over a cycle, beside the size of all work."""
     for name, work in works.items():
-        if name.startswith(WEIGHT) and abs(work) > NO_WORK * size:
+        if name.startswith(WEIGHT) and abs(work) > WORK_TOL * size:
             raise Refused(what, f"the weight {name} does the work {work:.3g} over a turn, so that the machine "
                           "does not come back to where it began", "a drive whose turn is a whole cycle")
 
@@ -151,8 +149,8 @@ def _factor(loads: Mapping[str, Piecewise], works: Mapping[str, float], changing
         raise Refused(f'{what}: closes = "load"', "no load changes", 'a load with `over`, or closes = "drive"')
     done = sum(works[name] for name in changing)
     rest = sum(work for name, work in works.items() if name not in changing)
-    if abs(done) <= NO_WORK * size or abs(rest) <= NO_WORK * size:
-        which = "that change" if abs(done) <= NO_WORK * size else "that do not change"
+    if abs(done) <= WORK_TOL * size or abs(rest) <= WORK_TOL * size:
+        which = "that change" if abs(done) <= WORK_TOL * size else "that do not change"
         raise Refused(f'{what}: closes = "load"', f"the loads {which} do no work over the cycle",
                       'closes = "drive", or other loads')
     return -rest / done

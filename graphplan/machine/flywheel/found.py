@@ -17,13 +17,13 @@ from graphplan.machine.flywheel.other_methods import Found, Speeds, methods
 from graphplan.machine.flywheel.wittenbauer import Flywheel, by_mean_energy, sized, turning
 from graphplan.machine.integrals import Reals
 from graphplan.machine.reduced.reduction import Reduction, reduction
+from graphplan.machine.tolerances import MOTOR_TOL
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.travel import TURN, printed_travels
 from graphplan.mechanism.units import KILOGRAMS
 from graphplan.phrases import Said, digits, said
 
 PLANS, MANY = 24, 120  # of a turn, and of many turns, where nothing is said
-STEADY = 1e-9  # of the larger: a motor's arm and rate vary by no more over the cycle
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +141,7 @@ def motor(reduced: Reduction) -> Speeds | None:
     """The moment at a speed of the loads over the drive's speed, whatever the travel; none where there are none."""
     first, last = reduced.ends
     loads = [load for load in reduced.at(np.linspace(first, last, 7)[:-1]).speed_loads
-             if all(np.ptp(part) <= STEADY * np.abs(part).max() for part in (load.arm, load.rate))]
+             if all(np.ptp(part) <= MOTOR_TOL * np.abs(part).max() for part in (load.arm, load.rate))]
     return (lambda omega: math.fsum(float(np.ravel(load.moment(omega))[0]) for load in loads)) if loads else None
 
 

@@ -18,11 +18,11 @@ import numpy as np
 
 from graphplan.machine.flywheel.energy import SteadyCycle
 from graphplan.machine.integrals import Piecewise, Reals
+from graphplan.machine.tolerances import AREA_TOL
 from graphplan.phrases import Said, said
 
 Speeds = Callable[[float], float]  # the moment of a motor at a speed
 NEGLECTS_NOTHING = said("neglects nothing")
-NO_AREA = 1e-10  # of all areas: no area
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ def areas(cycle: SteadyCycle) -> list[Area]:
     edges = [float(at) for at in np.unique(np.where(nodes >= last, first, nodes))]
     edges.append(edges[0] + cycle.span)
     found = [Area(low, high, _between(energy, low, high)) for low, high in pairwise(edges)]
-    return [*_merged(found, NO_AREA * sum(abs(area.work) for area in found))]
+    return [*_merged(found, AREA_TOL * sum(abs(area.work) for area in found))]
 
 
 def _between(energy: Piecewise, low: float, high: float) -> float:

@@ -19,11 +19,11 @@ from graphplan.machine.flywheel.energy import SteadyCycle
 from graphplan.machine.flywheel.wittenbauer import Flywheel
 from graphplan.machine.frames import AxisScale, Frame
 from graphplan.machine.integrals import Reals
+from graphplan.machine.tolerances import MOMENT_JUMP, ORDINATE_TOL
 
 NEAREST, FARTHEST = 12.0, 45.0  # the pole from the axis, in mm
 GAP, HEAD = 20.0, 16.0  # between the columns and the rows of diagrams, in mm
 OFF = 1.3  # on the axis I = 0 the intercept may be so much longer than on a parallel, for that axis to be drawn
-CLOSE, JUMP = 1e-9, 1e-6  # of the largest: no more than rounding; a moment that jumps by more has a point on each side
 MISSED = 0.005  # of the energy's range: a chord that is more off passes a corner by
 
 
@@ -87,7 +87,7 @@ class Plans:
     def outermost(self, slope: float, above: bool) -> int:
         """The plan whose point a tangent of a slope meets first, from above or below: the first of equals."""
         heights = self.heights(slope) * (1 if above else -1)
-        return int(np.argmax(heights[:-1] >= heights.max() - CLOSE * np.ptp(heights)))
+        return int(np.argmax(heights[:-1] >= heights.max() - ORDINATE_TOL * np.ptp(heights)))
 
     def parabola_error(self, slope: float, k: int) -> float:
         """By how much the vertex of a parabola through three points about a plan is off the curve's, in J.
@@ -101,7 +101,7 @@ class Plans:
     def jumps(self, k: int) -> bool:
         """Whether the moment jumps at a plan."""
         size = max(float(np.abs(self.right).max()), float(np.abs(self.left).max()))
-        return bool(abs(self.right[k] - self.left[k]) > JUMP * size)
+        return bool(abs(self.right[k] - self.left[k]) > MOMENT_JUMP * size)
 
 
 def plans_of(cycle: SteadyCycle, positions: int) -> Plans:
@@ -111,13 +111,13 @@ def plans_of(cycle: SteadyCycle, positions: int) -> Plans:
     strips = np.clip(np.searchsorted(even, cycle.corners, side="right") - 1, 0, positions - 1)
     jumped = np.abs(cycle.moment.at(cycle.corners) - cycle.moment.at(cycle.corners, -1))
     missed = plans.gaps(cycle)[strips] > MISSED * np.ptp(plans.energies)
-    return _plans_at(cycle, even, cycle.corners[missed | (jumped > JUMP * np.abs(plans.right).max())])
+    return _plans_at(cycle, even, cycle.corners[missed | (jumped > MOMENT_JUMP * np.abs(plans.right).max())])
 
 
 def _plans_at(cycle: SteadyCycle, even: Reals, corners: Reals | None = None) -> Plans:
     """The plans at even travels and corners; one that is near a corner to rounding is there."""
     corners = np.empty(0) if corners is None else corners
-    near = np.abs(even[:, None] - corners).min(axis=1, initial=np.inf) <= CLOSE * (even[-1] - even[0])
+    near = np.abs(even[:, None] - corners).min(axis=1, initial=np.inf) <= ORDINATE_TOL * (even[-1] - even[0])
     travels = np.sort(np.concatenate([even[~near], corners]))
     left, right = cycle.moment.at(travels, -1), cycle.moment.at(travels)
     left[0], right[-1] = left[-1], right[0]  # the cycle goes on as it began
@@ -167,7 +167,7 @@ def laid_out(cycle: SteadyCycle, wheel: Flywheel, plans: Plans, room: Room) -> L
 def _parallel(plans: Plans, room: Room) -> tuple[float, float]:
     """A round inertia a little less than the least, and the scale at which the others have room right of it."""
     least, most = float(plans.inertias.min()), float(plans.inertias.max())
-    varies = most - least > CLOSE * most
+    varies = most - least > ORDINATE_TOL * most
     k_I = float(round_scale((most - least if varies else most) / room.inertia))
     step = 10 * k_I
     return (math.floor(least / step) * step if varies else least), k_I

@@ -17,11 +17,9 @@ from typing import NamedTuple
 
 from graphplan.errors import Refused
 from graphplan.machine.flywheel.energy import SteadyCycle
+from graphplan.machine.tolerances import EVENNESS_TOL, SPEED_TOL
 
-ENOUGH = 1e-14  # of a speed: it is found
 MOST = 200  # steps towards the origin's energy
-EVEN = 1e-12  # of a speed: the machine runs evenly but for rounding
-NO_INERTIA = 1e-12  # of the machine's own: a flywheel of less is rounding
 
 
 class Touch(NamedTuple):
@@ -82,7 +80,7 @@ def sized(cycle: SteadyCycle, unevenness: float, what: str = "flywheel") -> Flyw
     inertia = needed(cycle, unevenness)
     if not inertia:
         own = turning(cycle, 0.0).unevenness
-        if own <= EVEN:
+        if own <= EVENNESS_TOL:
             raise Refused(f"{what}: unevenness {unevenness:g}", "the machine needs no flywheel: it runs evenly",
                           "masses or loads that change its speed")
         raise Refused(f"{what}: unevenness {unevenness:g}", "the machine needs no flywheel for it: its own unevenness "
@@ -94,7 +92,7 @@ def needed(cycle: SteadyCycle, unevenness: float) -> float:
     """The flywheel's inertia with which the speed varies so little at most; 0 where the machine needs none."""
     upper, lower = _tangents(cycle, unevenness)
     inertia = (upper.cut - lower.cut) / (upper.slope - lower.slope)
-    return inertia if inertia > NO_INERTIA * cycle.mean_inertia else 0.0
+    return inertia if inertia > EVENNESS_TOL * cycle.mean_inertia else 0.0
 
 
 def _tangents(cycle: SteadyCycle, unevenness: float) -> tuple[Touch, Touch]:
@@ -113,11 +111,11 @@ def turning(cycle: SteadyCycle, inertia: float, what: str = "flywheel") -> Flywh
         before = upper.slope
         upper, lower = touch(cycle, upper.slope, above=True), touch(cycle, lower.slope, above=False)
         fast, slow = _speeds(cycle.speed, upper, lower, inertia)
-        if not 0 < slow <= fast * (1 + EVEN):
+        if not 0 < slow <= fast * (1 + EVENNESS_TOL):
             raise Refused(f"{what}: inertia {inertia:g}", f"the machine does not come round with a mean speed of "
                           f"{cycle.speed:g}", "a heavier flywheel, or a higher speed")
         upper, lower = upper._replace(slope=fast**2 / 2), lower._replace(slope=slow**2 / 2)
-        if abs(upper.slope - before) <= ENOUGH * before:
+        if abs(upper.slope - before) <= SPEED_TOL * before:
             break
     upper, lower = _through(upper), _through(lower)
     return Flywheel(inertia, upper, lower, upper.cut - upper.slope * inertia)
@@ -153,7 +151,7 @@ def _from_origin(cycle: SteadyCycle, inertia: float, origin: float, above: bool)
     for _ in range(MOST):
         found = touch(cycle, slope, above)
         before, slope = slope, (found.energy - origin) / (found.inertia + inertia)
-        if abs(slope - before) <= ENOUGH * slope:
+        if abs(slope - before) <= SPEED_TOL * slope:
             break
     return _through(found._replace(slope=slope))
 

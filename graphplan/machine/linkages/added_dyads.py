@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from graphplan.errors import Refused
 from graphplan.machine.linkages.mass_centre import MassCentre, PrincipalVector
 from graphplan.machine.linkages.spanning import Hanging
+from graphplan.machine.tolerances import COINCIDENCE_TOL
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.scene_text import with_keys
 from graphplan.phrases import said
@@ -96,14 +97,14 @@ class _Dyads:
         line = self.places[vector.end] - self.places[vector.start]
         place = self.places[start] + complex(vector.along, vector.across) * line
         for point in self.links[bar]:
-            if abs(self.places[point] - place) < 1e-12 * self.scene.extent:
+            if abs(self.places[point] - place) < COINCIDENCE_TOL * self.scene.extent:
                 return point
         point = self._new(name, place)
         self.links[bar].append(point)
         return point
 
     def _near(self, one: str, other: str) -> bool:
-        return abs(self.places[one] - self.places[other]) < 1e-12 * self.scene.extent
+        return abs(self.places[one] - self.places[other]) < COINCIDENCE_TOL * self.scene.extent
 
     def _new(self, name: str, place: complex) -> str:
         """A new point of this name, with primes where it is taken."""

@@ -24,12 +24,12 @@ from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.machine.linkages.spanning import spanning_tree
+from graphplan.machine.tolerances import BALANCED_TOL, FACTOR_TOL, WEIGHT_TOL
 from graphplan.mechanism.model import FRAME, Mass, Placement, Scene, Slide
 from graphplan.mechanism.units import METRES
 from graphplan.phrases import said
 
-BALANCED = 1e-11  # of what is to be balanced: what is left over is rounding
-ROUNDS, SETTLED = 100, 2.0**-44  # in which the masses of counterweights must settle that load each other's links
+ROUNDS = 100  # in which the masses of counterweights must settle that load each other's links
 LONGER = (1, 2, 4, 8)  # times the length of the link: radii that are tried where none is given
 
 Form = dict[str, complex]
@@ -102,7 +102,7 @@ class _Balancing:
         """The sums that are constant as chains close: of each joint as a point of one link less as one of another."""
         closed = [_sum([(1, self.form(joint.links[0], joint.at)), (-1, self.form(link, joint.at))])
                   for joint in self.scene.revolutes for link in joint.links[1:]]
-        return [chain for chain in closed if any(abs(factor) > 1e-12 * self.reach for factor in chain.values())]
+        return [chain for chain in closed if any(abs(factor) > FACTOR_TOL * self.reach for factor in chain.values())]
 
     @cached_property
     def guided(self) -> list[Form]:
@@ -170,15 +170,15 @@ class _Balancing:
                 moments = self.moments(links, weights)[0]
                 found = [Counterweight(link, self.pivot(link), moment, own[link]) for link, moment in moments.items()]
                 before, weights = weights, {one.link: one.mass for one in found}
-                if all(abs(mass - before[link]) <= SETTLED * mass for link, mass in weights.items()):
-                    return tuple(one for one in found if abs(one.moment) > BALANCED * self.size)
+                if all(abs(mass - before[link]) <= WEIGHT_TOL * mass for link, mass in weights.items()):
+                    return tuple(one for one in found if abs(one.moment) > BALANCED_TOL * self.size)
         raise Refused(f"{self.scene.name}: counterweights", said("their own masses ask for ever more of them"),
                       said("a larger radius"))
 
     def left_over(self, links: Sequence[str], weights: Mapping[str, float]) -> list[str]:
         """What of the first moment counterweights on these links cannot balance, by turnings and slidings."""
         _, left = self.moments(links, weights)
-        return [key for key, factor in left.items() if abs(factor) > BALANCED * self.size]
+        return [key for key, factor in left.items() if abs(factor) > BALANCED_TOL * self.size]
 
     @cached_property
     def size(self) -> float:
@@ -197,7 +197,7 @@ class _Balancing:
         columns += [[form.get(key, 0j) for key in keys] for form in self.guided]
         right = -np.array([first.get(key, 0j) for key in keys])
         matrix = np.array(columns, dtype=complex).reshape(len(columns), len(keys)).T
-        found = np.linalg.lstsq(_real(matrix), _real(right), rcond=1e-12)[0]
+        found = np.linalg.lstsq(_real(matrix), _real(right), rcond=FACTOR_TOL)[0]
         left = matrix @ found - right
         moments = {link: self.reach * complex(found[2 * k], found[2 * k + 1]) for k, link in enumerate(links)}
         return moments, dict(zip(keys, left.tolist(), strict=True))
@@ -210,7 +210,7 @@ class _Balancing:
             return False
         ways = [_way(slide) / _way(self.guide) for slide in self.scene.slides if FRAME in slide.links
                 and key == f"sliding of {slide.link}" and self.turning[slide.link] == FRAME]
-        return any(abs(way.imag) < 1e-12 for way in ways)
+        return any(abs(way.imag) < FACTOR_TOL for way in ways)
 
     def length(self, link: str) -> float:
         """The length of a link: how far its farthest joint is from the pivot, or its farthest point."""

@@ -18,12 +18,11 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.machine.linkages.counterweights import Counterweight
+from graphplan.machine.tolerances import ON_LINE_TOL, ORDER_TOL, TERM_TOL
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
 from graphplan.mechanism.units import KILOGRAMS, METRES
 
 POINTS = 1024  # of a turn of the crank from which the series is found: its terms are exact to rounding
-ROUNDING = 1e-15  # of the rod's length: a smaller term of the series is none
-ON_LINE = 1e-9  # of its link's length: so near is a mass centre on the line of its joints
 
 
 @dataclass(frozen=True)
@@ -60,7 +59,7 @@ class Engine:
     @property
     def orders(self) -> list[int]:
         """The orders that there are, but for rounding."""
-        return [k for k in range(1, len(self.series)) if abs(self.series[k]) > ROUNDING]
+        return [k for k in range(1, len(self.series)) if abs(self.series[k]) > TERM_TOL]
 
     def order(self, k: int) -> complex:
         """The amplitude of the inertia force of the k-th order of what reciprocates, in N: along the guide it is the
@@ -157,7 +156,7 @@ def _reduced(scene: Scene, links: tuple[str, str, str], hinge: str, joints: Sequ
         if link in masses:
             centre = complex(*map(float, scene.points[masses[link].centre]))
             parts[link] = kg * float(masses[link].mass), (centre - start) / (end - start)
-    if any(abs(part.imag) > ON_LINE for _, part in parts.values()):
+    if any(abs(part.imag) > ON_LINE_TOL for _, part in parts.values()):
         return None
     metre = float(METRES[scene.units.length])
     (m_1, s_1), (m_2, s_2) = (parts[link] for link in (crank, rod))
@@ -178,6 +177,6 @@ def in_line(cranks: Sequence[float], places: Sequence[float], order: int) -> tup
     turns = [cmath.exp(1j * math.radians(order * angle)) for angle in cranks]
     total = sum(turns)
     couple = sum(place * turn for place, turn in zip(places, turns, strict=True))
-    if abs(total) > 1e-9 * len(turns):
+    if abs(total) > ORDER_TOL * len(turns):
         couple -= total * (couple / total).real
     return abs(total), abs(couple)

@@ -23,13 +23,11 @@ from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Program, evaluate
 from graphplan.kernel.stages import Stage
 from graphplan.machine.linkages.spanning import SpanningTree, as_multiple, moments_of_mass, spanning_tree
+from graphplan.machine.tolerances import VECTOR_TOL
 from graphplan.mechanism.model import Mass, Number, Scene
 from graphplan.mechanism.plane import less
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said, digits, said
-
-ROUNDING = 2.0**-45
-"""A part of a vector that is smaller, beside its mass times the length of its link, is rounding alone."""
 
 
 @dataclass(frozen=True)
@@ -117,7 +115,7 @@ def _vectors(tree: SpanningTree, mass: Number) -> Iterator[PrincipalVector]:
         if start == end:
             continue
         found = as_multiple(moments_of_mass(tree, hanging.link), line)
-        least = ROUNDING * float(tree.beyond(hanging.link))
+        least = VECTOR_TOL * float(tree.beyond(hanging.link))
         along, across = (part / mass if abs(float(part)) > least else Fraction(0) for part in found)
         if along or across:
             yield PrincipalVector(hanging.link, start, end, along, across)

@@ -13,11 +13,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
+from graphplan.machine.tolerances import COINCIDENCE_TOL
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene
 from graphplan.mechanism.plane import dot, less, plus, times, turned
-
-COINCIDENT = 1e-12
-"""Of the mechanism's extent: points that lie no further apart give no line."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +76,8 @@ class SpanningTree:
         joints = [p for p in scene.links[link] if p in scene.joints]
         ends = [*(hanging.at for hanging in self.hung_on(link)), *joints, *centre, *scene.links[link]]
         x, y = map(float, scene.points[start])
-        apart = (end for end in ends if math.dist((x, y), map(float, scene.points[end])) > COINCIDENT * scene.extent)
+        least = COINCIDENCE_TOL * scene.extent
+        apart = (end for end in ends if math.dist((x, y), map(float, scene.points[end])) > least)
         return start, next(apart, start)
 
 

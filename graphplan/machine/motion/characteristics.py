@@ -17,12 +17,12 @@ from graphplan.errors import Refused
 from graphplan.machine.integrals import Reals
 from graphplan.machine.motion.driven import Driven
 from graphplan.machine.motion.true_motion import Place, TrueMotion, moved
+from graphplan.machine.tolerances import CYCLE_TOL
 
 NEAR = 0.01  # of the steady speed: a machine so near to it has run up
 TURNS = 100  # that a run-up may take
 OCTAVES, GRID = 12, 8  # how far from a speed the nominal one is looked for, and in how many steps each
 ROUNDS = 60  # of the search for the cycle that repeats itself: it takes three to six
-CLOSED = 1e-12  # of the energy, or of all work in a cycle: what is less is rounding
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ def steady(machine: Driven, speed: float) -> TrueMotion:
     if machine.laws:
         return limit_cycle(machine, nominal(machine, speed))
     over, size = (float(one[0]) for one in work(machine, np.array([speed])))
-    if abs(over) > CLOSED * 1e3 * size:
+    if abs(over) > CYCLE_TOL * 1e3 * size:
         raise Refused("the steady motion", f"the loads give {over:.6g} J over a cycle, which does not close",
                       "[flywheel], whose closing moment closes it, or a driver's characteristic over the speed")
     return _with_mean(machine, speed)
@@ -100,7 +100,7 @@ def limit_cycle(machine: Driven, omega: float) -> TrueMotion:
     for round_ in range(ROUNDS):
         motion = _cycle(machine, energy)
         last, miss = miss, float(motion.at([motion.end]).energy[0]) - energy
-        if abs(miss) <= CLOSED * energy:
+        if abs(miss) <= CYCLE_TOL * energy:
             return motion
         steeper = (miss - last) / (energy - before) if round_ else -1.0
         before, energy = energy, max(energy - miss / (steeper if steeper < 0 else -1.0), energy / 4)
@@ -113,7 +113,7 @@ def _with_mean(machine: Driven, speed: float) -> TrueMotion:
     for _ in range(ROUNDS):
         motion = _cycle(machine, energy)
         mean = motion.means.arithmetic
-        if abs(mean - speed) <= CLOSED * speed:
+        if abs(mean - speed) <= CYCLE_TOL * speed:
             return motion
         energy *= 1 + 2 * (speed / mean - 1)
     raise Refused("the steady motion", f"no cycle has the mean speed {speed:g}", "a larger speed, or a flywheel")

@@ -16,13 +16,11 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from graphplan.machine.integrals import Reals
+from graphplan.machine.tolerances import ENERGY_TOL, RATE_STEP, SERIES_TOL
 
 NODES = 16
 ROUNDS = 30  # of Newton's method: it takes three to six
-CLOSE = 1e-15  # of the energy: what the last round changes at most
-TOLERANCE = 1e-13  # of the largest energy and the whole time: terms of a series below it are rounding
 TAIL = 3  # terms at the end of a series that tell how far it is from settled
-NUDGE = 1e-7  # of the rate: the step by which laws are differentiated
 
 
 class Machine(Protocol):
@@ -64,14 +62,14 @@ def stretch(machine: Machine, start: float, way: float, energy: float, elapsed: 
             return None
         rate = np.sqrt(2 * energies / inertia)
         moment = moments(rate)
-        step = NUDGE * rate
+        step = RATE_STEP * rate
         slope = (moments(rate + step) - moment) / step / (inertia * rate)
         miss = energies - energy - rule.integral @ (pace * moment)
         change = np.linalg.solve(np.eye(NODES) - rule.integral * (pace * slope), miss)
         if not np.isfinite(change).all():
             return None
         energies = energies - change
-        if abs(change).max() <= CLOSE * energies.max():
+        if abs(change).max() <= ENERGY_TOL * energies.max():
             break
     else:
         return None
@@ -86,7 +84,7 @@ def stretch(machine: Machine, start: float, way: float, energy: float, elapsed: 
 def _fine(values: Reals, size: float) -> bool:
     """Whether the last terms of the series are rounding beside a size, or beside the values."""
     tail = abs(values @ _rule().series[:, -TAIL:]).max()
-    return bool(tail <= TOLERANCE * max(size, abs(values).max()))
+    return bool(tail <= SERIES_TOL * max(size, abs(values).max()))
 
 
 class _Rule(NamedTuple):

@@ -16,12 +16,11 @@ import numpy as np
 
 from graphplan.errors import Refused
 from graphplan.machine.integrals import Piecewise, Reals, settled
-from graphplan.machine.reduced.machine_size import ROUNDED
 from graphplan.machine.reduced.reduction import Reduction
+from graphplan.machine.tolerances import INERTIA_TOL, MACHINE_SHARE
 from graphplan.mechanism.load_tables import LoadTable
 from graphplan.mechanism.travel import travel_text, travel_unit
 
-NO_INERTIA = 1e-9  # of the largest inertia: less is none
 SAMPLES = 48  # places of the cycle that show how large moments and inertias are
 
 
@@ -126,7 +125,7 @@ def driven(reduction: Reduction, wheel: float = 0.0, closing: float = 0.0) -> Dr
     sample = reduction.at(np.linspace(first, last, SAMPLES + 2)[1:-1])
     sizes = np.zeros(3 + 2 * len(sample.speed_loads))
     sizes[1] = abs(sample.inertia).max()
-    sizes[2] = max(sum(abs(moment).max() for moment in sample.by.values()), ROUNDED * reduction.size.moment)
+    sizes[2] = max(sum(abs(moment).max() for moment in sample.by.values()), MACHINE_SHARE * reduction.size.moment)
     edges = [first, *(float(x) for x in reduction.breaks if first < x < last), last]
     curves = [replace(curve, edges=curve.edges * reduction.unit) for curve in settled(rows, edges, sizes)]
     _heavy(curves[0], reduction)
@@ -147,7 +146,7 @@ def _heavy(inertia: Piecewise, reduction: Reduction) -> None:
     travel = (low + (high - low) * np.linspace(0, 1, 9)).ravel()
     values = inertia.at(travel)
     least = int(np.argmin(values))
-    if not values[least] > NO_INERTIA * values.max():
+    if not values[least] > INERTIA_TOL * values.max():
         where = travel_text(reduction.scene, float(travel[least] / reduction.unit))
         raise Refused("the machine", f"its reduced inertia is nothing at {where}",
                       "[masses] with the inertia of the first drive's link")

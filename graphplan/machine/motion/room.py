@@ -20,6 +20,7 @@ from graphplan.cycle.curves import round_scale
 from graphplan.machine.frames import AxisScale, Frame
 from graphplan.machine.integrals import Reals
 from graphplan.machine.motion.strips import times
+from graphplan.machine.tolerances import MIN_RANGE, SCALE_TOL
 
 POLE, BESIDE, BETWEEN = 34.0, 22.0, 12.0  # mm: for poles, between the two columns of diagrams, and between their rows
 NEAREST, FARTHEST = 4.5, 30.0  # mm: poles from their axes
@@ -28,7 +29,6 @@ LENGTH, WIDE, CUT = 0.66, 0.22, 0.6  # of what is free: the axis of travel, the 
 SLOWEST = 8.0  # times the least 1/omega: what is larger goes off the paper
 FAR = 0.5  # of the largest energy: where the least is more the origin is off the paper
 MARGIN = 0.08  # of a range, beyond it
-LEAST = 1e-3  # of the largest value: a smaller range is shown as one of this size
 STEPS = 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0  # of the scale of travel, which fills its room
 
 
@@ -80,7 +80,7 @@ class Layout:
         slowness = 1 / self.omegas[max(1, self.first):]
         least = self.whole / self.degree / (LENGTH * self.room.free)
         power = 10.0 ** math.floor(math.log10(least))
-        phi = self.degree * power * next(step for step in STEPS if step * power >= least * (1 - 1e-9))
+        phi = self.degree * power * next(step for step in STEPS if step * power >= least * (1 - SCALE_TOL))
         energy = _scale(self._span(self.energies) / high["energy"])
         moment = _scale(max(span / high["moment"], energy / phi / FARTHEST))
         slow = min(slowness.max(), SLOWEST * slowness.min()) / high["slowness"]
@@ -94,7 +94,7 @@ class Layout:
     def _span(self, values: Reals) -> float:
         """What of some values is shown: from nothing on, or their range alone."""
         top = float(values.max())
-        return max(top - self._low(values), LEAST * top)
+        return max(top - self._low(values), MIN_RANGE * top)
 
     def _low(self, values: Reals) -> float:
         """The least value that is shown."""

@@ -24,12 +24,10 @@ from graphplan.errors import Refused
 from graphplan.machine.integrals import Reals
 from graphplan.machine.motion.collocation import Stretch, stretch
 from graphplan.machine.motion.driven import Driven
+from graphplan.machine.tolerances import MIN_STRETCH, MOMENT_TOL, SPEED_OFFSET, STOP_TOL, TRAVEL_TOL
 
-NARROWEST = 1e-13  # of the travel asked for: a stretch that must be narrower leads nowhere
 SEEN = 24  # places in a stretch between which a sign is seen to change
 HALVINGS = 52  # of an interval in which something changes its sign
-LEAVING = 1e-6  # of a speed: a table that ends so near it is left
-NO_MOMENT = 1e-11  # of the largest moment: what is below it moves nothing from rest
 
 
 class State(NamedTuple):
@@ -151,7 +149,7 @@ def moved(machine: Driven, omega: float, start: float, end: float) -> TrueMotion
         one = stretch(machine, here, way, energy, elapsed, at_rest=energy == 0)
         if one is None and (halt := _halted(machine, here, waiting[-1], energy, elapsed)) is not None:
             return TrueMotion(machine, start, end, (*found, halt), Place(halt.start, 0.0, _first(halt.time)))
-        if one is None and way <= NARROWEST * (end - start):
+        if one is None and way <= MIN_STRETCH * (end - start):
             _covered(machine, here, energy)
             return TrueMotion(machine, start, end, tuple(found), Place(here, 0.0, math.inf))
         if one is None:
@@ -165,7 +163,7 @@ def moved(machine: Driven, omega: float, start: float, end: float) -> TrueMotion
 def _inside(machine: Driven, start: float, end: float) -> None:
     """Refuse a travel that leaves the span of a machine that does not turn."""
     last = machine.begin + machine.period
-    if not machine.closed and not machine.begin <= start < end <= last * (1 + 1e-12):
+    if not machine.closed and not machine.begin <= start < end <= last * (1 + TRAVEL_TOL):
         raise Refused("the motion", f"it would go from {machine.told(start)} to {machine.told(end)}, and is known from "
                       f"{machine.told(machine.begin)} to {machine.told(last)}", "a travel within (--travel)")
 
@@ -174,7 +172,7 @@ def _starts(machine: Driven, start: float) -> None:
     """Refuse to start where nothing drives the machine from rest."""
     at, still = np.array([start]), np.zeros(1)
     moment, size = float(machine.moment(at, still)[0]), float(abs(machine.reduced[2].terms[..., 0]).max())
-    if not moment > NO_MOMENT * max(size, abs(machine.closing)):
+    if not moment > MOMENT_TOL * max(size, abs(machine.closing)):
         why = "holds it" if moment < 0 else "is nothing"
         raise Refused("the motion", f"it does not start: the reduced moment at rest, {moment:.6g}, {why}",
                       "a speed at the beginning (--speed), or loads that drive it there")
@@ -185,7 +183,7 @@ def _covered(machine: Driven, travel: float, energy: float) -> None:
     at = np.array([travel])
     rate = np.sqrt(2 * energy / machine.inertia(at))
     for law in machine.laws:
-        for beyond in (1 - LEAVING, 1 + LEAVING):
+        for beyond in (1 - SPEED_OFFSET, 1 + SPEED_OFFSET):
             law.law(machine.curve(law.rate, at) * rate * beyond)
 
 
@@ -214,7 +212,7 @@ def _halted(machine: Driven, here: float, end: float, energy: float, elapsed: fl
         if not low < far < high or (one := back(far)) is None:
             break
         miss = float(one.energy.sum()) - energy
-        if abs(miss) <= 4e-16 * energy:
+        if abs(miss) <= STOP_TOL * energy:
             break
         if miss > 0:
             high, over, under = far, miss, under / 2

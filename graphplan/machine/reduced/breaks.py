@@ -16,6 +16,7 @@ import numpy as np
 from graphplan.cycle.linkage import Array
 from graphplan.machine.reduced.reduced_loads import LoadValues
 from graphplan.machine.reduced.unit_motion import UnitMotion
+from graphplan.machine.tolerances import BREAK_DISTANCE, BREAK_TOL, TABLE_TOL
 from graphplan.mechanism.load_tables import TRAVEL, LoadTable
 from graphplan.mechanism.model import Slide
 from graphplan.mechanism.travel import TURN
@@ -23,9 +24,7 @@ from graphplan.methods import kinds
 
 SAMPLES = 360  # of the motion in each turn, between which a slide changes its sense once at most
 ASIDE = 0.38  # of the way between two samples
-NEAR = 1e-9  # of a table's length: a place that is so near to a dead point is that
-SAME = 1e-11  # of the range: breaks that are nearer to each other are one
-ROUNDS, SETTLED = 60, 4e-16
+ROUNDS = 60
 
 Function = Callable[[Array], tuple[Array, Array]]
 
@@ -45,7 +44,7 @@ def in_order(found: Iterable[float], ends: tuple[float, float]) -> tuple[float, 
     next round."""
     low, high = ends
     found = (low + (travel - low) % (high - low) if travel > high else travel for travel in found)
-    close, kept = SAME * (high - low), [low]
+    close, kept = BREAK_DISTANCE * (high - low), [low]
     for travel in sorted(found):
         if travel - kept[-1] > close and high - travel > close:
             kept.append(travel)
@@ -92,7 +91,7 @@ def _passed(loads: LoadValues, motion: UnitMotion, slide: Slide, tables: list[Lo
     found = list(dead)
     for table in tables:
         for corner in table.corners if table.over_position else ():
-            if not np.any(np.abs(turned - float(corner)) <= NEAR * float(table.length)):
+            if not np.any(np.abs(turned - float(corner)) <= TABLE_TOL * float(table.length)):
                 found += zeros(partial(_beyond, place, float(corner)), strokes, places - float(corner))
     return found
 
@@ -126,7 +125,7 @@ def refined(function: Function, low: Array, high: Array, before: Array, after: A
             step = at - value / np.where(np.isfinite(slope), slope, (value - left) / (at - last))
         new = np.where((step >= low) & (step <= high), step, np.where(value == 0, at, (low + high) / 2))
         moved, last, left, at = np.abs(new - at), at, value, new
-        if np.all(moved <= SETTLED * np.maximum(1.0, np.abs(at))):
+        if np.all(moved <= BREAK_TOL * np.maximum(1.0, np.abs(at))):
             break
     return [*map(float, at)]
 

@@ -39,6 +39,7 @@ from graphplan.machine.reduced.friction_drawing import rubbed_drawing, with_rest
 from graphplan.machine.reduced.recordings import Recordings, Results
 from graphplan.machine.reduced.reduced_loads import LoadValues, acting
 from graphplan.machine.reduced.unit_motion import Rates, UnitMotion, at_unit_rate
+from graphplan.machine.tolerances import BALANCE_TOL, BREAK_OFFSET, SIGNLESS_TOL
 from graphplan.mechanism.model import FRAME, Find, Force, Friction, Loads, Scene, Slide
 from graphplan.mechanism.plane import times
 from graphplan.mechanism.travel import travel_text
@@ -50,9 +51,6 @@ from graphplan.phrases import said
 Vanishing = Callable[[Results, Turn], tuple[Array, Array]]
 M_F = "M_F"
 JOINT_FORCE, SLIDE_FORCE = (kinds.WITH_FRICTION[kind] for kind in (kinds.REACTION, kinds.SLIDE_REACTION))
-NOTHING = 1e-12  # of the drive's rates, or of the largest reaction
-HAIR = 1e-10  # of the cycle: so far beside a break it is seen how pairs move there
-STANDS = 1e-9  # of the balance: what one round of friction more may change
 ROUNDS = 6  # of friction: after four the forces of every pose stand, unless the mechanism is near to locking itself
 
 
@@ -119,12 +117,12 @@ class FrictionOverCycle:
         travel = self.beside(travel, side)
         found, turn = self._forces(self.recordings, travel, side, gaps=True)
         if (torn := ~np.isfinite(self._delivered(found, turn, kinds.RUBBED))).any():
-            travel = np.where(torn, travel + side * HAIR * (self.ends[1] - self.ends[0]), travel)
+            travel = np.where(torn, travel + side * BREAK_OFFSET * (self.ends[1] - self.ends[0]), travel)
             found, turn = self._forces(self.recordings, travel, side)
         plain, rubbed = (self._delivered(found, turn, way) for way in (kinds.BY_PLANS, kinds.RUBBED))
         further = self._delivered(*self._forces(self._further, travel, side), kinds.RUBBED)
         size = np.maximum(np.abs(plain), np.abs(rubbed))
-        if locked := np.flatnonzero(~(np.abs(further - rubbed) <= STANDS * size)).tolist():
+        if locked := np.flatnonzero(~(np.abs(further - rubbed) <= BALANCE_TOL * size)).tolist():
             at = travel_text(self.scene, float(travel[locked[0]]))
             raise Refused("friction", said("the mechanism locks itself at a travel of {0}", at), "less friction")
         return Rubbed(plain, plain - rubbed, dict(self._losses(found)))
@@ -136,7 +134,7 @@ class FrictionOverCycle:
         low, high = self.ends
         place = low + np.mod(travel - low, high - low) if self.motion.period else travel
         nearest = np.argmin(np.abs(self.edges - place[:, None]), axis=1)
-        away, hair = place - self.edges[nearest], HAIR * (high - low)
+        away, hair = place - self.edges[nearest], BREAK_OFFSET * (high - low)
         return np.where(np.abs(away) < hair, travel - away + side * hair, travel)
 
     def _forces(self, recordings: Recordings, travel: Array, side: int = 1, gaps: bool = False) -> tuple[Results, Turn]:
@@ -224,12 +222,12 @@ class FrictionOverCycle:
         largest = max((float(np.nanmax(sizes)) for sizes in every), default=0.0)
         for of, size in [of for one in self.frictions for of in self._vanishing(one, largest)]:
             values, _ = of(found, turn)
-            for i, j in pairwise(np.flatnonzero(np.abs(values) > NOTHING * size).tolist()):
+            for i, j in pairwise(np.flatnonzero(np.abs(values) > SIGNLESS_TOL * size).tolist()):
                 if values[i] * values[j] < 0 and j - i <= 2:
                     yield Bracket(of, i, j)
         for name in (JointForce(one.at, link).name for one in self.frictions for link, _ in self._journals(one)):
             force = found[JOINT_FORCE][name]
-            for i, j in pairwise(np.flatnonzero(np.abs(force) > NOTHING * largest).tolist()):
+            for i, j in pairwise(np.flatnonzero(np.abs(force) > SIGNLESS_TOL * largest).tolist()):
                 if (force[i] * force[j].conj()).real < 0 and j - i <= 2:
                     yield Bracket(partial(self._turns_round, name, force[i].conj()), i, j)
 
@@ -273,7 +271,7 @@ class CycleLosses:
     def efficiency(self) -> float:
         """The mean efficiency: how much of the work that is given does not go into friction (Ozols 1974, 14-1)."""
         share = 1 - self.lost / self.given if self.given else 0.0
-        return share if abs(share) > STANDS else 0.0
+        return share if abs(share) > BALANCE_TOL else 0.0
 
     @property
     def apart(self) -> float:

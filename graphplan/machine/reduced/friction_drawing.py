@@ -9,6 +9,7 @@ import numpy as np
 
 from graphplan.cycle.linkage import Array
 from graphplan.machine.reduced.unit_motion import Rates, UnitMotion
+from graphplan.machine.tolerances import DEAD_POINT_TOL
 from graphplan.mechanism.model import FRAME, Find, Scene
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
@@ -18,8 +19,6 @@ from graphplan.methods.motion.alternatives import ways
 from graphplan.methods.motion.network import Network
 from graphplan.methods.panels import JointForce
 from graphplan.methods.styles import Style
-
-STANDS_STILL = 1e-9  # of the drive's rate, at the mechanism's reach for what slides: what is slower everywhere rests
 
 
 def rubbed_drawing(scene: Scene, method: str = "") -> Construction:
@@ -41,9 +40,9 @@ def with_resting_pairs(scene: Scene, motion: UnitMotion, travel: Array) -> Scene
 def _resting(scene: Scene, motion: UnitMotion, rates: Rates) -> Iterator[str]:
     for point, link, pin in pairs(scene):
         one, other = (0.0 if name == FRAME else rates.of(kinds.OMEGA, name) for name in (link, pin))
-        if np.max(np.abs(one - other), initial=0.0) <= STANDS_STILL:
+        if np.max(np.abs(one - other), initial=0.0) <= DEAD_POINT_TOL:
             yield JointForce(point, link).name
     reach = scene.extent * motion.metres if motion.turns else 1.0
     for slide in scene.slides:
-        if np.max(np.abs(rates.of(kinds.SLIDE_VELOCITY, slide.name)), initial=0.0) <= STANDS_STILL * reach:
+        if np.max(np.abs(rates.of(kinds.SLIDE_VELOCITY, slide.name)), initial=0.0) <= DEAD_POINT_TOL * reach:
             yield slide.name

@@ -12,10 +12,6 @@ from typing import NamedTuple
 from graphplan.mechanism.model import Force, Moment, Scene
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 
-ROUNDED = 1e-2
-"""Of the size of the machine, as the least that terms which sum up to a moment are taken for: a thousandth of what is
-rounding beside it, 1e-13, is that of a float."""
-
 
 class MachineSize(NamedTuple):
     """The reduced inertia (kg m^2) and moment (N m) if all masses and loads moved as fast as the mechanism's reach, and

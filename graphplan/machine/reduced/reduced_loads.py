@@ -17,15 +17,12 @@ from graphplan.cycle.linkage import Array
 from graphplan.cycle.loads import direction, place
 from graphplan.cycle.turn import Turn
 from graphplan.machine.reduced.unit_motion import Rates, UnitMotion
+from graphplan.machine.tolerances import DEAD_POINT_TOL
 from graphplan.mechanism.load_tables import SPEED, LoadTable
 from graphplan.mechanism.model import FRAME, Force, Loads, Moment, Scene, Slide
 from graphplan.mechanism.order import named_forces, named_moments
 from graphplan.mechanism.units import KILOGRAMS, NEWTONS
 from graphplan.methods import kinds
-
-STANDING = 1e-9
-"""A slide is at a dead point where its speed is less than this part of what the drive makes at the mechanism's reach.
-"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,7 +173,7 @@ class LoadValues:
     def _sense(self, slide: Slide, motion: UnitMotion, turn: Turn, rates: Rates, side: int) -> Array:
         """The stroke: the sense in which a slide moves, at a dead point that on one side of it."""
         speed = self.speed(slide, turn, rates)
-        dead = np.abs(speed) <= STANDING * (motion.metres * self.scene.extent if motion.turns else 1.0)
+        dead = np.abs(speed) <= DEAD_POINT_TOL * (motion.metres * self.scene.extent if motion.turns else 1.0)
         if dead.any():
             changes = self.speed(slide, turn, motion.accelerations(turn), kinds.SLIDE_ACCELERATION)
             speed = np.where(dead, side * changes, speed)

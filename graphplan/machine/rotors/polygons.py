@@ -28,6 +28,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage
 from graphplan.machine.rotors.rotor import PLANES, Eccentric, Rotor, Vector, direction
+from graphplan.machine.tolerances import CLOSING_TOL
 from graphplan.phrases import Said, said
 
 END_VIEW = Panel("end view", said("end view"))
@@ -35,7 +36,6 @@ MOMENTS = Panel("moment polygon", said("moment polygon"), said("Moment polygon: 
 FORCES = Panel("force polygon", said("force polygon"), said("Force polygon: m·r"))
 Pair = tuple[Any, Any]  # a vector by its components, in any numbers
 MOMENT, FORCE = "moment", "force"  # kinds of what is laid off
-ZERO = 1e-12  # of the sum of a polygon's sides: what closes it and is shorter is rounding
 
 
 class State(Enum):
@@ -81,7 +81,7 @@ class Sums:
         """How far from plane I one mass alone would balance force and moment; nothing where none would."""
         (x, y), (u, v) = self.force, self.moment
         square = x * x + y * y
-        if not square or abs(x * v - y * u) > ZERO * self.static * self.dynamic:
+        if not square or abs(x * v - y * u) > CLOSING_TOL * self.static * self.dynamic:
             return None
         return float((x * u + y * v) / square)
 
@@ -100,7 +100,7 @@ def sums(rotor: Rotor, masses: tuple[Eccentric, ...]) -> Sums:
 def _sum(sides: list[tuple[Fraction, Eccentric]]) -> Vector:
     """The sum of multiples of unbalances; 0 where it is within rounding of that."""
     x, y = (sum((times * mass.unbalance[k] for times, mass in sides), Fraction(0)) for k in (0, 1))
-    least = ZERO * sum(abs(float(times)) * mass.size for times, mass in sides)
+    least = CLOSING_TOL * sum(abs(float(times)) * mass.size for times, mass in sides)
     exact = all(mass.exact for _, mass in sides)
     return (Fraction(0), Fraction(0)) if not exact and math.hypot(x, y) <= least else (x, y)
 

@@ -33,11 +33,10 @@ from graphplan.kernel.stages import Stage
 from graphplan.machine.rotors.polygons import Pair, RotorDrawing
 from graphplan.machine.rotors.rotor import PLANES
 from graphplan.machine.rotors.trial import Marked, ThreeRuns, Trial, TrialWeights, Vibration
+from graphplan.machine.tolerances import HARMONIC_TOL, MIN_EFFECT, PREDICTION_TOL, VIBRATION_TOL
 from graphplan.phrases import said
 
 AMPLITUDE, WEIGHT = "amplitude", "weight"  # kinds of what is laid off
-FAINT, STILL = 1e-3, 1e-9  # of the rotor's own vibration: less is no effect; of the effect: less is no vibration
-ALIKE = 1e-6  # of a vibration: predictions that differ by less tell nothing
 
 
 @dataclass(frozen=True)
@@ -82,21 +81,21 @@ def _three_runs(trial: ThreeRuns, where: str) -> Effect:
     first, second, third = trial.amplitudes
     square = (second**2 + third**2) / 2 - first**2
     told = f"the amplitudes {', '.join(f'{float(one):g}' for one in trial.amplitudes)}"
-    if square < 0 or square <= first**2 * Fraction(FAINT) ** 2:
+    if square < 0 or square <= first**2 * Fraction(MIN_EFFECT) ** 2:
         why = "A² = (A_2² + A_3²)/2 - A_1² is below 0" if square < 0 else "the trial mass has next to no effect"
         raise Refused(where, f"{told}: {why}", "measure again, with a larger trial mass")
     over, under = (third**2 - second**2) / 4, first**2 * square  # cos alpha = over / sqrt(under)
     if over**2 > under:
         raise Refused(where, f"{told}: no parallelogram has these sides and diagonals (|cos α| > 1)", "measure again")
     A = math.sqrt(square)
-    if first <= STILL * A:
+    if first <= VIBRATION_TOL * A:
         return Effect(trial, A, 0.0, (0.0,))
     alpha = math.degrees(math.acos(max(-1.0, min(1.0, float(over) / math.sqrt(under)))))
     ratio, turns = float(first) / A, (alpha,) if over**2 == under else (alpha, -alpha)
     if trial.fourth is None or len(turns) == 1:
         return Effect(trial, A, ratio, turns)
     foretold = [_foretold(trial, trial.fourth, A, turn) for turn in turns]
-    if abs(foretold[0] - foretold[1]) <= ALIKE * max(foretold):
+    if abs(foretold[0] - foretold[1]) <= PREDICTION_TOL * max(foretold):
         raise Refused(f"{where}.fourth", "both answers foretell the same amplitude there",
                       "a fourth run with the trial mass at another angle, not opposite to the second")
     order = sorted((0, 1), key=lambda k: abs(foretold[k] - float(trial.fourth.amplitude)))  # type: ignore[union-attr]
@@ -114,10 +113,10 @@ def _marked(trial: Marked, where: str) -> Effect:
     first, second = (cmath.rect(float(one.amplitude), math.radians(float(one.angle)))
                      for one in (trial.first, trial.second))
     A = second - first
-    if abs(A) <= FAINT * abs(first):
+    if abs(A) <= MIN_EFFECT * abs(first):
         raise Refused(where, "both vibrations are the same: the trial mass has next to no effect",
                       "measure again, with a larger trial mass")
-    if abs(first) <= STILL * abs(A):
+    if abs(first) <= VIBRATION_TOL * abs(A):
         return Effect(trial, abs(A), 0.0, (0.0,))
     return Effect(trial, abs(A), abs(first) / abs(A), (math.degrees(cmath.phase(-first / A)),))
 
@@ -126,7 +125,7 @@ def _weights(trial: TrialWeights) -> Effect:
     """The permanent weight in the place of the trial weights' radius, by their first harmonic."""
     first = harmonic(trial)
     mean = float(sum(trial.weights)) / len(trial.weights)
-    if abs(first) <= 1e-12 * mean or not mean:
+    if abs(first) <= HARMONIC_TOL * mean or not mean:
         return Effect(trial, mean, 0.0, (0.0,))
     return Effect(trial, mean, abs(first), (math.degrees(cmath.phase(first)) - float(trial.angle),))
 

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.link_motion import LinkMotion, link_motion
+from graphplan.check.tolerances import SUM_TOL
 from graphplan.check.trusted import construct
 from graphplan.errors import Disagreement, Refused
 from graphplan.machine.linkages.added_dyads import Dyads, added_dyads
@@ -27,7 +28,6 @@ from graphplan.mechanism.scene import parse
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.solver import poses, solve, statics
 
-CLOSE = 1e-9  # of what is added up: so far opinions may be apart
 FULL, GUIDED, SHARED, NONE = "full", "partial", "share", "none"
 
 
@@ -80,7 +80,7 @@ def mass_motion(scene: Scene, positions: int, links: LinkMotion | None = None) -
                         shaking(centre, places, rates[1], links.alpha), {})
     check = _compared(motion)
     for what, gap in check.items():
-        if not gap <= CLOSE:
+        if not gap <= SUM_TOL:
             raise Disagreement(scene.name, what, "otherwise", "by the solver", gap)
     return replace(motion, check=check)
 
@@ -122,7 +122,7 @@ def balancing(scene: Scene, positions: int, way: str = "", keep: Sequence[str] =
     driven = found if found and found.omega else None
     check = {**before.check, **_held(after or before, way), **(_by_orders(before, driven) if driven else {})}
     for what, gap in check.items():
-        if not gap <= CLOSE:
+        if not gap <= SUM_TOL:
             raise Disagreement(scene.name, what, "otherwise", "by the solver", gap)
     return Balancing(before, way, weights, after, driven, check, note)
 
@@ -271,6 +271,6 @@ def checked_dyads(scene: Scene) -> tuple[Dyads, dict[str, float]]:
              for kind, ours, theirs in (("velocity", drawn.velocity, rates.velocity),
                                         ("acceleration", drawn.acceleration, rates.acceleration))}
     for what, gap in found.items():
-        if not gap <= CLOSE:
+        if not gap <= SUM_TOL:
             raise Disagreement(scene.name, f"{what} of the mass centre", "by added dyads", "by the solver", gap)
     return added, found

@@ -13,13 +13,12 @@ from graphplan.cams.law import Stretch
 from graphplan.cams.motions import ORDERS
 from graphplan.cams.pose import END, FOLLOWER, motion, scene_text
 from graphplan.cams.profile import Cam
+from graphplan.check.tolerances import CAM_STEP, CAM_TOL
 from graphplan.errors import BrokenClaim, Disagreement
 from graphplan.kernel.claims import broken
 from graphplan.mechanism.scene import parse
 from graphplan.solver import solve
 
-STEP = 1e-4  # radians of the cam between numbers that are differentiated
-CLOSE = {"points": 1e-11, "motion": 1e-11, "curvature": 1e-5, "law": 1e-6}  # by so much opinions may differ
 SPACED = 400  # of them at least in a piece of the law
 STENCIL = np.array([1, -8, 0, 8, -1]) / 12  # of five neighbours
 
@@ -38,7 +37,7 @@ def checked(drawing: CamDrawing) -> dict[str, float]:
              "motion": max(_moved(cam, float(angle)) for angle in angles),
              "curvature": _curvature(cam), "law": _law(cam)}
     for what, size in found.items():
-        if not size <= CLOSE[what]:
+        if not size <= CAM_TOL[what]:
             raise Disagreement(cam.task.name, what, "otherwise", "by the second opinion", size)
     return found
 
@@ -59,7 +58,7 @@ def _moved(cam: Cam, angle: float) -> float:
 def _near(one: Stretch) -> tuple[Any, float]:
     """Angles inside a piece of the law in rows of five neighbours, in degrees, and their distance in radians."""
     low, high = float(one.start), float(one.end)
-    step = min(STEP, np.radians(high - low) / SPACED)
+    step = min(CAM_STEP, np.radians(high - low) / SPACED)
     edge = 3 * np.degrees(step)
     return np.linspace(low + edge, high - edge, 7)[:, None] + np.degrees(step) * np.arange(-2, 3), step
 

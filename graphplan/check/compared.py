@@ -11,15 +11,12 @@ from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from typing import Any, NamedTuple
 
+from graphplan.check.tolerances import PROVEN_TOL, PROVEN_ZERO, ROUNDING_TOL
 from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.solver.bounds import Bounded
 from graphplan.solver.tolerances import MARGIN
-
-NOTHING = 2.0**-64  # of the largest of a kind: a number that is proven to be smaller is zero
-DIGITS = 1e-9  # of a number: what its bound may be at most
-CLOSE = 1e-12  # of a number: differences up to this are rounding in any construction
 
 Results = Mapping[str, Mapping[str, Any]]
 # Of these nothing is proven: they count beside the largest of their group.
@@ -44,7 +41,7 @@ class Compared(NamedTuple):
     @property
     def holds(self) -> bool:
         """Whether nine digits are proven, and the difference is rounding."""
-        return self.close and bool(self.bound <= DIGITS * self.size)
+        return self.close and bool(self.bound <= PROVEN_TOL * self.size)
 
     def beside(self, part: str) -> Any:
         """The gap or the bound beside the number's size."""
@@ -64,7 +61,7 @@ def compared(drawing: Construction, ours: Results, theirs: Results,
         if part in theirs:
             scale = (drawing.scene.extent if part == kinds.SLIDE_ARM
                      else largest[kinds.kind_of(part).group] / weight(drawing, part))
-            least = scale if part in UNBOUNDED else NOTHING * scale
+            least = scale if part in UNBOUNDED else PROVEN_ZERO * scale
             found[part] = {
                 name: tuple(_vector(each(ours[part][name]), each(theirs[part][name]),
                                     max(least, floor(part, name), sliding(drawing.scene, theirs, part, name)), scale))
@@ -122,18 +119,18 @@ def _vector(ours: tuple[Any, ...], theirs: tuple[Any, ...], least: float, scale:
     numbers = [_number(*pair, scale) for pair in zip(ours, theirs, strict=True)]
     size = max([least, *(number.size for number in numbers)])
     for number in numbers:
-        close = number.close or number.gap <= CLOSE * size
-        yield number._replace(size=size, close=close, near=bool(number.gap <= CLOSE * scale))
+        close = number.close or number.gap <= ROUNDING_TOL * size
+        yield number._replace(size=size, close=close, near=bool(number.gap <= ROUNDING_TOL * scale))
 
 
 def _number(ours: Any, theirs: Any, scale: float) -> Compared:
     """One number, whatever it is made of."""
     if isinstance(theirs, Bounded):
         most = abs(theirs.value) + theirs.error
-        if most <= NOTHING * scale and abs(ours) <= CLOSE * scale:  # proven to be zero, and drawn so but for rounding
+        if most <= PROVEN_ZERO * scale and abs(ours) <= ROUNDING_TOL * scale:  # proven to be zero, and drawn so
             return Compared(0.0, 0.0, 0.0, MARGIN * most, theirs.size)
         gap = abs(ours - theirs.value)
-        if max(abs(theirs.value), gap) <= theirs.error and abs(ours) <= CLOSE * theirs.size:
+        if max(abs(theirs.value), gap) <= theirs.error and abs(ours) <= ROUNDING_TOL * theirs.size:
             gap, ours = abs(theirs.value), 0.0  # no digit of it is known: it may be nothing, and so it is printed
         return Compared(ours, theirs.value, gap, MARGIN * (gap + theirs.error), max(theirs.size, abs(ours)),
                         close=gap <= theirs.error)

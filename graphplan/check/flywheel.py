@@ -13,13 +13,13 @@ import numpy as np
 
 from graphplan.check.reduction import Opinion
 from graphplan.check.reduction import checked as reduction_checked
+from graphplan.check.tolerances import HALVING_TOL, SPEED_TOL
 from graphplan.errors import BrokenClaim, Disagreement
 from graphplan.kernel.claims import broken
 from graphplan.machine.flywheel.found import FlywheelResult
 
 SUBSTEPS = (2, 4, 8)  # of one step, whose results are extrapolated to none
 STEPS, MOST = 48, 1536  # of the whole cycle, at first and at most
-SETTLED, CLOSE = 1e-11, 1e-9  # of omega^2, and of speeds: what halved steps may change, and opinions differ by
 FINER = 16  # steps in that with an extreme speed
 POSES = 12  # in which the reduction is compared
 
@@ -44,7 +44,7 @@ def checked(result: FlywheelResult) -> dict[str, float]:
         size = result.wheel.inertia + float(abs(result.cycle.inertia.terms[:, 0]).max())
         found["gutjahr"] = abs(gutjahr - result.wheel.inertia) / size
     for what, gap in found.items():
-        if not gap <= CLOSE and not what.startswith("reduced"):
+        if not gap <= SPEED_TOL and not what.startswith("reduced"):
             raise Disagreement(name, what, "otherwise", "by the integrated equation of motion", gap)
     return found
 
@@ -76,7 +76,7 @@ class _Motion:
         while True:
             self.edges = self._steps(count)
             squares, self.rates, gap = self._squares(self.edges, self.begin)
-            if gap <= SETTLED * self.begin or count >= MOST:
+            if gap <= HALVING_TOL * self.begin or count >= MOST:
                 return squares
             count *= 2
 

@@ -18,6 +18,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.check import reduction as solved
+from graphplan.check.tolerances import (
+    BREAK_DISTANCE,
+    END_TOL,
+    INTERPOLATION_TOL,
+    LEAST_ERROR,
+    LEAST_SPEED,
+    MOTION_TOL,
+    STEP_TOL,
+)
 from graphplan.errors import BrokenClaim, Disagreement
 from graphplan.kernel.claims import broken
 from graphplan.machine.integrals import Reals
@@ -28,11 +37,7 @@ from graphplan.mechanism.load_tables import SPEED, LoadTable
 from graphplan.mechanism.model import FRAME, Force
 from graphplan.mechanism.units import NEWTONS
 
-CLOSE = 1e-8  # of the largest speed, the whole time and the largest energy: so far apart opinions may be
-STEP = 1e-12  # of the same: the error of a step
 POINTS, MOST = 24, 192  # of Chebyshev, between two breaks
-FINE = 1e-12  # of the largest value: how well they give it between
-NARROW = 1e-6  # of the cycle: breaks nearer to each other are one
 STEPS = 20_000  # that an opinion may take
 SPREAD = 13  # travels at which speeds and times are compared
 TURNS = 2.0  # cycles that are integrated anew
@@ -47,8 +52,8 @@ FOURTH = np.array((71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 
 def checked(found: Run, drawing: MotionDrawing | None = None) -> dict[str, float]:
     """The largest differences from the second opinion, relative: of the reduction, and of speed, time and energy.
 
-    Fails with `Disagreement` where the motion differs by more than `CLOSE`, or the reduction by more than rounding, and
-    with `BrokenClaim` where a drawn step is not what it should be.
+    Fails with `Disagreement` where the motion differs by more than `MOTION_TOL`, or the reduction by more than
+    rounding, and with `BrokenClaim` where a drawn step is not what it should be.
     """
     if drawing is not None and (fault := next(broken(drawing.program, drawing.values), "")):
         raise BrokenClaim(found.scene.name, fault)
@@ -67,7 +72,7 @@ def checked(found: Run, drawing: MotionDrawing | None = None) -> dict[str, float
     gaps["time"] = float(abs(times - state.time[1:count]).max()) / time
     gaps["energy"] = float(abs(works + state.energy[0] - own).max() / state.energy.max())
     for what in ("omega", "time", "energy"):
-        if not gaps[what] <= CLOSE:
+        if not gaps[what] <= MOTION_TOL:
             raise Disagreement(found.scene.name, f"{what} of the motion", "by the energy",
                                "by the equation of motion", gaps[what])
     return gaps
@@ -114,7 +119,7 @@ class _Opinion:
     def __init__(self, found: Run):
         self.found, self.machine = found, found.machine
         self.first, self.last = found.reduction.ends
-        least, wide = NARROW * (self.last - self.first), (self.last - self.first) / 8
+        least, wide = BREAK_DISTANCE * (self.last - self.first), (self.last - self.first) / 8
         breaks = [x for x, before in zip(found.reduction.breaks, (self.first, *found.reduction.breaks), strict=False)
                   if x - before > least and self.last - x > least]
         self.edges = [float(x) for a, b in pairwise([self.first, *breaks, self.last])
@@ -173,7 +178,7 @@ class _Opinion:
                 terms = abs(np.cos(np.outer(np.arange(count), np.arccos(points))) @ values.T) * 2 / count
                 sizes = abs(values).max(axis=1)
                 sizes[1] = max(sizes[:2])  # a slope that is nothing beside the inertia is noise
-                if (terms[-3:].max(axis=0) <= FINE * sizes).all() or count >= MOST:
+                if (terms[-3:].max(axis=0) <= INTERPOLATION_TOL * sizes).all() or count >= MOST:
                     break
                 count *= 2
             self.pieces[k] = _Piece(low, high, points, values)
@@ -201,7 +206,7 @@ class _Opinion:
         stops = np.union1d(places, [edge * unit + turn * period for edge in self.edges
                                     for turn in range(math.ceil((places[-1] - start) / period) + 1)])
         state, time, rows = np.array([start, omega, 0.0]), 0.0, []
-        size = np.array([places[-1] - start, max(omega, 1e-3), 1.0])
+        size = np.array([places[-1] - start, max(omega, LEAST_SPEED), 1.0])
         for there in stops[(stops > start) & (stops <= places[-1])]:
             middle = (state[0] + there) / 2
             turn = math.floor((middle / unit - self.first) / (self.last - self.first)) if self.machine.closed else 0
@@ -222,7 +227,7 @@ def _onwards(rates: Callable[[Reals], Reals], state: Reals, end: float, size: Re
         size, left = np.maximum(size, abs(state)), end - state[0]
         step = min(step, 1.1 * left / max(state[1], math.sqrt(abs(first[1]) * left)))  # no farther than is known
         after, apart, last = _step(rates, state, first, step)
-        error = float((apart / size).max()) / STEP
+        error = float((apart / size).max()) / STEP_TOL
         if not error <= 1:
             step *= max(0.2, 0.9 * error**-0.2) if 1 < error < math.inf else 0.5
             continue
@@ -230,7 +235,7 @@ def _onwards(rates: Callable[[Reals], Reals], state: Reals, end: float, size: Re
             step = _until(rates, state, first, step, end)
             return _step(rates, state, first, step)[0], time + step, size
         state, first, time = after, last, time + step
-        step *= min(5.0, 0.9 * max(error, 1e-4) ** -0.2)
+        step *= min(5.0, 0.9 * max(error, LEAST_ERROR) ** -0.2)
     raise Disagreement("motion", "time", "that of the energy", f"more than {STEPS} steps", math.inf)
 
 
@@ -240,7 +245,7 @@ def _until(rates: Callable[[Reals], Reals], state: Reals, first: Reals, step: fl
         after = _step(rates, state, first, step)[0]
         change = (after[0] - end) / after[1]
         step -= change
-        if abs(change) <= 1e-15 * step:
+        if abs(change) <= END_TOL * step:
             break
     return step
 

@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.arithmetics import FLOATS
-from graphplan.check.compared import CLOSE, NOTHING, compared, drawn_sizes, each, plain, scales, sliding, weight
+from graphplan.check.compared import compared, drawn_sizes, each, plain, scales, sliding, weight
 from graphplan.check.report import by_part, opinion
+from graphplan.check.tolerances import EPSILON, PROVEN_ZERO, ROUNDING_TOL
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
 from graphplan.mechanism.pairs.pair import KinematicPair
@@ -32,7 +33,6 @@ from graphplan.solver import poses, solve
 from graphplan.solver.bounds import Unproven
 
 BLOCK = 4096  # poses whose systems are solved at once
-EPSILON = 2.0**-52
 SAFETY = 100  # times the solver's own bound, or its condition's roundings, that a difference may be
 Results = dict[str, dict[str, Any]]
 
@@ -103,7 +103,7 @@ def _against(part: Round, drawing: Construction, ours: Results) -> dict[str, Any
 
         truth |= force_truth(scene, ours, poses.reactions(scene, motion, n, sizes=True))
     apart: dict[str, Any] = {kind: np.zeros(n) for kind in groups(drawing)}
-    least = {kind: NOTHING * size for kind, size in drawn_sizes(drawing).items()}
+    least = {kind: PROVEN_ZERO * size for kind, size in drawn_sizes(drawing).items()}
     for kind, named in ours.items():
         for name, value in named.items() if kind in truth else ():
             group, numbers = kind_of(kind).group, each(truth[kind][name])
@@ -170,7 +170,7 @@ def sound(part: Round, drawing: Construction, results: Results, apart: Mapping[s
     """
     worst = np.max(list(apart.values()), axis=0)
     worst[np.isnan(worst)] = np.inf
-    kept = worst <= CLOSE
+    kept = worst <= ROUNDING_TOL
     for k in np.flatnonzero(~kept & np.isfinite(worst)):
         ours = {kind: {name: _plain(z[k]) for name, z in named.items()} for kind, named in results.items()}
         if proven := _sound(part.some(k), drawing, ours, worst[k]):
@@ -203,7 +203,7 @@ def _sound(pose: Round, drawing: Construction, ours: Results, worst: float) -> d
     for kind, named in numbers.items():
         scale = largest[kind_of(kind).group] / weight(drawing, kind)
         for number in (number for vector in named.values() for number in vector):
-            nothing = number.near and abs(number.value) <= CLOSE * scale
+            nothing = number.near and abs(number.value) <= ROUNDING_TOL * scale
             if not (number.close or nothing or number.gap <= SAFETY * (number.bound - number.gap)):
                 return {}
             gap = number.gap / scale if nothing else number.beside("gap")

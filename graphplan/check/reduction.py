@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.check.compared import CLOSE
-from graphplan.check.poses import BLOCK, EPSILON, SAFETY, Round, alone
+from graphplan.check.poses import BLOCK, SAFETY, Round, alone
+from graphplan.check.tolerances import DEAD_POINT_TOL, EPSILON, FRICTION_TOL, ROUNDING_TOL
 from graphplan.errors import Disagreement, GraphplanError
 from graphplan.machine.reduced.friction import M_F
 from graphplan.machine.reduced.reduced_loads import loads_with
@@ -31,8 +31,6 @@ from graphplan.solver.friction import delivered
 from graphplan.solver.poses import Sized, sized
 
 Gaps = dict[str, Any]
-FRICTION = 1e-9  # of the balance: rounds of friction, drawn as many times in every pose, may leave so much
-STANDING = 1e-9  # of what the drive makes at the mechanism's reach: a slide that is slower is at a dead point
 
 
 def gaps(reduction: Reduction, travel: Any, side: int = 1) -> Gaps:
@@ -61,11 +59,11 @@ def checked(reduction: Reduction, travel: Any, side: int = 1) -> dict[str, float
     travel = np.atleast_1d(np.asarray(travel, dtype=float))
     found = gaps(reduction, travel, side)
     for what, gap in found.items():
-        for k in np.flatnonzero(~(gap <= CLOSE)):
+        for k in np.flatnonzero(~(gap <= ROUNDING_TOL)):
             opinion = Opinion(reduction, travel[k : k + 1], side)
             ours = smooth(reduction.at(travel[k : k + 1], side), what)[0]
             truth = opinion.truth[what].value[0]
-            if abs(ours - truth) <= CLOSE * getattr(reduction.size, what):
+            if abs(ours - truth) <= ROUNDING_TOL * getattr(reduction.size, what):
                 gap[k] = 0.0  # beside what these masses and loads do elsewhere both are nothing
             elif not gap[k] <= SAFETY * EPSILON * opinion.condition:
                 where = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
@@ -86,7 +84,7 @@ def weights_gap(reduction: Reduction, travel: Any) -> float:
     least = MACHINE_SHARE * reduction.size.moment
     size = max([least, *(float(np.max(np.abs(moment), initial=0.0)) for moment in projected.values())])
     gap = worst / size if worst else 0.0
-    if gap > CLOSE:
+    if gap > ROUNDING_TOL:
         raise Disagreement(reduction.scene.name, "weights", "otherwise by the lever", "by their projections", gap)
     return gap
 
@@ -106,7 +104,7 @@ def lever(reduction: Reduction, travel: float = 0.0) -> tuple[Construction, floa
     told = float(smooth(found, "moment")[0])
     size = max([MACHINE_SHARE * reduction.size.moment, *(abs(float(part[0])) for part in found.by.values())])
     gap = abs(drawn - told) / size if drawn != told else 0.0
-    if gap > CLOSE and not gap <= SAFETY * EPSILON * Opinion(reduction, np.array([travel]), 1).condition:
+    if gap > ROUNDING_TOL and not gap <= SAFETY * EPSILON * Opinion(reduction, np.array([travel]), 1).condition:
         raise Disagreement(reduction.scene.name, "lever", f"{drawn:.15g}", f"{told:.15g}", gap)
     return drawing, float(gap)
 
@@ -132,8 +130,8 @@ def friction_gap(reduction: Reduction, travel: Any) -> float:
         told = with_friction(alone(own.posed))
         work = float(delivered(told)) * rubbing.power
         size = max(abs(float(found.balance[k])), abs(work), -sum(float(loss[k]) for loss in found.losses.values()))
-        gap = abs(work - float(found.balance[k] - found.moment[k])) / size if size > CLOSE * usual else 0.0
-        if gap > max(FRICTION, SAFETY * EPSILON * told.condition):
+        gap = abs(work - float(found.balance[k] - found.moment[k])) / size if size > ROUNDING_TOL * usual else 0.0
+        if gap > max(FRICTION_TOL, SAFETY * EPSILON * told.condition):
             where = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
             drawn = f"{float(found.balance[k] - found.moment[k]):.15g}"
             raise Disagreement(where, "balance with friction", drawn, f"{work:.15g}", gap)
@@ -251,6 +249,7 @@ class Opinion:
             return (vectors[slide.name][0].value * dx + vectors[slide.name][1].value * dy) / length
 
         speed, reach = along(self.rates.slide_velocity), self.scene.extent if self.motion.turns else 1.0
-        speed = np.where(np.abs(speed) > STANDING * reach, speed, self.side * along(self.rates.slide_acceleration))
+        moves = np.abs(speed) > DEAD_POINT_TOL * reach
+        speed = np.where(moves, speed, self.side * along(self.rates.slide_acceleration))
         zero = np.zeros(self.travel.shape)
         return table.at((x * dx + y * dy) / length + zero, np.where(speed < 0, -1.0, 1.0) + zero, self.side > 0)

@@ -10,8 +10,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, bounded_rates, enclosed, placing_error
-from graphplan.check.compared import CLOSE, Compared, Numbers, Results
+from graphplan.check.compared import Compared, Numbers, Results
 from graphplan.check.paths import path_truth
+from graphplan.check.tolerances import ROUNDING_TOL, UNPROVEN_TOL
 from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, SingularPose
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 
 SAFETY = 100  # times the bound of a constructed place that the cycle may have it elsewhere
 ENOUGH_ROUNDS = 20  # of friction: where none is drawn, the forces stand after so many
-LOST = 1e-6  # of a number: where no arithmetic at hand proves it, a difference up to this is taken for rounding
 
 
 # ---- what the solver says in one arithmetic, by the kinds and names of a construction's results ---------------------
@@ -239,15 +239,15 @@ class Report:
     @property
     def same(self) -> bool:
         """Whether the numbers of construction and solver are the same, as far as can be told."""
-        return not self.wrong and self._in_place and all(number.gap <= LOST * number.size or number.holds or number.near
-                                      for _, _, number in self._all)
+        return not self.wrong and self._in_place and all(
+            number.gap <= UNPROVEN_TOL * number.size or number.holds or number.near for _, _, number in self._all)
 
     @property
     def _in_place(self) -> bool:
         """Whether constructed points are where the cycle has them, as far as the lengths tell."""
-        if self.scene.assembly is None or self.fault is not None or self.displaced <= CLOSE:
+        if self.scene.assembly is None or self.fault is not None or self.displaced <= ROUNDING_TOL:
             return True
-        return self.displaced <= LOST and self.displaced <= SAFETY * placing_error(self.scene) / self.scene.extent
+        return self.displaced <= min(UNPROVEN_TOL, SAFETY * placing_error(self.scene) / self.scene.extent)
 
     @property
     def _all(self) -> list[tuple[str, str, Compared]]:

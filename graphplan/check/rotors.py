@@ -13,6 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from graphplan.check.tolerances import SUM_TOL
 from graphplan.errors import BrokenClaim, Disagreement
 from graphplan.kernel.claims import broken
 from graphplan.machine.rotors.polygons import Correction
@@ -22,7 +23,6 @@ from graphplan.machine.rotors.trial import Marked, ThreeRuns, TrialWeights
 from graphplan.machine.rotors.trial_runs import Effect, angle_of
 
 Pair = tuple[tuple[Eccentric, ...], Answer]  # unbalances, and what balances them
-CLOSE = 1e-9  # of the size of what is compared
 
 
 def checked(found: Balanced) -> dict[str, float]:
@@ -41,7 +41,7 @@ def checked(found: Balanced) -> dict[str, float]:
         gaps["trials"] = max(_trial(one, -vector(mass)) for masses, _ in pairs
                              for one, mass in zip(found.effects, masses, strict=True))
     for what, size in gaps.items():
-        if not size <= CLOSE:
+        if not size <= SUM_TOL:
             raise Disagreement(found.task.name, what.replace("_", " "), "otherwise", "by the second opinion", size)
     return gaps
 

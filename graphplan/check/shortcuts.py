@@ -17,6 +17,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations
 
+from graphplan.check.tolerances import COLLINEAR_TOL
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Step
 from graphplan.mechanism.model import Scene
@@ -25,7 +26,6 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.panels import N_PLAN
 
 Line = tuple[float, float, float]
-STRAIGHT = 1e-9  # of the distance of the joints: the centre lies between them
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ def _at(drawing: Construction, carry: Step) -> Iterator[Shortcuts]:
                 one, two = (other for other in three if other is not middle)
                 halves = (complex(*values[one[0]]) + complex(*values[two[0]])) / 2
                 beta, gamma, name = values[one[1]], values[two[1]], steps[middle[0]].name
-                near = abs(halves - complex(*values[middle[0]])) < 1e-9 * abs(halves)
+                near = abs(halves - complex(*values[middle[0]])) < COLLINEAR_TOL * abs(halves)
                 if near and name in asked and _sine(beta, gamma):
                     yield _cost(drawing, name, values[middle[1]], beta, gamma)
 
@@ -130,5 +130,5 @@ def replacements(scene: Scene) -> Iterator[Replacement]:
         joints = [point for point in scene.links[link] if point in scene.joints and point != mass.centre]
         for A, B in combinations(joints, 2):
             a, b = (math.dist(places[mass.centre], places[joint]) for joint in (A, B))
-            if a + b <= math.dist(places[A], places[B]) * (1 + STRAIGHT):
+            if a + b <= math.dist(places[A], places[B]) * (1 + COLLINEAR_TOL):
                 yield Replacement(link, (A, B), a * b / radius2 - 1)

@@ -1,0 +1,36 @@
+"""Tolerances of checks: of what size each is a part, and how far apart independent results may be."""
+
+# ---- poses ----------------------------------------------------------------------------------------------------------
+
+PROVEN_ZERO = 2.0**-64  # of the largest of a kind: a number that is proven to be smaller is zero
+PROVEN_TOL = 1e-9  # of a number: what its bound may be at most
+ROUNDING_TOL = 1e-12  # of a number: differences up to this are rounding in any construction
+EPSILON = 2.0**-52  # of a number: what its rounding may be
+UNPROVEN_TOL = 1e-6  # of a number: where no arithmetic at hand proves it, a difference up to this is taken for rounding
+# of the distance of the joints: so near is a point on their line or in the middle between two, which marks show
+COLLINEAR_TOL = 1e-9
+
+# ---- machines -------------------------------------------------------------------------------------------------------
+
+FRICTION_TOL = 1e-9  # of the balance: rounds of friction, drawn as many times in every pose, may leave so much
+# of what the drive makes at the mechanism's reach: a slide that is slower is at a dead point; rates carry some 1e-14
+DEAD_POINT_TOL = 1e-9
+HALVING_TOL = 1e-11  # of omega squared: what halved steps of the integration may change
+SPEED_TOL = 1e-9  # of speeds: by so much the construction and the integration may differ
+# of the largest speed, the whole time and the largest energy: so far apart independent motions may be
+MOTION_TOL = 1e-8
+STEP_TOL = 1e-12  # of the same: the error of a step of the integration
+INTERPOLATION_TOL = 1e-12  # of the largest value: how well Chebyshev's points give it between them
+BREAK_DISTANCE = 1e-6  # of the cycle: breaks nearer to each other are one
+LEAST_SPEED = 1e-3  # rad/s: the size of speeds that are taken for the integration's error, as of a start from rest
+# of the error that a step may have: what a smaller one is taken for, so that steps grow by six at most
+LEAST_ERROR = 1e-4
+END_TOL = 1e-15  # of a step, some five roundings: Newton's step to a travel that is smaller is the last
+
+# ---- balance, rotors and cams ---------------------------------------------------------------------------------------
+
+SUM_TOL = 1e-9  # of the size of what is added up: so far apart independent sums may be
+CAM_STEP = 1e-4  # radians of the cam between numbers that are differentiated: the fourth power of it is the error
+# of the base circle or of the largest value: by so much independent results may differ; the last two are
+# differentiated
+CAM_TOL = {"points": 1e-11, "motion": 1e-11, "curvature": 1e-5, "law": 1e-6}

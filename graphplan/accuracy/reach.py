@@ -28,9 +28,10 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.travel import paces
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Compound, Construction
-from graphplan.sheet.cycle_frames import SAME, given_in, scene_in
+from graphplan.sheet.cycle_frames import given_in, scene_in
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.view import View
+from graphplan.sheet.tolerances import MARK_TOL
 
 TRAVELS, DRAGS, FAR = 48, 4, 0.03  # poses around; drags of each pin, and how far, of the linkage's extent
 MOST = 12  # constructions that are drawn out at most
@@ -138,7 +139,7 @@ def _alike(drawing: Construction, poses: Reached, values: list[Any]) -> Array:
     truth = _wanted(program, poses, [j for _, j in pairs])
     size = np.max([np.hypot(x, y) for x, y in truth], axis=0)
     gaps = [np.hypot(x - u, y - v) for (x, y), (u, v) in zip(ours, truth, strict=True)]
-    return np.max(gaps, axis=0) <= SAME * size  # nan is not
+    return np.max(gaps, axis=0) <= MARK_TOL * size  # nan is not
 
 
 def _wanted(program: Program, poses: Reached, places: Any) -> list[tuple[Array, Array]]:
@@ -271,9 +272,9 @@ def _one(kind: str, value: Any, truth: Any, args: Any) -> Array:
     if kind == LINE:
         (a, b, c), (u, v, w) = value, truth
         n, m = np.hypot(a, b), np.hypot(u, v)
-        return (np.hypot(a / n - u / m, b / n - v / m) <= SAME) & (np.abs(c / n - w / m) <= SAME * size)
+        return (np.hypot(a / n - u / m, b / n - v / m) <= MARK_TOL) & (np.abs(c / n - w / m) <= MARK_TOL * size)
     if kind == POINT:
         size = np.maximum(size, np.hypot(truth[0], truth[1]))
-        return np.hypot(value[0] - truth[0], value[1] - truth[1]) <= SAME * size
-    return np.all([np.abs(p - q) <= SAME * np.maximum(1e-12, np.abs(q)) for p, q in zip(value, truth, strict=True)],
+        return np.hypot(value[0] - truth[0], value[1] - truth[1]) <= MARK_TOL * size
+    return np.all([np.abs(p - q) <= MARK_TOL * np.maximum(1e-12, np.abs(q)) for p, q in zip(value, truth, strict=True)],
                   axis=0)

@@ -33,8 +33,8 @@ from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.plans import Plans, around, grown
 from graphplan.sheet.plates.plate import Plate
 from graphplan.sheet.plates.view import View
+from graphplan.sheet.tolerances import MARK_TOL
 
-SAME = 1e-6  # of the largest mark: by more a drawn mark does not differ from what the rules say, unless its form fails
 Given = dict[Any, dict[str, float]]
 Places = Mapping[str, Any]  # arrays: of points, of the directions of guides or of loads, in each pose
 
@@ -79,7 +79,7 @@ def _alike(construction: Construction, values: Sequence[Any], truth: Sequence[An
     wanted = zip(construction.drawn.wanted, construction.program.wanted, strict=True)
     pairs = [(values[i], truth[j]) for i, j in wanted if construction.drawn.steps[i].op.gives == POINT]
     size = max((math.hypot(*true) for _, true in pairs), default=0.0)
-    return all(math.dist(*pair) <= SAME * size for pair in pairs)
+    return all(math.dist(*pair) <= MARK_TOL * size for pair in pairs)
 
 
 def given_in(program: Program, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Given:

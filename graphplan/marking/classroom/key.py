@@ -20,8 +20,9 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import framed, layout, stacked, titled
 from graphplan.sheet.layout.paper import packed, words_page
 from graphplan.sheet.plates.display import Sheet
+from graphplan.sheet.tolerances import ZERO_TOL
 from graphplan.sheet.words.rows import TextRow, lettered
-from graphplan.sheet.words.tables import ROUNDING, largest_size
+from graphplan.sheet.words.tables import largest_size
 from graphplan.sheet.words.texts import Words
 
 KEY = said("Key")
@@ -59,7 +60,7 @@ def single_row(kind: ResultKind, at: str, value: float, largest: float, units: U
 
 def _figure(value: float | str, largest: float) -> str:
     """A number in six digits, which no machine rounds in another way; nothing where there is none."""
-    return value if isinstance(value, str) else f"{value if abs(value) > ROUNDING * largest else 0.0:.6g}"
+    return value if isinstance(value, str) else f"{value if abs(value) > ZERO_TOL * largest else 0.0:.6g}"
 
 
 def key_table(found: Iterable[tuple[int, str, Iterable[Row]]]) -> str:

@@ -44,7 +44,7 @@ from graphplan.methods.batch import apart
 from graphplan.methods.construction import Construction
 from graphplan.output.live.tapes import Data, PosedTapes, arrow
 from graphplan.phrases import digits, said
-from graphplan.sheet.cycle_frames import SAME
+from graphplan.sheet.tolerances import MARK_TOL
 
 SPAN = 3.0
 """How far a sliding drive is followed either way, in reaches of the linkage."""
@@ -67,7 +67,8 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
                   for one, other in _lined(scene)],
         "scene": _plain(_anywhere(tomllib.loads(scene.text))), "placed": [*_placed(scene)],
         "lines": [balance.direction and [*map(float, balance.direction)] for balance in scene.loads.balances]
-        if scene.loads else [], "same": SAME, "linkage": linkage, "programs": [program.data for program in programs],
+        if scene.loads else [], "same": MARK_TOL, "linkage": linkage,
+        "programs": [program.data for program in programs],
         "rolling": [*rolling(scene)],
     }  # fmt: skip
     rules = list(dict.fromkeys(program.rules for program in programs))  # other forms of one program share them

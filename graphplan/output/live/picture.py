@@ -18,6 +18,7 @@ from graphplan.mechanism.model import Slide
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.svg import look
 from graphplan.phrases import said
+from graphplan.sheet import tolerances
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.divisions import MARGIN
 from graphplan.sheet.lettering import label_candidates, letters, obstacles, prices
@@ -48,9 +49,10 @@ from graphplan.sheet.words.protocol import Protocol
 Data = dict[str, Any]  # of JSON
 SCRIPTS = "plates.js", "mechanism.js", "letters.js", "picture.js"
 MEASURES: dict[Any, tuple[str, ...]] = {  # of what is drawn: mm, degrees, prices
-    strokes: ("ALONE", "CLOSE", "NOTHING", "SHORT", "STRIKE", "FLATTEST", "WIDEST", "GIVEN_HEAD", "BREAK_HEAD",
+    strokes: ("ALONE", "CLOSE", "SHORT", "STRIKE", "FLATTEST", "WIDEST", "GIVEN_HEAD", "BREAK_HEAD",
               "BREAK"),
     symbols: ("RADIUS", "HIGH", "GUIDE", "HATCH", "PITCH", "NEAR"), drawn_mechanism: ("RAIL",),
+    tolerances: ("SHORT_STROKE",),
     display: ("SLIM", "BARB", "WALL"), pens: ("PAPER", "OPEN", "WHITE"),
     letters: ("ALONG", "MIDDLE", "NEAR_HEAD"),
     label_candidates: ("LED", "LEADER", "BALLOON", "AIR", "TASTE", "EDGE"),

@@ -186,7 +186,7 @@ class Plates {
     const parts = [...links, ...this.forcesAlong(ends, long, step, index)].sort((s, t) => s[0] - t[0] || s[1] - t[1]);
     let done = 0;
     for (const [low, high] of [...parts, [1, 1]]) {
-      if ((low - done) * long > this.rules.NOTHING)
+      if ((low - done) * long > this.rules.SHORT_STROKE)
         found.push({tag: "line", pen, spots: [between(p, q, done), between(p, q, low)]});
       done = Math.max(done, high);
     }
@@ -205,7 +205,7 @@ class Plates {
 
   forcesAlong(ends, long, step, index) {
     const found = [];
-    if (long <= this.rules.NOTHING) return found;
+    if (long <= this.rules.SHORT_STROKE) return found;
     for (const force of this.vectorsOn[step.panel])
       if (force.force && force.shown && force.end < index) {
         const hit = along(ends, force.ends);

@@ -19,7 +19,7 @@ from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import Frame, frame_of
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.divisions import SIDE, Demand, divided
-from graphplan.sheet.layout.given_scales import FREE, ROUNDING, GivenScales, given_scales
+from graphplan.sheet.layout.given_scales import FREE, GivenScales, given_scales
 from graphplan.sheet.layout.paper import (
     MOST_OF_PAGE,
     Arrangement,
@@ -40,6 +40,7 @@ from graphplan.sheet.plates.plans import Extent, Plans, around
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.plates.view import COARSER, MUCH_COARSER, View, least, plan_box, plan_scale, view, wanted, whole
+from graphplan.sheet.tolerances import AREA_TOL, MIN_VECTOR, SCALE_TOL
 from graphplan.sheet.words.lengths import LARGEST
 from graphplan.sheet.words.rows import Placed, TextRow
 from graphplan.sheet.words.tables import Deviations
@@ -49,7 +50,7 @@ from graphplan.words.tongue import tongue as tongue_of
 
 USUAL = 200.0, 150.0  # mm: a panel as there are many
 SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
-MEASURED, NOTHING = 5.0, 0.02  # mm: the shortest vector that can be measured; and what beside the largest is nothing
+MEASURED = 5.0  # mm: the shortest vector that can be measured
 SHORT = 0.2  # by so much smaller, as a logarithm, a plan may be for a vector that can be measured
 CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
 SHRUNK = 4.0  # times as small the mechanism may be for arcs that would be longer than the sheet
@@ -119,7 +120,7 @@ class Composition:
         """The mm of vectors that are too short for a ruler, without what is next to nothing beside its kind."""
         drawn = [(kind, length * self.views[panel].scale) for kind, panel, length in self.plans.lengths]
         largest = dict(sorted(drawn))
-        return [length for kind, length in drawn if NOTHING * largest[kind] <= length < MEASURED]
+        return [length for kind, length in drawn if MIN_VECTOR * largest[kind] <= length < MEASURED]
 
     @property
     def legible(self) -> bool:
@@ -132,7 +133,7 @@ class Composition:
         """The plans that do not fit their panels at a given scale, and by how much they are too large."""
         much = {panel: least(self.extents[panel].core, inside(window.rect)) * window.scale
                 for panel, window in self.views.items()}
-        return {panel: times for panel, times in much.items() if times > 1 + ROUNDING}
+        return {panel: times for panel, times in much.items() if times > 1 + SCALE_TOL}
 
     def _scale(self, panel: str) -> float:
         """How large a plan is; one of which marks are cut off counts no larger than all of it would be."""
@@ -287,7 +288,7 @@ def _legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:
         spots = [spot for spot in (window(plans.spot(i)) for i in plans.points(panel)) if window.rect.holds(spot)]
         box = around(spots or [(0.0, 0.0)])
         size = max(box.area, (box.width**2 + box.height**2) / 4)
-        if 1e-6 < size < LARGE.get(paper, CROWDED) * len(spots):  # marks that all coincide are nowhere apart
+        if AREA_TOL < size < LARGE.get(paper, CROWDED) * len(spots):  # marks that all coincide are nowhere apart
             return False
     return paper in LARGE or _shortest(plans) * views[MECHANISM].scale >= SHORTEST
 

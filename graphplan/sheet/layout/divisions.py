@@ -18,6 +18,7 @@ from typing import NamedTuple
 from graphplan.mechanism.model import Number
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.plates.display import Rect
+from graphplan.sheet.tolerances import EDGE_TOL
 
 CAPTION, MARGIN = 11.0, 9.0  # mm: a panel's caption strip, and what is kept free for letters around its figure
 EDGE, SIDE = 0.5, 2.5  # mm of a panel on each side of its room, and of its caption
@@ -25,7 +26,6 @@ MOST = 8  # shapes of a run that are kept
 FINER = 1.25, 1.6, 2.0, 2.5, 4.0, 5.0, 10.0  # how much finer a scale may be than the next coarser one
 SMALLER = 0.7  # by which the common size falls from try to try
 TRIES = 24
-SLACK = 1e-6  # mm by which edges that should be one may differ
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def divided(region: Rect, block: Rect | None, demands: Mapping[str, Demand],
             twins: Mapping[str, str]) -> dict[str, Rect] | None:
     """The panels of plans in a region, with the title block in its lower right corner where one is given; none where
     they have no room however small they are drawn. Twins have one scale."""
-    corner = (Shape(min(block.width + SLACK, region.width), block.height + SLACK),) if block else ()
+    corner = (Shape(min(block.width + EDGE_TOL, region.width), block.height + EDGE_TOL),) if block else ()
     groups: dict[str, list[str]] = {}
     for panel in demands:
         groups.setdefault(twins[panel], []).append(panel)

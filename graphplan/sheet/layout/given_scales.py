@@ -13,8 +13,8 @@ from graphplan.methods.panels import MECHANISM, ForcePlan
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.tolerances import SCALE_TOL
 
-ROUNDING = 1e-9  # of a scale: closer than this two are one
 GivenScales = tuple[float | None, dict[str, Fraction]]
 FREE: GivenScales = (None, {})
 
@@ -35,7 +35,7 @@ def _mechanism_scale(drawing: Construction) -> float | None:
     """The one scale of the mechanism plan that all given scales lead to; none where none is given."""
     first: float | None = None
     for name, scale, lengths in _given(drawing):
-        if first is not None and not math.isclose(scale * lengths, first, rel_tol=ROUNDING):
+        if first is not None and not math.isclose(scale * lengths, first, rel_tol=SCALE_TOL):
             raise Refused(f"sheet.{name} = {scale:g}", "the other scales of the scene's sheet do not go with it",
                           f"{name} = {first / lengths:.6g}, or leave one of them out")  # fmt: skip
         first = first or scale * lengths

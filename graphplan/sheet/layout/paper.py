@@ -15,9 +15,10 @@ from graphplan.errors import Refused
 from graphplan.mechanism.presentation import SIZES
 from graphplan.sheet.frames.frame import Frame
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.divisions import CAPTION, EDGE, MARGIN, SLACK
+from graphplan.sheet.layout.divisions import CAPTION, EDGE, MARGIN
 from graphplan.sheet.lettering.lettering import LetterSizes, letter_sizes
 from graphplan.sheet.plates.display import Rect
+from graphplan.sheet.tolerances import EDGE_TOL
 from graphplan.sheet.words.rows import Placed, TextRow, fill
 from graphplan.sheet.words.tables import tightened
 
@@ -47,7 +48,7 @@ class Arrangement:
     def further(self) -> tuple[Rect, ...]:
         """The columns of a page of words, those over the title block ending above it: as wide as on the first page."""
         wide = self.columns[0].width if self.columns else self.letters.times * COLUMN
-        count = max(1, int((self.frame.width + SLACK) // (wide + GUTTER)))
+        count = max(1, int((self.frame.width + EDGE_TOL) // (wide + GUTTER)))
         return _columns(self.frame, count, self.title, wide if self.columns else None)
 
     @property
@@ -147,7 +148,7 @@ def _below(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBlock, c
     pitch = space.width / count
     text, block = rows(pitch - GUTTER), lower_right(space, pitch, title)
     strip, needed = max(block.height, 20.0), sum(row.height for row in text)
-    covered = math.ceil(block.width / pitch - SLACK) * block.height
+    covered = math.ceil(block.width / pitch - EDGE_TOL) * block.height
     while count * strip - covered < needed:  # whatever the columns, they cannot hold it
         strip += 4.0
     while strip < 0.75 * space.height:
@@ -169,7 +170,7 @@ def _columns(region: Rect, count: int, block: Rect, wide: float | None = None) -
     """Columns that share a region equally, `wide` where that is told; those over the title block end above it."""
     pitch = region.width / count
     lefts = [region.left + i * pitch for i in range(count)]
-    feet = [block.top if left + pitch > block.left + SLACK else region.bottom for left in lefts]
+    feet = [block.top if left + pitch > block.left + EDGE_TOL else region.bottom for left in lefts]
     slots = [Rect(left, foot, left + pitch, region.top) for left, foot in zip(lefts, feet, strict=True)]
     spare = pitch - GUTTER - wide if wide else 0.0
     return tuple(slot.inset(GUTTER / 2, 2.0, GUTTER / 2 + spare, 2.0) for slot in slots)

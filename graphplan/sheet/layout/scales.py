@@ -19,6 +19,7 @@ from graphplan.mechanism.model import Number
 from graphplan.mechanism.units import METRES
 from graphplan.phrases import Phrase, Said, arranged, digits, joined, phrase, unit
 from graphplan.sheet.plates.pens import FORCES
+from graphplan.sheet.tolerances import SCALE_TOL
 
 VELOCITIES, ACCELERATIONS = frozenset({"velocity", "relative"}), frozenset({"acceleration", "normal"})
 SPEED = phrase("k_v = {0} {1} per mm"), phrase("mu_v = {0} mm per {1}")
@@ -39,13 +40,13 @@ def _rounded_up(least: float, lengths: tuple[Number, ...]) -> Fraction:
         return first
     power = math.floor(math.log10(least / first))
     found = [first * step * Fraction(10) ** n for n in range(power - 1, power + 3) for step in SERIES]
-    found = [scale for scale in found if scale >= least * (1 - 1e-9)]
+    found = [scale for scale in found if scale >= least * (1 - SCALE_TOL)]
     return min([scale for scale in found if all(_is_round(scale / Fraction(length)) for length in lengths)] or found)
 
 
 def _is_round(scale: Fraction) -> bool:
     """Whether a scale is of the series."""
-    return scale / Fraction(10) ** math.floor(math.log10(scale) + 1e-9) in SERIES
+    return scale / Fraction(10) ** math.floor(math.log10(scale) + SCALE_TOL) in SERIES
 
 
 def lengths_of(kinds: Collection[str], kappa: Number, phi: Number) -> list[Number]:

@@ -14,6 +14,7 @@ from graphplan.sheet.plates import clip, higher_pairs, pens, symbols
 from graphplan.sheet.plates.display import Item, Spot
 from graphplan.sheet.plates.symbols import LONG, NEAR, Vector, off, places, turn, unit
 from graphplan.sheet.plates.view import View
+from graphplan.sheet.tolerances import LEAN_TOL
 
 RAIL = LONG + 3.0  # mm that a rail goes on to both sides of the middle of its block
 DOWN, LEFT, RIGHT, UP = (0.0, -1.0), (-1.0, 0.0), (1.0, 0.0), (0.0, 1.0)
@@ -169,7 +170,7 @@ class DrawnMechanism:
     def _outer(self, slide: Slide, at: Spot, along: Vector) -> float:
         """The side of a guide that the mechanism leaves free."""
         lean = sum(turn(at, off(at, along, 1.0), other) for other in self._around(at))
-        if abs(lean) > 1e-6:
+        if abs(lean) > LEAN_TOL:
             return -1.0 if lean > 0 else 1.0
         return -1.0 if along[0] > 0 or (along[0] == 0 and along[1] < 0) else 1.0
 

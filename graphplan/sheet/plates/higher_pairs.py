@@ -13,12 +13,12 @@ from graphplan.mechanism.model import Contact, Scene
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Spot
 from graphplan.sheet.plates.symbols import HATCH, NEAR, PITCH, RADIUS, Vector, bar, hatching, off, unit
+from graphplan.sheet.tolerances import ARC_TOL
 
 LAYER = "wheels"
 HALF_RACK, DEEP = 22.0, 2.4  # mm: half the length of a rack's drawn part, and how deep its bar is
 PROFILE, FACE = 26.0, 14.0  # mm that a drawn arc, and half of a straight face, goes on from where it touches
 WIDEST = 100.0  # degrees of an arc on either side
-NOTHING = 1e-9  # of a radius squared
 FRINGE = 40.0  # degrees of a wheel that stands still, hatched on either side of its pitch point
 
 
@@ -117,7 +117,7 @@ def disc(scene: Scene, contact: Contact, centre: str) -> float:
     radius = math.hypot(x - kx, y - ky)
     if other is not None:
         u, v = map(float, scene.points[other])
-        if (x - kx) * (u - kx) + (y - ky) * (v - ky) > NOTHING * radius * radius:
+        if (x - kx) * (u - kx) + (y - ky) * (v - ky) > ARC_TOL * radius * radius:
             return 0.0
     return radius if radius <= scene.extent else 0.0
 

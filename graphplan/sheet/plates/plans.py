@@ -20,9 +20,9 @@ from graphplan.sheet.plates.higher_pairs import reach
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.symbols import off, turn
 from graphplan.sheet.plates.traced_motion import TracedMotion
+from graphplan.sheet.tolerances import EXTENT_TOL
 from graphplan.words.tongue import ENGLISH, Tongue
 
-NOTHING = 1e-9  # of the mechanism: a plan that is no larger is a spot, and rounding all that it shows
 CARRIED = Movement.LAID_OFF, Movement.TURNED, Movement.STRUCK
 A_BIT = 1.4  # how much larger the mechanism plan may be for the paths of its points
 
@@ -167,7 +167,7 @@ class Plans:
         scene = self.drawing.scene
         core = [*ends, *map(self.place, scene.points), *reach(scene)] if panel == MECHANISM else ends or marks
         box = around([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
-        nice, tiny = list(self.apexes(panel).values()), NOTHING * float(self.drawing.scene.extent)
+        nice, tiny = list(self.apexes(panel).values()), EXTENT_TOL * float(self.drawing.scene.extent)
         if max(box.width, box.height) < tiny:
             box = around([(box.left, box.bottom)])
         if self.motion and panel == MECHANISM:

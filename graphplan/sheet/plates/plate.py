@@ -26,10 +26,10 @@ from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import Plans, around, corner
 from graphplan.sheet.plates.symbols import turn
 from graphplan.sheet.plates.view import View
+from graphplan.sheet.tolerances import RADIUS_TOL, SHORT_STROKE
 
 BEYOND, LOCUS_BEYOND, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
 CLOSE = 1.0  # mm: marks closer together do not tell the way of a line
-NOTHING = 0.3  # mm: what is left of a stroke is not drawn if it is shorter
 SHORT, HIDDEN = 0.5, 3.0  # mm: a vector shorter than this is not drawn; nor is a load that its joint would hide
 STRIKE, FLATTEST, WIDEST = 4.5, 5.0, 18.0  # half an arc: mm, and between these angles
 GIVEN_HEAD, BREAK_HEAD, BREAK = 3.0, 2.0, 4.0  # mm: heads of given vectors and of ends that break off; their length
@@ -212,7 +212,7 @@ class Plate:
 
     def _ruled(self, line: DrawnStep) -> bool:
         """Whether a line is drawn somewhere, or lies along what is."""
-        return any(stroke.length > NOTHING for stroke in self.strokes(line))
+        return any(stroke.length > SHORT_STROKE for stroke in self.strokes(line))
 
     @cached_property
     def asked(self) -> list[Stroke]:
@@ -320,7 +320,7 @@ class Plate:
         """What is left of a stroke where no link and no force lies along it."""
         long, done = stroke.length, 0.0
         for low, high in (*sorted([*links, *self._forces_along(stroke)]), (1.0, 1.0)):
-            if (low - done) * long > NOTHING:
+            if (low - done) * long > SHORT_STROKE:
                 yield stroke.part(done, low)
             done = max(done, high)
 
@@ -335,7 +335,7 @@ class Plate:
 
     def _forces_along(self, stroke: Stroke) -> Iterator[tuple[float, float]]:
         """Where forces that are drawn before a step lie along its stroke: it does not cross their arrows out."""
-        for force in self.vectors if stroke.length > NOTHING else ():
+        for force in self.vectors if stroke.length > SHORT_STROKE else ():
             if force.kind in pens.FORCES and force.end.index < stroke.of.index:
                 hit = _along(stroke, force.ends)
                 if len(hit) == 2 and max(hit) > 0 and min(hit) < 1:
@@ -349,7 +349,7 @@ class Plate:
         if drawn.index in self.plans.drawing.drawn.wanted and drawn.kind == CIRCLE:
             on = drawn.args[1].args[-1]
             return [StruckArc(drawn, on, *halves, pens.NORMAL) for halves in ((180.0, 0.0), (0.0, 180.0))]
-        marks = self.marks(drawn) if drawn.kind == CIRCLE and drawn.radius > 1e-6 else []
+        marks = self.marks(drawn) if drawn.kind == CIRCLE and drawn.radius > RADIUS_TOL else []
         end = self.plans.diameter(drawn.step) if marks else None
         if end is not None and self.plates.steps[end].panel == self.panel:
             left = turn(drawn.at, self.plates.steps[end].at, marks[0].at) >= 0

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Spot
+from graphplan.sheet.tolerances import SPOT_TOL
 
 RADIUS = 1.2  # of a revolute pair's circle
 STAND, FOOT, GROUND = 4.6, 2.6, 4.4  # the triangle under a fixed pivot: height, half its base, half the ground line
@@ -32,7 +33,7 @@ def off(spot: Spot, along: Vector, t: float, u: float = 0.0) -> Spot:
 def unit(start: Spot, end: Spot) -> Vector:
     """The direction from one spot to another; to the right if they coincide."""
     length = math.dist(start, end)
-    return ((end[0] - start[0]) / length, (end[1] - start[1]) / length) if length > 1e-9 else (1.0, 0.0)
+    return ((end[0] - start[0]) / length, (end[1] - start[1]) / length) if length > SPOT_TOL else (1.0, 0.0)
 
 
 def revolute(at: Spot) -> Item:
@@ -138,7 +139,7 @@ def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
 
     rim = shapely.normalize(shapely.MultiPoint(spots).convex_hull).exterior.coords[:0:-1]
     return tuple(b for a, b, c in zip((rim[-1], *rim), rim, (*rim[1:], rim[0]), strict=False)
-                 if turn(a, b, c) > 1e-9 * math.dist(a, c))
+                 if turn(a, b, c) > SPOT_TOL * math.dist(a, c))
 
 
 def turn(a: Spot, b: Spot, c: Spot) -> float:
@@ -159,7 +160,7 @@ def straight(spots: Sequence[Spot]) -> bool:
     """Whether spots lie on one line, to a quarter of a pen's width."""
     far = max(((math.dist(p, q), p, q) for p in spots for q in spots), default=(0.0, (0.0, 0.0), (0.0, 0.0)))
     long, p, q = far
-    return long < 1e-9 or all(abs(turn(p, q, r)) / long < 0.15 for r in spots)
+    return long < SPOT_TOL or all(abs(turn(p, q, r)) / long < 0.15 for r in spots)
 
 
 def drive(at: Spot, towards: Vector, sign: float, ground: Vector | None = None) -> Iterator[Item]:

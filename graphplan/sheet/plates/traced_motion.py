@@ -12,11 +12,11 @@ from graphplan.phrases import Said, said
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Spot
 from graphplan.sheet.plates.symbols import hull, off, places, straight, unit
+from graphplan.sheet.tolerances import EXTENT_TOL
 
 View = Callable[[Spot], Spot]
 LAYER = "motion"
 FINE = 0.01  # mm by which what is drawn of a path may be off
-SAME = 1e-9  # of the mechanism: what moves less stands in the given pose
 AGAIN = 0.05  # mm: a path that goes back so near to itself is drawn once
 STOP, DOT = 1.5, 0.35  # mm: half of the stroke across the end of a path; the radius of the dots on it
 
@@ -104,7 +104,8 @@ class StationaryCurve(Centrode):
 
     def items(self, view: View, scene: Scene) -> Iterator[Item]:
         """Its branches in its own pose."""
-        if all(math.dist(at, tuple(map(float, scene.points[name]))) <= SAME * scene.extent for name, at in self.given):
+        least = EXTENT_TOL * scene.extent
+        if all(math.dist(at, tuple(map(float, scene.points[name]))) <= least for name, at in self.given):
             yield from super().items(view, scene)
 
 

@@ -11,6 +11,7 @@ from graphplan.mechanism.model import Number
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.plans import Extent, grown
+from graphplan.sheet.tolerances import ZERO_SCALE
 
 COARSER, MUCH_COARSER = 2.05, 4.1  # how much smaller the mechanism, and any other plan, may be for auxiliary marks
 
@@ -54,7 +55,7 @@ def wanted(extent: Extent, coarser: float) -> Rect:
 
 def whole(extent: Extent, room: Rect) -> float:
     """The mm per unit at which all the marks of a plan just fit."""
-    return 1 / (least(_box(extent, room, math.inf), room) or 1e-9)
+    return 1 / (least(_box(extent, room, math.inf), room) or ZERO_SCALE)
 
 
 def plan_scale(extent: Extent, room: Rect, coarser: float, lengths: Sequence[Number] = (1,)) -> Fraction:

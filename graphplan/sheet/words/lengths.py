@@ -17,10 +17,9 @@ from graphplan.kernel.program import Panel, Program, Step
 from graphplan.methods.construction import Compound
 from graphplan.phrases import Said, Unknown, arranged, digits, joined, said, tenths, unit
 from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.tolerances import LENGTH_TOL, MIN_LENGTH
 from graphplan.sheet.words.sums import Sum
 
-SAME = 5e-4  # of a length carried over: what differs by less is as long
-NOTHING = 0.05  # mm: what is shorter has no length on paper
 LARGEST = 10.0  # so many times as large a length may be drawn as it is taken
 LENGTH = Quantity("", "length")
 COMPONENTS = Movement.LAID_BY_COMPONENTS, Movement.LAID_ALONG
@@ -73,7 +72,7 @@ class Lengths:
 
     def of(self, step: Step) -> tuple[Length, ...]:
         """What a step lays off or opens, of marks of the program; nothing where it has no size of its own."""
-        return tuple(length for length in self._found(step) if length.mm >= NOTHING)
+        return tuple(length for length in self._found(step) if length.mm >= MIN_LENGTH)
 
     def before(self, compound: Compound) -> tuple[Length, ...]:
         """What of a compound is laid off later, as its part on another plan has found it."""
@@ -105,7 +104,7 @@ class Lengths:
         if self.plan(source) == self.plan(own):
             return None
         times = self.per_mm(source) / self.per_mm(own)
-        return None if abs(times - 1) <= SAME else times
+        return None if abs(times - 1) <= LENGTH_TOL else times
 
     def mm(self, P: int, Q: int) -> float:
         """How far apart two marks of one plan are."""
@@ -163,7 +162,7 @@ class Lengths:
 
     def _carried(self, source: Measure, laid: Measure) -> Length:
         """A length, and where it is another where it is taken from, how it follows from that one."""
-        if source.mm < NOTHING or self._alike(source, laid):
+        if source.mm < MIN_LENGTH or self._alike(source, laid):
             return Length(laid.told, (laid,))
         factors = _factors(laid.mm / source.mm)
         product = Sum(f"m{'f' * len(factors)}m", (source.mm, *factors, laid.mm))
@@ -172,7 +171,7 @@ class Lengths:
         return Length(told, (source, laid))
 
     def _alike(self, one: Measure, other: Measure) -> bool:
-        return abs(one.mm - other.mm) <= SAME * (one.mm + other.mm) / 2
+        return abs(one.mm - other.mm) <= LENGTH_TOL * (one.mm + other.mm) / 2
 
     def _given(self, quantity: Quantity, laid: Measure, where: int) -> Said:
         """A quantity with its value, over the scale of its plan."""
@@ -264,7 +263,7 @@ class Lengths:
 
 def _factors(times: float, parts: int = 3) -> tuple[float, ...]:
     """A factor, in up to so many parts where it is too large to be taken at once."""
-    if parts == 1 or times <= LARGEST * (1 + SAME):
+    if parts == 1 or times <= LARGEST * (1 + LENGTH_TOL):
         return (times,)
     return (*_factors(times / LARGEST, parts - 1), LARGEST)
 

@@ -16,7 +16,8 @@ from graphplan.methods.kinds import ResultKind
 from graphplan.methods.recorded import Reading
 from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, arranged, digits, in_any_case, joined, phrase, said, unit
-from graphplan.sheet.words.lengths import NOTHING, Length, Lengths, Measure, in_mm, size
+from graphplan.sheet.tolerances import MIN_LENGTH
+from graphplan.sheet.words.lengths import Length, Lengths, Measure, in_mm, size
 from graphplan.sheet.words.sums import Sum
 
 # Places that are told by how far they are from another mark, and what that length is called.
@@ -71,14 +72,14 @@ class Readings:
         if dimension in VECTORS:
             start, end = marks[-2:]
             steps = self.lengths.program.steps
-            if steps[start].op.gives == LINE or (long := self.lengths.mm(start, end)) < NOTHING:
+            if steps[start].op.gives == LINE or (long := self.lengths.mm(start, end)) < MIN_LENGTH:
                 return None
             read = self._vector(dimension, Measure(long, (start, end)), kind.group)
         elif dimension == units.MOMENT:
             if len(marks) == 1:
                 return self._no_moment(reading, computed)
             read = self._moment(marks)
-        elif self.lengths.mm(*marks[:2]) < NOTHING:
+        elif self.lengths.mm(*marks[:2]) < MIN_LENGTH:
             return None  # no ruler tells how a link turns that is nothing on paper
         else:
             read = self._turning(reading, marks)
@@ -88,7 +89,7 @@ class Readings:
     def _way(self, reading: Reading) -> Measured | None:
         """A radius or a diameter, from where a place is measured."""
         start, end = (self.drawing.drawn.wanted[position] for position in reading.marks)
-        if (long := self.lengths.mm(start, end)) < NOTHING:
+        if (long := self.lengths.mm(start, end)) < MIN_LENGTH:
             return None
         read = self._vector(units.LENGTH, Measure(long, (start, end)), reading.kind.group)
         (x, y), (u, v) = self.values[reading.kind][reading.of], self.drawing.values[start][:2]

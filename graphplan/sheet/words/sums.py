@@ -19,12 +19,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.phrases import Said, Unknown, decimals, digits
+from graphplan.sheet.tolerances import FIGURE_TOL
 
 # By level: decimals of mm, decimals of a result in mm, figures of another result, figures of what is no length.
 LEVELS = ((1, 1, 4, 4), (2, 1, 4, 5), (2, 1, 4, 6), (1, 1, 4, 5))
 PRINTED, READ = 2, 3  # levels from the first of which on a result is what the printed numbers come to; of what is read
 HALF = 0.499  # of the last printed digit: how far off what the printed numbers come to may be
-EXACT, MOST_FIGURES = 1e-9, 6  # of a figure: within it all of it is printed, where so many figures do
+MOST_FIGURES = 6  # all of a figure is printed where so many do
 LENGTHS, FORMS = "mMd", "+-Σ"
 
 
@@ -144,6 +145,6 @@ def _power(number: float) -> int:
 def figures_of(number: float, figures: int) -> int:
     """In how many figures one is printed: in so many, or in more where these are all that it has."""
     for count in range(figures, MOST_FIGURES + 1):
-        if abs(float(f"{number:.{count}g}") - number) <= EXACT * abs(number):
+        if abs(float(f"{number:.{count}g}") - number) <= FIGURE_TOL * abs(number):
             return count
     return figures

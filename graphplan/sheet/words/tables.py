@@ -10,6 +10,7 @@ from typing import Any
 from graphplan.phrases import Said, Unknown, arranged, digits, figures, in_any_case, unit
 from graphplan.sheet.lettering.lettering import SIZE, Runs, name_runs, sentence_runs, width
 from graphplan.sheet.plates.display import Rect
+from graphplan.sheet.tolerances import ZERO_TOL
 from graphplan.sheet.words.lengths import size
 from graphplan.sheet.words.rows import Cell, TextRow
 from graphplan.words.tongue import Tongue
@@ -40,7 +41,6 @@ class Deviations:
 
 
 APART = 3.0  # mm between two columns
-ROUNDING = 1e-12  # beside the largest number of its kind
 TOGETHER = 15  # rows of a table stand in one column
 Table = list[list[Runs]]
 Off = Mapping[str, Deviation]  # how far off results are drawn, by name; empty where that is not told
@@ -79,7 +79,7 @@ def settled(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict[str, 
     found = {kind: {**named} for kind, named in values.items()}
     fastest = reduce(_larger, map(abs, values.get("omega", {}).values()), 0.0)
     for turning, kind, other in (("omega", "velocity", fastest), ("alpha", "acceleration", fastest * fastest)):
-        least = ROUNDING * _larger(largest_size(values.get(kind, {})) / reach, other)
+        least = ZERO_TOL * _larger(largest_size(values.get(kind, {})) / reach, other)
         found |= {turning: {name: rate if isinstance(least, Unknown) or isinstance(rate, Unknown) or abs(rate) > least
                             else 0.0 for name, rate in values[turning].items()}} if turning in values else {}
     return found
@@ -115,7 +115,7 @@ def _larger(a: float, b: float) -> float:
 
 def figure(say: Tongue, value: float, largest: float) -> Runs:
     """A number of a table; what is only rounding beside its largest is zero."""
-    return sentence_runs(say(in_any_case(lambda: digits(value if abs(value) > ROUNDING * largest else 0.0))))
+    return sentence_runs(say(in_any_case(lambda: digits(value if abs(value) > ZERO_TOL * largest else 0.0))))
 
 
 def joined_tables(one: Table, two: Table, fits: Callable[[Table], bool]) -> list[Table]:

@@ -16,11 +16,11 @@ from graphplan.phrases import Said, arranged, digits, joined, said, unit
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import HEADING, SIZE, Runs, equation_runs, sentence_runs, width, wrap
 from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.tolerances import ZERO_TOL
 from graphplan.sheet.words.protocol import Entry, Passage, Protocol, lengths_of
 from graphplan.sheet.words.readings import Readings
 from graphplan.sheet.words.rows import Cell, TextRow, hung
 from graphplan.sheet.words.tables import (
-    ROUNDING,
     Deviations,
     Table,
     joined_tables,
@@ -266,4 +266,4 @@ class Words:
 
 def _within(gap: float) -> str:
     """A difference as it is said on a sheet: rounding is not told in figures, which differ from machine to machine."""
-    return said("below 10⁻¹²") if gap <= ROUNDING else digits(gap, 2)
+    return said("below 10⁻¹²") if gap <= ZERO_TOL else digits(gap, 2)

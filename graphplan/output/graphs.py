@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphplan.machine.frames import Frame
+from graphplan.output.tolerances import STEP_TOL
 from graphplan.phrases import Said, arranged, digits, unit
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import CAPS, DEPTH, LetterSizes, Runs, name_runs, sentence_runs, width
@@ -50,8 +51,8 @@ def divisions(low: float, high: float, most: float, turns: bool = False) -> list
     power = 10.0 ** math.floor(math.log10(step))
     steps = [power * times for times in (1, 2, 5, 10)]
     step = next(one for one in ([15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, *steps] if turns and 5 < step <= 360
-                                else steps) if one >= step * (1 - 1e-9))
-    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+                                else steps) if one >= step * (1 - STEP_TOL))
+    first, last = math.ceil(low / step - STEP_TOL), math.floor(high / step + STEP_TOL)
     return [k * step for k in range(first, last + 1)]
 
 

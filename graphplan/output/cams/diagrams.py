@@ -19,6 +19,7 @@ from graphplan.cams.law import HARD, SOFT, Stretch
 from graphplan.cams.profile import Cam
 from graphplan.kernel.program import Panel
 from graphplan.output.graphs import AXIS, CURVES, DIVISION, Figures, Graph, scale_words
+from graphplan.output.tolerances import BASE_TOL, OFFSET_TOL, RANGE_TOL, STILL_RANGE, STILL_RATE
 from graphplan.phrases import Said, arranged, digits, phrase, said, unit
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import CAPS, Run
@@ -106,7 +107,7 @@ class Paper(Figures):
                  for angles in [piece.divided(SAMPLES)]]
         (top, most), (foot, depth) = law.extremum(one.values), law.extremum(lambda a, piece: -one.values(a, piece))
         low, high = min(0.0, -depth), max(0.0, most)
-        still, hard = high - low < 1e-9, one.order == SOFT and any(jump.order == HARD for jump in law.jumps)
+        still, hard = high - low < STILL_RANGE, one.order == SOFT and any(jump.order == HARD for jump in law.jumps)
         if still or hard:
             low, high = -max(high, -low, float(still)), max(high, -low, float(still))
         graph = Graph.fitted(rect, (0.0, 360.0), (low, high))
@@ -116,7 +117,7 @@ class Paper(Figures):
         for angles, part in parts:
             yield Polyline(one.pen, "links", None, tuple(graph.spots(angles, part)))
         for (angles, before), (_, after) in pairwise([*parts, parts[0]]):
-            if abs(after[0] - before[-1]) > 1e-9 * (high - low):
+            if abs(after[0] - before[-1]) > RANGE_TOL * (high - low):
                 x = float(angles[-1])
                 yield Polyline(JUMP, "ruling", None, (at(x, float(before[-1])), at(x, float(after[0]))))
         if hard:
@@ -125,7 +126,7 @@ class Paper(Figures):
         scale = scale_words(one.letter, graph.k_y, one.measure)
         yield self.headed(graph, arranged(told, one.letter, unit(one.measure), scale), (one.letter, f"k_{one.letter}"))
         for angle, value in ((top, most), (foot, -depth)):
-            if abs(value) > 1e-9 * (high - low):
+            if abs(value) > RANGE_TOL * (high - low):
                 x, y = at(angle, value)
                 yield Polyline(DIVISION, "ruling", None, ((x, y), (rect.right + 0.8, y)))
                 yield self.text((rect.right + 1.2, y - CAPS * self.letters.text / 2), digits(value))
@@ -174,7 +175,7 @@ class Paper(Figures):
         yield Polyline(AXIS, "ruling", None, tuple(at(complex(z)) for _, A, _ in pieces for z in A))
         for one, A, E in pieces:
             moving = one.at((float(one.start) + float(one.end)) / 2, 1)
-            if abs(moving) < 1e-12:
+            if abs(moving) < STILL_RATE:
                 continue
             pen = RISE if moving > 0 else BACK
             for k in range(0, SAMPLES + 1, 10):
@@ -210,7 +211,7 @@ class Paper(Figures):
                 high = float(self.cam.law.at([one.angle])[0])
                 tip = spot(way * (one.intercept + one.slope * high), high)
                 yield from self._touched(tip, words(digits(math.degrees(math.atan(one.slope)))), spot(0.0, high)[0])
-        if where.back is not None and abs(where.corner[0] - pair.offset) > 1e-6 * pair.base:
+        if where.back is not None and abs(where.corner[0] - pair.offset) > OFFSET_TOL * pair.base:
             yield from self.marked(spot(where.corner[0], -where.corner[1]), "O_m", (1.6, 0.6))
 
     def _touched(self, tip: Spot, words: Said, axis: float) -> Iterator[Item]:
@@ -256,7 +257,7 @@ class Paper(Figures):
         yield self.text(((limit[0] + end[0]) / 2 - 2.0, (limit[1] + end[1]) / 2 - 2.0), "45°", "end")
         yield from self.marked(A0, "A_0")
         yield from self.marked(O, "O", (1.4, -2.8))
-        if abs(base - lowest) > 1e-9 * base:
+        if abs(base - lowest) > BASE_TOL * base:
             yield from self.marked(limit, "O'", (1.4, -1.0))
 
     def _scaled(self, window: View, rect: Rect) -> Item:

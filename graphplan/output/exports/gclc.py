@@ -20,6 +20,7 @@ from graphplan.kernel.tape.written import Language, operations
 from graphplan.output.exports.formula import formula
 from graphplan.output.exports.latex import formulated, lettering, points
 from graphplan.output.exports.walk import REACH, Letter, Source, extent, heading, parameters, turned_back
+from graphplan.output.tolerances import SHIFT_TOL_MM
 from graphplan.phrases import said
 from graphplan.sheet.lettering.label_candidates import BALLOON
 from graphplan.sheet.lettering.lettering import CAPS
@@ -141,7 +142,7 @@ COMMANDS = {
     Movement.CUT: "call farther {{ {0} {1} {P} {Q} {out} }}",
     Movement.ARCS_MET: "call left {{ {left} {right} {out} }}",
 }
-AIR, NOTHING = 8.0, 1e-6  # mm: about the picture, with room for letters; what is no shift
+AIR = 8.0  # mm: about the picture, with room for letters
 SWALLOW = {pens.OPEN: 0.7}  # how deep the heads of vectors are cut in, beside their length
 
 
@@ -160,7 +161,7 @@ def cornered(plates: Plates) -> Plates:
     """The plates with what is drawn on them, and air for its letters, in the lower left corner of the picture."""
     box = _strokes(plates)
     dx, dy = AIR - box.left, AIR - box.bottom
-    if max(abs(dx), abs(dy)) < NOTHING:
+    if max(abs(dx), abs(dy)) < SHIFT_TOL_MM:
         return plates
 
     def there(view: View) -> View:

@@ -15,6 +15,7 @@ from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.units import KILOGRAMS, METRES
 from graphplan.output.machine.balance_numbers import links, principal_vectors, variant, weight_told
 from graphplan.output.panelled import Words
+from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arranged, digits, joined, said, unit
 
 WAYS = {FULL: said("fully: the mass centre stands still"),
@@ -23,7 +24,6 @@ WAYS = {FULL: said("fully: the mass centre stands still"),
 OPINIONS = {"path": said("path"), "velocity": said("velocity"), "acceleration": said("acceleration"),
             "shaking force": said("shaking force"), "shaking moment": said("shaking moment"),
             "counterweights": said("counterweights"), "orders": said("orders")}
-NOTHING = 1e-9  # of a size: what is less is rounding
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ class BalanceWords:
     def sizes(self) -> tuple[float, float]:
         """The size of the links' own forces, and of their moments: what is nothing beside them is rounding."""
         metre, scene = float(METRES[self.scene.units.length]), self.scene
-        least = NOTHING * float(KILOGRAMS[scene.units.mass] * self.before.centre.mass) * scene.extent * metre
+        least = ZERO_TOL * float(KILOGRAMS[scene.units.mass] * self.before.centre.mass) * scene.extent * metre
         force = max(least, *(float(np.nanmax(np.abs(part))) for part in self.before.shaking.parts.values()))
         return force, force * scene.extent * metre
 
@@ -139,4 +139,4 @@ def clean(value: float, size: float) -> float:
 
 def cleaned(values: Any, size: float) -> Any:
     """Values, zero where they are nothing beside a size."""
-    return np.where(np.abs(values) < NOTHING * size, 0.0, values)
+    return np.where(np.abs(values) < ZERO_TOL * size, 0.0, values)

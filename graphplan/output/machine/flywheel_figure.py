@@ -25,6 +25,7 @@ from graphplan.machine.integrals import Piecewise
 from graphplan.output.graphs import AXIS, HEADED, Figures, Graph
 from graphplan.output.panelled import Recorded
 from graphplan.output.step_ink import StepInk
+from graphplan.output.tolerances import TRAVEL_TOL
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import CAPS, name_runs, sentence_runs
 from graphplan.sheet.plates import pens
@@ -40,7 +41,7 @@ TANGENTS = {"upper": Pen(0.35, pens.RED), "lower": Pen(0.35, pens.BLUE)}
 MOMENT, ENERGY, INERTIA, MASS = Pen(0.5), Pen(0.5, pens.BLUE), Pen(0.5, pens.RED), Pen(0.5, pens.VIOLET)
 SIDE, RIGHT, OVER = 4.0, 14.0, 9.0  # mm beside the pole, right of the diagrams for numbers, and over and under them
 PARTS, LOW = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9), (0.15, 0.2, 0.25, 0.3, 0.4)  # of the room that are tried for a diagram
-NUMBERED, SAMPLES, SAME = 36, 360, 1e-9  # plans that have numbers; places of a curve; of the cycle: one travel
+NUMBERED, SAMPLES = 36, 360  # plans that have numbers; places of a curve
 PIECES, BEYOND, FREE = 6, 10.0, 4.0  # strokes of a piece of a curve; mm by which tangents go on; under curves
 
 
@@ -239,7 +240,7 @@ class FlywheelFigure:
         every = 1 + self.result.positions // NUMBERED
         for spot, travel in zip(self.drawing.spots("points"), self.drawing.travels, strict=False):
             k = int(np.argmin(abs(told - travel)))
-            if k % every == 0 and abs(told[k] - travel) < SAME * np.ptp(told):  # others are corners of the loads
+            if k % every == 0 and abs(told[k] - travel) < TRAVEL_TOL * np.ptp(told):  # others are corners of the loads
                 yield Wish(sentence_runs(str(k)), (self.window(spot),), 0.5, minor=True, pen=pens.FAINT, label=f"P {k}")
         graph, bounds = self.graphs["energy-mass"], self.rect
         for which, name in (("upper", "psi_max"), ("lower", "psi_min")):

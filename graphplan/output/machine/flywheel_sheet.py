@@ -25,6 +25,7 @@ from graphplan.output.machine.flywheel_figure import FlywheelFigure, room_in
 from graphplan.output.machine.given_words import masses_and_loads
 from graphplan.output.machine.lever_figures import LEVERS, LeverFigures
 from graphplan.output.panelled import Blank, Panelled, Recorded, Words, beside, pages, under
+from graphplan.output.tolerances import RANGE_TOL
 from graphplan.phrases import Said, arranged, digits, joined, phrase, said, unit
 from graphplan.sheet.frames.title import TASK
 from graphplan.sheet.layout.scales import Scales
@@ -211,7 +212,7 @@ class FlywheelSheet(Panelled):
         letters, units = ("phi", "I", "M", "E", "omega"), ("°", INERTIA, MOMENT, "J", RATE)
         size = [float(abs(column).max()) or 1.0 for column in columns]
         head = ["", *(arranged("{0}, {1}", letter, unit(one)) for letter, one in zip(letters, units, strict=True))]
-        rows = [[str(k), *(digits(float(x) if abs(x) > 1e-9 * most else 0.0)
+        rows = [[str(k), *(digits(float(x) if abs(x) > RANGE_TOL * most else 0.0)
                            for x, most in zip(row, size, strict=True))]
                 for k, row in enumerate(zip(*columns, strict=True))]
         if self.task:  # the travels are given

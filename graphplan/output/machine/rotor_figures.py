@@ -12,6 +12,7 @@ from graphplan.machine.rotors.trial import ThreeRuns, TrialWeights
 from graphplan.machine.rotors.trial_runs import Effect, angle_of, harmonic
 from graphplan.output.graphs import CURVES, Graph, stacked
 from graphplan.output.machine.rotor_views import CORRECTIONS, DIMENSION, MASS, OTHER, RotorViews
+from graphplan.output.tolerances import HARMONIC_TOL, MIN_WEIGHT, RANGE_TOL
 from graphplan.phrases import Said, arranged, digits, unit
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.plates import pens
@@ -68,7 +69,7 @@ class RotorFigures(RotorViews):
         drawn = zip(pairwise(corners), names[1:], strict=True)
         sides: list[Side] = [(*ends, written.format(name[2:]), CORRECTIONS[1] if name == "F_II" else MASS,
                               drawing.marks[name]) for ends, name in drawn]
-        if abs(corners[0] - corners[-1]) > 1e-9 * max(map(abs, corners)):
+        if abs(corners[0] - corners[-1]) > RANGE_TOL * max(map(abs, corners)):
             index, closing = (1, "m_II·a·r_II") if letter == "M" else (0, "m_I·r_I")
             ends = drawing.marks[names[-1]], drawing.marks[names[0]]
             step = next((step.index for step in drawing.program.steps if step.args == ends), None)
@@ -147,7 +148,7 @@ class RotorFigures(RotorViews):
         start, turn = angles[0], [angles[0] + 3.0 * k for k in range(121)]
         cosine = [mean + (first * cmath.rect(1.0, -math.radians(angle))).real for angle in turn]
         weights = [*map(float, trial.weights)]
-        span, largest = (start, start + 360.0), 1.15 * max(*weights, *cosine, 1e-9)
+        span, largest = (start, start + 360.0), 1.15 * max(*weights, *cosine, MIN_WEIGHT)
         rect = stacked(rect, span, [(0.0, largest)])[0].rect
         graph = Graph.fitted(rect, span, (0.0, largest), largest / rect.height)
         yield from self.axes(graph, "°", arranged("p, {0}", unit(self.found.task.units.mass)), turns=True)
@@ -157,7 +158,7 @@ class RotorFigures(RotorViews):
             y = graph.at(0.0, size)[1]
             yield Polyline(pens.PRODUCED, "ruling", None, ((rect.left, y), (rect.right, y)))
             yield from self.backed((rect.right - 12.0, y + over), self.runs(name))
-        if abs(first) <= 1e-9 * mean:
+        if abs(first) <= HARMONIC_TOL * mean:
             return
         place = start + (math.degrees(cmath.phase(first)) - start) % 360
         yield from graph.uprights([place], pens.PRODUCED)

@@ -23,6 +23,7 @@ from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.units import NEWTONS
 from graphplan.output.machine.rotor_figures import AROUND, MANY, RotorFigures
 from graphplan.output.panelled import Panelled, Recorded, Words, beside, pages, under
+from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arranged, digits, joined, phrase, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.plates.display import Item, Rect, Sheet
@@ -33,7 +34,6 @@ CURVE = Panel("trial weights", said("trial weights"), said("Trial weights over t
 PAPERS = "A3", "A2"
 OPINIONS = {"corrections": said("corrections"), "residual_force": said("force left"),
             "residual_moment": said("moment left"), "trials": said("trials")}
-ROUNDING = 1e-9  # of what bearings bore before: what is less is nothing
 LESS = 1.3  # times as coarse as the scale along the axis may be to be that across it
 
 
@@ -330,6 +330,6 @@ class RotorSheet(Panelled):
             force = self.balanced.task.units.force
             sizes = [[abs(one) / float(NEWTONS[force]) for one in reactions(self.balanced, answer)]
                      for answer in ((), self.balanced.corrections)]
-            nothing = ROUNDING * max(sizes[0])
+            nothing = ZERO_TOL * max(sizes[0])
             before, after = (joined(digits(size if size > nothing else 0.0) for size in part) for part in sizes)
             yield said("Turning reactions of the bearings: {0} {1} before, {2} {1} after", before, unit(force), after)

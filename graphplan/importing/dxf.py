@@ -17,6 +17,7 @@ from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.importing.sketch import Driven, Sketch, Slot
+from graphplan.importing.tolerances import JOINT_TOL
 from graphplan.marking.files.dxf import DEEPEST, of_document
 from graphplan.marking.files.safe import Budget, on_paper
 from graphplan.mechanism.model import FRAME
@@ -27,7 +28,6 @@ DRIVES = re.compile(r"drive|crank|input|motor", re.IGNORECASE)
 LINK = re.compile(r"link[ _-]*(\S+)", re.IGNORECASE)
 OTHER = re.compile(r"dim|text|title|border|hidden|defpoints|hatch|cent(re|er)", re.IGNORECASE)
 OWN, SYMBOLS = "MECHANISM 1-1 ", re.compile(r"blocks|drive|dimensions")  # of graphplan's own sheets
-NEAR = 2e-4  # of the drawing: ends that are so near are one joint
 PIN = 0.06  # of the drawing: a larger circle is no pin
 BESIDE = 2.5  # heights of letters from a pin to its name
 UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}  # of $INSUNITS
@@ -125,10 +125,10 @@ class _Drawing:
 
     def _joint(self, spot: complex) -> str:
         """The joint at a place: that of the pin whose circle it touches, else the nearest; a new one where none is."""
-        pin = next((pin for pin in self.pins if abs(pin.at - spot) <= 1.02 * pin.radius + NEAR * self.size), None)
+        pin = next((pin for pin in self.pins if abs(pin.at - spot) <= 1.02 * pin.radius + JOINT_TOL * self.size), None)
         at = spot if pin is None else pin.at
         for place, joint in enumerate(self.joints):
-            if abs(joint - at) <= NEAR * self.size:
+            if abs(joint - at) <= JOINT_TOL * self.size:
                 return str(place)
         self.joints.append(at)
         return str(len(self.joints) - 1)
@@ -161,8 +161,8 @@ class _Drawing:
     def _pinned(self, found: Sketch, pin: _Pin, bars: Sequence[_Shape]) -> None:
         """A pin on the way of a bar is a joint of it, one on the ground is fixed."""
         guides = [shape for shape in self.shapes if GUIDES.search(shape.layer)
-                  and _beside(pin.at, shape.corners[0], shape.corners[-1]) <= NEAR * self.size]
-        on = [shape for shape in bars if any(_beside(pin.at, *side) <= NEAR * self.size for side in _sides(shape))
+                  and _beside(pin.at, shape.corners[0], shape.corners[-1]) <= JOINT_TOL * self.size]
+        on = [shape for shape in bars if any(_beside(pin.at, *side) <= JOINT_TOL * self.size for side in _sides(shape))
               and (pin.at in shape.corners or not any(self._carries(shape, guide) for guide in guides))]
         if on:
             key = self._put(found, pin.at)
@@ -177,7 +177,7 @@ class _Drawing:
     def _carries(self, bar: _Shape, guide: _Shape) -> bool:
         """Whether a side of a bar runs along a guide, or on from it: then the guide is on its link."""
         start, end = guide.corners[0], guide.corners[-1]
-        return any(max(_across(corner, start, end) for corner in side) <= NEAR * self.size for side in _sides(bar))
+        return any(max(_across(corner, start, end) for corner in side) <= JOINT_TOL * self.size for side in _sides(bar))
 
     def _guide(self, found: Sketch, guide: _Shape, bars: Sequence[_Shape]) -> None:
         """The pins on a guide slide along it; it is of the link with a bar along it, else of the frame."""
@@ -187,7 +187,7 @@ class _Drawing:
                      FRAME)
         way = (end - start) / abs(end - start)
         for key, at in found.places.items():
-            if _beside(at, start, end) <= NEAR * self.size and key not in found.fixed and (
+            if _beside(at, start, end) <= JOINT_TOL * self.size and key not in found.fixed and (
                     along == FRAME or key not in found.links[along]):
                 found.slots.append(Slot(key, along, way))
                 if along == FRAME and self.own:

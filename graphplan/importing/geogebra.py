@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from graphplan.importing.sketch import Driven, Sketch, Slot
+from graphplan.importing.tolerances import DIRECTION_TOL
 from graphplan.marking.files.constructions import CAPTION, LINES, NAME, Objects, Vector, of_construction, seen
 from graphplan.mechanism.model import FRAME
 
@@ -29,7 +30,6 @@ AXES = {"xAxis": 1 + 0j, "yAxis": 1j}
 RIGID = {"Midpoint", "Center", "Rotate", "Dilate", "Centroid"}
 TURNED = re.compile(r";\s*([^)]*)\)|(?:cos|sin)\s*\(([^()]*)\)")
 INNER = re.compile(r"(\w+)\s*[\[(](.*)[\])]")
-STRAIGHT = 1e-6  # by which the directions of bars in one line differ
 GUESS = "GeoGebra knows no speed: 1 {unit} is a guess."
 
 
@@ -148,7 +148,7 @@ class _Drawing:
             for joint in {*one} & {*other}:
                 ways = [at[next(name for name in bar[::step] if name != joint)] - at[joint]
                         for bar, step in ((one, 1), (other, -1))]
-                if len({*one, *other}) > 2 and abs(ways[0] / abs(ways[0]) + ways[1] / abs(ways[1])) < STRAIGHT:
+                if len({*one, *other}) > 2 and abs(ways[0] / abs(ways[0]) + ways[1] / abs(ways[1])) < DIRECTION_TOL:
                     links.append([*dict.fromkeys([*one, *other])])
         return links
 

@@ -30,6 +30,7 @@ from urllib.parse import unquote
 from graphplan.errors import Refused
 from graphplan.importing.packed import unpacked
 from graphplan.importing.sketch import Driven, Guide, Sketch, Slot
+from graphplan.importing.tolerances import PISTON_TOL
 from graphplan.importing.written import number as shown
 from graphplan.marking.files.safe import Budget, number
 from graphplan.mechanism.model import FRAME
@@ -41,7 +42,6 @@ STARTS = re.compile(r"^---\s*\w+\s*---|^joints\b|^mech\s*=|^\s*[\w ]+,[\w ]+,\s*
 DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
 UNITS = {"in": "in", "inch": "in", "cm": "cm", "centimeter": "cm", "m": "m", "meter": "m", "mm": "mm"}
 LENGTHS = ("in", "cm", "m", "")  # in the short address, by their place
-SAME = 1e-6  # of the places of a piston's two joints
 
 
 @dataclass
@@ -302,7 +302,7 @@ def _sketch(found: Read) -> Sketch:
 def _twin(joint: Joint, joints: Sequence[Joint]) -> Joint | None:
     """The revolute joint of a piston, in the same place as its sliding joint."""
     return next((other for other in joints if other.kind == "R" and {*other.links} & {*joint.links}
-                 and abs(other.at - joint.at) <= SAME * (1 + abs(joint.at))), None)
+                 and abs(other.at - joint.at) <= PISTON_TOL * (1 + abs(joint.at))), None)
 
 
 def _is_ground(links: Sequence[str]) -> bool:

@@ -14,6 +14,7 @@ from itertools import combinations, islice
 
 from graphplan.errors import Refused, SceneError
 from graphplan.importing.sketch import Driven, Sketch, tidied
+from graphplan.importing.tolerances import LINE_TOL
 from graphplan.importing.written import named_links, named_points, scene
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import parse
@@ -143,4 +144,4 @@ def _ended(sketch: Sketch, many: int) -> Iterator[Sketch]:
 
 def _level(sketch: Sketch, link: str) -> tuple[bool, float]:
     one, other = (sketch.places[point] for point in sketch.links[link][:2])
-    return abs((other - one).imag) > 1e-6 * sketch.size, -abs(other - one)
+    return abs((other - one).imag) > LINE_TOL * sketch.size, -abs(other - one)

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import combinations
 
+from graphplan.importing.tolerances import LINE_TOL, PLACE_TOL
 from graphplan.mechanism.model import FRAME
 
 Way = tuple[str, str] | complex
@@ -19,7 +20,6 @@ Way = tuple[str, str] | complex
 
 LARGEST, MOST = 300, 1500  # links, and points that they have together
 FARTHEST = 1e9  # from the origin
-NEAR = 1e-9  # of the sketch: points that rounding alone keeps apart, and pins that lie on a line
 
 
 @dataclass(frozen=True)
@@ -153,7 +153,7 @@ def _join(sketch: Sketch) -> None:
     """Points of one link that coincide are one."""
     for points in [*sketch.links.values()]:
         for one, other in combinations([*points], 2):
-            if one != other and abs(sketch.places[one] - sketch.places[other]) <= NEAR * sketch.size:
+            if one != other and abs(sketch.places[one] - sketch.places[other]) <= PLACE_TOL * sketch.size:
                 _replace_point(sketch, other, one)
 
 
@@ -231,8 +231,8 @@ def _slide(sketch: Sketch) -> None:
     """A pin in a slot carries a block; two pins of a link in one slot let it slide alone."""
     slots = [replace(slot, way=_level(sketch.vector(slot.way)) if slot.along == FRAME else slot.way)
              for slot in sketch.slots if slot.at not in sketch.bodies[slot.along]
-             and abs(sketch.vector(slot.way)) > NEAR * sketch.size]
-    sketch.guides = [guide for guide in sketch.guides if abs(sketch.vector(guide.way)) > NEAR * sketch.size]
+             and abs(sketch.vector(slot.way)) > PLACE_TOL * sketch.size]
+    sketch.guides = [guide for guide in sketch.guides if abs(sketch.vector(guide.way)) > PLACE_TOL * sketch.size]
     while slots:
         slot = slots.pop(0)
         holders = [key for key in sketch.holders(slot.at) if key != slot.along]
@@ -277,7 +277,7 @@ def _guide(sketch: Sketch, link: str, slot: Slot) -> Guide:
 def _on_one_line(sketch: Sketch, slot: Slot, other: Slot) -> bool:
     ahead, size = sketch.vector(slot.way), sketch.size
     across = [sketch.vector(other.way), sketch.places[other.at] - sketch.places[slot.at]]
-    return slot.at != other.at and all(abs((ahead.conjugate() * vector).imag) <= 1e-6 * abs(ahead) * size
+    return slot.at != other.at and all(abs((ahead.conjugate() * vector).imag) <= LINE_TOL * abs(ahead) * size
                                        for vector in across)
 
 

@@ -10,7 +10,8 @@ from fractions import Fraction
 from itertools import count
 
 from graphplan.errors import printable
-from graphplan.importing.sketch import NEAR, Driven, Sketch
+from graphplan.importing.sketch import Driven, Sketch
+from graphplan.importing.tolerances import PLACE_TOL
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene_text import written
 
@@ -82,7 +83,7 @@ def named_points(sketch: Sketch) -> dict[str, str]:
 def _name_there(sketch: Sketch, key: str) -> str:
     """The name of another point in the same place."""
     return next((_name(sketch.names[other]) for other, at in sketch.places.items()
-                 if sketch.names[other] and abs(at - sketch.places[key]) <= NEAR * sketch.size), "")
+                 if sketch.names[other] and abs(at - sketch.places[key]) <= PLACE_TOL * sketch.size), "")
 
 
 def _name(written: str) -> str:

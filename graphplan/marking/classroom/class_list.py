@@ -9,7 +9,7 @@ from statistics import fmean
 from typing import Any
 
 from graphplan.marking.judge.findings import Called, called, complaint, look_at, not_handed_in, opinion, wrong_numbers
-from graphplan.marking.judge.score import KINDS, NOTHING, Score
+from graphplan.marking.judge.score import KINDS, UNJUDGED, Score
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.phrases import Said, arranged, joined, phrase, said
 
@@ -51,7 +51,7 @@ class Marked:
         if self.judgement.first is not None:
             return complaint(self.judgement, self.judgement.first)
         if self.score.total is None:
-            return NOTHING()
+            return UNJUDGED()
         if self.faultless:
             return said("no wrong step")
         return joined((opinion(self.judgement), *look_at(self.judgement)), " ")

@@ -22,6 +22,7 @@ from typing import Any
 from graphplan.accuracy.drafted import Drafted
 from graphplan.errors import Refused
 from graphplan.marking.classroom.flaws import Draw, Flaw, Quality, flaw, sheet_of
+from graphplan.marking.tolerances import SCALE_STEP
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numerals import decimal
 from graphplan.mechanism.scene_text import Tables, edited, with_keys, with_numbers, without_table, written
@@ -204,7 +205,7 @@ class Design:
         composition, given = self.drafted.composition, self.scene.sheet
         own, paper = composition.scales, composition.arrangement.paper
         yield keys_of(self.scene, own, paper)
-        coarser = round_up(own.k_s * (1 + 1e-6), (1, own.kappa, own.kappa**2))
+        coarser = round_up(own.k_s * (1 + SCALE_STEP), (1, own.kappa, own.kappa**2))
         for k_s in dict.fromkeys((own.k_s, own.k_s if given.k_s or given.k_v or given.k_F else float(coarser))):
             scales = replace(own, k_s=k_s)
             free = self.worded(keys_of(self.scene, scales, paper, multiples=False))

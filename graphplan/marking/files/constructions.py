@@ -21,6 +21,7 @@ from xml.etree.ElementTree import Element
 from graphplan.errors import Refused
 from graphplan.marking.files.curves import NEAR
 from graphplan.marking.files.safe import MB, number, tree, unpacked
+from graphplan.marking.tolerances import PARALLEL_TOL
 
 T = TypeVar("T")
 LARGEST = 16 * MB
@@ -32,7 +33,6 @@ LETTERS, LONGEST = 300_000, 2000  # of all terms that are worked out, and of one
 NUMERAL, NAME = r"\d+\.?\d*(?:E[+-]?\d+)?|\.\d+", r"[^\W\d](?:\w|')*(?:\{[^{}]*\}'*)?"
 TOKEN = re.compile(rf"\s*(?:({NUMERAL})|({NAME})|(<=|>=|[-+*/^(),\[\]°<>≤≥]))")
 SIGNS = {"^": "**", "≤": "<=", "≥": ">=", "[": "(", "]": ")", "°": "**degree"}  # in Python's grammar
-PARALLEL = 2.0**-50  # the sine of the angle between lines that is mere rounding
 
 
 class LineValue(NamedTuple):
@@ -65,7 +65,7 @@ def _bisector(one: complex, two: complex) -> LineValue:
 
 def _meet(one: LineValue, two: LineValue) -> complex:
     across = _across(one.along, two.along)
-    if abs(across) <= PARALLEL * abs(one.along) * abs(two.along):
+    if abs(across) <= PARALLEL_TOL * abs(one.along) * abs(two.along):
         raise ValueError("parallel lines do not meet")
     return one.at + one.along * _across(two.at - one.at, two.along) / across
 

@@ -10,13 +10,14 @@ from itertools import pairwise
 from shapely import STRtree
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.marking.tolerances import BULGE_TOL, COLLINEAR_TOL
 from graphplan.marking.traces import Spot, Trace
 
 DOT, SMALL = 1.5, 100  # mm: no compass strikes so small a circle, a pair's symbol has 1.2; nor so small a part of all
 RING = 4  # spots of a whole circle
 HALVED, SQUARED = 0.05, 0.7  # of their length that strokes of a cross may miss their middles; the sine of their angle
 NEAR = 0.01  # how far spots may lie off a line or circle that they are to show, beside its size
-FLAT, FAR_CLOSER = 1e-6, 10  # what bulges less is straight; so many times closer an arc is no line
+FAR_CLOSER = 10  # times: where an arc is so much closer to spots than a line, they show no line
 ROUND = 12  # straight pieces at least that show a circle
 SHORT = 0.5  # mm: a straight piece shorter than this shows no line
 SHARP = math.radians(45)  # the corner of an outline that is as sharp as a tip
@@ -97,7 +98,7 @@ def curved(spots: Sequence[Spot]) -> Trace | None:
     found = circle(*parts[:3])
     off = max(abs(math.dist(spot, found[0]) - found[1]) for spot in spots) if found else math.inf
     bulge = _bulge(spots)
-    if bulge <= NEAR * far and not FLAT * far < bulge > FAR_CLOSER * off:
+    if bulge <= NEAR * far and not BULGE_TOL * far < bulge > FAR_CLOSER * off:
         return Trace(LINE, (spots[0], spots[-1])) if far > SHORT else None
     if found is None or off > NEAR * found[1]:
         return None
@@ -118,7 +119,7 @@ def circle(first: Spot, second: Spot, third: Spot) -> tuple[Spot, float] | None:
     a, b, c = (complex(*spot) for spot in (first, second, third))
     u, v = b - a, c - a
     across = 2 * (u.conjugate() * v).imag
-    if abs(across) <= 1e-12 * abs(u) * abs(v):
+    if abs(across) <= COLLINEAR_TOL * abs(u) * abs(v):
         return None
     z = a + 1j * (v * abs(u) ** 2 - u * abs(v) ** 2) / -across
     return (z.real, z.imag), abs(z - a)

@@ -18,6 +18,7 @@ from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.files.curves import aside, dotted
 from graphplan.marking.files.safe import FARTHEST, TRACES, Budget, on_paper
 from graphplan.marking.spelling import lined
+from graphplan.marking.tolerances import SIZE_TOL
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import SUBSCRIPT, Run, width
 
@@ -107,12 +108,11 @@ def _like_leaders(traces: Sequence[Trace]) -> list[Trace]:
 NO_DRAWING = frozenset({  # layers of graphplan's own sheets with nothing that a construction draws
     "paper", "border", "corner marks", "ruling", "frame", "text", "letters", "results", "ground", "wheels", "drive",
     "motion"})
-ROUNDED = 1e-4  # of a size: as files write their numbers
 
 
 def same_paper(size: tuple[float, float], asked: tuple[float, float] | None) -> bool:
     """Whether one of graphplan's own files is of the size of paper that is asked for, if one is."""
-    return asked is None or all(math.isclose(*pair, rel_tol=ROUNDED) for pair in zip(size, asked, strict=True))
+    return asked is None or all(math.isclose(*pair, rel_tol=SIZE_TOL) for pair in zip(size, asked, strict=True))
 
 
 def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], frames: Frames,

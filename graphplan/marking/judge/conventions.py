@@ -26,6 +26,7 @@ from graphplan.marking.judge.register import SAME_WAY, SIGMAS, Pair, agreed, bes
 from graphplan.marking.judge.student_sheet import Fit
 from graphplan.marking.judge.units import in_mm
 from graphplan.marking.spelling import spelled
+from graphplan.marking.tolerances import LONGER
 from graphplan.marking.traces import PlanFrame, Submission, Trace
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
@@ -40,7 +41,6 @@ SQUARE = 0.15  # radians that a vector may be off a quarter turn
 ROUND = tuple(map(Fraction, (1, 2, 2.5, 4, 5, 8)))  # the numbers that scales are
 CLOSE = 4.0  # standard deviations within which one is meant
 SHORTEST, NEAR = 3.0, 2.0  # mm: the shortest vector that tells a scale; how far off a mark of a plan may be at a glance
-A_LITTLE = 1 + Fraction(1, 10**9)  # a vector that ends just in a point has a mark of its own
 POLES = ("p", "pi", "o", "ov", "pv", "oa", "pa", "o1", "o2", "p1", "p2")  # what the poles of polar plans are called
 SENSES: Mapping[int, tuple[tuple[Said, ...], float]] = {  # by the quarter turns from the task's velocities
     0: ((), 0.0), 2: ((said("velocities turned clockwise"),), TURNED),
@@ -171,7 +171,7 @@ class Proposer:
     def at_tempo(self, size: Fraction, submission: Submission) -> Construction | None:
         """The construction with velocities so many times as long; every one that is marked ends in a mark of its own.
         """
-        for tempo in (size, size * A_LITTLE):
+        for tempo in (size, size * LONGER):
             with suppress(GraphplanError):
                 drawing = self._construct(_at_tempo(self.task.drawing, tempo))
                 if not orphans(drawing, submission):

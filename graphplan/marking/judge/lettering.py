@@ -38,7 +38,7 @@ UNDOTTED = 150  # letters at most about which crossings are sought
 AT_TIP = 1.5  # mm from the end of a leader to what it leads to
 GAP = 0.4  # of their size that letters stand from a mark: a cost of one
 ASTRAY, HALFWAY = 4.0, 1.5  # the cost of a mark that is not where it should be at all; mm that cost half of it
-NOTHING, SHARED, CLAIMED = 12.0, 4.0, 3.0  # the costs of naming nothing, what has a name, what another step should make
+UNNAMED, SHARED, CLAIMED = 12.0, 4.0, 3.0  # the costs of naming nothing, what has a name, what another step should make
 CLEAR = 3.0  # by so much cheaper letters are certainly those of their mark
 FEW = 3  # given points whose crossings tell where the mechanism lies
 HELD = 8.0  # standard deviations within which letters agree on a frame
@@ -182,7 +182,7 @@ class Letters:
 
     def told(self) -> Submission:
         """The drawing with the names of its marks."""
-        found = assigned([self._weighed(one) for one in self.words], NOTHING, SHARED)
+        found = assigned([self._weighed(one) for one in self.words], UNNAMED, SHARED)
         names: dict[int, list[tuple[str, bool]]] = {}
         for one, place in zip(self.words, found, strict=True):
             if place is not None:

@@ -23,7 +23,7 @@ from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
 POSE, FORCE, RESULTS = "pose", "force", "results"
 MOST, ALL = 1000.0, 100.0  # of a weight; of a score, and of what a mistake may cost
 LEAST = {"right": 0.001, "numbers": 0.0}  # what is right earns something; other verdicts may cost something
-NOTHING = phrase("nothing to judge")
+UNJUDGED = phrase("nothing to judge")
 GROUPS: Mapping[str, Phrase] = {
     POSE: phrase("given points"), VELOCITY: phrase("velocity"), ACCELERATION: phrase("acceleration"),
     FORCE: phrase("force"), RESULTS: phrase("results"),
@@ -104,7 +104,7 @@ class Score:
     def told(self) -> Said:
         """In words, group by group, and what mistakes cost."""
         if self.total is None:
-            return arranged("{0:capital}.", NOTHING())
+            return arranged("{0:capital}.", UNJUDGED())
         parts = [arranged("{0} {1}", GROUPS[group](), f"{share:.0f}") for group, share in self.groups.items()]
         parts += [arranged("{0} −{1}", KINDS[kind](), f"{cost:.0f}") for kind, cost in self.costs.items()]
         return said("Score: {0} of 100 ({1}).", f"{self.total:.0f}", joined(parts))

@@ -21,6 +21,7 @@ from graphplan.accuracy.pencil import Pencil, SeenPencil
 from graphplan.kernel.kinds import Movement
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.student_sheet import StudentSheet
+from graphplan.marking.tolerances import VARIANCE_FLOOR
 from graphplan.marking.traces import Submission, Trace
 
 SCALES = np.geomspace(0.4, 4.0, 24)  # how many times as unsteady as the stated pencil a hand may be
@@ -70,7 +71,7 @@ def _likelihood(samples: Sequence[Sample], scales: Any, reads: Any) -> Any:
     off, hand, reading = (np.array(part) for part in zip(*samples, strict=True))
     wide = off.shape[1]
     covariance = (scales**2)[:, None, None, None, None] * hand + reads[:, None, None, None] * reading[None]
-    covariance = covariance + 1e-9 * np.eye(wide)
+    covariance = covariance + VARIANCE_FLOOR * np.eye(wide)
     squares = np.einsum("...i,...i", off, np.linalg.solve(covariance, np.broadcast_to(
         off[..., None], (*covariance.shape[:-1], 1)))[..., 0])
     density = np.exp(-squares / 2) / np.sqrt((2 * math.pi) ** wide * np.linalg.det(covariance))

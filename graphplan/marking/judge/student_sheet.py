@@ -24,13 +24,13 @@ from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.kernel.program import Step
+from graphplan.marking.tolerances import BOUND_TOL, VARIANCE_TOL
 from graphplan.marking.traces import PlanFrame, Trace
 from graphplan.methods.construction import Construction
 from graphplan.sheet.plates.plans import Plans
 
 FRAME_ERRORS, SPOT_ERRORS = 4, 6  # of a plan: its turn, scale and place; of a trace: each of up to three spots
 SHORT_ARC = math.radians(60)  # of a shorter arc only the radius is measured, not the centre
-FLAT = 1e-9  # of the largest variance: a smaller one is none
 NONE = np.finfo(float).tiny
 LEAST, SHARE, MOST = 3.0, 0.1, 15.0  # a pencil coarser than the usual one hides this share of a plan's diagonal, mm
 
@@ -45,7 +45,7 @@ SURVIVAL: dict[int, Callable[[float], float]] = {  # how often a sum of n square
 def bound(freedoms: int, chance: float) -> float:
     """The sum of as many squares of normal deviates that is only so seldom surpassed."""
     low, high = 0.0, 1000.0
-    while high - low > 1e-6:
+    while high - low > BOUND_TOL:
         middle = (low + high) / 2
         low, high = (middle, high) if SURVIVAL[freedoms](middle) > chance else (low, middle)
     return high
@@ -68,7 +68,7 @@ class Residual:
         if len(self.off) == 1:
             return np.maximum(self.covariance[0], NONE), self.off
         variances, axes = np.linalg.eigh(self.covariance)
-        return np.maximum(variances, max(FLAT * variances[-1], NONE)), axes.T @ self.off
+        return np.maximum(variances, max(VARIANCE_TOL * variances[-1], NONE)), axes.T @ self.off
 
     @property
     def square(self) -> float:
@@ -85,7 +85,7 @@ class Residual:
     def tolerance(self, chance: float) -> float:
         """How far off it might be this way, in mm; of no deviation, on the average."""
         most, square = bound(len(self.off), chance), self.square
-        if square > FLAT and self.size > 0:
+        if square > VARIANCE_TOL and self.size > 0:
             allowed = self.size * math.sqrt(most / square)
         else:
             allowed = math.sqrt(most * float(np.mean(self._parts[0])))

@@ -29,6 +29,7 @@ from graphplan.marking.judge.student_sheet import PointResidual, Residual, apart
 from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNSURE, WRONG, Ellipse, NumberVerdict, Verdict
 from graphplan.marking.spelling import bare
 from graphplan.marking.tables.results import in_scene_units, scene_unit
+from graphplan.marking.tolerances import FIGURE_TOL
 from graphplan.marking.traces import Number
 from graphplan.mechanism.units import HEADING
 from graphplan.methods.recorded import Reading
@@ -37,7 +38,6 @@ from graphplan.phrases import Said, digits, said
 CLOSEST = 16  # how many mistakes are looked at closely
 FARTHER, RARER = 4.0, 0.5  # what each step back in the drawing, and each place down the table, adds to a sum of squares
 READ = 2.0  # the error of a length read on paper, beside that of a pricked point: both its ends are read
-ROUNDED = 1e-3  # the part of a number that may be lost by rounding it
 FACTORS = (10.0, 0.1, 100.0, 0.01, 1000.0, 0.001, 2.0, 0.5, 9.81, 1 / 9.81, math.tau, 1 / math.tau, 60.0 / math.tau,
            math.tau / 60.0, 180.0 / math.pi, math.pi / 180.0)  # powers of ten, halves, and units that are confused
 Key = tuple[str, str]
@@ -193,7 +193,7 @@ class Expected:
         """How far a value is from it, in its own unit."""
         partials = np.array([matching.sheet.domain.partials(part) for part in self.parts])
         steady = np.array(plain(self.parts))
-        rounded = ROUNDED * float(np.max(np.abs(steady)))
+        rounded = FIGURE_TOL * float(np.max(np.abs(steady)))
         covariance = partials @ partials.T + (self.reading**2 + rounded**2) * np.eye(len(steady))
         return (PointResidual if len(steady) == 2 else Residual)(np.array(value) - steady, covariance)
 

@@ -18,6 +18,7 @@ from shapely import LineString, STRtree, points
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.scans.image import Spots
 from graphplan.marking.scans.pencil_pixels import Ink, Ridges
+from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.marking.traces import Spot, Trace
 
 WIDE = 0.25  # mm: half a dot, by which the picture is smoothed
@@ -62,7 +63,7 @@ def _weighed(ink: Ink, row: int, column: int) -> Trace:
     columns = slice(max(0, column - reach), column + reach + 1)
     patch = ink.dark[rows, columns].astype(float)
     y, x = np.mgrid[rows, columns][:, : patch.shape[0], : patch.shape[1]]
-    weight = patch / max(patch.sum(), 1e-9)
+    weight = patch / max(patch.sum(), MIN_DIVISOR)
     at = ink.spots(np.array([[(weight * x).sum(), (weight * y).sum()]]))[0]
     wide = math.sqrt((weight * ((x - column) ** 2 + (y - row) ** 2)).sum() / 2) / ink.scale
     return Trace(POINT, ((float(at[0]), float(at[1])),), blur=wide / 10)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from graphplan.marking.scans.image import Light, Spots, deviation
 from graphplan.marking.scans.printed_ink import words
+from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.sheet.plates.display import Sheet
 
 COARSE, LIGHTEST, WIDE = 4, 5, 31  # how much coarser light is estimated; of those pixels: lines left out, and its reach
@@ -146,7 +147,7 @@ def _crests(ink: Ink, smooth: NDArray[np.float32], row: NDArray[np.intp], column
     angle = 0.5 * np.arctan2(2 * xy, xx - yy) + np.pi / 2  # of the direction in which it falls off fastest
     nx, ny = np.cos(angle), np.sin(angle)
     across = xx * nx**2 + 2 * xy * nx * ny + yy * ny**2
-    off = -(gx * nx + gy * ny) / np.minimum(across, -1e-9)
+    off = -(gx * nx + gy * ny) / np.minimum(across, -MIN_DIVISOR)
     crest = (across < 0) & (np.abs(off * nx) < PART) & (np.abs(off * ny) < PART)
     pixels = np.column_stack([column + off * nx, row + off * ny])[crest]
     normals = np.column_stack([nx, -ny])[crest]

@@ -27,6 +27,7 @@ from graphplan.marking.scans.image import Grey, Light, contrast, pictures, small
 from graphplan.marking.scans.pencil_pixels import CLEAR, Ink, Ridges, clear, pencil_ink, ridges
 from graphplan.marking.scans.printed_ink import picture
 from graphplan.marking.scans.straighten import Registered, Warp, straighten
+from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.marking.traces import Frames, Spot, Submission, Trace
 from graphplan.sheet.plates.display import Sheet
 
@@ -158,7 +159,7 @@ class PencilPage:
         middle, at = np.array(centre), np.asarray(spots, float)
         aim = math.atan2(*(at.mean(axis=0) - middle)[::-1])
         out = self.found.spots - middle
-        far = np.maximum(np.hypot(out[:, 0], out[:, 1]), 1e-9)
+        far = np.maximum(np.hypot(out[:, 0], out[:, 1]), MIN_DIVISOR)
         along = strokes.turned(out, aim) * radius
         reach = np.abs(strokes.turned(at - middle, aim)).max() * radius + BEYOND
         square = np.abs((out * self.found.normals).sum(axis=1)) > math.cos(math.radians(ASKEW)) * far

@@ -19,6 +19,7 @@ from shapely import LinearRing
 from graphplan.errors import Refused
 from graphplan.marking.scans.image import Grey, Light, Spots, deviation
 from graphplan.marking.scans.printed_ink import Pieces, pieces
+from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.sheet.frames.corner_marks import numbers, places
 from graphplan.sheet.plates.display import Rect, Sheet
 
@@ -279,14 +280,14 @@ def _shifts(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> tuple[Spot
     best = np.clip(match.argmax(axis=1), 1, match.shape[1] - 2)
     row = np.arange(len(match))
     left, top, right = (match[row, best + i] for i in (-1, 0, 1))
-    part = (left - right) / np.minimum(2 * (left - 2 * top + right), -1e-9)
+    part = (left - right) / np.minimum(2 * (left - 2 * top + right), -MIN_DIVISOR)
     return (best + np.clip(part, -1, 1) - match.shape[1] // 2) * STEP, top
 
 
 def _overdrawn(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> NDArray[np.bool_]:
     """Which profiles are as dark as print wherever print is: a pencil drawn along it hides its pattern, not its ink."""
     ink = ideal.max(axis=1, keepdims=True, initial=0.0) - ideal
-    light = (ink * seen).sum(axis=1) / np.maximum(ink.sum(axis=1), 1e-9)
+    light = (ink * seen).sum(axis=1) / np.maximum(ink.sum(axis=1), MIN_DIVISOR)
     return np.asarray(light < BLACK * seen.max(axis=1, initial=0.0))
 
 
@@ -301,7 +302,7 @@ def _fitted(warp: Warp, pieces: Pieces, shift: Spots, good: NDArray[np.bool_],
     trust = good * pieces.halves
     weight, left = trust, np.zeros(len(shift))
     for _ in range(6):
-        normal = design.T @ (design * weight[:, None]) + np.diag((STIFF * hold + 1e-9) * max(weight.sum(), 1.0))
+        normal = design.T @ (design * weight[:, None]) + np.diag((STIFF * hold + MIN_DIVISOR) * max(weight.sum(), 1.0))
         solution = np.linalg.solve(normal, design.T @ (weight * wanted))
         left = wanted - design @ solution
         weight = trust * np.clip(1 - (left / allowed) ** 2, 0, None) ** 2

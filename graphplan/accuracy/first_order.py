@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.accuracy.hand import Hand
+from graphplan.accuracy.tolerances import ZERO_TOL
 from graphplan.check.compared import each
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.arrays import Arrays
@@ -36,7 +37,6 @@ from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.tables import Deviation
 
-ROUNDING = 1e-12  # beside the error: a kind whose largest value is smaller is nothing
 HANDS = 4000  # the scatter is then known to about one part in a hundred
 SEED = 1939
 
@@ -88,7 +88,7 @@ def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Resu
         shares = np.bincount(owner, squares, len(hand.slips))
         thing = thing_named(drawing.scene, reading.kind, reading.of)
         group, arm = _group(drawing.scene, reading.kind)
-        beside = arm * off / largest[group] if largest[group] > ROUNDING * arm * off else None
+        beside = arm * off / largest[group] if largest[group] > ZERO_TOL * arm * off else None
         found.append(Result(reading.kind, reading.of, thing, Deviation(off, off / of_mm if of_mm else None), beside,
                             tuple(shares.tolist())))
     return tuple(found)
@@ -154,7 +154,6 @@ def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, fl
 def _group(scene: Scene, kind: ResultKind) -> tuple[str, float]:
     """What a kind is seen beside, and at what arm."""
     return "place" if kind.dimension in (LENGTH, PLACE) else kind.group, float(kind.arm(scene.extent, scene.units))
-
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from graphplan.accuracy.tolerances import MIN_SIZE
 from graphplan.cycle.relations import Relations, relations
 from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.kinds import LINE, POINT
@@ -265,7 +266,7 @@ def _sense(drawing: Construction, compound: Compound) -> int:
 
 def _one(kind: str, value: Any, truth: Any, args: Any) -> Array:
     """Where two marks are one, beside the marks that they were made from."""
-    size: Array = 1e-12
+    size: Array = MIN_SIZE
     for arg in args:
         if len(arg) == 2:
             size = np.maximum(size, np.hypot(arg[0], arg[1]))
@@ -276,5 +277,5 @@ def _one(kind: str, value: Any, truth: Any, args: Any) -> Array:
     if kind == POINT:
         size = np.maximum(size, np.hypot(truth[0], truth[1]))
         return np.hypot(value[0] - truth[0], value[1] - truth[1]) <= MARK_TOL * size
-    return np.all([np.abs(p - q) <= MARK_TOL * np.maximum(1e-12, np.abs(q)) for p, q in zip(value, truth, strict=True)],
-                  axis=0)
+    return np.all([np.abs(p - q) <= MARK_TOL * np.maximum(MIN_SIZE, np.abs(q))
+                   for p, q in zip(value, truth, strict=True)], axis=0)

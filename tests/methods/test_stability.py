@@ -25,7 +25,8 @@ from graphplan.accuracy.survey.degeneracies import (
     Degeneracy,
 )
 from graphplan.accuracy.survey.problem import Results, largest_error
-from graphplan.accuracy.survey.stability import COMPUTED, DRAWN, EPSILON, MOST, SHEET, SOLVE, Pose, as_drawn, samples
+from graphplan.accuracy.survey.stability import COMPUTED, DRAWN, MOST, SHEET, SOLVE, Pose, as_drawn, samples
+from graphplan.accuracy.tolerances import EPSILON
 from graphplan.check.arithmetics import Exact
 from graphplan.check.report import opinion
 from graphplan.check.trusted import report

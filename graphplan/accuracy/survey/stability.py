@@ -22,6 +22,7 @@ from graphplan.accuracy.pencil import Pencil
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES, FALSE, ORTHOGONAL, POLAR, POLES, WAYS, Degeneracy
 from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, SubChart, grouped
 from graphplan.accuracy.survey.problem import Results, largest_error
+from graphplan.accuracy.tolerances import EPSILON, MIN_ERROR
 from graphplan.check.arithmetics import Exact
 from graphplan.check.compared import UNBOUNDED
 from graphplan.check.report import Opinion, opinion
@@ -40,7 +41,6 @@ from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED, VIOLET
 from graphplan.sheet.plates.plans import Plans
 from graphplan.solver import reactions, solve
 
-EPSILON = 2.0**-52
 DISTANCES = (*(10.0 ** (-k / 2) for k in range(33)), 0.0)  # 1, 0.3, 0.1, ... 1e-16, and the special pose itself
 ACROSS = 250.0  # mm: how large each plan is drawn by pencil
 
@@ -222,9 +222,9 @@ LOOKS = {VALUE: Look(GREEN, "diamond", True, 1.3, 0.2), SOLVER: Look(VIOLET, "pl
          SOLVE: Look(INK, width=0.7)}
 APART = 30.0  # times: by so much is a way worse than another
 TINTS = "#f2f2f2", "#dcdcdc", "#c8c8c8", "#b4b4b4"
-LEAST, BEYOND = 1e-17, "0"
+BEYOND = "0"
 ERROR = Axis("", before=((SOLVE, SOLVE), (SHEET, "sheet")), after=(("0", "not drawn"), ("1", "")), pitch=3.4,
-             shows=(LEAST, 1.0), beside=((1.0, "100 mm"), (1e-2, "1 mm"), (1e-4, "10 µm"), (1e-8, "1 nm")))
+             shows=(MIN_ERROR, 1.0), beside=((1.0, "100 mm"), (1e-2, "1 mm"), (1e-4, "10 µm"), (1e-8, "1 nm")))
 DISTANCE = Axis("distance d from the special pose", falling=True, after=((">", ""), (BEYOND, BEYOND), ("<", "")))
 REMARKS = (
     "Each picture approaches a special pose, d = 0 at the right. Upwards: the largest error of any number, relative to "
@@ -251,7 +251,7 @@ def _panel(sweep: Degeneracy, rows: Sequence[Sample]) -> SubChart:
     """One way to a special pose: what it must cost, each way's error, and below what serves."""
     told = {(row.way, row.how, row.distance): row for row in rows}
     distances = sorted({row.distance for row in rows}, reverse=True)
-    errors = {(way, how): {d: max(error, LEAST) for d in distances
+    errors = {(way, how): {d: max(error, MIN_ERROR) for d in distances
                            if (row := told.get((way, how, d))) and (error := row.error) is not None}
               for way, how in {(row.way, row.how): 0 for row in rows}}
 

@@ -8,6 +8,8 @@ from statistics import quantiles
 from time import perf_counter
 from typing import TypeVar
 
+from graphplan.accuracy.tolerances import TIMER_TICK
+
 ROUNDS = 5
 LONG_ENOUGH = 2e-3  # seconds: shorter runs are repeated within one measurement
 
@@ -34,7 +36,7 @@ def alternated(runs: Mapping[Key, Callable[[], object]], rounds: int = ROUNDS,
 
     Every run is called beforehand, to warm up and to find how often.
     """
-    repeats = {name: math.ceil(least / max(_warm(run, least), 1e-9)) for name, run in runs.items()}
+    repeats = {name: math.ceil(least / max(_warm(run, least), TIMER_TICK)) for name, run in runs.items()}
     found: dict[Key, list[float]] = {name: [] for name in runs}
     for done in range(rounds):
         told(done)

@@ -34,6 +34,7 @@ from graphplan.methods.panels import (
 )
 from graphplan.methods.recorded import Recorded
 from graphplan.methods.results import Given
+from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Phrase, Said, said
 
 if TYPE_CHECKING:
@@ -146,7 +147,8 @@ class Construction(Recorded, Given):
         for step in program.steps:
             if step.op.gives == POINT:
                 points.setdefault(step.panel, []).append(truth[step.index])
-        windows = {panel: _window(own) for panel, own in points.items()}
+        least = EXTENT_TOL * float(self.scene.extent)
+        windows = {panel: _window(own, least) for panel, own in points.items()}
         keep = STRICT if self.strict else BY_SET_SQUARE
         return Expander(program, truth, keep, windows, self.prefer, self.scene.extent, self._faithful.better)
 
@@ -370,8 +372,9 @@ PLAIN: dict[tuple[str, str], Said] = {
 }
 
 
-def _window(points: Iterable[tuple[float, float]]) -> Window:
-    """The sheet around a panel: about as much again as these points, which no form has a choice about."""
+def _window(points: Iterable[tuple[float, float]], least: float) -> Window:
+    """The sheet around a panel: about as much again as these points, which no form has a choice about; no
+    smaller than the least, where they coincide."""
     xs, ys = zip(*points, strict=True)
     centre = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
-    return Window(centre, 1.25 * max(max(xs) - min(xs), max(ys) - min(ys), 1e-9 * (abs(centre[0]) + 1)))
+    return Window(centre, 1.25 * max(max(xs) - min(xs), max(ys) - min(ys), least))

@@ -163,7 +163,7 @@ def moved(machine: Driven, omega: float, start: float, end: float) -> TrueMotion
 def _inside(machine: Driven, start: float, end: float) -> None:
     """Refuse a travel that leaves the span of a machine that does not turn."""
     last = machine.begin + machine.period
-    if not machine.closed and not machine.begin <= start < end <= last * (1 + TRAVEL_TOL):
+    if not machine.closed and not machine.begin <= start < end <= last + TRAVEL_TOL * machine.period:
         raise Refused("the motion", f"it would go from {machine.told(start)} to {machine.told(end)}, and is known from "
                       f"{machine.told(machine.begin)} to {machine.told(last)}", "a travel within (--travel)")
 

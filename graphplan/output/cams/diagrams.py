@@ -19,7 +19,7 @@ from graphplan.cams.law import HARD, SOFT, Stretch
 from graphplan.cams.profile import Cam
 from graphplan.kernel.program import Panel
 from graphplan.output.graphs import AXIS, CURVES, DIVISION, Figures, Graph, scale_words
-from graphplan.output.tolerances import BASE_TOL, OFFSET_TOL, RANGE_TOL, STILL_RANGE, STILL_RATE
+from graphplan.output.tolerances import BASE_TOL, OFFSET_TOL, RANGE_TOL, STILL_RATE
 from graphplan.phrases import Said, arranged, digits, phrase, said, unit
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import CAPS, Run
@@ -46,12 +46,14 @@ SHARE = 0.09  # of the curve's size, left free about it
 
 @dataclass(frozen=True)
 class Diagram:
-    """A quantity over the turn: its letter, unit and pen, and its values at angles on a piece of the law."""
+    """A quantity over the turn: its letter, unit and pen, its values at angles on a piece of the law, and of which size
+    these are."""
 
     letter: str
     measure: str
     pen: Pen
     values: Callable[[Any, Stretch], Any]
+    size: float
     order: int = 0
 
 
@@ -63,19 +65,25 @@ def diagrams(cam: Cam) -> list[Diagram]:
     units = "°" if turns else length, *(f"{whole}/s{power}" for power in ("", "²", "³"))
     letters = ("psi", "omega", "epsilon", "j") if turns else ("s", "v", "a", "j")
 
-    def rate(order: int) -> Callable[[Any, Stretch], Any]:
+    def rate(order: int) -> Diagram:
         factor = 1.0 if order == 0 else cam.law.times * omega**order
-        return lambda angles, one: factor * one.at(angles, order)
+        return Diagram(letters[order], units[order], CURVES[order], lambda angles, one: factor * one.at(angles, order),
+                       abs(factor) * lift(cam), order)
 
-    found = [Diagram(letters[k], units[k], CURVES[k], rate(k), k) for k in range(4)]
+    found = [rate(order) for order in range(4)]
     if isinstance(cam.pair, Rolled):
         found.append(Diagram("theta", "°", CURVES[4],
-                             lambda angles, one: np.degrees(cam.touched(one, angles).pressure)))
+                             lambda angles, one: np.degrees(cam.touched(one, angles).pressure), 1.0))
     else:
         most = RADII * cam.pair.base
         found.append(Diagram("rho", length, CURVES[4],
-                             lambda angles, one: np.minimum(cam.touched(one, angles).radius, most)))
+                             lambda angles, one: np.minimum(cam.touched(one, angles).radius, most), cam.pair.base))
     return found
+
+
+def lift(cam: Cam) -> float:
+    """The largest lift, as the task gives it."""
+    return cam.law.largest(0) / cam.law.times
 
 
 @dataclass(frozen=True)
@@ -107,9 +115,11 @@ class Paper(Figures):
                  for angles in [piece.divided(SAMPLES)]]
         (top, most), (foot, depth) = law.extremum(one.values), law.extremum(lambda a, piece: -one.values(a, piece))
         low, high = min(0.0, -depth), max(0.0, most)
-        still, hard = high - low < STILL_RANGE, one.order == SOFT and any(jump.order == HARD for jump in law.jumps)
+        still = high - low <= RANGE_TOL * one.size
+        hard = one.order == SOFT and any(jump.order == HARD for jump in law.jumps)
         if still or hard:
-            low, high = -max(high, -low, float(still)), max(high, -low, float(still))
+            high = max(high, -low, one.size if still else 0.0)
+            low = -high
         graph = Graph.fitted(rect, (0.0, 360.0), (low, high))
         at = graph.at
         yield from self.abscissa(graph)
@@ -175,7 +185,7 @@ class Paper(Figures):
         yield Polyline(AXIS, "ruling", None, tuple(at(complex(z)) for _, A, _ in pieces for z in A))
         for one, A, E in pieces:
             moving = one.at((float(one.start) + float(one.end)) / 2, 1)
-            if abs(moving) < STILL_RATE:
+            if abs(moving) <= STILL_RATE * lift(self.cam):
                 continue
             pen = RISE if moving > 0 else BACK
             for k in range(0, SAMPLES + 1, 10):

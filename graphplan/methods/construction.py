@@ -349,11 +349,15 @@ class Construction(Recorded, Given):
             kind: named for kind, named in self.read(Floats(), given).items() if kind in kinds}
 
     @cached_property
+    def computed(self) -> dict[str, dict[str, Any]]:
+        """All readings in floats, right to the last digits near singular poses too, by kind and name."""
+        return self.read_off(self._faithful.values, Floats())
+
+    @cached_property
     def _results(self) -> dict[str, dict[str, Any]]:
-        """All readings in floats, by kind and name: complex numbers for vectors."""
-        found = self.read(Floats())
+        """The same with complex numbers for vectors."""
         return {kind: {name: complex(*value) if isinstance(value, tuple) else value for name, value in named.items()}
-                for kind, named in found.items()}
+                for kind, named in self.computed.items()}
 
     def named(self, kind: str) -> dict[str, Any]:
         return self._results.get(kind, {})

@@ -64,8 +64,11 @@ class Recorded:
         `given` overrides numbers of steps, by name or index: such as the coordinates of points; `after` is called
         after each step.
         """
-        values, origin = about_origin(self.program, domain, given, after), self.program.origin
-        found = self.told([values[index] for index in self.program.wanted], domain)
+        return self.read_off(about_origin(self.program, domain, given, after), domain)
+
+    def read_off(self, values: Sequence[Any], domain: Domain) -> dict[str, dict[str, Any]]:
+        """All readings from the value of every step about the program's origin."""
+        origin, found = self.program.origin, self.told([values[index] for index in self.program.wanted], domain)
         return found if origin is None else {
             kind: {of: origin.point(domain, at) if kind_of(kind).dimension == units.PLACE else at
                    for of, at in named.items()} for kind, named in found.items()}

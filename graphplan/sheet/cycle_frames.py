@@ -51,6 +51,11 @@ class Posed(Construction):
         """All readings in this pose."""
         return super().read(domain, self.given)
 
+    @property
+    def computed(self) -> dict[str, dict[str, Any]]:  # type: ignore[override]
+        """The same in floats."""
+        return self.read(Floats())
+
 
 def posed(construction: Construction, points: Mapping[str, complex], guides: Mapping[str, complex],
           loads: Mapping[str, Any] | None = None) -> Posed | None:

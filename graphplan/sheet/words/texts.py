@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.stages import Equation
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import CENTRE, INFLECTION, MOTION_POLE, POLE, POLE_HEADING, WORDS
@@ -67,7 +66,7 @@ class Words:
     @cached_property
     def values(self) -> Mapping[str, Mapping[str, Any]]:
         """What the construction reads off, by kind and name."""
-        return settled(self.drawing.read(Floats()), self.drawing.scene.extent)
+        return settled(self.drawing.computed, self.drawing.scene.extent)
 
     def rows(self, wide: float, scales: Scales, pencil: Deviations) -> list[TextRow]:
         """Everything, for a column of this width; `pencil` are the expected drawing errors where they are told."""

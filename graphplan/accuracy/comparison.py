@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -13,6 +14,7 @@ from graphplan.accuracy.preference import Form
 from graphplan.kernel.kinds import DIVIDERS, SET_SQUARES
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import digits
+from graphplan.sheet.words.tables import Deviation
 
 WIDTH = 118
 COUNTED = "form", "sheet", "steps", "operations", "lines", "arcs"
@@ -76,12 +78,13 @@ class Comparison:
         if worst is None:
             return name, *[""] * (len(OFF) - 1 + 2 * bool(self.hands))
         own, mm = worst.deviation.value, worst.deviation.mm
-        row = (name, worst.named, percent(one.error), f"{digits(own, 2)} {worst.unit(self.scene)}",
-               "" if mm is None else digits(mm, 2), one.named(worst.worst_step))
+        row = (name, worst.named, percent(one.error), f"{Deviation(own).told} {worst.unit(self.scene)}",
+               "" if mm is None else Deviation(mm).told, one.named(worst.worst_step))
         if not self.hands:
             return row
         scatter = sampled(one.drawing, one.hand, self.hands)
-        ratio = f"×{digits(scatter.results[worst.kind][worst.of].deviation / own, 3)}" if own else ""
+        off = scatter.results[worst.kind][worst.of].deviation
+        ratio = f"×{digits(off / own, 3)}" if 0 < own < math.inf else ""
         return *row, ratio, percent(scatter.missed)
 
 

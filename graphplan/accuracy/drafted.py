@@ -18,7 +18,7 @@ from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
-from graphplan.phrases import Said, arranged, digits, joined, said
+from graphplan.phrases import Said, arranged, joined, said
 from graphplan.sheet.layout.composition import Composer, Composition
 from graphplan.sheet.words.tables import Deviation, Deviations
 from graphplan.words.tongue import ENGLISH, Tongue
@@ -130,6 +130,10 @@ class Errors:
         model = said("± is the standard deviation of a drawing with {0}; in brackets mm of paper.", self.pencil.told)
         if self.worst is None or not self.error:
             return model
+        if math.isinf(self.error):
+            flat = said("No pencil follows what – is told of: curves cross too flat, most of all at {0}.",
+                        self.named(self.worst.worst_step))
+            return joined((model, flat), " ")
         worst = said("Worst: {0}, {1} of the largest; most of it comes from {2}.", self.worst.named,
                      percent(self.error), self.named(self.worst.worst_step))
         return joined((model, worst), " ")
@@ -168,7 +172,7 @@ class Drafted(Errors):
             off.setdefault(result.kind, []).append(joined((result.thing, arranged("±{0}", result.deviation.told)), " "))
         told = [joined((kind.words, joined(found)), ": ") for kind, found in off.items()]
         controls = control_errors(self.drawing, self.hand, self.composition.scales)
-        told += [said("control of link {0}: ±{1} mm", control.link, digits(mm, 2)) for control, mm in controls]
+        told += [said("control of link {0}: ±{1} mm", control.link, Deviation(mm).told) for control, mm in controls]
         return [*self.cost.lines(), said("Drawing errors on {0}: {1}", self.paper, self.told), *told]
 
     @property
@@ -177,8 +181,8 @@ class Drafted(Errors):
         results: dict[str, dict[str, Any]] = {}
         for result in self.results:
             results.setdefault(result.kind, {})[result.of] = {
-                "mm": result.deviation.mm, "value": result.deviation.value, "relative": result.relative,
-                "worst step": self._step(result.worst_step),
+                "mm": _known(result.deviation.mm), "value": _known(result.deviation.value),
+                "relative": _known(result.relative), "worst step": self._step(result.worst_step),
             }
         step = self._step(self.worst.worst_step) if self.worst else None
         return {"model": self.pencil.model, "paper": self.paper, "results": results,
@@ -189,7 +193,7 @@ class Drafted(Errors):
         whole = sum(worst.shares) or 1.0
         order = sorted(range(len(worst.shares)), key=lambda index: -worst.shares[index])
         shares = [{**self._step(index), "share": worst.shares[index] / whole} for index in order if worst.shares[index]]
-        return {"kind": worst.kind, "of": worst.of, "relative": worst.relative, "shares": shares}
+        return {"kind": worst.kind, "of": worst.of, "relative": _known(worst.relative), "shares": shares}
 
     def _step(self, index: int) -> dict[str, Any]:
         drawn, say = self.drawing.drawn, self.composition.plans.tongue
@@ -198,8 +202,13 @@ class Drafted(Errors):
 
 
 def percent(part: float) -> Said:
-    """A part of a whole, in at most two digits."""
-    return arranged("{0} %", digits(100 * part, 2))
+    """A part of a whole, in at most two digits; a dash where it has no bound."""
+    return arranged("{0} %", Deviation(100 * part).told)
+
+
+def _known(error: float | None) -> float | None:
+    """An error as data; None where it has no bound."""
+    return None if error is None or math.isinf(error) else error
 
 
 def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,
@@ -227,4 +236,5 @@ def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,
 
 def _brief(result: Result) -> Result:
     """A result whose error is told in one figure, or in two of which one is in mm."""
-    return replace(result, deviation=Deviation(1.0, None if result.deviation.mm is None else 1.0))
+    known = 1.0 if math.isfinite(result.deviation.value) else math.inf
+    return replace(result, deviation=Deviation(known, None if result.deviation.mm is None else known))

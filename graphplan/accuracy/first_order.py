@@ -2,7 +2,8 @@
 
 Each slip of the hand counts with the square of its standard deviation times the result's derivative by it; so each
 step has its share of a result's variance. A vector's error is the root mean square distance of its drawn end. On paper
-a turning's is what it makes of the relative vector that it is read off; a moment is not read off one vector.
+a turning's is what it makes of the relative vector that it is read off; a moment is not read off one vector. Where
+curves cross so flat that floats have no derivatives, the errors of what hangs on them have no bound: they are infinite.
 
 Many hands that draw the same construction leave nothing of second order out. Where all crossings are good they scatter
 as the first order says. Where curves cross too flat for the pencil, some do not get them to meet, and the others
@@ -14,6 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -44,7 +46,8 @@ SEED = 1939
 @dataclass(frozen=True)
 class Result:
     """The expected error of one reading: in its own unit and in mm, beside the largest value of its kind where there
-    is any, and the share of each drawn step in its variance."""
+    is any, and the share of each drawn step in its variance. An error without bound is shared by the steps that no
+    pencil follows."""
 
     kind: ResultKind
     of: str
@@ -72,6 +75,10 @@ class Result:
         return max(range(len(self.shares)), key=self.shares.__getitem__)
 
 
+UNBOUNDED = np.errstate(all="ignore")  # errors without bound are infinite, and nothing to warn of
+
+
+@UNBOUNDED
 def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Result, ...]:
     """The expected error of every result, as the hand draws the construction at these scales."""
     domain, values = _slipped(hand)
@@ -81,14 +88,18 @@ def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Resu
     for reading, _, value in readings(drawing, values, domain):
         if not reading.marks:
             continue  # it is given, not drawn
-        squares = np.sum([domain.partials(part) ** 2 for part in each(value)], axis=0)
+        squares = _squares(domain, value)
         off = math.sqrt(float(np.sum(squares)))
+        if math.isinf(off):
+            squares = np.isinf(squares)
         wanted = [drawing.drawn.wanted[position] for position in reading.marks]
         of_mm = _of_mm(reading.kind, [hand.values[index] for index in wanted], scales, plan_of_step[wanted[-1]])
         shares = np.bincount(owner, squares, len(hand.slips))
         thing = thing_named(drawing.scene, reading.kind, reading.of)
         group, arm = _group(drawing.scene, reading.kind)
-        beside = arm * off / largest[group] if largest[group] > ZERO_TOL * arm * off else None
+        beside = math.inf if math.isinf(off) else None
+        if largest[group] > ZERO_TOL * arm * off:
+            beside = arm * off / largest[group]
         found.append(Result(reading.kind, reading.of, thing, Deviation(off, off / of_mm if of_mm else None), beside,
                             tuple(shares.tolist())))
     return tuple(found)
@@ -96,27 +107,38 @@ def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Resu
 
 def _slipped(hand: Hand) -> tuple[Gradients, list[Any]]:
     """What the hand draws, with its derivatives by each slip."""
-    starts = np.concatenate(([0], np.cumsum([len(slips) for slips in hand.slips], dtype=int)))
-    domain = Gradients(int(starts[-1]))
+    starts = [0, *accumulate(map(len, hand.slips))]
+    domain = Gradients(starts[-1])
 
     def errors(step: int) -> list[Any]:
-        return [domain.error(int(starts[step]) + i, size) for i, size in enumerate(hand.slips[step])]
+        return [domain.error(starts[step] + i, size) for i, size in enumerate(hand.slips[step])]
 
-    return domain, hand.draw(domain, errors)
+    def beyond(step: int) -> list[Any]:
+        return [domain.unsteady(part, range(starts[step], starts[step + 1])) for part in hand.values[step]]
+
+    return domain, hand.draw(domain, errors, beyond)
 
 
+def _squares(domain: Gradients, value: Any) -> Any:
+    """The variance of a number or a vector by each slip: infinite where it has no bound, or no derivative."""
+    squares = np.sum([domain.partials(part) ** 2 for part in each(value)], axis=0)
+    return np.where(np.isfinite(squares), squares, np.inf)
+
+
+@UNBOUNDED
 def deviation(hand: Hand, reading: Callable[[Sequence[Any]], Any]) -> float:
     """The standard deviation of what is read off a program as the hand draws it; `reading` is linear in its values."""
     domain, values = _slipped(hand)
-    return math.sqrt(float(np.sum(domain.partials(reading(values)) ** 2)))
+    return math.sqrt(float(np.sum(_squares(domain, reading(values)))))
 
 
+@UNBOUNDED
 def control_errors(drawing: Construction, hand: Hand, scales: Scales) -> list[tuple[Control, float]]:
     """By how many mm each control's pole misses the third line, by standard deviation."""
     domain, values = _slipped(hand) if drawing.controls else (Gradients(0), [])
     found = []
     for control in drawing.controls:
-        off = math.hypot(*domain.partials(control.off(values)))
+        off = math.sqrt(float(np.sum(_squares(domain, control.off(values)))))
         start, end = (hand.values[mark] for mark in control.marks[-1])
         found.append((control, off / math.dist(start, end) / scales.of(MECHANISM)))
     return found
@@ -179,7 +201,8 @@ def sampled(drawing: Construction, hand: Hand, hands: int = HANDS) -> Scatter:
     missed = np.zeros(hands, dtype=bool)
     with np.errstate(all="ignore"):
         domain = Arrays()
-        values = hand.draw(domain, lambda step: [normal(0.0, size, hands) for size in hand.slips[step]])
+        values = hand.draw(domain, lambda step: [normal(0.0, size, hands) for size in hand.slips[step]],
+                           lambda step: [np.full(hands, np.nan) for _ in hand.values[step]])
         for reading, _, value in readings(drawing, values, domain):
             if not reading.marks:
                 continue  # it is given, not drawn

@@ -26,7 +26,7 @@ from graphplan.errors import Undrawable
 from graphplan.kernel import kinds
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers import Domain
-from graphplan.kernel.program import Program, Step, error_at
+from graphplan.kernel.program import Program, Step
 from graphplan.methods.construction import Construction
 from graphplan.sheet.plates.plans import Plans
 
@@ -43,14 +43,17 @@ class Hand:
     values: Sequence[Any]
     slips: Sequence[Slips]
 
-    def draw(self, domain: Domain, errors: Errors) -> list[Any]:
-        """Every step in a number domain, each with its errors, which the later ones then read."""
+    def draw(self, domain: Domain, errors: Errors, beyond: Errors) -> list[Any]:
+        """Every step in a number domain, each with its errors, which the later ones then read.
+
+        What floats cannot draw lies too near to a singular pose for any pencil: `beyond` gives its mark.
+        """
         drawn: list[Any] = []
         for step in self.program.steps:
             try:
                 drawn.append(self.made(step, domain, drawn, errors))
-            except Undrawable as fault:  # in floats alone: too near to a singular pose for any pencil
-                raise error_at(self.program, step, fault) from None
+            except Undrawable:
+                drawn.append(beyond(step.index))
         return drawn
 
     def made(self, step: Step, domain: Domain, drawn: Sequence[Any], errors: Errors) -> Any:

@@ -42,7 +42,7 @@ def errors(mark: Mark, slipping: Mark, slips: Slips) -> tuple[tuple[float, ...],
     def of(step: int) -> list[object]:
         return [domain.error(i, size) for i, size in enumerate(slips)] if step == place else [0.0, 0.0]
 
-    return tuple(tuple(domain.partials(number)) for number in hand.draw(domain, of)[last])
+    return tuple(tuple(domain.partials(number)) for number in hand.draw(domain, of, of)[last])
 
 
 def board() -> tuple[Board, Points]:

@@ -73,6 +73,12 @@ class Gradients(Domain):
         partials[place] = size
         return Gradient(0.0, partials)
 
+    def unsteady(self, value: float, places: Iterable[int]) -> Gradient:
+        """A number whose errors at these places have no bound."""
+        partials = np.zeros(self.count)
+        partials[list(places)] = np.inf
+        return Gradient(value, partials)
+
     def shaken(self, value: float, errors: Iterable[tuple[int, float]]) -> Any:
         """A number with these errors, each by its place and with its derivative; without any that is not nothing it is
         steady."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -56,8 +57,8 @@ class Quality:
         if len(self.outside) > len(own.outside):
             return Flaw("steps are outside the paper", f"step {self.outside[0]} is outside the paper")
         if self.error > max(COARSEST, WORSE * own.error):
-            return Flaw("a careful hand draws it too far off", f"a careful hand is off by {100 * self.error:.0f} % in "
-                        f"{self.worst}")
+            off = f"by {100 * self.error:.0f} %" if math.isfinite(self.error) else "without bound"
+            return Flaw("a careful hand draws it too far off", f"a careful hand is off {off} in {self.worst}")
         if own.legible and not self.legible:
             return Flaw("the sheet is crowded", f"the sheet is crowded, {100 * self.poor:.0f} % of its letters have no "
                         "good place")

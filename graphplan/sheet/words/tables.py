@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import reduce
@@ -18,13 +19,17 @@ from graphplan.words.tongue import Tongue
 
 @dataclass(frozen=True)
 class Deviation:
-    """How far off a result is drawn: in its own unit, and in mm of paper where it is one drawn vector."""
+    """How far off a result is drawn: in its own unit, and in mm of paper where it is one drawn vector; infinite where
+    no pencil follows the drawing."""
 
     value: float
     mm: float | None = None
 
     @property
     def told(self) -> Said:
+        """In figures; a dash where it has no bound."""
+        if math.isinf(self.value):
+            return figures("–")
         return figures(digits(self.value, 2) + (f" ({digits(self.mm, 2)})" if self.mm is not None else ""))
 
 

@@ -195,6 +195,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         placements=placements, links=names.links, written=names.pairs, motions=read.get("motion", {}),
         find=read.get("find") or _asked(names), loads=sections.loads(read), flywheel=read.get("flywheel"),
         run=read.get("run"), sheet=read.get("sheet") or Presentation(), vary=read.get("vary", {}))
+    scene = scene if len(faults) else _touching_on_normals(scene)
     kept = by_drive or scene.flywheel or scene.run
     scene = _kept_by_its_drive(scene) if kept else _without_unasked_loads(scene, tables.get("find"))
     counting = _counting(scene)
@@ -207,6 +208,16 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         except Refused as refused:
             faults.add(refused.what.removeprefix(f"{name}: "), refused.why, refused.do)
     return scene, names.files
+
+
+def _touching_on_normals(scene: Scene) -> Scene:
+    """The scene with its points of contact on the common normals, off which rounding may have them: a contact pushes
+    along one line. Points of links stay where they are, and those of several contacts, which have no one normal."""
+    often = Counter(contact.at for contact in scene.contacts)
+    feet = {contact.at: contact.foot(scene.points) for contact in scene.contacts
+            if often[contact.at] == 1 and not scene.links_of.get(contact.at)
+            and all(is_exact(scene.points[point]) for point in (contact.at, *filter(None, contact.centres)))}
+    return replace(scene, points={**scene.points, **feet})
 
 
 def _kept_by_its_drive(scene: Scene) -> Scene:

@@ -11,7 +11,7 @@ from graphplan.mechanism.fields import Field, Kind, Names, Row, Rows, Table
 from graphplan.mechanism.items import Item, described
 from graphplan.mechanism.numerals import exactly
 from graphplan.mechanism.pairs.pair import ROLLING, TOUCHING, Along, KinematicPair, Rolling, Statement, Touching
-from graphplan.mechanism.plane import Pair, dot, less, turned
+from graphplan.mechanism.plane import Pair, dot, less, plus, times, turned
 from graphplan.mechanism.tolerances import NORMAL_SINE_TOL, PLACE_TOL
 from graphplan.mechanism.values import FLAG, POINT, TWO_LINKS, centres_on
 from graphplan.phrases import phrase
@@ -75,6 +75,12 @@ class Contact(KinematicPair):
         if self.direction is not None:
             return turned(self.direction)
         return less(points[one or ""], points[other or ""])
+
+    def foot(self, points: Mapping[str, Any]) -> Pair:
+        """The point of the common normal abreast of the point of contact: that point, but for rounding."""
+        normal, centre = exactly(self.normal(points)), points[self.curved[2]]
+        part = dot(normal, less(exactly(points[self.at]), exactly(centre))) / dot(normal, normal)
+        return plus(exactly(centre), times(part, normal))
 
     def states(self, scene: Scene) -> Iterator[Statement]:
         """The one profile does not leave the other, nor slips on it where they roll."""

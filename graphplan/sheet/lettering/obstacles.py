@@ -74,12 +74,15 @@ def share(cells: Array, start: Array, end: Array) -> Array:
 
     A segment along an axis is never cut off by the sides that it runs along, as its bounds meet the cell's.
     """
-    way = end - start
-    with np.errstate(divide="ignore", invalid="ignore"):
-        one, other = (cells[:, :2] - start) / way, (cells[:, 2:] - start) / way
-    enter = np.where(way == 0, 0.0, np.minimum(one, other)).max(axis=1)
-    leave = np.where(way == 0, 1.0, np.maximum(one, other)).min(axis=1)
-    return np.asarray(np.minimum(leave, 1.0) - np.maximum(enter, 0.0))
+    enter, leave = np.zeros(len(cells)), np.ones(len(cells))
+    for axis in (0, 1):  # column by column: numpy takes far longer to compare the two of a row
+        here, way = start[:, axis], end[:, axis] - start[:, axis]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            one, other = (cells[:, axis] - here) / way, (cells[:, axis + 2] - here) / way
+        still = way == 0
+        enter = np.maximum(enter, np.where(still, 0.0, np.minimum(one, other)))
+        leave = np.minimum(leave, np.where(still, 1.0, np.maximum(one, other)))
+    return np.asarray(leave - enter)
 
 
 class Marks:

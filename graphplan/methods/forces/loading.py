@@ -41,6 +41,7 @@ class Acting:
 
 
 Lay = Callable[[Mark], Acting]
+FARTHEST = 10.0  # extents of the mechanism: further off no sheet holds a centre of oscillation
 
 
 class Loading:
@@ -102,8 +103,14 @@ class Loading:
         if self.motion is None or not (mass.inertia and self.turns(link)):
             return ""
         able = {"shifted": link not in self.apart and self._accelerated(link, mass.centre),
-                "points": self._square(self.arm_points(link)[0], mass.centre)}
+                "points": self._oscillates_nearby(link, mass)}
         return self.inertia if mass.mass and able.get(self.inertia) else "couple"
+
+    def _oscillates_nearby(self, link: str, mass: Mass) -> bool:
+        """Whether there is a centre of oscillation, and a sheet may hold it."""
+        arm = float(self._square(self.arm_points(link)[0], mass.centre)) ** 0.5
+        radius2 = float(mass.inertia / mass.mass * metre(self.scene.units) ** 2) if mass.mass else 0.0
+        return arm > 0 and radius2 / arm <= FARTHEST * self.scene.extent
 
     def _square(self, P: str, R: str) -> Number:
         one, two = self.scene.points[P], self.scene.points[R]

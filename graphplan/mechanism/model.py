@@ -118,6 +118,9 @@ class Balance:
     written: Written = field(default=None, compare=False)
     on: str = FRAME
 
+    def __hash__(self) -> int:
+        return hash((self.link, self.at, self.on))  # fractions take long
+
     @property
     def links(self) -> tuple[str, str]:
         """The link on which it acts, and the one from which it does."""

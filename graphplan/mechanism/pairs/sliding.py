@@ -37,6 +37,9 @@ class Slide(KinematicPair):
     through: tuple[str, str] | None = None
     written: Written = field(default=None, compare=False)
 
+    def __hash__(self) -> int:
+        return hash((self.link, self.along, self.at))  # fractions take long
+
     @property
     def links(self) -> tuple[str, str]:
         """The sliding link, and that of the guide."""

@@ -113,7 +113,8 @@ PREFERENCES = {  # what is drawn before what: by textbook, or by moments whereve
 class Equilibrium:
     """Plans one group. `order` names a preference; `pick` says where a trial begins, counted from the first choice.
 
-    What a move tells it has to tell in all `positions`; what forces have in common they have in the first.
+    What a move tells it has to tell in all `positions`; what forces have in common they have in the first. A part is
+    looked at anew only where more is known of a force on it: what told nothing new before tells nothing new now.
     """
 
     def __init__(self, group: ForceGroup, positions: Sequence[Position], order: str = "polygons", pick: int = 0):
@@ -125,12 +126,18 @@ class Equilibrium:
         self.moves: list[StaticMove] = []
         self.assumed = 0
         self.options = 1
+        self._choices: dict[Part, list[tuple[str, StaticMove]]] = {}
+        self._open: set[Part] = set()  # parts of which nothing is told that is known already
         whole = [site for part in group.parts for site, _ in group.boundary(part)]
         for site in dict.fromkeys(whole):
             self.rank[site] = int(has_line(site))
             if has_line(site):
                 self.lines[site] = tuple(position.line(site) for position in positions)
                 self.through[site] = AtPoint(site.at)
+        self._parts_of: dict[UnknownForce, list[Part]] = {site: [] for site in self.rank}
+        for part in group.parts:
+            for site, _ in group.boundary(part):
+                self._parts_of[site].append(part)
 
     def plan(self) -> list[StaticMove]:
         """The moves, in order, that give the force of every site; refuses by name what no move reaches."""
@@ -148,27 +155,46 @@ class Equilibrium:
 
     def _next(self) -> StaticMove | None:
         """The first new move of the most preferred kind."""
-        candidates = sorted(self._candidates(), key=lambda found: self.order.index(found[0]))
-        return next((move for _, move in candidates if self._new(move)), None)
+        for kind in self.order:
+            for part in self.group.parts if kind != "pin" else ():
+                choices = self._choices_of(part)
+                for choice in [choice for choice in choices if choice[0] == kind]:
+                    if self._new(choice[1]):
+                        return choice[1]
+                    choices.remove(choice)
+            if kind == "pin" and (site := next(self._last_at_pins(), None)) is not None:
+                return Pin(site)
+        return None
 
-    def _candidates(self) -> Iterator[tuple[str, StaticMove]]:
-        yield from (("pin", Pin(site)) for site in self._last_at_pins())
-        for part in self.group.parts:
-            unknown = self._unknown(part)
-            if sum(not self.rank[site] for site in unknown) > MOST_FREE:
-                continue  # no point is passed by so many forces of unknown lines
-            for site in unknown:
-                others = [other for other in unknown if other != site]
-                if all(self._is_couple(other) for other in others) and not self._twofold(site, others):
-                    yield "close", Close(part, site)
-                for about in self._abouts(site, others):
-                    if self.rank[site]:
-                        yield "found", ForceFact(part, site, about)
-                    else:
-                        kind = "auxiliary" if isinstance(about, AtCrossing) else "inner"
-                        yield "outer" if self.group.outer(site) else kind, LineFact(part, site, about)
-            if len(unknown) == 2:
-                yield "polygon", ClosePolygon(part, *unknown)
+    def _choices_of(self, part: Part) -> list[tuple[str, StaticMove]]:
+        """The moves that a part allows and that are not known to say nothing new, each with its kind."""
+        if part not in self._choices:
+            self._choices[part] = [*self._candidates(part)]
+        return self._choices[part]
+
+    def _candidates(self, part: Part) -> Iterator[tuple[str, StaticMove]]:
+        unknown = self._unknown(part)
+        if sum(not self.rank[site] for site in unknown) > MOST_FREE:
+            return  # no point is passed by so many forces of unknown lines
+        for site in unknown:
+            others = [other for other in unknown if other != site]
+            if all(self._is_couple(other) for other in others) and not self._twofold(site, others):
+                yield "close", Close(part, site)
+            for about in self._abouts(site, others):
+                if self.rank[site]:
+                    yield "found", ForceFact(part, site, about)
+                else:
+                    kind = "auxiliary" if isinstance(about, AtCrossing) else "inner"
+                    yield "outer" if self.group.outer(site) else kind, LineFact(part, site, about)
+        if len(unknown) == 2:
+            yield "polygon", ClosePolygon(part, *unknown)
+
+    def _know(self, site: UnknownForce, rank: int) -> None:
+        """Know more of a force: the parts on which it acts are to be looked at anew."""
+        self.rank[site] = rank
+        for part in self._parts_of[site]:
+            self._choices.pop(part, None)
+            self._open.discard(part)
 
     def _twofold(self, site: UnknownForce, others: list[UnknownForce]) -> bool:
         """Whether a couple is unknown besides, so that forces alone do not tell a slide's reaction or a couple."""
@@ -275,13 +301,15 @@ class Equilibrium:
         self.moves.append(move)
         match move:
             case LineFact(_, site, about):
-                self.rank[site], self.through[site] = 1, about
+                self.through[site] = about
                 self.lines[site] = tuple(self._line(position.pencil(site), Y) for position, Y in
                                          zip(self.positions, self.points(about), strict=True))
+                self._know(site, 1)
             case ForceFact(_, site, _) | Close(_, site) | Pin(site):
-                self.rank[site] = 2
+                self._know(site, 2)
             case ClosePolygon(_, one, two):
-                self.rank[one] = self.rank[two] = 2
+                self._know(one, 2)
+                self._know(two, 2)
 
     @staticmethod
     def _line(pencil: Triple | None, Y: Triple) -> Triple:
@@ -299,7 +327,7 @@ class Equilibrium:
         self.options = max(self.options, len(sites))
         site = sites[self.pick % len(sites)]
         before, self.moves = self.moves, []
-        self.rank[site] = 2
+        self._know(site, 2)
         self.assumed += 1
         while (closing := self._closing()) is None:
             move = self._next()
@@ -317,6 +345,8 @@ class Equilibrium:
     def _closing(self) -> tuple[JointForce, Part, About] | None:
         """A part whose equilibrium tells of a force that is known already."""
         for part in self.group.parts:
+            if part in self._open:
+                continue
             unknown = self._unknown(part)
             if sum(2 - self.rank[site] for site in unknown) > 2:
                 continue
@@ -326,6 +356,7 @@ class Equilibrium:
                     for about in abouts:
                         if self._closes(part, site, about):
                             return site, part, about
+            self._open.add(part)
         return None
 
     def _closes(self, part: Part, site: JointForce, about: About) -> bool:

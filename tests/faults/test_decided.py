@@ -95,3 +95,11 @@ def test_what_does_not_exist_sinks_nothing_else(options: tuple[str, ...], capsys
     assert "do not move" in data["reasons"]["poles"]["2 frame"]
     assert [*map(Fraction, data["poles"]["1 2"]["at"])] == [30, 40]
     assert math.hypot(*(float(Fraction(part)) for part in data["points"]["B"]["acceleration"])) > 1
+
+
+def test_a_single_point_has_no_circle_drawn(capsys: pytest.CaptureFixture[str]) -> None:
+    """An inflection circle takes two points of a plane: where there is one, its velocity stands alone."""
+    data = solved(capsys, "single-point")
+    assert data["points"]["P0"]["velocity"] == [-4, 16]
+    assert data["inflection"]["1"] is None
+    assert "lie in one place" in data["reasons"]["inflection"]["1"]

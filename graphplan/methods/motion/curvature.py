@@ -163,7 +163,9 @@ class Curves:
             yield partial(self._by_rolling, link, self.wheels[link])
         if link in self.known:
             yield partial(self._by_centres, link)
-        pairs = self._pairs(link)
+        if not (pairs := self._pairs(link)):
+            raise Refused(f"inflection circle of link {link}", "all points of the mechanism lie in one place",
+                          "name another point of that link")
         yield from (partial(self._by_rates, link, two) for two in pairs)
         yield lambda: self._by_rates(link, (pairs[0][0], self._corner(link, *pairs[0])))
 

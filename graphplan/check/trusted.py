@@ -25,7 +25,7 @@ from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.mechanism.model import Scene
-from graphplan.methods.construct import constructions
+from graphplan.methods.construct import constructions, plain_construction
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import PATHS, TRANSLATION
 from graphplan.solver import solve
@@ -40,6 +40,20 @@ class Bench:
     def __init__(self, scene: Scene, how: dict[str, Any], exact: bool, locks: str = ""):
         self.scene, self.how, self.exact, self.locks = scene, how, exact, locks
         self._opinions: dict[str, Opinion] = {}
+
+    def refuse_singular_forces(self) -> None:
+        """Fail where fractions say that the forces are singular here: then no way to draw them is sought."""
+        if self.scene.loads is None or self.scene.irrational or not (self.exact or self._singular):
+            return
+        from graphplan.solver.statics import reactions
+
+        try:
+            reactions(self.scene, exact=True)
+        except SingularPose as singular:
+            lines = ""
+            with suppress(Refused):
+                lines = miss(plain_construction(self.scene, **self.how), Exact().domain())
+            raise SingularPose(singular.why, singular.links, lines) from None
 
     def judged(self, drawing: Construction) -> Report:
         """A construction beside the solver, in the first arithmetic that proves the digits or a difference.
@@ -262,6 +276,7 @@ def _first_trusted(scene: Scene, how: dict[str, Any], exact: bool, alone: bool, 
     """The first construction that agrees with the solver, else the first that is drawn; as `report` gives it."""
     bench = Bench(scene, how, exact, locks)
     try:
+        bench.refuse_singular_forces()
         found = first_sound(scene, how, bench.judged)
     except Refused:
         solve(scene, exact)  # where the pose is singular, that is why nothing can be drawn

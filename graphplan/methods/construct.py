@@ -34,6 +34,16 @@ def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = 
     return next(constructions(scene, method=method, plan=plan, strict=strict, inertia=inertia))
 
 
+def plain_construction(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False,
+                       inertia: str = "couple") -> Construction:
+    """The construction of a loaded scene by the first way, whatever numbers that has in this pose; see `construct`."""
+    from graphplan.methods.forces.loaded import plainly_loaded
+
+    found = plainly_loaded(scene, method, style(plan, inertia))
+    found.strict = strict
+    return found
+
+
 def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False,
                   inertia: str = "couple") -> Iterator[Construction]:
     """The constructions of what the scene asks for by all ways that there are, best first; see `construct`.

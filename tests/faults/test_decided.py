@@ -97,6 +97,17 @@ def test_what_does_not_exist_sinks_nothing_else(options: tuple[str, ...], capsys
     assert math.hypot(*(float(Fraction(part)) for part in data["points"]["B"]["acceleration"])) > 1
 
 
+@pytest.mark.parametrize("options", [(), ("--digits", "15"), ("--exact",)])
+def test_singular_forces_are_seen_before_ways_are_sought(options: tuple[str, ...],
+                                                         capsys: pytest.CaptureFixture[str]) -> None:
+    """Where forces are singular no other way is drawn that cannot serve either: twelve links take a second."""
+    begun = time.process_time()
+    data = solved(capsys, "singular-forces", *options)
+    assert time.process_time() - begun < SECONDS
+    assert "cannot hold" in data["reasons"]["balance"]["20"]
+    assert data["links"]["3"]["omega"] is not None
+
+
 def test_a_single_point_has_no_circle_drawn(capsys: pytest.CaptureFixture[str]) -> None:
     """An inflection circle takes two points of a plane: where there is one, its velocity stands alone."""
     data = solved(capsys, "single-point")

@@ -198,6 +198,13 @@ def loaded_constructions(scene: Scene, method: str, style: Style) -> Iterator[Co
         yield forces.steadiest(best, planner)
 
 
+def plainly_loaded(scene: Scene, method: str, style: Style) -> Construction:
+    """The force polygons by the first way through the motion and the forces, drawable in this pose or not."""
+    planner = Planner(Network(scene), method)
+    planner.plan()
+    return Loaded(scene, planner, replace(style, lever=False, polygons=True), ForceTransfer(scene)).draw()
+
+
 class Alternatives:
     """Draws the forces of a scene as is asked for; where the lever or the polygons cannot serve, by the other."""
 

@@ -114,3 +114,10 @@ def test_a_single_point_has_no_circle_drawn(capsys: pytest.CaptureFixture[str]) 
     assert data["points"]["P0"]["velocity"] == [-4, 16]
     assert data["inflection"]["1"] is None
     assert "lie in one place" in data["reasons"]["inflection"]["1"]
+
+
+def test_a_mechanism_at_rest_accelerates_by_its_auxiliary_point(capsys: pytest.CaptureFixture[str]) -> None:
+    """An auxiliary point that velocities of nothing need not have is drawn for the accelerations."""
+    data = solved(capsys, "resting-auxiliary-point", "--exact")
+    assert data["slides"]["2 along 3"]["acceleration"] == ["-9/4", "27/5"]
+    assert set(data["check"].values()) == {0}

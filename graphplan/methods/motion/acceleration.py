@@ -63,7 +63,7 @@ class Normal(MotionPlan):
     def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
         super().__init__(board, net, pose, velocity.tempo)
         self.velocity = velocity
-        self.passing = {m.slide.name: m.point for m in moves if isinstance(m, Guide)}
+        self.passing = {m.slide.name: m.point for m in moves if isinstance(m, Guide) and m.point in pose.points}
         self.figures: dict[tuple[str, str], Mark] = {}
         self.order: dict[str, int] = {}
         self.anchors = self._anchors()

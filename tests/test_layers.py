@@ -11,6 +11,7 @@ from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
+from each import each
 
 from graphplan.kernel import TABLE
 
@@ -117,7 +118,7 @@ DOORS = {"sheet/__init__.py"}  # calls the back end, as users do: `gp.sheet.svg(
 LAYERED = [path for path in FILES if folder(path) not in FRONT and named(path) not in DOORS]
 
 
-@pytest.mark.parametrize("path", LAYERED, ids=named)
+@each("path", LAYERED, ids=named)
 def test_arrows(path: Path) -> None:
     """A file imports from its own folder and from those below it."""
     assert folder(path) in MAY, f"say in MAY what {folder(path)} may import"
@@ -160,7 +161,7 @@ def test_there_are_fifteen_rooms() -> None:
     assert len({folder(path) for path in FILES if path.parent != PACKAGE}) <= 15
 
 
-@pytest.mark.parametrize("path", FILES, ids=named)
+@each("path", FILES, ids=named)
 def test_outside_packages(path: Path) -> None:
     """matplotlib and svgwrite serve writers alone; what the kernel computes with stands in its number domains."""
     found = outside(path)
@@ -171,7 +172,7 @@ def test_outside_packages(path: Path) -> None:
         assert not found
 
 
-@pytest.mark.parametrize("path", FILES, ids=named)
+@each("path", FILES, ids=named)
 def test_files_are_short(path: Path) -> None:
     """No file is longer than 400 lines, and none is a drawer for odds and ends."""
     assert len(path.read_text().splitlines()) <= 400
@@ -238,7 +239,7 @@ def _told_by_name(tree: ast.AST) -> Iterator[ast.AST]:
                 yield node
 
 
-@pytest.mark.parametrize("path", [path for path in FILES if folder(path) != "kernel"], ids=named)
+@each("path", [path for path in FILES if folder(path) != "kernel"], ids=named)
 def test_operations_are_told_by_their_records(path: Path) -> None:
     """Outside the kernel nothing hangs on an operation's name: what is to be known of it stands in its record."""
     found = [f"{named(path)}:{getattr(node, 'lineno', 0)}" for node in _told_by_name(parsed(path))]

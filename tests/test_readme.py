@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from each import each
 
 import graphplan as gp
 from graphplan.cams.task import TASK as CAM
@@ -127,7 +128,7 @@ def test_what_is_to_be_copied_is_there() -> None:
         assert re.fullmatch(r" \d(-\d)? ", cost), name
 
 
-@pytest.mark.parametrize("page", PAGES, ids=named)
+@each("page", PAGES, ids=named)
 def test_rows_have_as_many_cells_as_their_head(page: Path) -> None:
     """No row of a table is longer or shorter than its head, so that none of its words is lost."""
     width = 0
@@ -145,7 +146,7 @@ def test_every_packaged_scene_has_one_topic() -> None:
 # ---- links ----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("page", PAGES, ids=named)
+@each("page", PAGES, ids=named)
 def test_every_link_leads_somewhere(page: Path) -> None:
     """Links and pictures lead to files and heads that exist."""
     text = re.sub(r"`[^`\n]*`", "", without_fences(text_of(page)))
@@ -159,7 +160,7 @@ def test_every_link_leads_somewhere(page: Path) -> None:
             assert head in {anchor(title) for title in re.findall(r"(?m)^#+ (.+)$", without_fences(text_of(target)))}
 
 
-@pytest.mark.parametrize("page", WRITTEN[1:], ids=named)
+@each("page", WRITTEN[1:], ids=named)
 def test_heads_of_a_chapter_differ(page: Path) -> None:
     """A chapter begins with its title, and each of its heads has a name of its own."""
     titles = re.findall(r"(?m)^(#+) (.+)$", without_fences(text_of(page)))
@@ -196,7 +197,7 @@ def command_lines(text: str) -> Iterator[list[str]]:
                 yield words[1:]
 
 
-@pytest.mark.parametrize("page", [README, *sorted(CHAPTERS.glob("*.md")), ROOT / "gallery" / "tutorial.md"], ids=named)
+@each("page", [README, *sorted(CHAPTERS.glob("*.md")), ROOT / "gallery" / "tutorial.md"], ids=named)
 def test_every_command_line_can_be_typed(page: Path, options: dict[str, set[str]]) -> None:
     """Commands and options that are shown exist; an option that stands alone is one of some command."""
     for name, *words in command_lines(text_of(page)):

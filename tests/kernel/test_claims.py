@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from random import Random
 
-import pytest
+from each import each
 from figures import NAMES, Place, corners, drawn, extremes, figure
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -19,7 +19,7 @@ from graphplan.kernel.passes import freeze
 RANDOMS = st.randoms(use_true_random=False)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 @settings(max_examples=sample(10, 60), deadline=None)
 @given(r=RANDOMS)
 def test_claims_hold(name: str, r: Random) -> None:
@@ -31,8 +31,8 @@ def test_claims_hold(name: str, r: Random) -> None:
     assert list(broken(program, values)) == []
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("place", [corners, extremes], ids=lambda place: str(place.__name__))
+@each("name", NAMES)
+@each("place", [corners, extremes])
 def test_claims_hold_in_degenerate_figures(name: str, place: Place) -> None:
     """Points that coincide or lie in line, and lengths 1e-9 and 1e9 apart, are drawn right or not at all."""
     r = Random(name)
@@ -42,7 +42,7 @@ def test_claims_hold_in_degenerate_figures(name: str, place: Place) -> None:
         assert values is None or list(broken(program, values)) == []
 
 
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 def test_claims_hold_of_fractions(name: str) -> None:
     """Claims are tested on fractions too."""
     r = Random(name)

@@ -7,6 +7,7 @@ from random import Random
 from typing import Any
 
 import pytest
+from each import each
 from figures import NAMES, corners, drawn, figure, size
 from tiers import sample
 
@@ -26,7 +27,7 @@ def around(number: Enclosure, value: Any) -> bool:
     return abs(number.middle - Fraction(value)) <= number.error
 
 
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 def test_every_rule_encloses_the_exact_value(name: str) -> None:
     """What a rule gives in fractions lies between the bounds, and these are as narrow as the precision allows."""
     r, met = Random(name), 0
@@ -47,7 +48,7 @@ def test_every_rule_encloses_the_exact_value(name: str) -> None:
     assert met
 
 
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 def test_what_fractions_cannot_draw_no_enclosure_draws(name: str) -> None:
     """Where a figure degenerates, enclosures fail with the same code as fractions."""
     r = Random(name)
@@ -72,7 +73,7 @@ def test_zero_that_is_not_certain_is_undecided() -> None:
         assert domain.undecided is undecided
 
 
-@pytest.mark.parametrize(("value", "undecided"), [(Enclosure(-1), False), (WIDE, True)])
+@each(("value", "undecided"), [(Enclosure(-1), False), (WIDE, True)])
 def test_root_that_may_be_of_a_negative_number(value: Enclosure, undecided: bool) -> None:
     """A root fails where the number is negative, and where that cannot be told."""
     domain = Enclosures()

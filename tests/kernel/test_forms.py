@@ -8,6 +8,7 @@ from random import Random
 from typing import Any
 
 import pytest
+from each import each
 from figures import COMPOUNDS, Place, corners, drawn, figure, quarters, size
 from tiers import sample
 
@@ -63,7 +64,7 @@ def drawable(name: str) -> set[str]:
     return found
 
 
-@pytest.mark.parametrize(("name", "form"), FORMS)
+@each(("name", "form"), FORMS)
 def test_form_draws_the_value(name: str, form: str) -> None:
     """Asked for by name, a form gives the rule's value; it is one of those that can be drawn in some pose."""
     for program, values in [*figures(name, quarters, sample(3, 25)), *figures(name, corners, sample(6, 120))]:
@@ -75,7 +76,7 @@ def test_form_draws_the_value(name: str, form: str) -> None:
     assert form in drawable(name)
 
 
-@pytest.mark.parametrize("name", COMPOUNDS)
+@each("name", COMPOUNDS)
 def test_leaving_off_finds_the_best(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Inside a form that is tried, forms are left off that cannot win: the best is the same as of all drawn out."""
     for program, values in figures(name, corners, sample(4, 40)):
@@ -88,7 +89,7 @@ def test_leaving_off_finds_the_best(name: str, monkeypatch: pytest.MonkeyPatch) 
         assert [attempt.rating for attempt in ask(tried=True)][:1] == every[:1]
 
 
-@pytest.mark.parametrize(("name", "form"), FORMS)
+@each(("name", "form"), FORMS)
 def test_form_fails_cleanly(name: str, form: str) -> None:
     """Where a form cannot be drawn it gives nothing or a declared code: never another error."""
     for program, values in figures(name, corners, sample(40, 100)):
@@ -99,8 +100,8 @@ def test_form_fails_cleanly(name: str, form: str) -> None:
             assert fault.code in FAILURES
 
 
-@pytest.mark.parametrize("keep", KEEPS)
-@pytest.mark.parametrize("name", COMPOUNDS)
+@each("keep", KEEPS)
+@each("name", COMPOUNDS)
 def test_expansion_keeps_values_and_claims(name: str, keep: str) -> None:
     """Drawn out, in any pose, a compound has its value, and all steps of the drawing keep their claims."""
     left = 0

@@ -9,7 +9,7 @@ from random import Random
 from typing import Any
 
 import numpy as np
-import pytest
+from each import each
 from figures import NAMES, figure
 
 from graphplan.errors import Undrawable
@@ -63,7 +63,7 @@ def quotients(program: Program, points: Sequence[Fraction]) -> list[list[float]]
     return found
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if TABLE[name].reads])
+@each("name", [name for name in NAMES if TABLE[name].reads])
 def test_derivatives_are_the_limits_of_difference_quotients(name: str) -> None:
     """Every rule of the table, followed with gradients, gives its derivative by each point it rests on."""
     compared = 0

@@ -8,6 +8,7 @@ from random import Random
 from typing import Any
 
 import pytest
+from each import each
 from figures import LENGTHS, NAMES, drawn, figure
 
 from graphplan.kernel import TABLE
@@ -150,20 +151,20 @@ def sow(patch: pytest.MonkeyPatch, name: str, fault: Callable[[Rule], Rule]) -> 
     patch.setitem(TABLE, name, replace(TABLE[name], rule=fault(TABLE[name].rule)))
 
 
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 def test_no_fault_no_complaint(name: str) -> None:
     """Without a fault the claims have nothing to say."""
     assert complaints(name) == []
 
 
-@pytest.mark.parametrize(("name", "what", "fault"), FAULTS, ids=[f"{name}: {what}" for name, what, _ in FAULTS])
+@each(("name", "what", "fault"), FAULTS, ids=lambda fault: f"{fault[0]}: {fault[1]}")
 def test_fault_is_caught(name: str, what: str, fault: Callable[[Rule], Rule], monkeypatch: pytest.MonkeyPatch) -> None:
     """A fault sown in a rule is caught by what the primitive claims, on a few figures."""
     sow(monkeypatch, name, fault)
     assert any(f" = {name}(" in complaint for complaint in complaints(name))
 
 
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 def test_displacement_is_caught(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever a primitive draws, a little beside it is wrong: each number of its value matters."""
     for place in range(LENGTHS[TABLE[name].gives]):

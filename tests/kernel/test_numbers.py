@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from each import each
 from figures import LENGTHS, NAMES, Place, corners, drawn, extremes, figure, quarters, size
 from tiers import sample
 
@@ -18,7 +19,7 @@ from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import evaluate
 
-PLACES = pytest.mark.parametrize("place", [quarters, corners, extremes], ids=lambda place: str(place.__name__))
+PLACES = each("place", [quarters, corners, extremes])
 
 
 def poses(program: Program, r: Random, place: Place, n: int) -> list[dict[str, dict[str, float]]]:
@@ -39,7 +40,7 @@ def last(program: Program, given: dict[str, dict[str, float]]) -> tuple[float, .
 
 
 @PLACES
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 def test_batch_equals_floats(name: str, place: Place) -> None:
     """A batch of n poses gives exactly the n floats, one or many; what cannot be drawn is nan, with a code."""
     r = Random(name)
@@ -58,7 +59,7 @@ def test_batch_equals_floats(name: str, place: Place) -> None:
         assert np.array_equal(noted, np.isnan(batch).all(axis=1))
 
 
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 def test_fractions_equal_floats(name: str) -> None:
     """Fractions give what floats give, to rounding."""
     r, both = Random(name), 0
@@ -78,7 +79,7 @@ ROOTS = {"line_meets_circle", "circles_meet", "set_off", "sight",
 
 
 @PLACES
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 def test_nothing_is_silently_no_number(name: str, place: Place) -> None:
     """Each figure is drawn in finite numbers or raises a code that the primitive declares."""
     r = Random(name)
@@ -95,7 +96,7 @@ def test_nothing_is_silently_no_number(name: str, place: Place) -> None:
 CODES = [(name, code) for name in NAMES for code in TABLE[name].fails]
 
 
-@pytest.mark.parametrize(("name", "code"), CODES)
+@each(("name", "code"), CODES)
 def test_failure_code_is_reached(name: str, code: str) -> None:
     """Every failure that a primitive declares can happen, in floats and in fractions."""
     r = Random(name)

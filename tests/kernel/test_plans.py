@@ -8,6 +8,7 @@ from random import Random
 from typing import Any
 
 import pytest
+from each import each
 from figures import NAMES, drawn, figure
 
 from graphplan.errors import GraphplanError
@@ -44,7 +45,7 @@ def test_a_foot_across_plans_is_not_recorded() -> None:
     assert board.steps == before
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if len(TABLE[name].near) > 1])
+@each("name", [name for name in NAMES if len(TABLE[name].near) > 1])
 def test_what_is_joined_lies_on_one_plan(name: str) -> None:
     """Whatever operation: with one of the operands that it joins on another plan it is not recorded."""
     board, there, here = two_plans()
@@ -56,7 +57,7 @@ def test_what_is_joined_lies_on_one_plan(name: str) -> None:
         board.draw(op, tuple(args), **params)
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if any(len(group) > 1 for group in TABLE[name].afar)])
+@each("name", [name for name in NAMES if any(len(group) > 1 for group in TABLE[name].afar)])
 def test_a_vector_has_both_ends_on_one_plan(name: str) -> None:
     """A vector, or a figure of which only lengths and directions count, is not taken from two plans."""
     board, there, here = two_plans()
@@ -134,7 +135,7 @@ def test_a_trial_figure_begins_on_the_plan_of_its_locus() -> None:
 # ---- what a record says of its operands ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if TABLE[name].reads])
+@each("name", [name for name in NAMES if TABLE[name].reads])
 def test_it_is_drawn_among_what_is_near(name: str) -> None:
     """The operand on whose plan it is drawn is none of those that may be elsewhere; no operand is in two groups."""
     op = TABLE[name]
@@ -143,7 +144,7 @@ def test_it_is_drawn_among_what_is_near(name: str) -> None:
     assert sorted(places) == list(range(len(op.reads)))
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if TABLE[name].reads])
+@each("name", [name for name in NAMES if TABLE[name].reads])
 def test_only_lengths_and_directions_of_what_is_afar_count(name: str) -> None:
     """Where a vector, an opening or a figure lies on its plan changes nothing; with what is near the mark moves."""
     op, random, told = TABLE[name], Random(name), 0

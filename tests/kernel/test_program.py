@@ -8,6 +8,7 @@ from fractions import Fraction
 from random import Random
 
 import pytest
+from each import each
 from figures import NAMES, drawn, figure
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -69,7 +70,7 @@ ASKED: list[Callable[[Mark], object]] = [
 ]
 
 
-@pytest.mark.parametrize("ask", ASKED)
+@each("ask", ASKED)
 def test_mark_refuses_to_be_a_number(ask: Callable[[Mark], object]) -> None:
     """A recipe cannot branch on coordinates: a mark has no truth, no size and no equal."""
     _, (A, *_) = triangle()
@@ -145,7 +146,7 @@ WRONG = [(_wrong_kind, TypeError, "meet reads"), (_wrong_params, TypeError, "ste
          (_other_board, ValueError, "another board"), (_no_such, AttributeError, "trisect")]
 
 
-@pytest.mark.parametrize(("use", "error", "words"), WRONG)
+@each(("use", "error", "words"), WRONG)
 def test_misuse_is_refused(use: Callable[[Board, Mark, Mark], Mark], error: type[Exception], words: str) -> None:
     """What the table does not allow is refused at once, and nothing is drawn."""
     board, (A, B, _) = triangle()
@@ -170,7 +171,7 @@ FAULTS: list[tuple[str, Callable[[Program], object]]] = [
 ]
 
 
-@pytest.mark.parametrize(("words", "spoil"), FAULTS)
+@each(("words", "spoil"), FAULTS)
 def test_program_checks_itself(words: str, spoil: Callable[[Program], object]) -> None:
     """A frozen program refuses steps out of order, wrong kinds, and names bound twice."""
     with pytest.raises(ValueError, match=words):
@@ -184,7 +185,7 @@ def test_steps_are_numbered_without_the_pose() -> None:
     assert program.sentence(4) == "From C drop the perpendicular on l: mark its foot F."
 
 
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 def test_every_step_is_spoken(name: str) -> None:
     """Each primitive's sentence can be said of a step, in letters and numbers only."""
     program = figure(name, Random(name))

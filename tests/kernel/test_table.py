@@ -6,11 +6,13 @@ import re
 from collections.abc import Sequence
 from dataclasses import fields
 from fractions import Fraction
+from functools import cache
 from random import Random
 from string import Formatter
 from typing import Any
 
 import pytest
+from each import each
 from figures import NAMES, drawn, figure
 
 from graphplan.kernel import CIRCLE, FAILURES, LINE, POINT, TABLE, Primitive
@@ -18,14 +20,10 @@ from graphplan.kernel.claims import CLAIMS
 from graphplan.kernel.kinds import SCALE, Movement
 from graphplan.kernel.numbers.floats import Floats
 
-Samples = tuple[Primitive, list[tuple[list[Any], dict[str, Any]]]]
+EACH = each("op", [TABLE[name] for name in NAMES], ids=lambda op: op.name)
 
 
-@pytest.fixture(params=NAMES)
-def op(request: pytest.FixtureRequest) -> Primitive:
-    return TABLE[request.param]
-
-
+@EACH
 def test_sentence_speaks_of_everything(op: Primitive) -> None:
     """A sentence uses every argument, what is made, and every parameter; sizes are told where there is paper, in mm,
     of a link's figure nothing but its lengths, and of a trial nothing but its line matters."""
@@ -36,11 +34,13 @@ def test_sentence_speaks_of_everything(op: Primitive) -> None:
     assert used == {"out", *needed} - ({*op.params} if sized else figure)
 
 
+@EACH
 def test_doc_is_one_line(op: Primitive) -> None:
     """What a primitive gives is told in one line that ends with a full stop."""
     assert re.fullmatch(r"[A-Z].*\.", (op.rule.__doc__ or "").strip().splitlines()[0])
 
 
+@EACH
 def test_failure_codes_are_explained(op: Primitive) -> None:
     """Every failure code says what it means and what to do."""
     assert all(all(FAILURES[code]) for code in op.fails)
@@ -51,6 +51,7 @@ def test_every_failure_code_is_used() -> None:
     assert set(FAILURES) == {code for op in TABLE.values() for code in op.fails} | {"not-rational"}
 
 
+@EACH
 def test_something_is_claimed(op: Primitive) -> None:
     """Every primitive claims something of what it makes, by claims that can be tested."""
     assert op.claims
@@ -62,11 +63,13 @@ def test_every_claim_is_made() -> None:
     assert set(CLAIMS) == {claim[0] for op in TABLE.values() for claim in op.claims}
 
 
+@EACH
 def test_methods_name_their_source(op: Primitive) -> None:
     """A source is given as author and year or as the name of the method."""
     assert not op.source or re.search(r"\d{4}", op.source)
 
 
+@EACH
 def test_operands_exist(op: Primitive) -> None:
     """Claims speak of operands that there are, and a step is drawn at one that it reads."""
     places = [k for claim in op.claims for part in claim[1:] for k in (part if isinstance(part, tuple) else (part,))]
@@ -74,16 +77,16 @@ def test_operands_exist(op: Primitive) -> None:
     assert -1 <= op.where < max(1, len(op.reads))
 
 
-@pytest.fixture(params=sorted(TABLE.values(), key=lambda op: op.name), ids=lambda op: op.name)
-def samples(request: pytest.FixtureRequest) -> Samples:
-    """A primitive with some operands and parameters of which it makes something."""
-    op, r, found = request.param, Random(request.param.name), []
+@cache
+def samples(op: Primitive) -> list[tuple[list[Any], dict[str, Any]]]:
+    """Some operands and parameters of which a primitive makes something."""
+    r, found = Random(op.name), []
     while len(found) < 5:
         program = figure(op.name, r)
         values = drawn(program, Floats())
         if values is not None:
             found.append(([values[arg] for arg in program.steps[-1].args], program.steps[-1].params))
-    return op, found
+    return found
 
 
 def made(op: Primitive, operands: Sequence[Any], params: dict[str, Any]) -> list[float]:
@@ -111,38 +114,39 @@ def test_every_movement_is_made() -> None:
     assert set(Movement) == {op.movement for op in TABLE.values()}
 
 
-def test_a_movement_makes_one_thing(samples: Samples) -> None:
+@EACH
+def test_a_movement_makes_one_thing(op: Primitive) -> None:
     """Of the same operands, all primitives of a movement make the same: what has a ratio makes it at the ratio 1."""
-    op, found = samples
     alike = [other for other in TABLE.values() if other.movement is op.movement]
     if op.movement not in (Movement.OTHER, Movement.MEASURED):
         for other in alike:
             assert (other.reads, other.gives, other.where, other.afar) == (op.reads, op.gives, op.where, op.afar)
-            for operands, params in found:
+            for operands, params in samples(op):
                 whole = {name: Fraction(1) if name == "ratio" else value for name, value in params.items()}
                 one, two = ({name: whole.get(name, 1) for name in entry.params} for entry in (op, other))
                 assert made(op, operands, one) == pytest.approx(made(other, operands, two))
 
 
-def test_only_the_direction_and_length_from_afar_count(samples: Samples) -> None:
+@EACH
+def test_only_the_direction_and_length_from_afar_count(op: Primitive) -> None:
     """What is read from another plan may be shifted there, all of it together."""
-    op, found = samples
-    for operands, params in found:
+    for operands, params in samples(op):
         shifted = [moved(kind, value) if place in op.afar else value
                    for place, (kind, value) in enumerate(zip(op.reads, operands, strict=True))]
         assert made(op, shifted, params) == pytest.approx(made(op, operands, params))
 
 
-def test_reversal_makes_the_same_again(samples: Samples) -> None:
+@EACH
+def test_reversal_makes_the_same_again(op: Primitive) -> None:
     """Where the line that it reads runs the other way, or two curves change places, the reversed parameter mends it."""
-    op, found = samples
     if op.reversal:
-        for (first, *rest), params in found:
+        for (first, *rest), params in samples(op):
             turned = [tuple(-part for part in first), *rest] if op.reads[0] == LINE else [*rest, first]
             assert made(op, turned, op.reversed(params)) == pytest.approx(made(op, [first, *rest], params))
             assert op.reversed(op.reversed(params)) == params
 
 
+@EACH
 def test_what_lays_off_has_a_root(op: Primitive) -> None:
     """A point that is laid off has a point as its root; where its size is given, so is a parameter."""
     assert op.root is None or (op.gives, op.reads[op.root]) == (POINT, POINT)
@@ -151,12 +155,14 @@ def test_what_lays_off_has_a_root(op: Primitive) -> None:
     assert not op.crossing or set(op.reads) <= {LINE, CIRCLE}
 
 
+@EACH
 def test_lines_that_are_described_speak_of_operands(op: Primitive) -> None:
     """How a line is spoken of away from the sheet uses nothing but what it reads."""
     used = {int(field) for _, field, _, _ in Formatter().parse(op.described) if field is not None}
     assert used <= set(range(len(op.reads)))
 
 
+@EACH
 def test_compounds_that_are_weighed_have_forms(op: Primitive) -> None:
     """Only of what can be drawn in several forms a choice is told; a method is a compound too."""
     assert op.compound or not (op.weighed or op.method)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from each import each
 from figures import LENGTHS, NAMES, Place, corners, drawn, extremes, figure, quarters
 
 from graphplan.kernel import TABLE, Board, Program
@@ -20,7 +21,7 @@ from graphplan.kernel.tape.machine import Machine
 from graphplan.kernel.tape.record import Symbols
 from graphplan.kernel.tape.written import function
 
-PLACES = pytest.mark.parametrize("place", [quarters, corners, extremes], ids=lambda place: str(place.__name__))
+PLACES = each("place", [quarters, corners, extremes])
 
 
 class Recorded:
@@ -68,7 +69,7 @@ RECORDED = [name for name in NAMES if TABLE[name].reads]  # the others read no n
 
 
 @PLACES
-@pytest.mark.parametrize("name", RECORDED)
+@each("name", RECORDED)
 def test_written_out_equals_the_rule(name: str, place: Place) -> None:
     """The written function gives the rule's floats exactly, and hands back every pose that the rule refuses."""
     r = Random(name)
@@ -95,7 +96,7 @@ def test_blocks_equal_the_rule(name: str, place: Place, monkeypatch: pytest.Monk
         assert all(tuple(ours) == theirs for ours, theirs in zip(found, one_by_one, strict=True) if theirs is not None)
 
 
-@pytest.mark.parametrize("name", RECORDED)
+@each("name", RECORDED)
 def test_blocks_are_seldom_left(name: str) -> None:
     """Poses like any others are reckoned in blocks: the bounds answer every question."""
     r = Random(name)

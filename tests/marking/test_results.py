@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 
 import pytest
+from each import each
 
 from graphplan.errors import Refused
 from graphplan.marking.submission import read
@@ -45,7 +46,7 @@ SYMBOLS = {"vA": ("velocity", "A"), "v_A": ("velocity", "A"), "a_B": ("accelerat
            "omega_2": ("omega", "2"), "α3": ("alpha", "3"), "epsilon 3": ("alpha", "3"), "v_A3": ("velocity", "A3")}
 
 
-@pytest.mark.parametrize("written", SYMBOLS)
+@each("written", SYMBOLS)
 def test_symbols_are_read_as_quantities(tmp_path: Path, written: str) -> None:
     """Where no thing is named beside it, a letter with an index says both."""
     kind, of = SYMBOLS[written]
@@ -54,7 +55,7 @@ def test_symbols_are_read_as_quantities(tmp_path: Path, written: str) -> None:
     assert (found.kind, found.of) == (kind, of)
 
 
-@pytest.mark.parametrize(("written", "value", "rounding"), [
+@each(("written", "value", "rounding"), [
     ("12.5", 12.5, 0.1), ('"12,5"', 12.5, 0.1), ("12", 12.0, 1.0), ("1.25e3", 1250.0, 10.0),
     ('"1,25·10^3"', 1250.0, 10.0), ("1.25×10³", 1250.0, 10.0), ("−0.50", -0.5, 0.01)])
 def test_numbers_as_students_write_them(tmp_path: Path, written: str, value: float, rounding: float) -> None:
@@ -90,14 +91,14 @@ CONVERTED = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("kind", "unit", "units", "factor"), CONVERTED)
+@each(("kind", "unit", "units", "factor"), CONVERTED)
 def test_units_become_the_scenes(kind: str, unit: str, units: Units, factor: float) -> None:
     """A number in any unit is converted to what the scene's results come in."""
     value = (3.0,) if KINDS[kind].single else (3.0, -2.0)
     assert in_scene_units(Number(kind, "A", value, unit), units) == pytest.approx([factor * part for part in value])
 
 
-@pytest.mark.parametrize("unit", ["furlong/s", "mm", "N", "m/s^2", "m//s", "m/s^99", "m" * 1000])
+@each("unit", ["furlong/s", "mm", "N", "m/s^2", "m//s", "m/s^99", "m" * 1000])
 def test_other_units_are_refused(tmp_path: Path, unit: str) -> None:
     """A unit that is unknown, or of another quantity, is a fault with its line and such a unit as would be right."""
     with pytest.raises(Refused, match=r"line 2: .*; .*such as mm/s$"):
@@ -114,7 +115,7 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("text", WRONG, ids=WRONG.values())
+@each("text", WRONG, ids=WRONG.get)
 def test_a_wrong_row_is_told(tmp_path: Path, text: str) -> None:
     """A row that says no result is refused with its line."""
     with pytest.raises(Refused, match=WRONG[text]):

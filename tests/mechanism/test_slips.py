@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from each import each
 from four_bars import four_bar
 
 from graphplan.errors import SceneError
@@ -54,8 +55,8 @@ def test_the_scene_is_sound() -> None:
     parse(SCENE, "scene")
 
 
-@pytest.mark.parametrize("place", PLACES)
-@pytest.mark.parametrize("slip", SLIPS)
+@each("place", PLACES)
+@each("slip", SLIPS)
 def test_slips_in_quotes(slip: str, place: str) -> None:
     """A number in quotes with a comma or a unit is told where it stands, with what to write."""
     what, right = SLIPS[slip]
@@ -67,8 +68,8 @@ def test_slips_in_quotes(slip: str, place: str) -> None:
     assert line.startswith(f'scene: {PLACES[place]}: "{slip}" has {what}; {right}'), key
 
 
-@pytest.mark.parametrize("place", PLACES)
-@pytest.mark.parametrize("slip", SLIPS)
+@each("place", PLACES)
+@each("slip", SLIPS)
 def test_slips_without_quotes(slip: str, place: str) -> None:
     """The same without quotes is no TOML, and told with its line."""
     if "[" in place and slip == "12,5":
@@ -89,7 +90,7 @@ def test_a_slip_that_the_key_forgives() -> None:
     assert line == 'scene: gravity: "-9,81 m/s^2" has a decimal comma and a unit in it; -9.81 alone'
 
 
-@pytest.mark.parametrize("vector", ["[12,5, 30]", "[12, 30,5]", "[12,5, 30,5]"])
+@each("vector", ["[12,5, 30]", "[12, 30,5]", "[12,5, 30,5]"])
 def test_commas_in_vectors(vector: str) -> None:
     """Three or four numbers where two are wanted may be two with decimal commas."""
     _, line = told(SCENE.replace("C = [150, 0]", f"C = {vector}"))
@@ -98,7 +99,7 @@ def test_commas_in_vectors(vector: str) -> None:
     assert told(SCENE.replace("C = [150, 0]", "C = [150, 0, 1]"))[1:] == []
 
 
-@pytest.mark.parametrize("text", ["high", "2.5", "12 apples", "1,2,3", "", "mm", "12.5.6"])
+@each("text", ["high", "2.5", "12 apples", "1,2,3", "", "mm", "12.5.6"])
 def test_other_texts_are_no_slips(text: str) -> None:
     """What is no number at all is told as before."""
     (line,) = told(SCENE.replace("omega = 2", f'omega = "{text}"'))

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 import figures
-import pytest
+from each import each
 
 import graphplan as gp
 from graphplan.accuracy.drafted import drafted
@@ -91,7 +91,7 @@ def apart(program: Program, index: int) -> Panel:
     return MECHANISM if index in near or not steps[-1].op.afar else TWO
 
 
-PLACES = pytest.mark.parametrize("place", [together, apart], ids=["one plan", "several plans"])
+PLACES = each("place", [together, apart])
 
 
 @lru_cache(maxsize=64)

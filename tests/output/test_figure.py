@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from each import each
 from objects import (
     MECHANISM,
     NAMES,
@@ -32,9 +33,9 @@ from graphplan.sheet.plates.pens import LINK
 from graphplan.sheet.plates.symbols import turn
 
 
-@pytest.mark.parametrize("shared", ["t", ""], ids=["terms by name", "written in full"])
+@each("shared", ["t", ""], ids=lambda shared: "terms by name" if shared else "written in full")
 @PLACES
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 def test_every_rule_can_be_written_out(name: str, place: Place, shared: str) -> None:
     """The formula of every operation of the table gives its value in mm, wherever its operands lie."""
     for program, values in programs(name):

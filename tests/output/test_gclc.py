@@ -9,6 +9,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from each import each
 from gcl import Reader
 from laid_out import laid_out
 from objects import NAMES, PLACES, Place, coordinates, drafted_plates, farthest, loose, moved, programs
@@ -63,7 +64,7 @@ def test_a_moved_point_moves_the_construction(name: str) -> None:
 
 
 @PLACES
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 def test_every_operation_is_translated(name: str, place: Place) -> None:
     """Each operation of the table becomes commands that give its value, wherever its operands lie."""
     for program, values in programs(name):

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 from dragged_linkages import DraggedLinkage
+from each import each
 from geogebra_program import GeoGebra
 from geogebra_reader import COMMANDS, Ray, Round, opened, read
 from objects import NAMES, PLACES, Place, drafted_plates, gap, loose, programs
@@ -49,7 +50,7 @@ def coordinates(value: object) -> list[float]:
 
 
 @PLACES
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 def test_every_operation(name: str, place: Place) -> None:
     """Every operation of the table gives what its rule gives, wherever its operands lie."""
     for program, values in programs(name):

@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from each import each
 from laid_out import laid_out
 from objects import MECHANISM, NAMES, PLACES, TWO, VIEWS, Place, loose, programs
 
@@ -81,7 +82,7 @@ def test_every_step_is_said_and_nothing_used_before_it_is_made(writer: Export, n
 
 @BOTH
 @PLACES
-@pytest.mark.parametrize("name", NAMES)
+@each("name", NAMES)
 def test_every_operation_is_translated(writer: Export, name: str, place: Place) -> None:
     """Each operation of the table gives coordinates under its sentence, a line through two points apart."""
     for program, values in programs(name):

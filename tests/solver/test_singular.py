@@ -6,6 +6,7 @@ import math
 
 import pytest
 from by_hand import mechanism, move, push, slide, turn
+from each import each
 
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import Scene, TurningDrive
@@ -59,7 +60,7 @@ def test_piston_cannot_drive_through_the_dead_centre(exact: bool) -> None:
     assert refusal(scene, exact).links == ("1", "2")
 
 
-@pytest.mark.parametrize("degrees", range(0, 360, 7))
+@each("degrees", range(0, 360, 7))
 def test_dead_centre_is_seen_through_rounding(degrees: int) -> None:
     """Turned by any angle, with every coordinate rounded, the dead centre is still seen."""
     turned = {

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import pytest
+from each import each
 
 from graphplan.check.report import Report
 from graphplan.check.trusted import report
@@ -79,7 +80,7 @@ def measured(found: Report, value: Printed) -> float:
     return float(number) if value.value < 0 or value.tolerance < 1e-4 else abs(float(number))
 
 
-@pytest.mark.parametrize("value", VALUES, ids=lambda v: f"{v.scene} {v.kind} {v.of} {v.value}")
+@each("value", VALUES, ids=lambda v: f"{v.scene} {v.kind} {v.of} {v.value}")
 def test_the_construction_gives_the_books_value(value: Printed) -> None:
     """Each printed value within the precision of its drawing, each recomputed one to its digits."""
     found = report(load(value.scene))

@@ -228,6 +228,23 @@ def reported(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:
     return found
 
 
+def drawable(options: argparse.Namespace) -> Report:
+    """The same of the scene on its sheet, or of the part of it that is regular in this pose; its notes say what of the
+    rest is not drawn, and why."""
+    from graphplan.check.json_results import reasons
+    from graphplan.check.regular import in_part
+    from graphplan.phrases import said
+
+    found, left_out = in_part(presented(options), lambda scene: reported(options, scene)), dict[str, list[str]]()
+    if found.asked is not found.scene:
+        for named in reasons(found).values():
+            for name, why in named.items():
+                left_out.setdefault(why, []).append(name)
+        found.drawing.notes.extend(said("not drawn: {0}: {1}", ", ".join(dict.fromkeys(names)), why)
+                                   for why, names in left_out.items())
+    return found
+
+
 def drawn_by(options: argparse.Namespace, scene: Scene) -> tuple[dict[str, Any], tuple[str, ...]]:
     """How a scene is to be drawn, by the method named or preferred, and the lines that say why it is preferred.
 
@@ -253,7 +270,7 @@ def on_paper(options: argparse.Namespace, found: Report | None = None) -> Drafte
     from graphplan.accuracy.drafted import drafted
     from graphplan.words.tongue import tongue
 
-    found = found or reported(options, presented(options))
+    found = found or drawable(options)
     return drafted(found.drawing, pencil(options), check=found.check, tongue=tongue(found.scene.sheet.language),
                    protocol=options.protocol)
 

@@ -30,9 +30,8 @@ from graphplan.commands.choices import (
     add_sheet,
     add_travel,
     count,
+    drawable,
     on_paper,
-    presented,
-    reported,
 )
 from graphplan.commands.output import kind, paged, write, write_all
 from graphplan.errors import Refused
@@ -75,7 +74,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.sheet.strip import by_stages, strip
 
     name = asked(options)
-    found = reported(options, presented(options))
+    found = drawable(options)
     composition = on_paper(options, found).composition
     composition = with_numbers(composition) if options.numbers else composition
     names = paged(options.output, 2)

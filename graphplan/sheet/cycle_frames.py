@@ -52,7 +52,7 @@ class Posed(Construction):
         return super().read(domain, self.given)
 
     @property
-    def computed(self) -> dict[str, dict[str, Any]]:  # type: ignore[override]
+    def computed(self) -> dict[str, dict[str, Any]]:
         """The same in floats."""
         return self.read(Floats())
 

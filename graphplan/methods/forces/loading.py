@@ -6,6 +6,7 @@ acceleration plan; a couple becomes a pair of forces at two points of its link (
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -108,7 +109,7 @@ class Loading:
 
     def _oscillates_nearby(self, link: str, mass: Mass) -> bool:
         """Whether there is a centre of oscillation, and a sheet may hold it."""
-        arm = float(self._square(self.arm_points(link)[0], mass.centre)) ** 0.5
+        arm = math.sqrt(self._square(self.arm_points(link)[0], mass.centre))
         radius2 = float(mass.inertia / mass.mass * metre(self.scene.units) ** 2) if mass.mass else 0.0
         return arm > 0 and radius2 / arm <= FARTHEST * self.scene.extent
 

@@ -56,7 +56,7 @@ class Following(Construction):
         return self.told([self.values[mark] for mark in self.drawn.wanted], Laters())
 
     @property
-    def computed(self) -> dict[str, dict[str, Any]]:  # type: ignore[override]
+    def computed(self) -> dict[str, dict[str, Any]]:
         """The same, whatever the domain."""
         return self.read(Laters())
 

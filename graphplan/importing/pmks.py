@@ -301,8 +301,9 @@ def _sketch(found: Read) -> Sketch:
 
 def _twin(joint: Joint, joints: Sequence[Joint]) -> Joint | None:
     """The revolute joint of a piston, in the same place as its sliding joint."""
+    least = PISTON_TOL * max(max(abs(other.at), abs(other.at - joint.at)) for other in joints)
     return next((other for other in joints if other.kind == "R" and {*other.links} & {*joint.links}
-                 and abs(other.at - joint.at) <= PISTON_TOL * (1 + abs(joint.at))), None)
+                 and abs(other.at - joint.at) <= least), None)
 
 
 def _is_ground(links: Sequence[str]) -> bool:

@@ -6,5 +6,5 @@ PLACE_TOL = 1e-9  # of the sketch: points that rounding alone keeps apart, and p
 LINE_TOL = 1e-6
 JOINT_TOL = 2e-4  # of the drawing: ends that are so near are one joint, as they are drawn by hand at a screen
 DIRECTION_TOL = 1e-6  # of a unit vector: by which the directions of bars in one line differ
-# of the places of a piston's two joints: joints that are no further apart are one; addresses have few digits
+# of the mechanism and its places: a piston's two joints that are no further apart are one; addresses have few digits
 PISTON_TOL = 1e-6

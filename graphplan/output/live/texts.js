@@ -64,9 +64,14 @@ const Numbers = {
   },
 
   rounded(x, kind, level, result) {
-    const [operand, own, , figures] = Numbers.levels[level];
-    if ("mMd".includes(kind)) return Number(Numbers.fixed(x, result ? own : operand));
+    const [, own, , figures] = Numbers.levels[level];
+    if ("mMd".includes(kind)) return Number(Numbers.fixed(x, result ? own : Numbers.decimalsOf(x, kind, level)));
     return Numbers.inFigures(x, result ? Numbers.resultFigures(x, level) : Numbers.figuresOf(x, figures));
+  },
+
+  decimalsOf(x, kind, level) {
+    const [count] = Numbers.levels[level], kept = level === Numbers.asPrinted || kind === "d" && level === 3;
+    return kept && x && Math.abs(x) < 0.5 * 10 ** -count ? 1 - Numbers.power(x) : count;
   },
 
   power(x) { return Number(x.toExponential(6).split("e")[1]); },
@@ -98,9 +103,9 @@ const Numbers = {
   // a number of a sum by its kind: r and v are results in mm and in figures
   told(x, kind, level) {
     if (!Number.isFinite(x)) return "–";
-    const [operand, own, , figures] = Numbers.levels[level];
+    const [, own, , figures] = Numbers.levels[level];
     if ("mMdr".includes(kind)) {
-      return Numbers.fixed(x, kind === "r" ? own : operand).replace(/^-(0\.0+)$/, "$1").replace("-", "−");
+      return Numbers.fixed(x, kind === "r" ? own : Numbers.decimalsOf(x, kind, level)).replace(/^-(0\.0+)$/, "$1").replace("-", "−");
     }
     return Numbers.written(x, kind === "v" ? Numbers.resultFigures(x, level) : Numbers.figuresOf(x, figures));
   },

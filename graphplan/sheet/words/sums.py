@@ -58,9 +58,9 @@ class Sum:
         kind, result = self.kinds.lstrip(FORMS)[place], place % len(self.numbers) == len(self.numbers) - 1
         if isinstance(self.level, Unknown):
             return self.level.printed(number, ("r" if kind in LENGTHS else "v") if result else kind)
-        of_operand, of_result, _, figures = LEVELS[self.level]
+        _, of_result, _, figures = LEVELS[self.level]
         if kind in LENGTHS:
-            return decimals(number, of_result if result else of_operand)
+            return decimals(number, of_result if result else decimals_of(number, kind, self.level))
         return digits(number, result_figures(number, self.level) if result else figures_of(number, figures))
 
     @cached_property
@@ -125,10 +125,17 @@ def _with(value: float, number: float, kind: str) -> float:
 
 def rounded(number: float, kind: str, level: int, *, result: bool = False) -> float:
     """A number as it is printed at a level."""
-    of_operand, of_result, _, figures = LEVELS[level]
+    _, of_result, _, figures = LEVELS[level]
     if kind in LENGTHS:
-        return float(f"{number:.{of_result if result else of_operand}f}")
+        return float(f"{number:.{of_result if result else decimals_of(number, kind, level)}f}")
     return float(f"{number:.{result_figures(number, level) if result else figures_of(number, figures)}g}")
+
+
+def decimals_of(number: float, kind: str, level: int) -> int:
+    """In how many decimals mm are printed: in more where nothing would be left to multiply or to divide by."""
+    count = LEVELS[level][0]
+    kept = level == PRINTED or kind == "d" and level == READ
+    return 1 - _power(number) if kept and 0 < abs(number) < 0.5 * 10.0**-count else count
 
 
 def result_figures(number: float, level: int) -> int:

@@ -306,6 +306,8 @@ class FormBoard(Verbs):
         self.letters: list[tuple[Mark, str]] = []
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], name: str = "", **params: Any) -> Mark:
+        if op.movement is Movement.RULED and self._nothing(self.distance(*args), *args):
+            raise Undrawable("points-coincide", "the two points coincide but for rounding")
         mark = self._expander.draw(op, args, params, tried=True)
         return self.called(mark, name) if name else mark
 

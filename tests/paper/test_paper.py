@@ -78,6 +78,12 @@ def test_protocols_of_random_scenes_can_be_executed(seed: int) -> None:
         judge(drawn(scene, **random.choice(ways(scene))), scene.text)
 
 
+def test_points_that_coincide_give_no_line() -> None:
+    """With compasses and straightedge no line is drawn through two points that are apart by rounding alone."""
+    scene = next(random_scenes(205))
+    judge(protocol(scene, strict=True), scene.text)
+
+
 # ---- the reader itself -----------------------------------------------------------------------------------------------
 
 

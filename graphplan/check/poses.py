@@ -112,7 +112,10 @@ def _against(part: Round, drawing: Construction, ours: Results) -> dict[str, Any
             sizes = (np.full(n, least[group] / weight(drawing, kind)), *(number.size for number in numbers), *besides,
                      _rolling(scene, motion, kind), _touching(scene, truth, kind, name))
             size = np.max(np.broadcast_arrays(*sizes), axis=0)
-            apart[group] = np.maximum(apart[group], np.abs(value - true) / size)
+            gap = np.abs(value - true) / size
+            if kind == SLIDE_ARM:  # where no force acts at a slide it has no line of action
+                gap = np.where(np.isnan(true), 0.0, gap)
+            apart[group] = np.maximum(apart[group], gap)
     return apart
 
 

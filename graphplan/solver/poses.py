@@ -58,8 +58,9 @@ class Sized:
 
     def __truediv__(self, other: Any) -> Sized:
         two = sized(other)
-        value, least = self.value / two.value, np.abs(two.value)
-        return Sized(value, np.maximum(self.size, np.abs(value) * two.size) / least)
+        with np.errstate(divide="ignore", invalid="ignore"):  # in a pose where it divides by nothing it is no number
+            value, least = self.value / two.value, np.abs(two.value)
+            return Sized(value, np.maximum(self.size, np.abs(value) * two.size) / least)
 
     __radd__, __rmul__ = __add__, __mul__
 

@@ -9,6 +9,7 @@ import os
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from itertools import islice
+from pathlib import Path
 from random import Random
 
 import pytest
@@ -34,6 +35,7 @@ from transformations import (
     text_of,
 )
 
+import graphplan
 from graphplan.check.cycle import cycle
 from graphplan.check.json_results import data
 from graphplan.check.trusted import report
@@ -138,3 +140,10 @@ def test_loads_are_superposed() -> None:
             total = [*map(sum, zip(*parts, strict=True))] if isinstance(value, list) else sum(parts)
             assert value == total, (name, key)
     assert compared > 5
+
+
+def test_a_slide_without_force_has_no_line_of_action() -> None:
+    """A pump moved by a million agrees in all poses: also where its piston presses on no side of its cylinder."""
+    text = (Path(graphplan.__file__).parent / "scenes" / "ozols-16-1.toml").read_text("utf-8")
+    found = cycle(parse(text_of(MOVED.scene(tables_of(text))), "scene"), 12)
+    assert found.wrong == ()

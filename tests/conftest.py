@@ -54,7 +54,7 @@ def share(function: str, made: Sequence[pytest.Item]) -> Iterator[pytest.Item]:
         for item in made:
             variants[item.nodeid.replace(scene_of[item], "", 1)].append(item)
         each = max(A_PLAN, ceil(A_CLAIM / len(variants))) if count is None else ceil(count / len(variants))
-        for variant, own in variants.items():
+        for variant, own in spread([*variants.items()], len(variants) if count is None else count):
             chosen = scenes(variant, [scene_of[item] for item in own], each)
             yield from (item for item in own if scene_of[item] in chosen)
     else:

@@ -12,12 +12,11 @@ from pathlib import Path
 
 import pytest
 from each import each
+from sources import FILES, PACKAGE, parsed
 
 from graphplan.kernel import TABLE
 
 ROOT = Path(__file__).parent.parent
-PACKAGE = ROOT / "graphplan"
-FILES = sorted(PACKAGE.rglob("*.py"))
 
 # What a folder may import from graphplan, itself apart. `commands` and the front door may import anything.
 MAY = {
@@ -76,12 +75,6 @@ def dotted(path: Path) -> str:
 
 
 MODULES = {dotted(path): path for path in FILES}
-
-
-@cache
-def parsed(path: Path) -> ast.Module:
-    """The syntax of a file."""
-    return ast.parse(path.read_text())
 
 
 @cache

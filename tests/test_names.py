@@ -6,9 +6,9 @@ import ast
 import json
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
+from sources import FILES, PACKAGE, parsed
 
 import graphplan as gp
 from graphplan.kernel.kinds import TABLE, Variant, plain
@@ -19,7 +19,6 @@ from graphplan.methods.panels import JointForce, reactions_named
 from graphplan.methods.results import thing_named
 from graphplan.phrases import Phrase, Said, said
 
-PACKAGE = Path(gp.__file__).parent
 CUTTING = {"startswith", "endswith", "partition", "rpartition", "removeprefix", "removesuffix", "split", "find"}
 # What bears a plan, a kind of result, a law, a reason or a form, by the word that it goes by.
 NAMED = {"panel", "home", "kind", "quantity", "law", "why", "reason", "form"}
@@ -54,8 +53,8 @@ def test_cutting_a_name_is_seen(text: str) -> None:
 
 def test_no_name_is_cut() -> None:
     """No plan, kind of result, law or form is found by cutting its name or by comparing words."""
-    found = [f"{path.relative_to(PACKAGE)}:{node.lineno}" for path in sorted(PACKAGE.rglob("*.py"))  # type: ignore[attr-defined]
-             if str(path.relative_to(PACKAGE)) not in OWN for node in cuts(ast.parse(path.read_text(encoding="utf-8")))]
+    found = [f"{path.relative_to(PACKAGE)}:{node.lineno}" for path in FILES  # type: ignore[attr-defined]
+             if str(path.relative_to(PACKAGE)) not in OWN for node in cuts(parsed(path))]
     assert not found
 
 

@@ -15,6 +15,7 @@ import pytest
 from matplotlib import get_data_path
 from matplotlib.font_manager import get_font
 from matplotlib.ft2font import LoadFlags
+from sources import FILES, parsed
 
 import graphplan as gp
 from graphplan.accuracy.drafted import drafted
@@ -39,7 +40,6 @@ from graphplan.sheet.plates.display import Text
 from graphplan.words import LANGUAGES
 from graphplan.words.tongue import Entry, catalogue, tongue
 
-PACKAGE = Path(gp.__file__).parent
 SAYING = {"said", "phrase"}
 OTHERS = [code for code in LANGUAGES if code != "en"]
 
@@ -47,7 +47,7 @@ OTHERS = [code for code in LANGUAGES if code != "en"]
 @cache
 def phrases() -> frozenset[str]:
     """Every phrase that a source says, and the forms of which the choice is told."""
-    found = {text for path in PACKAGE.rglob("*.py") for text in _said(ast.parse(path.read_text()))}
+    found = {text for path in FILES for text in _said(parsed(path))}
     weighed = {form for op in TABLE.values() if op.weighed for form in op.forms}
     methods = {op.method for op in TABLE.values()} - {""}
     return frozenset(found | weighed | methods | {form.partition(" on ")[0] for form in weighed})

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from packaged_scenes import those
 from proven import lies
 
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES, WAYS, Degeneracy
@@ -18,9 +19,9 @@ from graphplan.check.trusted import report
 from graphplan.commands import main
 from graphplan.errors import ConstructionError, SingularPose
 from graphplan.mechanism.model import FRAME, Drive, Scene
-from graphplan.mechanism.scene import load, packaged, parse
+from graphplan.mechanism.scene import load, parse
 
-RATIONAL = [name for name in packaged() if not load(name).irrational]
+RATIONAL = those(lambda scene: not scene.irrational)
 DISTANCES = tuple(10.0**-k for k in range(3, 15))
 MILLION = Fraction(10**6)
 

@@ -11,15 +11,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from packaged_scenes import those
 
 import graphplan as gp
 from graphplan.check.cycle import asking, curves, cycle, quantities
 from graphplan.commands import main
-from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
 
-TURNING = [name for name in packaged() if gp.load(name).drives and not gp.load(name).motions
-           and name not in ("plough-lift", "ozols-5-3")]
+TURNING = those(lambda scene: scene.drives and not scene.motions and scene.name not in ("plough-lift", "ozols-5-3"))
 
 
 @pytest.fixture

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from packaged_scenes import those
 
 import graphplan as gp
 from graphplan.commands import main
@@ -18,10 +19,9 @@ from graphplan.cycle.traced import traced
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Scene
-from graphplan.mechanism.scene import packaged
 
 STEP = 2.0**-16
-DRIVEN = [name for name in packaged() if (scene := gp.load(name)).drives and not scene.motions]
+DRIVEN = those(lambda scene: scene.drives and not scene.motions)
 TRAMMEL = """
 [points]
 A = [30, 0]

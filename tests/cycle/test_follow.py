@@ -13,6 +13,7 @@ from typing import Any
 import four_bars
 import numpy as np
 import pytest
+from packaged_scenes import read, those
 from random_mechanisms import GROUPS, mechanism
 
 import graphplan as gp
@@ -23,12 +24,11 @@ from graphplan.cycle.groups import Group
 from graphplan.cycle.linkage import Linkage
 from graphplan.errors import Refused, SceneError
 from graphplan.mechanism.model import FRAME, Scene, SlidingDrive
-from graphplan.mechanism.scene import packaged
 from graphplan.mechanism.structure import structure
 from graphplan.mechanism.travel import paces
 
 ROUNDING = 2.0**-52
-DRIVEN = [name for name in packaged() if gp.load(name).drives and not gp.load(name).motions]
+DRIVEN = those(lambda scene: scene.drives and not scene.motions)
 DYADS = ["rrr", "rrp", "rpr", "prp", "rpp"]
 
 
@@ -142,7 +142,7 @@ def test_packaged_cycles_hold_together(name: str) -> None:
     assert set(turn.faults) | set(map(int, reached(turn))) == set(range(72))
 
 
-@pytest.mark.parametrize("name", [name for name in DRIVEN if not isinstance(gp.load(name).drives[0], SlidingDrive)])
+@pytest.mark.parametrize("name", [name for name in DRIVEN if not isinstance(read(name).drives[0], SlidingDrive)])
 def test_poses_do_not_depend_on_how_many_are_asked_for(name: str) -> None:
     """Twice as many positions contain the same poses, so nothing jumps to another branch between two of them."""
     scene, turn = around(name, 72)

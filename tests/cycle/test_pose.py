@@ -8,19 +8,18 @@ import math
 from itertools import product
 
 import pytest
+from packaged_scenes import those
 
 import graphplan as gp
 from graphplan.check.trusted import report
 from graphplan.commands import main
 from graphplan.errors import GraphplanError, Refused, SingularPose
-from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.plates.display import Text
 
-DRIVEN = [name for name in packaged() if (scene := gp.load(name)).drives and not scene.motions
-          and not (scene.gears or scene.contacts)]
+DRIVEN = those(lambda scene: scene.drives and not scene.motions and not (scene.gears or scene.contacts))
 TRAINS = ["planetary", "biplanetary", "david", "cardan-circles", "geared-five-bar"]
 TRAVELS = 0, 17, 145, -33
 DEAD = gp.parse("""

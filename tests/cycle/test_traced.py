@@ -9,6 +9,7 @@ from itertools import combinations
 import four_bars
 import numpy as np
 import pytest
+from packaged_scenes import those
 
 from graphplan import load, parse
 from graphplan.cycle import follow
@@ -16,7 +17,6 @@ from graphplan.cycle.traced import traced
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.replaced import guides
-from graphplan.mechanism.scene import packaged
 from graphplan.sheet.plates.traced_motion import TracedMotion
 
 ROUNDING = 1e-12
@@ -41,7 +41,7 @@ def riding(scene: Scene) -> set[str]:
             if scene.points[point] == scene.points[slide.at] and len(scene.links_of[point]) == 1}
 
 
-DRIVEN = [name for name in packaged() if (scene := load(name)).drives and not scene.motions]
+DRIVEN = those(lambda scene: scene.drives and not scene.motions)
 
 
 @pytest.mark.parametrize("name", DRIVEN)

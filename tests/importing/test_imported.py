@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from packaged_scenes import read, those
 from samples import SAMPLES, as_drawing, as_linkage, as_pmks, geogebra, packed, point, segments, turning
 
 import graphplan as gp
@@ -15,7 +16,7 @@ from graphplan.commands import main
 from graphplan.importing.files import imported
 from graphplan.importing.packed import unpacked
 from graphplan.mechanism.model import FRAME, Scene
-from graphplan.mechanism.scene import packaged, parse
+from graphplan.mechanism.scene import parse
 
 
 def taken(data: bytes, name: str, folder: Path) -> str:
@@ -64,8 +65,8 @@ def test_a_file_gives_the_scene_that_is_written_by_hand(name: str, tmp_path: Pat
 
 
 TRUE = '"true"'
-TURNING = [name for name in packaged() if turning(scene := gp.load(name)) and not scene.gears + scene.contacts]
-REVOLUTE = [name for name in TURNING if not gp.load(name).slides]
+TURNING = those(lambda scene: turning(scene) and not scene.gears + scene.contacts)
+REVOLUTE = [name for name in TURNING if not read(name).slides]
 
 
 @pytest.mark.parametrize("name", TURNING)

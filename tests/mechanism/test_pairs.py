@@ -11,6 +11,7 @@ from typing import Any
 import higher
 import numpy as np
 import pytest
+from packaged_scenes import those
 
 import graphplan as gp
 from graphplan.cycle import closure
@@ -139,7 +140,7 @@ def test_what_is_passed_on_is_what_binds(name: str) -> None:
         assert np.linalg.matrix_rank(rows) == np.linalg.matrix_rank(both) == np.linalg.matrix_rank(rows + both)
 
 
-@pytest.mark.parametrize("name", [*(name for name in SCENES if gp.load(name).drives and not gp.load(name).motions),
+@pytest.mark.parametrize("name", [*those(lambda scene: scene.drives and not scene.motions),
                                   *HIGHER])
 def test_the_cycle_closes_what_is_stated(name: str) -> None:
     """Anywhere near the pose, what the closure leaves open is what the statements leave, lengths counted in reaches.

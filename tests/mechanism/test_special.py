@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from packaged_scenes import those
 from special_machines import MACHINES, Machine
 
 from graphplan.check.json_results import data
@@ -16,7 +17,7 @@ from graphplan.check.trusted import report
 from graphplan.cycle import follow
 from graphplan.errors import SceneError, SingularPose
 from graphplan.mechanism.model import FRAME, Scene, SlidingDrive
-from graphplan.mechanism.scene import load, packaged, parse
+from graphplan.mechanism.scene import load, parse
 from graphplan.mechanism.structure import mobility, structure
 from graphplan.solver import power, reactions, solve
 
@@ -223,7 +224,7 @@ def test_a_reaction_that_statics_cannot_tell_is_null_by_name() -> None:
         assert null == [name]
 
 
-@pytest.mark.parametrize("name", [name for name in packaged() if not load(name).motions])
+@pytest.mark.parametrize("name", those(lambda scene: not scene.motions))
 def test_a_bar_too_many_changes_nothing(name: str) -> None:
     """A bar between two points of one link is told as redundant or makes another so, and the rates stay the same."""
     text, scene, chance = load(name).text, load(name), Random(name)

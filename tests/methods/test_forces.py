@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from packaged_scenes import read, those
 from random_loads import loaded
 from random_mechanisms import GROUPS, mechanism
 from test_topologies import thrown
@@ -32,11 +33,11 @@ from graphplan.mechanism.model import (
     TurningDrive,
     Units,
 )
-from graphplan.mechanism.scene import load, packaged
+from graphplan.mechanism.scene import load
 from graphplan.methods.construct import construct
 from graphplan.methods.styles import INERTIA
 
-LOADED = [name for name in packaged() if load(name).loads is not None]
+LOADED = those(lambda scene: scene.loads is not None)
 SOME = st.lists(st.sampled_from(sorted(GROUPS)), min_size=1, max_size=3)
 
 
@@ -150,7 +151,7 @@ def test_loaded_scenes_agree(name: str, plan: str) -> None:
     assert found.check["force"] < 1e-12
 
 
-@pytest.mark.parametrize("name", [name for name in LOADED if not load(name).irrational])
+@pytest.mark.parametrize("name", [name for name in LOADED if not read(name).irrational])
 def test_loaded_scenes_agree_exactly(name: str) -> None:
     """Where a packaged scene is rational they agree exactly."""
     assert report(load(name), exact=True).check["force"] == 0

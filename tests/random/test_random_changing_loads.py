@@ -24,7 +24,7 @@ from graphplan.mechanism.scene import parse
 from graphplan.methods.construct import construct
 from graphplan.solver import poses
 
-LINKAGES = range(sample(4, 12))
+LINKAGES = range(sample(3, 12))
 SPAN, POSES, GIVEN = (-4.0, 6.0), 6, 2  # degrees, or lengths; positions, and which of them is the given pose
 LOAD = re.compile(r'\[\[(forces|moments)\]\]\non = "(.+)"\n(?:at = "(.+)"\n)?value = .*')
 

@@ -18,7 +18,7 @@ from graphplan.methods.construct import construct
 from graphplan.methods.styles import OF_PATHS
 from graphplan.solver import solve
 
-MECHANISMS, TOGETHER = sample(5, 20), 5
+MECHANISMS, TOGETHER = sample((3, 3), (20, 5))
 MADE = {"linkages": linkage, "gearings": gearing}
 
 

@@ -15,8 +15,8 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 from graphplan.solver import Rates, solve
 
-LINKAGES = sample(10, 100)
-TOGETHER = sample(5, 20)  # linkages to a test
+LINKAGES = sample(6, 100)
+TOGETHER = sample(3, 20)  # linkages to a test
 LONGEST = 5.0  # seconds for one construction and its numbers
 STYLES = [(method, plan) for plan in ("orthogonal", "polar", "") for method in ("", "trial", "auxiliary", "poles")]
 

@@ -21,8 +21,8 @@ from graphplan.methods.panels import JointForce
 from graphplan.methods.styles import INERTIA
 from graphplan.solver import Reactions, reactions, with_friction
 
-LINKAGES = sample(6, 40)
-TOGETHER = sample(6, 20)  # linkages to a test
+LINKAGES = sample(4, 40)
+TOGETHER = sample(4, 20)  # linkages to a test
 STYLES = [(plan, inertia) for plan in ("", "lever", "polygons", "polar", "polar,lever", "polar,polygons")
           for inertia in INERTIA]
 

@@ -19,7 +19,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 
-SCENES = 400 if os.environ.get("TESTS") == "thorough" else 5  # of each kind
+SCENES = 400 if os.environ.get("TESTS") == "thorough" else 4  # of each kind
 FIRST = {"gearings": (38, 93)}  # seeds of scenes in which lines were once shifted from points of another plan
 ROUNDED = 1e-6  # beside a plan: flat crossings lose digits, marks of another plan are whole lengths off
 STYLES = [(plan, method) for plan in ("orthogonal", "polar", "") for method in ("", "trial", "poles", "auxiliary")]

@@ -19,7 +19,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.solver import poses
 from graphplan.solver.friction import delivered
 
-LINKAGES = sample(5, 20)
+LINKAGES = sample(3, 20)
 TOGETHER = 5
 FAR = 0.4  # of the way to a limit: beyond it rates grow without bound
 NOTHING = 1e-6  # J: loads are some newtons at arms of millimetres

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
+from packaged_scenes import those
+
 import graphplan as gp
 from graphplan.methods.construction import Construction
 from graphplan.sheet.frames.corner_marks import MARKS
@@ -18,7 +20,7 @@ from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Po
 
 P, T = ParamSpec("P"), TypeVar("T")
 SCENES = sorted(path.stem for path in Path(gp.__file__).parent.glob("scenes/*.toml"))
-LOADED = [name for name in SCENES if gp.load(name).loads is not None]
+LOADED = those(lambda scene: scene.loads is not None)
 
 
 def kept(make: Callable[P, T]) -> Callable[P, T]:

@@ -43,7 +43,7 @@ from graphplan.errors import GraphplanError
 from graphplan.mechanism.scene import parse
 
 THOROUGH = os.environ.get("TESTS") == "thorough"
-SCENES = 100 if THOROUGH else 2  # of each kind
+SCENES = 100 if THOROUGH else 3  # of each kind
 MADE = {"linkage": linkage, "gearing": gearing}
 SEEN: dict[str, Callable[[Tables, int], Transformation]] = {
     "moved": lambda tables, seed: MOVED, "turned": lambda tables, seed: TURNED,
@@ -100,7 +100,7 @@ def test_scenes_seen_otherwise_give_the_same() -> None:
 def test_floats_lose_no_digit_for_lying_far_off() -> None:
     """Moved by a million a scene has the same numbers, to the digits of floats."""
     compared = 0
-    for name, tables in islice(_scenes(), None, None, 1 if THOROUGH else 2):
+    for name, tables in islice(_scenes(), None, None, 1 if THOROUGH else 3):
         (status, near), (now, far) = (_solved(one, exact=False) for one in (tables, MOVED.scene(tables)))
         assert now == status, name
         for key, value in near.items():

@@ -12,6 +12,7 @@ from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Polyline, Rect
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.higher_pairs import belt, reach, wheels
+from graphplan.sheet.plates.symbols import HATCH
 from graphplan.sheet.plates.view import View
 from graphplan.sheet.words.tables import settled
 from graphplan.sheet.words.task import data
@@ -22,13 +23,15 @@ SCENES = scenes()
 
 @pytest.mark.parametrize("name", SCENES)
 def test_every_pitch_circle_and_profile_is_drawn_once(name: str) -> None:
-    """Every wheel has its pitch circle, every contact its two profiles, and all reach no further than is said."""
+    """Every wheel has its pitch circle, every contact its two profiles, each ground its hatching; all reach no further
+    than is said."""
     scene = SCENES[name]
     items = [*DrawnMechanism(scene, View(EVERYWHERE, 1.0, (0.0, 0.0))).items()]
     circles = [item for item in items if isinstance(item, Arc) and item.pen == pens.WHEEL]
     assert len(circles) == 2 * len(wheels(scene))
     profiles = [item for item in items if item.pen in (pens.LINK, pens.GROUND) and item.layer in ("wheels", "ground")]
     assert len(profiles) >= 2 * len(scene.contacts)
+    assert {round(math.dist(*item.spots), 9) for item in items if item.pen == pens.HATCH} <= {HATCH}
     corners = [*reach(scene)]
     for arc in circles:
         assert (arc.centre[0] - arc.radius, arc.centre[1] - arc.radius) in [pytest.approx(one) for one in corners]

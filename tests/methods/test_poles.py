@@ -20,6 +20,7 @@ from graphplan.kernel.kinds import LINE
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import FOLDER, parse
 from graphplan.methods.kinds import POLE, POLE_HEADING
+from graphplan.methods.motion.circle_diagram import CircleDiagram
 
 FOUR_BAR = """
 points = { O = [0, 0], C = [100, 0], A = [20, 30], B = [90, 60] }
@@ -139,3 +140,16 @@ def test_that_links_rest_on_each_other_is_checked() -> None:
     assert found.agrees
     assert not without.agrees
     assert "links 2 frame" in str(without.disagreement)
+
+
+@pytest.mark.parametrize("dual", [False, True])
+def test_crossings_are_compared_on_the_unit_sphere(dual: bool) -> None:
+    """The sine of two poles or lines hangs on no factor of theirs, is 0 of one and the same, and never above 1."""
+    diagram = object.__new__(CircleDiagram)
+    diagram.scene = parse(FOUR_BAR % '"all"', "four-bar")
+    vectors = [(3, 4, 50), (-7, 2, 9), (120, 40, 1), (1, -1, 300)]
+    for k, u in enumerate(vectors):
+        assert diagram.sine(u, u, dual) == pytest.approx(0, abs=1e-12)
+        for v in vectors[:k]:
+            assert 0 < diagram.sine(u, v, dual) <= 1 + 1e-12
+            assert diagram.sine([-6 * part for part in u], v, dual) == pytest.approx(diagram.sine(u, v, dual))

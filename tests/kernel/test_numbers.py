@@ -63,7 +63,7 @@ def test_batch_equals_floats(name: str, place: Place) -> None:
 def test_fractions_equal_floats(name: str) -> None:
     """Fractions give what floats give, to rounding."""
     r, both = Random(name), 0
-    for _ in range(sample(20, 60)):
+    for _ in range(60):
         program = figure(name, r)
         exact, rounded = drawn(program, Fractions()), drawn(program, Floats())
         if exact is None or rounded is None:

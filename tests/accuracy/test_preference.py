@@ -92,13 +92,15 @@ def test_a_form_that_cannot_be_drawn_says_why() -> None:
 
 
 def test_the_protocol_tells_the_preference(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    """`steps --prefer` draws the form preferred, and its protocol says what was weighed."""
+    """`steps --prefer` draws the form preferred, of the least error, and its protocol says what was weighed."""
     scene = tmp_path / "triad.toml"
     scene.write_text(TRIAD)
     assert main(["steps", str(scene), "--plan", "polar", "--prefer", "accurate"]) == 0
     told = capsys.readouterr().out
-    assert "accurate form preferred: trial; compared on A4 portrait:" in told
-    assert re.search(r"step \d+: trial figure", told)
+    preferred, weighed = re.search(r"accurate form preferred: (.*); compared on A\d.*:\n((?: .*\n)+)", told).groups()
+    errors = {name: float(error) for name, error in re.findall(r"  (.*): \d+ operations, error ([\d.]+) %", weighed)}
+    assert len(errors) > 1
+    assert min(errors.values()) == next(error for name, error in errors.items() if preferred in name)
 
 
 @pytest.mark.parametrize(("name", "times"), [("five-bar", 1), ("four-bar", 2), ("triad", 4)])

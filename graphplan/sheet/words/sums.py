@@ -134,7 +134,7 @@ def rounded(number: float, kind: str, level: int, *, result: bool = False) -> fl
 def decimals_of(number: float, kind: str, level: int) -> int:
     """In how many decimals mm are printed: in more where nothing would be left to multiply or to divide by."""
     count = LEVELS[level][0]
-    kept = level == PRINTED or kind == "d" and level == READ
+    kept = level == PRINTED or (kind == "d" and level == READ)
     return 1 - _power(number) if kept and 0 < abs(number) < 0.5 * 10.0**-count else count
 
 

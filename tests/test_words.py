@@ -19,7 +19,7 @@ from sources import FILES, parsed
 
 import graphplan as gp
 from graphplan.accuracy.drafted import drafted
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.preference import Form, weighed
 from graphplan.commands import main
 from graphplan.cycle import follow

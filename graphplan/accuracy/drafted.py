@@ -9,9 +9,8 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.accuracy.first_order import Result, control_errors, first_order
-from graphplan.accuracy.hand import Hand, hand
-from graphplan.accuracy.pencil import Pencil
-from graphplan.cycle.traced import traced
+from graphplan.accuracy.hand import Hand, Pencil, hand
+from graphplan.cycle.motion_curves import traced
 from graphplan.errors import Refused
 from graphplan.kernel.coincidence import crossing
 from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES

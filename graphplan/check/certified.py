@@ -15,12 +15,11 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from graphplan.check.answerable import Reasons, answered, decided, extras, joined, without
 from graphplan.check.arithmetics import enclosures
 from graphplan.check.compared import drawn_sizes, each, weight
-from graphplan.check.extras import Reasons, answered, extras, joined, without
 from graphplan.check.json_results import data
 from graphplan.check.report import Opinion, Report, opinion
-from graphplan.check.resting import decided
 from graphplan.check.trusted import first_sound, report, solver_alone
 from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, GraphplanError, Refused, SingularPose
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, precision

@@ -15,8 +15,8 @@ import numpy as np
 
 from graphplan.check.poses import Round, gaps, groups, sound
 from graphplan.check.trusted import construct
-from graphplan.cycle.centrodes import Centrodes, rolling
 from graphplan.cycle.curves import Curve, passed
+from graphplan.cycle.motion_curves import Centrodes, rolling
 from graphplan.cycle.pose import in_pose
 from graphplan.cycle.turn import Turn, followed
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -11,14 +11,15 @@ from typing import TYPE_CHECKING, Any
 
 from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, bounded_rates, enclosed, placing_error
 from graphplan.check.compared import Compared, Numbers, Results
-from graphplan.check.paths import path_truth
 from graphplan.check.tolerances import ROUNDING_TOL, UNPROVEN_TOL
 from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, SingularPose
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import FRAME, Scene
+from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.controls import Control
 from graphplan.methods.kinds import FORCES, MOTION, ORDER, POLE, POLE_HEADING, POLES, kind_of
 from graphplan.solver import Rates, solve
+from graphplan.solver import curvature as solved
 from graphplan.solver.instant_centres import relative
 
 if TYPE_CHECKING:
@@ -271,3 +272,34 @@ class Report:
 def told(value: Any) -> str:
     """A number as an error line has it."""
     return f"{float(value):.10g}"
+
+
+# ---- the solver on the curvature of paths and on inflection circles --------------------------------------------------
+
+
+NOTHING_MOVES = "what is asked of {0} does not exist, as nothing moves there"
+OF_POINTS: dict[str, Callable[[Rates, str, str], Any]] = {
+    kinds.CENTRE: solved.centre,
+    kinds.STRAIGHT: lambda rates, point, link: solved.curvature(rates, point),
+    kinds.CUSP: solved.from_pole,
+}
+OF_LINKS: dict[str, Callable[[Rates, str], Any]] = {
+    kinds.INFLECTION: solved.inflection_pole,
+    kinds.MOTION_POLE: lambda rates, link: relative(rates, link, FRAME).centre,
+    kinds.TRANSLATION: lambda rates, link: rates.omega[link],
+}
+
+
+def path_truth(rates: Rates, results: Mapping[str, Iterable[str]]) -> dict[str, dict[str, Any]]:
+    """The solver's values by the kinds and names of results; fails with `SingularPose` where there is none."""
+    traced = rates.equations.scene.find.traced
+    found: dict[str, dict[str, Any]] = {}
+    for kind, names in results.items():
+        for name in names if kind in OF_POINTS or kind in OF_LINKS else ():
+            point, link = traced.get(name, ("", name))
+            try:
+                value = OF_POINTS[kind](rates, point, link) if kind in OF_POINTS else OF_LINKS[kind](rates, link)
+            except ZeroDivisionError:
+                raise SingularPose(NOTHING_MOVES.format(name), (link,)) from None
+            found.setdefault(kind, {})[name] = value
+    return found

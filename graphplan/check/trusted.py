@@ -15,11 +15,10 @@ from importlib.util import find_spec
 from itertools import islice
 from typing import Any, TypeVar
 
+from graphplan.check.answerable import answered, decided
 from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, enclosures
 from graphplan.check.compared import compared, printed, rounded
-from graphplan.check.extras import answered
 from graphplan.check.report import Opinion, Report, opinion
-from graphplan.check.resting import decided
 from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
 from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.numbers import Domain

@@ -11,7 +11,7 @@ from graphplan.commands.output import Messages, kind, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
-    from graphplan.cycle.loop import Loop
+    from graphplan.cycle.turn import Loop
     from graphplan.methods.construction import Construction
     from graphplan.output.animation import Film
     from graphplan.sheet.layout.composition import Composition
@@ -50,7 +50,7 @@ def asked(options: argparse.Namespace) -> None:
 
 def run(options: argparse.Namespace, span: tuple[float, float] | None) -> None:
     """Write the animation that is asked for."""
-    from graphplan.cycle.loop import loop
+    from graphplan.cycle.turn import loop
     from graphplan.output.animation import gif, svg
 
     options.protocol = "none"  # there is no time to read it

@@ -28,8 +28,8 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    from graphplan.check.answerable import in_part
     from graphplan.check.json_results import reasons
-    from graphplan.check.regular import in_part
     from graphplan.check.shortcuts import replacements, shortcuts
     from graphplan.mechanism.structure import structure
     from graphplan.methods.panels import redundancies

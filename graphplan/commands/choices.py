@@ -20,7 +20,7 @@ from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
-    from graphplan.accuracy.pencil import Pencil
+    from graphplan.accuracy.hand import Pencil
     from graphplan.check.report import Report
     from graphplan.mechanism.model import Scene
     from graphplan.output.panelled import Panelled
@@ -148,7 +148,7 @@ def add_pencil(command: argparse.ArgumentParser) -> None:
 
 
 def _pencil(text: str) -> Pencil:
-    from graphplan.accuracy.pencil import pencil
+    from graphplan.accuracy.hand import pencil
 
     return pencil(text)
 
@@ -231,8 +231,8 @@ def reported(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:
 def drawable(options: argparse.Namespace) -> Report:
     """The same of the scene on its sheet, or of the part of it that is regular in this pose; its notes say what of the
     rest is not drawn, and why."""
+    from graphplan.check.answerable import in_part
     from graphplan.check.json_results import reasons
-    from graphplan.check.regular import in_part
     from graphplan.phrases import said
 
     found, left_out = in_part(presented(options), lambda scene: reported(options, scene)), dict[str, list[str]]()
@@ -277,7 +277,7 @@ def on_paper(options: argparse.Namespace, found: Report | None = None) -> Drafte
 
 def pencil(options: argparse.Namespace) -> Pencil:
     """The pencil that is asked for, or a careful hand's."""
-    from graphplan.accuracy.pencil import Pencil
+    from graphplan.accuracy.hand import Pencil
 
     return options.pencil or Pencil()
 

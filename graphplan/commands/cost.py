@@ -28,8 +28,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.accuracy.comparison import Comparison, legend
-    from graphplan.accuracy.preference import forms
+    from graphplan.accuracy.preference import Comparison, forms, legend
     from graphplan.check.trusted import construct
     from graphplan.cycle.travel import afford
     from graphplan.errors import Disagreement

@@ -104,7 +104,7 @@ def _paths(options: argparse.Namespace) -> str:
     """The mechanism with its paths and centrodes as SVG text: a sheet on which nothing is constructed."""
     from dataclasses import replace
 
-    from graphplan.cycle.traced import traced
+    from graphplan.cycle.motion_curves import traced
     from graphplan.methods.construct import construct
     from graphplan.output.svg import svg
     from graphplan.sheet.layout.composition import compose

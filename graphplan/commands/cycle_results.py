@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.commands.flywheel import pencil_errors
 from graphplan.marking.classroom.key import Row, single_row
 from graphplan.marking.judge.cycle_numbers import Expected

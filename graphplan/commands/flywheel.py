@@ -34,7 +34,7 @@ from graphplan.commands.output import SHEETS, Messages, as_json, kind, write, wr
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
-    from graphplan.accuracy.pencil import Pencil
+    from graphplan.accuracy.hand import Pencil
     from graphplan.machine.flywheel.found import FlywheelResult
     from graphplan.mechanism.model import Scene
     from graphplan.output.machine.flywheel_sheet import FlywheelSheet

@@ -144,7 +144,7 @@ class _Site:
         """A scene as the site shows it, and its files by their names."""
         from graphplan import sheet
         from graphplan.accuracy.drafted import drafted
-        from graphplan.accuracy.pencil import Pencil
+        from graphplan.accuracy.hand import Pencil
         from graphplan.check.json_results import data
         from graphplan.check.trusted import report
         from graphplan.commands.steps import protocol

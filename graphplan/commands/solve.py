@@ -35,8 +35,8 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     if options.digits is not None:
         return _certified(options)
+    from graphplan.check.answerable import in_part
     from graphplan.check.json_results import data
-    from graphplan.check.regular import in_part
 
     found = in_part(given(options), lambda scene: reported(options, scene, exact=options.exact,
                                                            alone=not options.pencil))
@@ -58,8 +58,8 @@ def _certified(options: argparse.Namespace) -> int:
         raise Refused("--digits", "with --exact every digit is there", "leave out one of the two")
     if find_spec("flint") is None:
         raise Refused("--digits", "proven digits need python-flint", "install graphplan[certified]")
+    from graphplan.check.answerable import in_part
     from graphplan.check.certified import Certified, certified
-    from graphplan.check.regular import in_part
 
     def proven(scene: Scene) -> Certified:
         how, _ = drawn_by(options, scene)

@@ -1,19 +1,243 @@
-"""Kinematic diagrams of one quantity: its curves from the plans, its rates found graphically, and how far these err."""
+"""Kinematic diagrams: what is given, what graphical differentiation and integration find from it, and how that errs.
+
+The displacement diagram is differentiated twice, by chords and by tangents; the plans' acceleration is integrated
+twice. All coordinates are mm of paper, in each diagram from its own origin; abscissas are common to the three.
+
+A diagram is drawn over the axis of time, the diagram of its rate under it over the same abscissas. A ray from the
+rate's pole, HO left of the origin, is parallel to a chord of the upper diagram; it cuts off HO times the chord's slope
+on the axis of ordinates. Read from the chord to the ordinate this differentiates, from the ordinate to the chord it
+integrates, so both give rays of one kind, and with mu the units for one mm: mu_v = mu_s/(mu_t HO).
+
+Sources: Jaanimets 1966, 10-13 (chords, ordinates to the middle of the strip, and back by integration); Ozols 1974,
+fig. 15-3 and 20-2 (integration), and (5.33) of 5-6 (tangents: his text of the drawing is lost, so it is reconstructed
+from the formula, the tangent being drawn parallel to the chord over the two neighbouring strips).
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from fractions import Fraction
+from itertools import pairwise
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from graphplan.cycle.curves import Curve, DiagramScales, Places, Reals, diagram_scales, sizes
-from graphplan.cycle.diagram_program import INTEGRATED, Found, Ray, Spot, constructed
-from graphplan.cycle.tolerances import ORDINATE_TOL
+from graphplan.cycle.curves import QUANTITIES, Curve, DiagramScales, Places, Reals, diagram_scales, sizes
+from graphplan.cycle.tolerances import ORDINATE_TOL, TIME_TOL
 from graphplan.errors import Refused
-from graphplan.kernel.program import Program
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
+
+PANELS = {quantity: Panel(f"{quantity} diagram") for quantity in QUANTITIES}
+CHORDS, TANGENTS, INTEGRATED = "by chords", "by tangents", "integrated"
+
+T = TypeVar("T")
+Spot = tuple[float, float]
+
+
+# ---- differentiation and integration with a pole ---------------------------------------------------------------------
+
+
+class Ray(NamedTuple, Generic[T]):
+    """One ray from the pole: the ends of the chord parallel to it, its cut on the axis, and the ordinate there."""
+
+    start: T
+    end: T
+    cut: T
+    ordinate: T
+
+
+@dataclass(frozen=True)
+class Axes:
+    """The axes of one rate's diagram and its pole."""
+
+    origin: Mark
+    abscissas: Mark
+    ordinates: Mark
+    pole: Mark
+
+
+def axes(board: Board, panel: Panel, letter: str, distance: Fraction) -> Axes:
+    """The axes of the diagram of `letter`, its pole at the given distance left of the origin."""
+    with board.on(panel=panel):
+        O = board.begin(plan=panel, name=f"O_{letter}")
+    t = board.guide(O, dx=1, dy=0, why="the axis of time")
+    y = board.perpendicular(t, O, why=f"the axis of {letter}")
+    H = board.lay_off(O, dx=-distance, dy=0, name=f"H_{letter}", why="the pole: its distance sets the scale")
+    return Axes(O, t, y, H)
+
+
+def by_chords(board: Board, points: Sequence[Mark], rate: Axes, names: Sequence[str]) -> list[Ray[Mark]]:
+    """The rate in the middle of each strip, from the strip's chord.
+
+    Reads the n points of a diagram, the rate's axes and n - 1 names. The chord's slope is the mean rate of the strip,
+    which differs from the rate at its middle by the second order of its width.
+    """
+    return [_differentiated(board, P, Q, board.midpoint(P, Q), rate, name)
+            for (P, Q), name in zip(pairwise(points), names, strict=True)]
+
+
+def by_tangents(board: Board, points: Sequence[Mark], rate: Axes, names: Sequence[str]) -> list[Ray[Mark]]:
+    """The rate at each inner point, the tangent there drawn parallel to the chord of its two neighbours.
+
+    Reads the n points of a diagram, evenly divided, the rate's axes and n - 2 names.
+    """
+    return [_differentiated(board, P, Q, at, rate, name)
+            for P, at, Q, name in zip(points, points[1:], points[2:], names, strict=False)]
+
+
+def _differentiated(board: Board, P: Mark, Q: Mark, at: Mark, rate: Axes, name: str) -> Ray[Mark]:
+    chord = board.line(P, Q, why="its slope is the mean rate")
+    ray = board.parallel(chord, rate.pole, why="the ray of this slope")
+    cut = board.meet(ray, rate.ordinates, why="HO times the slope")
+    level = board.parallel(rate.abscissas, cut, why="carry the ordinate across")
+    upright = board.parallel(rate.ordinates, at, why="to the abscissa where the rate is such")
+    return Ray(P, Q, cut, board.meet(upright, level, name=name))
+
+
+def integrate(board: Board, ordinates: Sequence[Mark], start: Mark, divisions: Sequence[Mark], rate: Axes,
+              names: Sequence[str]) -> list[Ray[Mark]]:
+    """The diagram of which the rate is known: a string of chords from `start`, each parallel to its strip's ray.
+
+    Reads the rate's ordinates at the middle of n strips, the first point, marks at the n + 1 abscissas that bound the
+    strips, the rate's axes and n names.
+    """
+    rays, P = list[Ray[Mark]](), start
+    for V, division, name in zip(ordinates, divisions[1:], names, strict=True):
+        level = board.parallel(rate.abscissas, V, why="carry the mean ordinate of the strip to the axis")
+        cut = board.meet(level, rate.ordinates)
+        ray = board.line(rate.pole, cut, why="its slope is the ordinate by HO")
+        chord = board.parallel(ray, P, why="on from the end of the chord before")
+        upright = board.parallel(rate.ordinates, division, why="to the end of the strip")
+        Q = board.meet(upright, chord, name=name)
+        rays.append(Ray(P, Q, cut, V))
+        P = Q
+    return rays
+
+
+def around(board: Board, points: Sequence[Mark], period: tuple[Mark, Mark], shared: int) -> list[Mark]:
+    """The points of a periodic diagram with one more at either end, carried over by the vector of the period.
+
+    `period` are the first and last point of one period; `shared` is 1 where they are points of the diagram, else 0.
+    """
+    first, last = period
+    before = board.transfer(last, first, points[-1 - shared], why="the motion is periodic")
+    after = board.transfer(first, last, points[shared], why="the motion is periodic")
+    return [before, *points, after]
+
+
+def feet(board: Board, points: Sequence[Mark], rate: Axes) -> list[Mark]:
+    """The abscissas of the points, marked on the rate's axis of time."""
+    uprights = [board.parallel(rate.ordinates, P, why="down to the axis of time") for P in points]
+    return [board.meet(upright, rate.abscissas) for upright in uprights]
+
+
+# ---- the curves of a diagram -----------------------------------------------------------------------------------------
+
+
+class Found(NamedTuple):
+    """What was found and how: s, v or a; by chords, by tangents or integrated."""
+
+    quantity: str
+    method: str
+
+
+Traces = dict[Found, list[list[Ray[Spot]]]]
+
+
+class _Stretch:
+    """A stretch of positions on the board, what the plans give being marked in the three diagrams.
+
+    That are the points of the displacement diagram, the first point of the velocity diagram, and the ordinates of the
+    acceleration diagram at the middle of the strips. Positions are numbered by the divisions. Only where the strips are
+    `even` is a chord over two of them parallel to the tangent between; `closed` where they close a period.
+    """
+
+    def __init__(self, board: Board, curve: Curve, scales: DiagramScales, places: Places, stretch: Places):
+        self.board, self.curve, self.scales = board, curve, scales
+        self.numbers, times = [list(places).index(place) for place in stretch], curve.time[stretch]
+        self.even = bool(np.ptp(np.diff(times)) <= TIME_TOL * (curve.time[-1] - curve.time[0]))
+        self.closed = curve.closed and bool(curve.known.all())
+        middles = (times[1:] + times[:-1]) / 2
+        self.points = self._marked("s", self._at("s", self.numbers), times, curve.s[stretch])
+        (self.start,) = self._marked("v", self._at("v", self.numbers[:1]), times[:1], curve.v[stretch[:1]])
+        self.middles = self._marked("a", self._between("a"), middles, curve.at("a", middles))
+
+    def _marked(self, quantity: str, names: Sequence[str], times: Reals, values: Reals) -> list[Mark]:
+        spots = zip(names, self.scales.x(times), self.scales.y(quantity, values), strict=True)
+        with self.board.on(panel=PANELS[quantity]):
+            return [self.board.given(x=float(x), y=float(y), name=name) for name, x, y in spots]
+
+    def _at(self, quantity: str, numbers: Sequence[int]) -> list[str]:
+        """Names for what stands at divisions."""
+        return [f"{self.curve.letters[quantity]}_{k}" for k in numbers]
+
+    def _between(self, quantity: str) -> list[str]:
+        """Names for what stands in the middle of strips: v_3_4 between the divisions 3 and 4."""
+        return [f"{self.curve.letters[quantity]}_{j}_{k}" for j, k in pairwise(self.numbers)]
+
+    def found(self, v: Axes, a: Axes) -> dict[Found, list[Ray[Mark]]]:
+        """The rates by chords and by tangents, and the integrals, in the order in which they are drawn."""
+        figure = self._by_chords(v, a)
+        figure |= self._by_tangents(v, a) if self.even else {}
+        figure |= self._integrated(v, a)
+        return {found: rays for found, rays in figure.items() if rays}
+
+    def _by_chords(self, v: Axes, a: Axes) -> dict[Found, list[Ray[Mark]]]:
+        """The velocity in the middle of the strips, and from its chords the acceleration at the divisions between."""
+        velocities = by_chords(self.board, self.points, v, self._between("v"))
+        middles, inner = [ray.ordinate for ray in velocities], self.numbers[1:-1]
+        if self.closed:
+            first, last = feet(self.board, (self.points[0], self.points[-1]), v)
+            middles, inner = around(self.board, middles, (first, last), shared=0), self.numbers
+        return {Found("v", CHORDS): velocities,
+                Found("a", CHORDS): by_chords(self.board, middles, a, self._at("a", inner))}
+
+    def _by_tangents(self, v: Axes, a: Axes) -> dict[Found, list[Ray[Mark]]]:
+        """The velocity at the divisions, and from its tangents the acceleration there."""
+        at = self.numbers if self.closed else self.numbers[1:-1]
+        velocities = by_tangents(self.board, self._periodic(self.points), v, self._at("v", at))
+        tops = self._periodic([ray.ordinate for ray in velocities])
+        accelerations = by_tangents(self.board, tops, a, self._at("a", at if self.closed else at[1:-1]))
+        return {Found("v", TANGENTS): velocities, Found("a", TANGENTS): accelerations}
+
+    def _integrated(self, v: Axes, a: Axes) -> dict[Found, list[Ray[Mark]]]:
+        """The velocity from the plans' acceleration in the middle of the strips, and the displacement from that."""
+        points, ends = self.points, self.numbers[1:]
+        velocities = integrate(self.board, self.middles, self.start, points, a, self._at("v", ends))
+        means = [self.board.midpoint(ray.start, ray.end, why="the mean ordinate of the strip") for ray in velocities]
+        displacements = integrate(self.board, means, points[0], points, v, self._at("s", ends))
+        return {Found("v", INTEGRATED): velocities, Found("s", INTEGRATED): displacements}
+
+    def _periodic(self, points: list[Mark]) -> list[Mark]:
+        """The points, with one more at either end where they close a period."""
+        return around(self.board, points, (points[0], points[-1]), shared=1) if self.closed else points
+
+
+def constructed(curve: Curve, scales: DiagramScales, places: Places) -> tuple[Program, Traces]:
+    """The program that finds the rates and integrals of a curve, and the rays that it draws, stretch by stretch.
+
+    Reads the positions, by place, at which the abscissa is divided.
+    """
+    board = Board(coplanar=True)  # one under the other over the same abscissas: an upright passes through all diagrams
+    stretches = [_Stretch(board, curve, scales, places, stretch) for stretch in curve.stretches(places)]
+    v, a = (axes(board, PANELS[rate], curve.letters[rate], scales.poles[rate]) for rate in QUANTITIES[1:])
+    figures = [stretch.found(v, a) for stretch in stretches]
+    program = freeze(board, [mark for figure in figures for rays in figure.values() for ray in rays for mark in ray])
+    values = evaluate(program, Floats())
+    spots = iter([values[index] for index in program.wanted])
+    traces: Traces = {}
+    for figure in figures:
+        for found, rays in figure.items():
+            traces.setdefault(found, []).append([Ray(*(next(spots) for _ in ray)) for ray in rays])
+    return program, traces
+
+
+# ---- how far each diagram errs ---------------------------------------------------------------------------------------
+
 
 NARROWEST = 300  # strips of half a millimetre: no ray can be drawn in a narrower one
 MOST, FEWEST = 24, 8  # strips of a division: more rays cannot be told apart, fewer show no curve

@@ -15,8 +15,7 @@ import numpy as np
 
 from graphplan.cycle import closure, newton
 from graphplan.cycle.closure import Body, Closing, Layout, Mesh, Seat, Spin
-from graphplan.cycle.higher import Apart, Geared, Racked
-from graphplan.cycle.linkage import Linkage, direction
+from graphplan.cycle.linkage import Apart, Geared, Linkage, Racked, direction
 from graphplan.cycle.newton import Corrected, Lies
 from graphplan.cycle.tolerances import CLOSURE_TOL, CORRECTION_TOL, DETERMINANT_TOL
 from graphplan.mechanism.model import FRAME

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.cycle.linkage import Array, number
-from graphplan.cycle.rates import Moved
+from graphplan.cycle.positions import Moved
 from graphplan.cycle.tolerances import LOOK_AHEAD
 from graphplan.mechanism.load_tables import SPEED, LoadTable
 from graphplan.mechanism.load_values import guide_origin, onward

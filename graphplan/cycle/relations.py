@@ -22,14 +22,11 @@ import numpy as np
 from graphplan.cycle import closure, newton
 from graphplan.cycle.closure import Body, Drive
 from graphplan.cycle.dyads import Placed, dyad
-from graphplan.cycle.ground import Ground
+from graphplan.cycle.ground import Ground, planar
 from graphplan.cycle.groups import Group
-from graphplan.cycle.higher import touching
-from graphplan.cycle.linkage import Linkage, grounded
-from graphplan.cycle.loop import range_of_motion
-from graphplan.cycle.planar import planar
+from graphplan.cycle.linkage import Linkage, grounded, touching
 from graphplan.cycle.tolerances import RELATION_TOL
-from graphplan.cycle.turn import RangeOfMotion, under
+from graphplan.cycle.turn import RangeOfMotion, range_of_motion, under
 from graphplan.errors import GraphplanError
 from graphplan.kernel.tape.record import Symbol, Symbols
 from graphplan.kernel.tape.written import DEEPEST, Language, Writer, function

@@ -21,8 +21,7 @@ from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, PAPER, RED, VIOL
 from graphplan.words.tongue import ENGLISH, Tongue
 
 if TYPE_CHECKING:
-    from graphplan.cycle.diagram_program import Ray, Spot
-    from graphplan.cycle.diagrams import Diagram
+    from graphplan.cycle.diagrams import Diagram, Ray, Spot
 
 HEADING, GAP = 3.5, 10.0  # mm: the letters of a quantity's name; between columns and rows
 LEFT, RIGHT, ABOVE, BELOW = 10.0, 26.0, 13.0, 5.0  # free room left of a pole, for readings, over and under a diagram

@@ -53,7 +53,7 @@ def _laid_out(drawing: Construction, paper: str | None, check: Mapping[str, Any]
 def _composed(drawing: Construction, paper: str | None, check: Mapping[str, Any] | None,
               language: str | None) -> Composition:
     """Where all of it lies, in a language by its code."""
-    from graphplan.cycle.traced import traced
+    from graphplan.cycle.motion_curves import traced
     from graphplan.sheet.layout.composition import compose
     from graphplan.words.tongue import tongue
 

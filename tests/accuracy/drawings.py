@@ -6,7 +6,7 @@ from functools import cache
 
 import graphplan as gp
 from graphplan.accuracy.drafted import Drafted, drafted
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.scales import Scales

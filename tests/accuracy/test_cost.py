@@ -14,10 +14,10 @@ from four_bars import four_bar
 
 import graphplan as gp
 from graphplan.accuracy.drafted import drafted
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.check.trusted import report
 from graphplan.commands import main
-from graphplan.cycle.traced import traced
+from graphplan.cycle.motion_curves import traced
 from graphplan.errors import Refused
 from graphplan.kernel import Board
 from graphplan.kernel.lemoine import counts

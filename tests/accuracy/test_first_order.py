@@ -11,8 +11,7 @@ from drawings import SCENES, drafted_of, drawing_of, scales_of
 
 from graphplan.accuracy.drafted import drafted
 from graphplan.accuracy.first_order import HANDS, Result, first_order, sampled
-from graphplan.accuracy.hand import Hand, hand
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Hand, Pencil, hand
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.methods.construction import Construction
 

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from graphplan.accuracy.pencil import Pencil, pencil
+from graphplan.accuracy.hand import Pencil, pencil
 from graphplan.errors import Refused
 
 FAULTS = [

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.survey import draughtsman, growth, machine, stability
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES
 from graphplan.accuracy.survey.draughtsman import SQUARES, STRICT, Draft

@@ -12,7 +12,7 @@ import pytest
 
 import graphplan as gp
 from graphplan.accuracy.drafted import Drafted
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.preference import FORMS, Form, forms, preferred, weighed
 from graphplan.commands import main
 from graphplan.errors import Refused

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.survey import growth
 from graphplan.accuracy.survey.draughtsman import LONG, Draft, drafts
 from graphplan.accuracy.survey.growth import STAGES, chain, stages

@@ -14,8 +14,8 @@ from harness import ROUNDS, Measured, Row, Target, alternate, compared, peer
 from problems import SCENES, N, problem, run
 
 from graphplan.accuracy.survey.machine import Measure
+from graphplan.accuracy.survey.picture import spent
 from graphplan.accuracy.survey.problem import ARITHMETICS, COMPILED, LAPACK, MANY, SOLVERS, Problem, Run
-from graphplan.accuracy.survey.timing import spent
 from graphplan.methods.construct import construct
 
 HAND, JAX = "numba by hand", "JAX"

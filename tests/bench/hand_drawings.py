@@ -27,7 +27,7 @@ from hands import Drawn, apart, draw, frames, in_panel, off_paper, points, slipp
 from raster import Printed, photo, printed, scan
 
 import graphplan as gp
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.mistakes import Mistake

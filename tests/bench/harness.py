@@ -10,7 +10,7 @@ from types import ModuleType
 from typing import Literal
 
 from graphplan.accuracy.survey.machine import MOTION, Measure
-from graphplan.accuracy.survey.timing import alternated, spread
+from graphplan.accuracy.survey.picture import alternated, spread
 
 ROUNDS = 9
 LONG_ENOUGH = 0.02  # seconds: shorter runs are repeated within one measurement

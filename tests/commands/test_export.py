@@ -14,7 +14,7 @@ import pytest
 
 import graphplan as gp
 from graphplan.accuracy.drafted import Drafted, drafted
-from graphplan.accuracy.pencil import pencil
+from graphplan.accuracy.hand import pencil
 from graphplan.check.trusted import report
 from graphplan.commands import main, parser
 from graphplan.commands.export import READ, format_of

@@ -13,10 +13,8 @@ from packaged_scenes import those
 
 import graphplan as gp
 from graphplan.commands import main
-from graphplan.cycle.centrodes import branches, centrodes
-from graphplan.cycle.loop import whole_motion
-from graphplan.cycle.traced import traced
-from graphplan.cycle.turn import RangeOfMotion
+from graphplan.cycle.motion_curves import branches, centrodes, traced
+from graphplan.cycle.turn import RangeOfMotion, whole_motion
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Scene
 

@@ -15,8 +15,7 @@ import pytest
 
 from graphplan import construct, load
 from graphplan.cycle.curves import Curve, passed
-from graphplan.cycle.diagram_program import Found, axes, by_chords, by_tangents, integrate
-from graphplan.cycle.diagrams import Diagram, diagram
+from graphplan.cycle.diagrams import Diagram, Found, axes, by_chords, by_tangents, diagram, integrate
 from graphplan.errors import Refused
 from graphplan.kernel import Board, Mark
 from graphplan.kernel.numbers import Fractions

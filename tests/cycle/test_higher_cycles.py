@@ -15,8 +15,7 @@ from tiers import sample
 import graphplan as gp
 from graphplan.check.cycle import cycle
 from graphplan.cycle import follow
-from graphplan.cycle.loop import whole_motion
-from graphplan.cycle.turn import RangeOfMotion
+from graphplan.cycle.turn import RangeOfMotion, whole_motion
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.replaced import guides

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import graphplan as gp
-from graphplan.cycle.loop import whole_motion
-from graphplan.cycle.stationary import stationary
-from graphplan.cycle.traced import traced
+from graphplan.cycle.motion_curves import stationary, traced
+from graphplan.cycle.turn import whole_motion
 from graphplan.mechanism.scene import parse
 
 SCENE = """

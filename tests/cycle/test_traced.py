@@ -13,7 +13,7 @@ from packaged_scenes import those
 
 from graphplan import load, parse
 from graphplan.cycle import follow
-from graphplan.cycle.traced import traced
+from graphplan.cycle.motion_curves import traced
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.replaced import guides

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from graphplan.check import resting, trusted
+from graphplan.check import answerable, trusted
 from graphplan.commands import main
 
 HERE = Path(__file__).parent / "paper"
@@ -27,7 +27,7 @@ def solved(capsys: pytest.CaptureFixture[str], name: str, *options: str) -> Any:
 def certified(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """With python-flint, and as if it were not installed."""
     if not request.param:
-        for module in trusted, resting:
+        for module in trusted, answerable:
             monkeypatch.setattr(module, "find_spec", lambda name: None)
 
 

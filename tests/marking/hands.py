@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.hand import hand as hand_of
-from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.numbers.floats import Floats

@@ -11,7 +11,7 @@ import pytest
 from hands import draw, frames, points
 
 import graphplan as gp
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.errors import Refused
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.verdict import WRONG

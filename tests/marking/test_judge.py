@@ -11,7 +11,7 @@ import pytest
 from hands import Drawn, draw, frames, points, slipped, traced, wrong_by
 
 import graphplan as gp
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.judge.findings import summary, twice

@@ -13,7 +13,7 @@ import pytest
 from hands import Drawn, draw, frames, traced
 
 import graphplan as gp
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.files.drawing import drawing as put
 from graphplan.marking.files.drawing import lettering

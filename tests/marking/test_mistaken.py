@@ -11,7 +11,7 @@ import pytest
 from hands import Drawn, draw, frames, slipped, traced
 
 import graphplan as gp
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.judge.findings import remark
 from graphplan.marking.judge.judge import judge

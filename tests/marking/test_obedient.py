@@ -13,7 +13,7 @@ from hands import Drawn, frames, points
 
 import graphplan as gp
 from graphplan.accuracy.drafted import drafted
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import CIRCLE, OPENING, POINT, Movement
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step

@@ -10,7 +10,7 @@ import pytest
 from hands import Drawn, draw, frames, off_paper, points, slipped, wrong_by
 from judged import composed
 
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.classroom.class_list import Classroom, Marked, lines
 from graphplan.marking.judge.findings import called, opinion, record

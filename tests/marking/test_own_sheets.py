@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import graphplan as gp
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.score import score
 from graphplan.marking.judge.verdict import MISSING, UNSURE, WRONG

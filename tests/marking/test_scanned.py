@@ -14,7 +14,7 @@ from hands import draw, frames, slipped, strokes  # noqa: E402
 from raster import Printed, photo, printed, scan  # noqa: E402
 
 import graphplan as gp  # noqa: E402
-from graphplan.accuracy.pencil import Pencil  # noqa: E402
+from graphplan.accuracy.hand import Pencil  # noqa: E402
 from graphplan.kernel.kinds import LINE  # noqa: E402
 from graphplan.marking.judge.judge import judge  # noqa: E402
 from graphplan.marking.judge.mistakes import Mistake  # noqa: E402

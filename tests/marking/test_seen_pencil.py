@@ -10,7 +10,7 @@ import pytest
 from hands import draw, frames, points
 
 import graphplan as gp
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.judge.findings import summary
 from graphplan.marking.judge.judge import judge

@@ -9,7 +9,7 @@ from hands import draw, frames, points, traced
 from judged import composed
 
 import graphplan as gp
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.states import sureness

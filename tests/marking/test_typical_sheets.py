@@ -10,7 +10,7 @@ import pytest
 from hands import Drawn, draw, frames, off_paper, slipped, traced
 from judged import composed
 
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.marking.judge.judge import judge

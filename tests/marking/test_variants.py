@@ -9,7 +9,7 @@ from fractions import Fraction
 import pytest
 
 from graphplan.accuracy.drafted import Drafted, drafted
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.check.trusted import report
 from graphplan.marking.classroom.flaws import Flaw, Quality, flaw
 from graphplan.marking.classroom.variants import Design, Wording, draws, keys_of

@@ -14,7 +14,7 @@ import ezdxf
 import pytest
 
 import graphplan as gp
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.curves import circle

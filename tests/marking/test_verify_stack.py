@@ -20,7 +20,7 @@ from raster import printed, scan  # noqa: E402
 from tiers import sample  # noqa: E402
 
 from graphplan.accuracy.drafted import Drafted  # noqa: E402
-from graphplan.accuracy.pencil import Pencil  # noqa: E402
+from graphplan.accuracy.hand import Pencil  # noqa: E402
 from graphplan.commands import main, parser  # noqa: E402
 from graphplan.commands.result_schemas import printed as printed_schema  # noqa: E402
 from graphplan.commands.variants import drafted  # noqa: E402

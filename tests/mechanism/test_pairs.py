@@ -16,8 +16,7 @@ from packaged_scenes import those
 import graphplan as gp
 from graphplan.cycle import closure
 from graphplan.cycle.groups import Group
-from graphplan.cycle.higher import Apart, Geared, Racked
-from graphplan.cycle.linkage import Linkage, direction
+from graphplan.cycle.linkage import Apart, Geared, Linkage, Racked, direction
 from graphplan.mechanism.model import FRAME, Contact, Gear, Scene
 from graphplan.mechanism.pairs import KINDS
 from graphplan.mechanism.pairs.pair import (

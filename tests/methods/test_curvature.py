@@ -12,7 +12,7 @@ from jsonschema import validate
 
 import graphplan as gp
 from graphplan.check.json_results import data
-from graphplan.check.paths import path_truth
+from graphplan.check.report import path_truth
 from graphplan.check.trusted import report
 from graphplan.commands.result_schemas import printed
 from graphplan.errors import SceneError

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.survey.degeneracies import (
     AUXILIARY,
     DEGENERACIES,

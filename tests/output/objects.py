@@ -15,7 +15,7 @@ from each import each
 
 import graphplan as gp
 from graphplan.accuracy.drafted import drafted
-from graphplan.accuracy.pencil import pencil
+from graphplan.accuracy.hand import pencil
 from graphplan.check.trusted import report
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, TABLE
 from graphplan.kernel.numbers.floats import Floats

@@ -16,7 +16,7 @@ from PIL import Image
 
 import graphplan as gp
 from graphplan.commands import main
-from graphplan.cycle.loop import loop
+from graphplan.cycle.turn import loop
 
 SVG = "{http://www.w3.org/2000/svg}"
 POSES = 8

@@ -13,7 +13,7 @@ from tiers import THOROUGH, sample
 
 import graphplan as gp
 from graphplan.accuracy.drafted import drafted
-from graphplan.accuracy.pencil import pencil
+from graphplan.accuracy.hand import pencil
 from graphplan.mechanism.scene import packaged
 from graphplan.output.exports.latex import letters, package
 from graphplan.output.exports.tikz import TikzWriter, tikz

@@ -10,7 +10,7 @@ from gearings import gearing
 from linkages import Linkage, linkage, scenes
 from tiers import sample
 
-from graphplan.check.paths import path_truth
+from graphplan.check.report import path_truth
 from graphplan.errors import SingularPose
 from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.model import FRAME, Find

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from spoken import misspoken
 
 from graphplan.accuracy.drafted import drafted
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.check.trusted import report
 from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import Scene

@@ -15,7 +15,7 @@ from inked_sheet import InkedSheet
 from sheets import solution
 
 import graphplan as gp
-from graphplan.cycle.traced import traced
+from graphplan.cycle.motion_curves import traced
 from graphplan.marking.submission import read
 from graphplan.methods.panels import MECHANISM
 from graphplan.output import back_end

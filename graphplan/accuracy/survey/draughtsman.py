@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.preference import forms
 from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart, front, grouped, median, stairs
 from graphplan.mechanism.model import Scene

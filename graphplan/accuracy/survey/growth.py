@@ -16,8 +16,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart
-from graphplan.accuracy.survey.timing import ROUNDS, ratios, spent
+from graphplan.accuracy.survey.picture import ROUNDS, Axis, Chart, Look, Series, SubChart, ratios, spent
 from graphplan.check.trusted import report
 from graphplan.cycle import follow
 from graphplan.errors import GraphplanError

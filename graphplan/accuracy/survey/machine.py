@@ -11,7 +11,19 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from graphplan.accuracy.preference import called, led_to
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, SubChart, front, grouped, median, stairs
+from graphplan.accuracy.survey.picture import (
+    Axis,
+    Chart,
+    Look,
+    Place,
+    Series,
+    SubChart,
+    front,
+    grouped,
+    median,
+    ratios,
+    stairs,
+)
 from graphplan.accuracy.survey.problem import (
     ARITHMETICS,
     COMPILED,
@@ -23,7 +35,6 @@ from graphplan.accuracy.survey.problem import (
     Problem,
     Run,
 )
-from graphplan.accuracy.survey.timing import ratios
 from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct

@@ -17,8 +17,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.accuracy.first_order import first_order, readings
-from graphplan.accuracy.hand import hand
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil, hand
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES, FALSE, ORTHOGONAL, POLAR, POLES, WAYS, Degeneracy
 from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, SubChart, grouped
 from graphplan.accuracy.survey.problem import Results, largest_error

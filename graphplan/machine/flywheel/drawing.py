@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.cycle.diagram_program import Axes, integrate
+from graphplan.cycle.diagrams import Axes, integrate
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze

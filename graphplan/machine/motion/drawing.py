@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.cycle.diagram_program import Axes, integrate
+from graphplan.cycle.diagrams import Axes, integrate
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate

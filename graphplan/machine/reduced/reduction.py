@@ -21,10 +21,9 @@ from typing import Any
 import numpy as np
 
 from graphplan.cycle.linkage import Array
-from graphplan.cycle.loop import whole_motion
 from graphplan.cycle.pose import in_pose
 from graphplan.cycle.travel import check_drives, travels
-from graphplan.cycle.turn import RangeOfMotion
+from graphplan.cycle.turn import RangeOfMotion, whole_motion
 from graphplan.errors import Refused
 from graphplan.machine.reduced.breaks import breaks, common_period, in_order
 from graphplan.machine.reduced.friction import M_F, CycleLosses, FrictionOverCycle, cycle_losses

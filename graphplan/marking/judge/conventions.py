@@ -17,7 +17,7 @@ from functools import cached_property
 from itertools import combinations
 from typing import Any
 
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.preference import Constructing, called, constructions
 from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import POINT

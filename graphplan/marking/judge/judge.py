@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
-from graphplan.accuracy.pencil import Pencil, SeenPencil
+from graphplan.accuracy.hand import Pencil, SeenPencil
 from graphplan.accuracy.preference import Constructing
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT

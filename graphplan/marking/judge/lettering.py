@@ -19,7 +19,7 @@ import numpy as np
 import shapely
 from shapely import Point, STRtree
 
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge.assignment import assigned
 from graphplan.marking.judge.crossings import meetings

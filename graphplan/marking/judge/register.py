@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT, Movement
 from graphplan.marking.judge.matching import Matching

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from graphplan.accuracy.pencil import decimal, settings
+from graphplan.accuracy.hand import decimal, settings
 from graphplan.errors import Refused
 from graphplan.kernel.passes import needed
 from graphplan.marking.judge.asked import results

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.pencil import Pencil, SeenPencil
+from graphplan.accuracy.hand import Pencil, SeenPencil
 from graphplan.kernel.kinds import Movement
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.student_sheet import StudentSheet

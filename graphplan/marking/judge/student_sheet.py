@@ -18,8 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.hand import Hand, hand
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Hand, Pencil, hand
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.numbers.gradients import Gradients

@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil
 from graphplan.marking.judge.lettering import Letters
 from graphplan.marking.traces import Spot, Submission
 from graphplan.methods.construction import Construction

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 
-from graphplan.accuracy.pencil import SeenPencil
+from graphplan.accuracy.hand import SeenPencil
 from graphplan.kernel.kinds import Movement
 from graphplan.marking.traces import Frames, Number, Trace
 from graphplan.methods.construction import Construction

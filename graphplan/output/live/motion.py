@@ -16,9 +16,7 @@ from graphplan.cycle import continuation, groups, newton
 from graphplan.cycle.closure import Layout
 from graphplan.cycle.continuation import Limit
 from graphplan.cycle.groups import Group
-from graphplan.cycle.higher import share
-from graphplan.cycle.linkage import Linkage, grounded
-from graphplan.cycle.loop import range_of_motion
+from graphplan.cycle.linkage import Linkage, grounded, share
 from graphplan.cycle.tolerances import (
     CLOSURE_TOL,
     CORRECTION_TOL,
@@ -30,7 +28,7 @@ from graphplan.cycle.tolerances import (
     SINGULAR_TOL,
 )
 from graphplan.cycle.travel import check_drives
-from graphplan.cycle.turn import RangeOfMotion, stopped, under
+from graphplan.cycle.turn import RangeOfMotion, range_of_motion, stopped, under
 from graphplan.errors import Refused
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer
 from graphplan.mechanism.load_values import guide_origin

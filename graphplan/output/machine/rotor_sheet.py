@@ -9,8 +9,7 @@ from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 from graphplan.accuracy.first_order import deviation
-from graphplan.accuracy.hand import program_hand
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.hand import Pencil, program_hand
 from graphplan.check.rotors import reactions
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Panel

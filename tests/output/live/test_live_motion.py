@@ -28,7 +28,7 @@ import graphplan as gp
 from graphplan.check.cycle import cycle
 from graphplan.check.json_results import data as printed
 from graphplan.check.trusted import report
-from graphplan.cycle.centrodes import centrodes
+from graphplan.cycle.motion_curves import centrodes
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import FRAME

@@ -19,7 +19,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.phrases import Said, arranged, joined, said
 from graphplan.sheet.layout.composition import Composer, Composition
-from graphplan.sheet.words.tables import Deviation, Deviations
+from graphplan.sheet.words.rows import Deviation, Deviations
 from graphplan.words.tongue import ENGLISH, Tongue
 
 ATTEMPTS = 5  # the words may make the sheet larger, which changes the errors, which change the words

@@ -37,7 +37,7 @@ from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.words.tables import Deviation
+from graphplan.sheet.words.rows import Deviation
 
 HANDS = 4000  # the scatter is then known to about one part in a hundred
 SEED = 1939

@@ -23,7 +23,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.styles import METHODS
 from graphplan.phrases import Phrase, Said, arranged, digits, joined, phrase, said
 from graphplan.sheet.layout.paper import sheet_size
-from graphplan.sheet.words.tables import Deviation
+from graphplan.sheet.words.rows import Deviation
 
 Constructing = Callable[..., Construction]
 Sheets = Callable[[Construction, Pencil, str | None], Drafted]

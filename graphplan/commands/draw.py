@@ -69,8 +69,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.sheet.layout.layout import pages
-    from graphplan.sheet.plates.selection import with_numbers
+    from graphplan.sheet.layout.layout import pages, with_numbers
     from graphplan.sheet.strip import by_stages, strip
 
     name = asked(options)
@@ -104,7 +103,7 @@ def _shown(sheet: Sheet, drawn: Program, options: argparse.Namespace) -> Sheet:
     """What of the sheet is asked for."""
     if not (options.until or options.steps):
         return sheet
-    from graphplan.sheet.plates.selection import numbered, selected
+    from graphplan.sheet.layout.layout import numbered, selected
 
     first, last = numbered(drawn, options.steps or options.until)
     return selected(sheet, last, first if options.steps else 0)

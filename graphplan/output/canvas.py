@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from graphplan.output.svg import svg
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import SIZE, Runs
-from graphplan.sheet.plates.clip import clipped
 from graphplan.sheet.plates.display import Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import LETTERS, Pen
+from graphplan.sheet.plates.view import clip_item
 
 TITLE, LINE, MARGIN = 5.0, 4.2, 10.0  # mm: the letters of a title, from line to line, and around the sheet
 LAYER = "chart"
@@ -31,7 +31,7 @@ class Canvas:
     def line(self, spots: Iterable[Spot], pen: Pen, edge: Rect | None = None) -> None:
         """A line through spots, cut off at an edge."""
         line = Polyline(pen, LAYER, None, tuple(spots))
-        self.items.extend([line] if edge is None else clipped(line, edge))
+        self.items.extend([line] if edge is None else clip_item(line, edge))
 
     def mark(self, mark: str, spot: Spot, size: float, pen: Pen) -> None:
         """A mark of this size."""

@@ -19,9 +19,9 @@ from graphplan.phrases import Said, arranged, digits, unit
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import CAPS, DEPTH, LetterSizes, Runs, name_runs, sentence_runs, width
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.clip import clipped
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.view import clip_item
 from graphplan.words.tongue import Tongue
 
 AXIS, DIVISION, CLEAR = Pen(0.18), Pen(0.13, "#c4c4c4"), Pen(0.0, pens.PAPER, fill=pens.PAPER)
@@ -101,7 +101,7 @@ class Graph:
 
     def line(self, spots: Sequence[Spot], pen: Pen, layer: str = "links") -> Iterator[Item]:
         """A line through spots, as far as it lies in the window."""
-        yield from clipped(Polyline(pen, layer, None, tuple(spots)), self.rect)
+        yield from clip_item(Polyline(pen, layer, None, tuple(spots)), self.rect)
 
     def curve(self, xs: Iterable[Any], ys: Iterable[Any], pen: Pen = CURVES[0]) -> Iterator[Item]:
         """The curve through values, broken off where they are nan."""
@@ -170,7 +170,7 @@ class Polar:
     def curve(self, xs: Iterable[Any], ys: Iterable[Any], pen: Pen = CURVES[0]) -> Iterator[Item]:
         """The curve of the ends of vectors."""
         spots = [self.at(float(x), float(y)) for x, y in zip(xs, ys, strict=True)]
-        yield from clipped(Polyline(pen, "links", None, tuple(spots)), self.rect)
+        yield from clip_item(Polyline(pen, "links", None, tuple(spots)), self.rect)
 
 
 @dataclass(frozen=True)
@@ -278,7 +278,7 @@ class Figures:
         for radius in radii:
             mm = radius / polar.k
             around = [(x + mm * math.cos(t), y + mm * math.sin(t)) for k in range(91) for t in (math.radians(4 * k),)]
-            yield from clipped(Polyline(DIVISION, "ruling", None, tuple(around)), rect)
+            yield from clip_item(Polyline(DIVISION, "ruling", None, tuple(around)), rect)
             if x + mm < rect.right - 2.0:
                 told = arranged("{0} {1}", digits(radius), unit(measure)) if radius == radii[0] else digits(radius)
                 yield from self.backed((x + mm, y + 0.8), told)

@@ -34,9 +34,8 @@ from graphplan.sheet.lettering.lettering import HEADING, SIZE, LetterSizes, lett
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Text
 from graphplan.sheet.words.lengths import Lengths, Measure
-from graphplan.sheet.words.rows import Cell, Placed, TextRow, fill, hung, lettered
-from graphplan.sheet.words.tables import answer_rows
-from graphplan.sheet.words.tables import rows as table_rows
+from graphplan.sheet.words.rows import Cell, Placed, TextRow, answer_rows, fill, hung, lettered
+from graphplan.sheet.words.rows import rows as table_rows
 from graphplan.words.tongue import Tongue, tongue
 
 PAPERS = ("A3", "A2", "A1")

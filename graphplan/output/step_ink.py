@@ -21,10 +21,9 @@ from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import LetterSizes, name_runs
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.clip import clipped
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Spot, Text
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.view import View
+from graphplan.sheet.plates.view import View, clip_item
 
 DOT = 0.35  # mm: radius of marks
 BEYOND, STUB, STRIKE = 1.5, 3.0, 3.0  # mm: of lines beyond their marks, of a line with one mark, of an arc to each side
@@ -88,7 +87,7 @@ class StepInk:
         rect = self.views[panel].rect
         for step in self.steps(panel):
             for item in self._step(step, self.views[panel]):
-                yield from clipped(item, rect)
+                yield from clip_item(item, rect)
 
     def lettered(self, panel: Panel, others: Collection[Item] = (), wishes: Iterable[Wish] = (),
                  named: Callable[[Step], bool] = lambda step: True) -> list[Item]:

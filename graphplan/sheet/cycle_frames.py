@@ -23,16 +23,16 @@ from graphplan.methods.forces.changing import given_loads
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.frames.title import CONSTRUCTION
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.divisions import MARGIN
 from graphplan.sheet.layout.layout import captions, sheet, stacked
+from graphplan.sheet.layout.paper import MARGIN
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.letters import inside, of_mechanism
-from graphplan.sheet.plates import clip, pens
+from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import EDGE, Arrow, Item, Outline, Polyline, Rect, Sheet, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.plans import Plans, around, grown
 from graphplan.sheet.plates.plate import Plate
-from graphplan.sheet.plates.view import View
+from graphplan.sheet.plates.view import View, clip_item, interpolate
 from graphplan.sheet.tolerances import MARK_TOL
 
 Given = dict[Any, dict[str, float]]
@@ -203,7 +203,7 @@ def _roomy(composition: Composition, links: Sequence[Rect], poses: Sequence[Plan
 def _shown(plate: Plate) -> Iterator[Spot]:
     """What of a plan must be on paper for its steps to be seen: its marks, and of lines the middle of what is drawn."""
     yield from (drawn.at for drawn in plate.steps if plate.shown(drawn))
-    yield from (clip.between(*stretch.ends, 0.5) for stretch in plate.stretches.values())
+    yield from (interpolate(*stretch.ends, 0.5) for stretch in plate.stretches.values())
 
 
 def _extent(box: Rect) -> float:
@@ -226,7 +226,7 @@ def _cut_off(composition: Composition) -> Iterator[Item]:
         for item in picture.items:
             if isinstance(item, Arrow) and not (plate.view.rect.holds(item.start) and plate.view.rect.holds(item.end)):
                 line = Polyline(item.pen, item.layer, item.step, (item.start, item.end))
-                yield from clip.clipped(line, plate.view.rect)
+                yield from clip_item(line, plate.view.rect)
             else:
                 yield item
 
@@ -237,7 +237,7 @@ def _undrawn(composition: Composition, points: Mapping[str, complex], guides: Ma
     scene = scene_in(composition.plans.drawing.scene, points, guides)
     mechanism = DrawnMechanism(scene, window)
     shown = [*(motion.items(window, scene) if motion else ()), *mechanism.items()]
-    items = [cut for item in shown for cut in clip.clipped(item, window.rect)]
+    items = [cut for item in shown for cut in clip_item(item, window.rect)]
     letters = placed([*inside(of_mechanism(mechanism), window.rect)], items, [*mechanism.shown.values()], window.rect,
                      composition.arrangement.letters)
     return [*items, *letters]

@@ -12,23 +12,21 @@ from functools import partial
 from graphplan.mechanism.model import FRAME
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said
-from graphplan.sheet.frames.corner_marks import corner_marks, page_code, sheet_code
-from graphplan.sheet.frames.frame import frame_of
+from graphplan.sheet.frames.frame import corner_marks, frame_of, page_code, sheet_code
 from graphplan.sheet.frames.title import GUIDED, SOLUTION, TASK
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.layout import captions, framed, pages, sheet, words_pages
+from graphplan.sheet.layout.layout import captions, framed, pages, sheet, with_numbers, words_pages
 from graphplan.sheet.layout.paper import enlarged, packed, words_page
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import listed
 from graphplan.sheet.lettering.letters import of_mechanism
+from graphplan.sheet.plates.annotations import GivenArrows
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Sheet, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import LAYER
-from graphplan.sheet.plates.given_arrows import GivenArrows
 from graphplan.sheet.plates.pens import GREY, ORIGIN, Pen
 from graphplan.sheet.plates.plate import Plate
-from graphplan.sheet.plates.selection import with_numbers
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 from graphplan.sheet.words.rows import fill
 from graphplan.sheet.words.task import Task

@@ -22,9 +22,9 @@ from graphplan.marking.traces import PlanFrame, Submission, Trace
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.clip import clipped
 from graphplan.sheet.plates.display import Polyline, Rect
 from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.plates.view import clip_item
 
 
 @dataclass(frozen=True)
@@ -165,7 +165,7 @@ def strokes(drawn: Drawn, sheet: Composition, seed: int) -> list[Stroke]:
                 found.append((trace.spots, 2.2 * width, min(1.0, 1.4 * dark)))
             continue
         line = Polyline(pens.THIN, "", None, _rim(trace.spots) if trace.kind != LINE else trace.spots)
-        found += [(tuple(piece.spots), width, dark) for piece in clipped(line, rect)
+        found += [(tuple(piece.spots), width, dark) for piece in clip_item(line, rect)
                   if isinstance(piece, Polyline) and math.dist(piece.spots[0], piece.spots[-1]) > SPECK]
     return found
 

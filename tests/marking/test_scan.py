@@ -25,7 +25,7 @@ from graphplan.marking.scans.printed_ink import picture, pieces  # noqa: E402
 from graphplan.marking.scans.scan import SCALE, PencilPage, read_page, read_scan  # noqa: E402
 from graphplan.marking.scans.straighten import _by_marks, straighten  # noqa: E402
 from graphplan.marking.traces import PlanFrame, Trace  # noqa: E402
-from graphplan.sheet.frames.corner_marks import cells, corner_marks, numbers, places, sheet_code  # noqa: E402
+from graphplan.sheet.frames.frame import cells, corner_marks, numbers, places, sheet_code  # noqa: E402
 from graphplan.sheet.handout import task  # noqa: E402
 from graphplan.sheet.layout.composition import compose  # noqa: E402
 from graphplan.sheet.plates.display import Sheet  # noqa: E402

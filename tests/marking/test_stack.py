@@ -10,7 +10,7 @@ from graphplan.errors import Refused
 from graphplan.marking.classroom.pages import Sight, StackPage
 from graphplan.marking.classroom.register import Register, TaskSheet
 from graphplan.marking.classroom.stack import Assignment, Seen, assignments, coded, instead, placed
-from graphplan.sheet.frames.corner_marks import numbers, page_code, sheet_code
+from graphplan.sheet.frames.frame import numbers, page_code, sheet_code
 
 CODES = [sheet_code(f"variant {number}") for number in range(1, 5)]
 STUDENTS = "Student 1", "Student 2", "Student 3", ""

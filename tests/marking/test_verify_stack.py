@@ -33,7 +33,7 @@ from graphplan.marking.scans.image import Grey, picture  # noqa: E402
 from graphplan.marking.scans.sheet_marks import blank, sheet_marks  # noqa: E402
 from graphplan.mechanism.scene import load  # noqa: E402
 from graphplan.output.pdf_png import pdf  # noqa: E402
-from graphplan.sheet.frames.corner_marks import corner_marks, numbers, sheet_code  # noqa: E402
+from graphplan.sheet.frames.frame import corner_marks, numbers, sheet_code  # noqa: E402
 from graphplan.sheet.handout import code, task  # noqa: E402
 from graphplan.sheet.layout.scales import Scales  # noqa: E402
 from graphplan.sheet.plates.display import Rect, Sheet  # noqa: E402

@@ -9,9 +9,9 @@ import graphplan as gp
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.plates.display import Rect
-from graphplan.sheet.plates.higher_pairs import reach
 from graphplan.sheet.plates.plans import Plans, around
 from graphplan.sheet.plates.plate import Plates
+from graphplan.sheet.plates.symbols import reach
 from graphplan.sheet.plates.view import view
 
 SIDE = 150.0  # mm of paper for each plan

@@ -34,7 +34,7 @@ from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import pages
-from graphplan.sheet.plates import higher_pairs
+from graphplan.sheet.plates.symbols import reach
 
 SAME = 1e-9  # of a line, beside its distance from the origin
 LONG_ENOUGH, WIDE_ENOUGH = 60.0, 35.0  # mm of A4: of the mechanism, and of each plan's panel either way
@@ -87,7 +87,7 @@ class DrawnScene:
             except Refused:
                 return False
         page, view = task(composition)[0], composition.views[MECHANISM]
-        places = [*map(composition.plans.place, self.scene.points), *higher_pairs.reach(self.scene)]
+        places = [*map(composition.plans.place, self.scene.points), *reach(self.scene)]
         spots = np.array([view(place) for place in places])
         sides = [side for panel in page.panels.values() for side in (panel.width, panel.height)]
         return bool(np.ptp(spots, axis=0).max() >= LONG_ENOUGH - SLACK and min(sides) >= WIDE_ENOUGH)

@@ -11,8 +11,7 @@ from packaged_scenes import those
 
 import graphplan as gp
 from graphplan.methods.construction import Construction
-from graphplan.sheet.frames.corner_marks import MARKS
-from graphplan.sheet.frames.frame import BORDER
+from graphplan.sheet.frames.frame import BORDER, MARKS
 from graphplan.sheet.handout import solution
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.layout import layout, pages

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sheets import SCENES, composition_of
 
-from graphplan.sheet.layout.divisions import Demand, divided
+from graphplan.sheet.layout.paper import Demand, divided
 from graphplan.sheet.plates.display import Rect
 
 PAGE, BLOCK = Rect(20.0, 10.0, 410.0, 287.0), Rect(310.0, 10.0, 410.0, 40.0)

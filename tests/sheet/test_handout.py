@@ -18,7 +18,7 @@ from graphplan.mechanism.presentation import SIZES
 from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import posed, sheets
-from graphplan.sheet.frames.corner_marks import MARKS, corner_marks, page_code
+from graphplan.sheet.frames.frame import MARKS, corner_marks, page_code
 from graphplan.sheet.handout import code, guided, solution, task
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.paper import paged

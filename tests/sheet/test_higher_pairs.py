@@ -11,10 +11,9 @@ from sheets import composition_of
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Polyline, Rect
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
-from graphplan.sheet.plates.higher_pairs import belt, reach, wheels
-from graphplan.sheet.plates.symbols import HATCH
+from graphplan.sheet.plates.symbols import HATCH, belt, reach, wheels
 from graphplan.sheet.plates.view import View
-from graphplan.sheet.words.tables import settled
+from graphplan.sheet.words.rows import settled
 from graphplan.sheet.words.task import data
 
 EVERYWHERE = Rect(-math.inf, -math.inf, math.inf, math.inf)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, Candidates
-from graphplan.sheet.lettering.obstacles import FAULT, STRANGER, TOUCH, Lines, Marks, Surfaces
+from graphplan.sheet.lettering.prices import FAULT, STRANGER, TOUCH, Lines, Marks, Surfaces
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Polygon, Polyline, Spot
 

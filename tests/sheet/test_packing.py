@@ -16,8 +16,7 @@ from graphplan.sheet.lettering.lettering import Run, plain, sentence_runs
 from graphplan.sheet.plates import symbols
 from graphplan.sheet.plates.display import Arc, Rect
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.words.rows import Cell, TextRow
-from graphplan.sheet.words.tables import TALL, TIGHT, tightened
+from graphplan.sheet.words.rows import TALL, TIGHT, Cell, TextRow, tightened
 from graphplan.sheet.words.task import Task
 
 

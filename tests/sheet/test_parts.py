@@ -20,8 +20,8 @@ from graphplan.sheet.lettering.label_candidates import Wish, candidates
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import Run, name_runs, plain, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens, symbols
-from graphplan.sheet.plates.clip import clipped, segment
 from graphplan.sheet.plates.display import Arrow, Polygon, Polyline, Rect, Text
+from graphplan.sheet.plates.view import clip_item, clip_segment
 from graphplan.sheet.words.rows import Cell, TextRow, fill
 
 SQUARE = Rect(0, 0, 100, 100)
@@ -159,7 +159,7 @@ def test_wrapped_lines_fit(text: str, room: float) -> None:
 @given(*[st.tuples(st.floats(-200, 300), st.floats(-200, 300))] * 2)
 def test_clipped_segments_stay_inside(start: tuple[float, float], end: tuple[float, float]) -> None:
     """What is left of a segment lies in the rectangle and on the segment."""
-    inside = segment(SQUARE, start, end)
+    inside = clip_segment(SQUARE, start, end)
     for t in inside or ():
         assert SQUARE.holds((start[0] + t * (end[0] - start[0]), start[1] + t * (end[1] - start[1])), 1e-6)
 
@@ -167,7 +167,7 @@ def test_clipped_segments_stay_inside(start: tuple[float, float], end: tuple[flo
 def test_a_chain_that_leaves_and_returns_is_drawn_in_pieces() -> None:
     """A stroke that runs out of the panel and back leaves two strokes."""
     chain = Polyline(pens.THIN, "construction", 3, ((50, 50), (150, 50), (150, 60), (50, 60)))
-    assert len(list(clipped(chain, SQUARE))) == 2
+    assert len(list(clip_item(chain, SQUARE))) == 2
 
 
 def test_columns_fill_one_after_the_other() -> None:

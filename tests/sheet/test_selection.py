@@ -8,13 +8,12 @@ from sheets import SCENES, composition_of, drawing_of, outside, sheet_of
 import graphplan as gp
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
+from graphplan.sheet.layout.layout import numbered, selected
 from graphplan.sheet.lettering.lettering import plain
-from graphplan.sheet.pictures import MARK, STAGE, STEP, parted
+from graphplan.sheet.pictures import MARK, STAGE, STEP, parted, used
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Text
-from graphplan.sheet.plates.excerpt import used
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.plates.selection import numbered, selected
 from graphplan.sheet.strip import HIGH, Strip, by_stages, strip
 from graphplan.sheet.words.texts import RESULTS
 
@@ -136,6 +135,6 @@ def test_long_stages_are_cut_where_little_is_carried_over() -> None:
 def test_a_strip_that_does_not_fit_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where one picture with its words is larger than the sheet, a larger one is advised."""
     monkeypatch.setitem(HIGH, MARK, 4.0)
-    monkeypatch.setattr("graphplan.sheet.plates.excerpt.FLAT", 3.0)
+    monkeypatch.setattr("graphplan.sheet.pictures.FLAT", 3.0)
     with pytest.raises(Refused, match="larger --paper"):
         strip(composition_of("four-bar"), "A4")

@@ -9,12 +9,11 @@ from sheets import SCENES, composition_of, drawing_of, outside, pages_of, sheet_
 
 from graphplan.kernel.kinds import POINT
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.layout import layout, pages
+from graphplan.sheet.layout.layout import layout, pages, with_numbers
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import Run, plain
 from graphplan.sheet.plates.display import Arc, Circle, Polyline, Rect, Sheet, Text
-from graphplan.sheet.plates.selection import with_numbers
 
 NUMBERED = ("point", "line", "arc", "step")
 

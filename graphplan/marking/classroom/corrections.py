@@ -27,9 +27,8 @@ from graphplan.marking.judge.verdict import EARNED, UNSURE, WRONG, Judgement, Ve
 from graphplan.marking.traces import Trace
 from graphplan.phrases import joined
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.plates.clip import clipped
 from graphplan.sheet.plates.display import Circle, Item, Photograph, Rect, Sheet, Spot, moved
-from graphplan.sheet.plates.view import View
+from graphplan.sheet.plates.view import View, clip_item
 
 RING = 1.0  # mm about what is right
 CUT, ABOUT = (28.0, 20.0), 4.0  # mm to each side of the first wrong mark that its picture shows, and of its ring
@@ -84,7 +83,7 @@ class ScanStrokes(StudentStrokes):
                 ring = Circle(PENS.get(state, CALLED), LAYER, mark.verdict.step, mark.spots[0], RING)
                 items = [ring] if mark.trace.kind == POINT else []
             for item in items:
-                yield from clipped(item, rect)
+                yield from clip_item(item, rect)
         for verdict in self.judgement.verdicts:
             if verdict.state == UNSURE and verdict.trace is None and (spot := self.doubtful(verdict)):
                 yield Circle(PENS[UNSURE], LAYER, verdict.step, spot, SIZES[UNSURE])
@@ -125,7 +124,7 @@ class Corrections:
                      for at, half, most in ((x, CUT[0], whole.width), (y, CUT[1], whole.height)))
         rect = Rect(left, low, left + 2 * CUT[0], low + 2 * CUT[1])
         ring = Circle(CALLED.filled("none"), LAYER, None, (x, y), ABOUT)
-        items = [piece for item in (*mark.items(), ring) for piece in clipped(item, rect)]
+        items = [piece for item in (*mark.items(), ring) for piece in clip_item(item, rect)]
         return self._page(cut(rect), *(moved(item, -rect.left, -rect.bottom) for item in items))
 
     def _page(self, scan: Photograph, *items: Item) -> Sheet:

@@ -21,8 +21,7 @@ from graphplan.sheet.layout.layout import framed, layout, stacked, titled
 from graphplan.sheet.layout.paper import packed, words_page
 from graphplan.sheet.plates.display import Sheet
 from graphplan.sheet.tolerances import ZERO_TOL
-from graphplan.sheet.words.rows import TextRow, lettered
-from graphplan.sheet.words.tables import largest_size
+from graphplan.sheet.words.rows import TextRow, largest_size, lettered
 from graphplan.sheet.words.texts import Words
 
 KEY = said("Key")

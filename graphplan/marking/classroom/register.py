@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.sheet.frames.corner_marks import numbers
+from graphplan.sheet.frames.frame import numbers
 
 FILE = "class.json"
 REMEDY = "the class.json that graphplan variants wrote"

@@ -18,7 +18,7 @@ from graphplan.marking.classroom.register import Register, TaskSheet
 from graphplan.marking.files.safe import MB, text
 from graphplan.mechanism.items import perhaps
 from graphplan.phrases import Said, joined, said
-from graphplan.sheet.frames.corner_marks import numbers, page_code
+from graphplan.sheet.frames.frame import numbers, page_code
 
 SURE, ENOUGH = 3, 2  # marks that tell a sheet though another one is misread, and though the others are lost
 ALL = 4  # marks of a page

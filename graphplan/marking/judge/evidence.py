@@ -17,8 +17,8 @@ from graphplan.kernel.program import Step
 from graphplan.marking.judge.mistakes import Mistake, value_of
 from graphplan.marking.judge.student_sheet import FAINT, FILED, THERE, StudentSheet, apart, plain, sampled
 from graphplan.marking.traces import Spot, Submission, Trace
-from graphplan.sheet.plates import clip
 from graphplan.sheet.plates.display import Rect
+from graphplan.sheet.plates.view import clip_segment, interpolate
 
 TWIN, BESIDE = 0.5, 1.0  # mm: a stroke that is found twice lies so near to itself; two may be taken for each other
 PARTS, NEAR = 20, 1.0  # at so many spots, so near, a stroke is looked for
@@ -156,7 +156,7 @@ class ImageSearch(Evidence):
         """Spots on the sheet of what a step makes, there where it would be drawn."""
         if step.op.gives == LINE:
             ends = self._stretch(step, value, own)
-            return [clip.between(*ends, k / PARTS) for k in range(PARTS + 1)]
+            return [interpolate(*ends, k / PARTS) for k in range(PARTS + 1)]
         if step.op.gives == POINT:
             return [self._onto(step, complex(*value[:2]))]
         return self._arc(step, value, self._marks(step, value, own), struck)
@@ -191,8 +191,8 @@ class ImageSearch(Evidence):
         along = [((z - foot) * way.conjugate()).real for z in self._marks(step, line, own)] or [0.0]
         spare = ALONE / mm if max(along) - min(along) < ALONE / mm else 0.0
         start, end = (self._onto(step, foot + way * far) for far in (min(along) - spare, max(along) + spare))
-        inside = clip.segment(self._panel(step), start, end) or (0.0, 1.0)
-        return clip.between(start, end, inside[0]), clip.between(start, end, inside[1])
+        inside = clip_segment(self._panel(step), start, end) or (0.0, 1.0)
+        return interpolate(start, end, inside[0]), interpolate(start, end, inside[1])
 
     def _near(self, step: Step, value: Value, spots: Sequence[Spot], within: float) -> Trace | None:
         if step.op.gives == LINE:

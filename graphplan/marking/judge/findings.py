@@ -28,8 +28,7 @@ from graphplan.methods.kinds import WORDS
 from graphplan.methods.panels import reactions_named
 from graphplan.phrases import Said, arranged, coordinates, digits, joined, phrase, said, unit
 from graphplan.sheet.lettering.lettering import HEADING, Runs, sentence_runs
-from graphplan.sheet.words.rows import Cell, TextRow
-from graphplan.sheet.words.tables import rows
+from graphplan.sheet.words.rows import Cell, TextRow, rows
 from graphplan.sheet.words.texts import Words
 
 FIGURES = 2  # of a distance on paper

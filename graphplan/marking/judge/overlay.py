@@ -30,12 +30,11 @@ from graphplan.sheet.layout.paper import packed
 from graphplan.sheet.lettering.label_candidates import Array, Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, Run, sentence_runs, width, wrap
-from graphplan.sheet.plates import clip
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text, within
 from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.pens import LETTERS, PAPER, Pen
-from graphplan.sheet.plates.symbols import off, unit
-from graphplan.sheet.plates.view import View
+from graphplan.sheet.plates.symbols import off, unit_vector
+from graphplan.sheet.plates.view import View, clip_item, clip_segment, interpolate
 from graphplan.sheet.words.rows import LEADING, Placed, lettered
 from graphplan.sheet.words.texts import RESULTS
 
@@ -122,7 +121,7 @@ def callout(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[I
     """The box with its leader, in letters of a size; `items` are what it should not cover."""
     box, words = boxed(sentence, names, spot, items, rect, pen, size)
     nearest = min(max(spot[0], box.left), box.right), min(max(spot[1], box.bottom), box.top)
-    leader = off(spot, unit(spot, nearest), RING)
+    leader = off(spot, unit_vector(spot, nearest), RING)
     yield Circle(pen.filled("none"), LAYER, None, spot, RING)
     yield Polyline(pen, LAYER, None, (leader, nearest))
     yield from words
@@ -192,9 +191,9 @@ class StudentMark:
     def at(self) -> Spot:
         """Where on paper a verdict is to be told: at the mark, or the middle of its stroke within the panel."""
         spots, rect = self.spots, self.wanted.view.rect
-        inside = clip.segment(rect, spots[0], spots[-1]) if self.trace.kind == LINE else None
+        inside = clip_segment(rect, spots[0], spots[-1]) if self.trace.kind == LINE else None
         if inside:
-            return clip.between(spots[0], spots[-1], sum(inside) / 2)
+            return interpolate(spots[0], spots[-1], sum(inside) / 2)
         x, y = spots[len(spots) // 2]
         return min(max(x, rect.left), rect.right), min(max(y, rect.bottom), rect.top)
 
@@ -305,7 +304,7 @@ def _clipped(items: Iterable[Item], view: View) -> Iterator[Item]:
     """What of some items lies on a panel; what is left whole is there if its centre is."""
     for item in items:
         if not isinstance(item, Circle) or view.rect.holds(item.centre):
-            yield from clip.clipped(item, view.rect)
+            yield from clip_item(item, view.rect)
 
 
 def sample(state: str | None, spot: Spot) -> Iterator[Item]:

@@ -10,7 +10,7 @@ import numpy as np
 from graphplan.marking.scans.image import Grey, jpeg, smaller
 from graphplan.marking.scans.scan import PIXELS
 from graphplan.marking.scans.straighten import Warp
-from graphplan.sheet.frames.corner_marks import WHITE
+from graphplan.sheet.frames.frame import WHITE
 from graphplan.sheet.plates.display import Photograph, Rect
 
 FINE, QUALITY = 6.0, 75  # pixels per mm, and how well JPEG keeps them, of 100

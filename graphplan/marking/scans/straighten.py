@@ -20,7 +20,7 @@ from graphplan.errors import Refused
 from graphplan.marking.scans.image import Grey, Light, Spots, deviation
 from graphplan.marking.scans.printed_ink import Pieces, pieces
 from graphplan.marking.tolerances import MIN_DIVISOR
-from graphplan.sheet.frames.corner_marks import numbers, places
+from graphplan.sheet.frames.frame import numbers, places
 from graphplan.sheet.plates.display import Rect, Sheet
 
 GRID = 16  # pixels between the places where a warp is worked out; between them it is as good as straight

@@ -18,7 +18,7 @@ from graphplan.output.cad.ink import STYLE, Ink
 from graphplan.output.cad.layers import FULL_SIZE, Layers
 from graphplan.sheet.lettering.lettering import CAPS, SMALL_SHEET, width
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.dimensions import FIRST, Dimension, dimensions
+from graphplan.sheet.plates.annotations import FIRST, Dimension, dimensions
 from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.plans import around

@@ -24,11 +24,10 @@ from graphplan.phrases import Said, arranged, digits, phrase, said, unit
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import CAPS, Run
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.clip import clipped
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import around
-from graphplan.sheet.plates.view import View, least, view
+from graphplan.sheet.plates.view import View, clip_item, least, view
 
 LAW_PLAN = Panel("law", said("law"), said("Law of the follower over the turn of the cam"))
 CENTRE_PLAN = Panel("centre", said("cam centre"), said("Curve x(s): where the cam's centre lies"))
@@ -217,7 +216,7 @@ class Paper(Figures):
             if one is not None:
                 top, foot = (spot(way * (one.intercept + one.slope * s), s) for s in (
                     float(max(self.cam.law.lifts)), -1.3 * pair.depth))
-                yield from clipped(Polyline(TANGENT, "plates", None, (top, foot)), rect)
+                yield from clip_item(Polyline(TANGENT, "plates", None, (top, foot)), rect)
                 high = float(self.cam.law.at([one.angle])[0])
                 tip = spot(way * (one.intercept + one.slope * high), high)
                 yield from self._touched(tip, words(digits(math.degrees(math.atan(one.slope)))), spot(0.0, high)[0])
@@ -243,7 +242,7 @@ class Paper(Figures):
             start, tip = at(0j), at(complex(A + 1j * pair.sense * A1))
             long = math.dist(start, tip) or 1.0
             far = tip[0] + OVER * (tip[0] - start[0]) / long, tip[1] + OVER * (tip[1] - start[1]) / long
-            yield from clipped(Polyline(TANGENT, "plates", None, (start, far)), rect)
+            yield from clip_item(Polyline(TANGENT, "plates", None, (start, far)), rect)
             yield from self._touched(tip, words(digits(size)), at(complex(A))[0])
 
     def _curve_z(self, rect: Rect) -> Iterator[Item]:
@@ -263,7 +262,7 @@ class Paper(Figures):
         yield Polyline(AXIS, "ruling", None, (O, window((0.0, max(float(s.max()) for _, s, _ in pieces)))))
         reach = max(-float(z.min()) for _, s, z in pieces)
         end = window((-reach, reach - lowest))
-        yield from clipped(Polyline(TANGENT, "plates", None, (limit, end)), rect)
+        yield from clip_item(Polyline(TANGENT, "plates", None, (limit, end)), rect)
         yield self.text(((limit[0] + end[0]) / 2 - 2.0, (limit[1] + end[1]) / 2 - 2.0), "45°", "end")
         yield from self.marked(A0, "A_0")
         yield from self.marked(O, "O", (1.4, -2.8))

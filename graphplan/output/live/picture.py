@@ -20,8 +20,8 @@ from graphplan.output.svg import look
 from graphplan.phrases import said
 from graphplan.sheet import tolerances
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.divisions import MARGIN
-from graphplan.sheet.lettering import label_candidates, letters, obstacles, prices
+from graphplan.sheet.layout.paper import MARGIN
+from graphplan.sheet.lettering import label_candidates, letters, prices
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import (
     ADVANCE,
@@ -56,7 +56,7 @@ MEASURES: dict[Any, tuple[str, ...]] = {  # of what is drawn: mm, degrees, price
     display: ("SLIM", "BARB", "WALL"), pens: ("PAPER", "OPEN", "WHITE"),
     letters: ("ALONG", "MIDDLE", "NEAR_HEAD"),
     label_candidates: ("LED", "LEADER", "BALLOON", "AIR", "TASTE", "EDGE"),
-    obstacles: ("FAULT", "MISTAKEN", "TOUCH", "BESIDE", "STRANGER", "THICK"), prices: ("CLASH",),
+    prices: ("FAULT", "MISTAKEN", "TOUCH", "BESIDE", "STRANGER", "THICK", "CLASH"),
 }  # fmt: skip
 TOGETHER = letters.NEAR  # mm: marks that lie so near to each other have their letters together
 PENS = {  # by what they draw

@@ -24,7 +24,7 @@ from graphplan.sheet.lettering.lettering import Runs, equation_runs, sentence_ru
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.protocol import Entry, Passage, Protocol, lengths_of
 from graphplan.sheet.words.readings import Readings
-from graphplan.sheet.words.tables import Table
+from graphplan.sheet.words.rows import Table
 from graphplan.sheet.words.texts import Words
 from graphplan.words.tongue import Tongue
 

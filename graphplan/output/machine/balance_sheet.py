@@ -32,12 +32,11 @@ from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.letters import of_mechanism
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.clip import clipped
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Sheet, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import around
-from graphplan.sheet.plates.view import View, least, view
+from graphplan.sheet.plates.view import View, clip_item, least, view
 
 FORCE = Panel("shaking force", said("shaking force"), said("Shaking force: its polar diagram"))
 CYCLE = Panel("cycle", said("cycle"), said("Shaking force and moment over the travel"))
@@ -164,7 +163,7 @@ class BalanceSheet(Panelled):
         """The paths of the mass centre; one that stands still is a spot."""
         for motion, pen in self.motions:
             spots = [window((float(z.real), float(z.imag))) for z in motion.path]
-            yield from clipped(Polyline(pen, "links", None, tuple(self._smooth(motion, spots))), window.rect)
+            yield from clip_item(Polyline(pen, "links", None, tuple(self._smooth(motion, spots))), window.rect)
             yield from (Circle(pen.filled(pen.colour), "links", None, spots[k], 0.5) for k in self.places)
 
     def _weights(self, window: View) -> Iterator[Item]:
@@ -173,7 +172,7 @@ class BalanceSheet(Panelled):
         for weight in self.balancing.weights:
             at, pivot = weight.place(self.scene), complex(*map(float, self.scene.points[weight.pivot]))
             spot, root = (window((z.real, z.imag)) for z in (at, pivot))
-            yield from clipped(Polyline(ARM, "links", None, (root, spot)), window.rect)
+            yield from clip_item(Polyline(ARM, "links", None, (root, spot)), window.rect)
             if window.rect.holds(spot):
                 yield Circle(WEIGHT, "links", None, spot, max(1.0, LEAST * (weight.mass / heaviest) ** 0.5))
 
@@ -219,7 +218,7 @@ class BalanceSheet(Panelled):
         ink += self._legend(rect, [("J", BEFORE), *([("J'", AFTER)] if self.balancing.after else [])])
         for motion, pen in self.motions:
             spots = [polar.at(float(z.real), float(z.imag)) for z in self._force(motion)]
-            ink += clipped(Polyline(pen, "links", None, tuple(self._smooth(motion, spots))), polar.rect)
+            ink += clip_item(Polyline(pen, "links", None, tuple(self._smooth(motion, spots))), polar.rect)
             shown = [spots[k] for k in self.places if polar.rect.holds(spots[k])]
             ink += [Circle(pen.filled(pen.colour), "links", None, spot, 0.5) for spot in shown]
             ends += shown

@@ -29,11 +29,10 @@ from graphplan.output.tolerances import TRAVEL_TOL
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import CAPS, name_runs, sentence_runs
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.clip import clipped
 from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import around
-from graphplan.sheet.plates.view import View, view
+from graphplan.sheet.plates.view import View, clip_item, view
 
 FINE, CHORD, LEVEL = Pen(0.13, "#8a8a8a"), Pen(0.25, pens.VIOLET), Pen(0.25, pens.GREEN, (5.0, 1.0))
 UNITS = {"M": "N m", "E": "J", "I": "kg m²", "phi": "°"}
@@ -159,7 +158,8 @@ class FlywheelFigure:
             cut, touch = self.window(self.drawing.spots(letter)[0]), getattr(self.result.wheel, which)
             slope, far = touch.slope * graph.k_x / graph.k_y, graph.rect.right + BEYOND - cut[0]
             line = Polyline(pen, "plates", place, (cut, (cut[0] + far, cut[1] + far * slope)))
-            yield from clipped(line, Rect(self.rect.left, self.rect.bottom, self.rect.right, graph.rect.top + HEAD / 4))
+            rect = self.rect
+            yield from clip_item(line, Rect(rect.left, rect.bottom, rect.right, graph.rect.top + HEAD / 4))
 
     def _origin(self) -> Iterator[Item]:
         """The origin in which the tangents meet, if it lies on the panel: so far left of the axis is the flywheel."""

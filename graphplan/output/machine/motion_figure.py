@@ -24,10 +24,9 @@ from graphplan.output.step_ink import StepInk
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.clip import clipped
 from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.view import View
+from graphplan.sheet.plates.view import View, clip_item
 
 FINE, CHORD = Pen(0.13, "#a8a8a8"), Pen(0.25, pens.VIOLET)
 CURVES = {"moment": Pen(0.5), "energy": Pen(0.5, pens.BLUE), "inertia": Pen(0.5, pens.RED),
@@ -101,7 +100,7 @@ class MotionFigure:
         graph = self.graphs[name]
         known = np.isfinite(xs) & np.isfinite(ys)
         line = Polyline(CURVES[name], "links", None, tuple(graph.spots(xs[known], ys[known])))
-        yield from clipped(line, Rect(graph.rect.left, graph.rect.bottom, graph.rect.right, graph.rect.top + 2.0))
+        yield from clip_item(line, Rect(graph.rect.left, graph.rect.bottom, graph.rect.right, graph.rect.top + 2.0))
 
     # ---- axes and letters ------------------------------------------------------------------------------------------
 

@@ -18,13 +18,15 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import Frame, frame_of
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.divisions import SIDE, Demand, divided
 from graphplan.sheet.layout.given_scales import FREE, GivenScales, given_scales
 from graphplan.sheet.layout.paper import (
     MOST_OF_PAGE,
+    SIDE,
     Arrangement,
+    Demand,
     Measure,
     arrangements,
+    divided,
     inside,
     packed,
     paged,
@@ -42,8 +44,7 @@ from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.plates.view import COARSER, MUCH_COARSER, View, least, plan_box, plan_scale, view, wanted, whole
 from graphplan.sheet.tolerances import AREA_TOL, MIN_VECTOR, SCALE_TOL
 from graphplan.sheet.words.lengths import LARGEST
-from graphplan.sheet.words.rows import Placed, TextRow
-from graphplan.sheet.words.tables import Deviations
+from graphplan.sheet.words.rows import Deviations, Placed, TextRow
 from graphplan.sheet.words.texts import RESULTS, Words
 from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of

@@ -1,4 +1,7 @@
-"""From a construction to its sheet: paper, windows, strokes, letters and words, put together as one display list."""
+"""From a construction to its sheet: paper, windows, strokes, letters and words, put together as one display list.
+
+Of a finished sheet a part can be shown: as it stands after a step, or some steps over what was drawn before in grey.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +9,18 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from graphplan.errors import Refused
+from graphplan.kernel.program import Program
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
 from graphplan.sheet.layout.composition import Composition, compose
-from graphplan.sheet.layout.divisions import SIDE
+from graphplan.sheet.layout.paper import SIDE
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Run, Runs, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Sheet, Text
+from graphplan.sheet.plates.pens import pale
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 from graphplan.sheet.words.protocol import Protocol
@@ -132,3 +138,36 @@ def _scales(told: Sequence[Runs], size: float, room: float) -> list[Runs]:
         else:
             lines.append(part)
     return [line for runs in lines for line in wrap(runs, size, room)]
+
+
+# ---- a part of what is drawn -----------------------------------------------------------------------------------------
+
+
+def numbered(drawn: Program, text: str) -> tuple[int, int]:
+    """The first and the last step, by index, of a text such as `12` or `5-12`; fails with `Refused`."""
+    first, _, last = text.partition("-")
+    most = len(drawn) - drawn.givens
+    if not (first.isdecimal() and (last or first).isdecimal() and 1 <= int(first) <= int(last or first) <= most):
+        raise Refused(f"steps {text}", "there are no such steps", f"numbers from 1 to {most}, such as 1-{most}")
+    return int(first) - 1 + drawn.givens, int(last or first) - 1 + drawn.givens
+
+
+def selected(sheet: Sheet, last: int, first: int = 0) -> Sheet:
+    """The sheet as it stands after the step of index `last`, with the steps before `first` in grey.
+
+    The words end there too; results are read when all is drawn.
+    """
+    complete = last == len(sheet.sentences) - 1
+    items = [item for item in sheet.items
+             if (complete or item.layer != RESULTS if item.step is None else item.step <= last)]
+    return replace(sheet, items=tuple([inked(item, first) for item in items]))
+
+
+def with_numbers(composition: Composition) -> Composition:
+    """The composition with every mark numbered by its step, lettered marks too."""
+    return replace(composition, plans=replace(composition.plans, numbered=True))
+
+
+def inked(item: Item, first: int) -> Item:
+    """The item as it is, or in grey if a step before `first` made it."""
+    return item if item.step is None or item.step >= first else replace(item, pen=pale(item.pen))

@@ -14,7 +14,7 @@ from graphplan.phrases import said
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import Lettering, lettering
 from graphplan.sheet.lettering.lettering import listed, name_runs, sentence_runs
-from graphplan.sheet.plates import clip, pens
+from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Rect, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
@@ -22,6 +22,7 @@ from graphplan.sheet.plates.plans import around, corner
 from graphplan.sheet.plates.plate import Plate, Plates
 from graphplan.sheet.plates.symbols import RADIUS
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
+from graphplan.sheet.plates.view import interpolate
 
 ALONG = 0.97, 0.03, 0.9, 0.1, 0.8, 0.2, 0.65, 0.35, 0.5  # where along a line its letter may stand
 MIDDLE, NEAR_HEAD = (0.5, 0.4, 0.6, 0.3, 0.7), (0.7, 0.65, 0.75, 0.6, 0.8)  # the same along a vector
@@ -178,7 +179,7 @@ class Letters:
 
     def _line_letters(self, line: DrawnStep, stretch: Stroke) -> Iterator[Wish]:
         """A locus' letter or a line's number, near an end; and where a line that breaks off goes."""
-        spots = tuple(clip.between(*stretch.ends, t) for t in self._along(line, stretch))
+        spots = tuple(interpolate(*stretch.ends, t) for t in self._along(line, stretch))
         if line.name:
             yield Wish(name_runs(line.name), spots, 0.5, step=line.index, label=line.name, free=True,
                        raised=self._raised(line))
@@ -186,7 +187,7 @@ class Letters:
             number = _numbers(line)
             yield Wish(sentence_runs(number), spots, 0.5, True, pens.FAINT, line.index, f"line {number}", free=True)
         for arrow, mark in self.plate.breaks(stretch):
-            name, near = self.program.text(mark.index), (clip.between(*arrow.ends, 0.5),)
+            name, near = self.program.text(mark.index), (interpolate(*arrow.ends, 0.5),)
             runs = sentence_runs(self.plate.plans.tongue(said("to {0}", name)), (name,))
             yield Wish(runs, near, 0.6, True, pens.FAINT, line.index, f"to {name} {line.index}")
 
@@ -229,7 +230,7 @@ class Letters:
         first = vectors[0]
         names = tuple(dict.fromkeys(v.letter for v in vectors if v.letter and v.letter != first.end.name))
         if names:
-            spots = tuple(clip.between(*first.ends, t) for t in (NEAR_HEAD if answered else MIDDLE))
+            spots = tuple(interpolate(*first.ends, t) for t in (NEAR_HEAD if answered else MIDDLE))
             yield Wish(listed(names), spots, 0.7, pen=replace(first.pen, width=0.0), step=first.of.index,
                        label=" ".join(names), free=True)
 

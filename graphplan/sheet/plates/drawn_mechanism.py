@@ -10,10 +10,10 @@ from functools import cached_property
 from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Scene, Slide
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import Run, sentence_runs
-from graphplan.sheet.plates import clip, higher_pairs, pens, symbols
+from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Item, Spot
-from graphplan.sheet.plates.symbols import LONG, NEAR, Vector, off, places, turn, unit
-from graphplan.sheet.plates.view import View
+from graphplan.sheet.plates.symbols import LONG, NEAR, Vector, off, places, turn, unit_vector
+from graphplan.sheet.plates.view import View, interpolate
 from graphplan.sheet.tolerances import LEAN_TOL
 
 RAIL = LONG + 3.0  # mm that a rail goes on to both sides of the middle of its block
@@ -152,7 +152,7 @@ class DrawnMechanism:
     def _ground(self, name: str) -> Vector:
         """Downwards, unless a link goes there."""
         here = self.spots[name]
-        ways = [unit(here, other) for other in self.neighbours(name)]
+        ways = [unit_vector(here, other) for other in self.neighbours(name)]
 
         def cost(choice: tuple[int, Vector]) -> float:
             rank, (x, y) = choice
@@ -178,10 +178,10 @@ class DrawnMechanism:
 
     def _wheels(self) -> Iterator[Figure]:
         """The pitch circles, each once, the pitch lines of racks, and belts."""
-        for (link, centre, radius), gears in higher_pairs.wheels(self.scene).items():
+        for (link, centre, radius), gears in symbols.wheels(self.scene).items():
             if link in self._shown_links:
                 middle, r = self.spots[centre], radius * self.view.scale
-                yield Figure(higher_pairs.circle(pens.WHEEL, middle, r), (centre,), "" if link == FRAME else link)
+                yield Figure(symbols.circle(pens.WHEEL, middle, r), (centre,), "" if link == FRAME else link)
                 fringes = (self._fringe(self.scene.gears[i], middle, r) for i in gears if link == FRAME)
                 yield from (Figure(tuple(items), (centre,)) for items in fringes)
         for gear in self.scene.gears:
@@ -194,19 +194,19 @@ class DrawnMechanism:
         if pole is None or gear.belt:
             return iter(())
         outwards = 1.0 if gear.internal and gear.links[1] == FRAME else -1.0
-        return higher_pairs.fringe(middle, radius, self.view((float(pole[0]), float(pole[1]))), outwards)
+        return symbols.fringe(middle, radius, self.view((float(pole[0]), float(pole[1]))), outwards)
 
     def _rack_or_belt(self, gear: Gear) -> Iterator[Figure]:
         points = self.scene.points
         if gear.direction is not None:
             x, y = gear.pitch_point(points)
             at, link = self.view((float(x), float(y))), gear.links[1]
-            items = higher_pairs.rack(at, self.along(gear), self._nearest(link, at))
+            items = symbols.rack(at, self.along(gear), self._nearest(link, at))
             yield Figure(tuple(items), self.scene.links[link] or gear.centres, "" if link == FRAME else link)
         elif gear.belt and (radii := gear.pitch_radii(points)):
             one, other = (self.spots[centre] for centre in gear.centres)
             r, s = (radius * self.view.scale for radius in radii)
-            yield Figure(tuple(higher_pairs.belt(one, r, other, s, gear.belt == "crossed")), gear.centres)
+            yield Figure(tuple(symbols.belt(one, r, other, s, gear.belt == "crossed")), gear.centres)
 
     def _profiles(self, contact: Contact) -> Iterator[Figure]:
         """Both profiles of a contact, each with its link."""
@@ -216,14 +216,14 @@ class DrawnMechanism:
                 continue
             names, rides, seat = self.scene.links[link], "" if link == FRAME else link, self._nearest(link, at)
             if centre:
-                disc = bool(higher_pairs.disc(self.scene, contact, centre))
-                items = higher_pairs.profile(at, self.spots[centre], disc and centre in self.scene.joints, disc)
+                disc = bool(symbols.disc(self.scene, contact, centre))
+                items = symbols.profile(at, self.spots[centre], disc and centre in self.scene.joints, disc)
                 yield Figure(tuple(items), (centre,), rides)
             elif seat is not None:
-                yield Figure(tuple(higher_pairs.face(at, along, seat)), names, rides)
+                yield Figure(tuple(symbols.face(at, along, seat)), names, rides)
             else:
                 side = -1.0 if turn(at, off(at, along, 1.0), self.spots[contact.curved[2]]) > 0 else 1.0
-                yield Figure(tuple(higher_pairs.rail(at, along, side)), names or (contact.at,))
+                yield Figure(tuple(symbols.rail(at, along, side)), names or (contact.at,))
         if contact.beyond:
             yield from self._beyond(contact.beyond, set(contact.centres))
 
@@ -231,8 +231,8 @@ class DrawnMechanism:
         """The thin circle of an arc that follows where two arcs of a profile meet."""
         for link, centre in zip(contact.links, contact.centres, strict=True):
             if centre and centre not in known and link in self._shown_links:
-                radius = higher_pairs.disc(self.scene, contact, centre) * self.view.scale
-                items = higher_pairs.circle(pens.PRODUCED, self.spots[centre], radius) if radius else ()
+                radius = symbols.disc(self.scene, contact, centre) * self.view.scale
+                items = symbols.circle(pens.PRODUCED, self.spots[centre], radius) if radius else ()
                 yield Figure(tuple(items), (centre,), "" if link == FRAME else link)
 
     def _nearest(self, link: str, at: Spot) -> Spot | None:
@@ -245,7 +245,7 @@ class DrawnMechanism:
     def along(self, pair: Slide | Gear | Contact) -> Vector:
         """The direction of a slide's guide, of a rack's pitch line or of a straight profile."""
         x, y = (float(part) for part in pair.direction or (1, 0))
-        return unit((0.0, 0.0), (x, y))
+        return unit_vector((0.0, 0.0), (x, y))
 
     def seat(self, slide: Slide) -> Spot:
         """Where the block is."""
@@ -281,7 +281,7 @@ class DrawnMechanism:
         if not symbols.straight(spots):
             yield Figure(tuple(symbols.plate(spots)), names, link)
             return
-        along = unit(spots[0], max(spots, key=lambda s: (math.dist(s, spots[0]), s)))
+        along = unit_vector(spots[0], max(spots, key=lambda s: (math.dist(s, spots[0]), s)))
         spots.sort(key=lambda s: s[0] * along[0] + s[1] * along[1])
         inner = filter(self._joined, spots[1:-1])
         elbows = (symbols.elbow(spot, along, self._free_side(spot, along)) for spot in inner)
@@ -315,7 +315,7 @@ class DrawnMechanism:
             here = self.spots[pairs[0]]
             ground = self._ground(pairs[0]) if pairs[0] in self._pivots else None
             sign = 1.0 if drive.rate > 0 else -1.0
-            yield from symbols.drive(here, unit(here, self.spots[others[0]]), sign, ground)
+            yield from symbols.drive(here, unit_vector(here, self.spots[others[0]]), sign, ground)
 
     # ---- letters ---------------------------------------------------------------------------------------------------
 
@@ -328,11 +328,11 @@ class DrawnMechanism:
                 yield Wish(runs, (spots[0],), LONG, label=f"link {link}", balloon=True)
             elif symbols.straight(spots):
                 ends = max(((p, q) for p in spots for q in spots), key=lambda pair: math.dist(*pair))
-                middles = tuple(clip.between(*ends, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
+                middles = tuple(interpolate(*ends, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
                 yield Wish(runs, middles, 0.8, label=f"link {link}", balloon=True, free=True)
             else:
                 centre = self.middle(link)
-                inside = [clip.between(centre, spot, t) for t in (0.0, 0.25, 0.45) for spot in spots]
+                inside = [interpolate(centre, spot, t) for t in (0.0, 0.25, 0.45) for spot in spots]
                 yield Wish(runs, tuple(dict.fromkeys(inside)), -2.0, label=f"link {link}", balloon=True, free=True)
 
     def letters(self) -> dict[Spot, tuple[tuple[Run, ...], str]]:

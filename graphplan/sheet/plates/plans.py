@@ -16,9 +16,8 @@ from graphplan.kernel.program import Panel, Step
 from graphplan.methods.construction import Construction, DrawnVector
 from graphplan.methods.panels import MECHANISM, ForcePlan, LeverPlan
 from graphplan.sheet.plates.display import Rect, Spot
-from graphplan.sheet.plates.higher_pairs import reach
 from graphplan.sheet.plates.pens import FORCES
-from graphplan.sheet.plates.symbols import off, turn
+from graphplan.sheet.plates.symbols import off, reach, turn
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.tolerances import EXTENT_TOL
 from graphplan.words.tongue import ENGLISH, Tongue

@@ -18,14 +18,14 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import digits
 from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes
-from graphplan.sheet.plates import clip, pens
+from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import Plans, around, corner
 from graphplan.sheet.plates.symbols import turn
-from graphplan.sheet.plates.view import View
+from graphplan.sheet.plates.view import View, clip_item, clip_off_boxes, clip_segment
 from graphplan.sheet.tolerances import RADIUS_TOL, SHORT_STROKE
 
 BEYOND, LOCUS_BEYOND, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
@@ -151,20 +151,21 @@ class Plate:
             return []
         motion = self.plans.motion
         shown = [*(motion.items(self.view, self.plates.scene) if motion else ()), *self.drawn_mechanism.items()]
-        return [cut for item in shown for cut in clip.clipped(item, self.view.rect)]
+        return [cut for item in shown for cut in clip_item(item, self.view.rect)]
 
     def positions(self, letters: Iterable[Item]) -> Iterator[Item]:
         """Other positions of the mechanism in faint lines, which break off at letters."""
         motion = self.plans.motion if self.panel == MECHANISM else None
         for item in motion.faint(self.plates.scene, self.view) if motion else ():
-            yield from clip.spared(item, self.view.rect, [letter.box for letter in letters if isinstance(letter, Text)])
+            boxes = [letter.box for letter in letters if isinstance(letter, Text)]
+            yield from clip_off_boxes(item, self.view.rect, boxes)
 
     def items(self) -> Iterator[Item]:
         """Every stroke of the plan as it lies, cut off at the panel's edge, in drawing order."""
         for drawn in self.steps:
             yield from (stroke.item for stroke in self.strokes(drawn))
             for arc in self.arcs(drawn):
-                yield from clip.clipped(arc.item, self.view.rect)
+                yield from clip_item(arc.item, self.view.rect)
             if pen := self.dot(drawn):
                 yield Circle(pen, LAYER, drawn.index, drawn.at, self.size(drawn))
         yield from (stroke.item for stroke in self.vectors)
@@ -305,7 +306,7 @@ class Plate:
 
     def _inside(self, stroke: Stroke) -> Stroke | None:
         """What of a stroke lies in the panel."""
-        inside = clip.segment(self.view.rect, *stroke.ends) if stroke.length > 0 else None
+        inside = clip_segment(self.view.rect, *stroke.ends) if stroke.length > 0 else None
         return stroke.part(*inside) if inside else None
 
     def breaks(self, stretch: Stroke) -> Iterator[tuple[Stroke, DrawnStep]]:

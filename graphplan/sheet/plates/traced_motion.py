@@ -11,7 +11,7 @@ from graphplan.mechanism.model import FRAME, Scene
 from graphplan.phrases import Said, said
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Spot
-from graphplan.sheet.plates.symbols import hull, off, places, straight, unit
+from graphplan.sheet.plates.symbols import hull, off, places, straight, unit_vector
 from graphplan.sheet.tolerances import EXTENT_TOL
 
 View = Callable[[Spot], Spot]
@@ -196,5 +196,5 @@ def _turns_back(before: Spot, here: Spot, after: Spot) -> bool:
 
 def _stop(spots: Sequence[Spot]) -> Item:
     """The stroke across the first end of a chain."""
-    way = next((unit(p, q) for p, q in pairwise(spots) if math.dist(p, q) > FINE), (1.0, 0.0))
+    way = next((unit_vector(p, q) for p, q in pairwise(spots) if math.dist(p, q) > FINE), (1.0, 0.0))
     return Polyline(pens.PATH_END, LAYER, None, (off(spots[0], way, 0.0, STOP), off(spots[0], way, 0.0, -STOP)))

@@ -15,7 +15,7 @@ from graphplan.methods.panels import JointForce, slide_named
 from graphplan.phrases import Phrase, Said, arranged, coordinates, digits, joined, phrase, said, unit
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.words.lengths import size
-from graphplan.sheet.words.tables import Deviations, Table, figure, largest_size, with_deviations
+from graphplan.sheet.words.rows import Deviations, Table, figure, largest_size, with_deviations
 from graphplan.words.tongue import ENGLISH, Tongue
 
 Pair = tuple[float, float]

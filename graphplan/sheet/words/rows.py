@@ -1,14 +1,33 @@
-"""What stands in the text columns: rows of lettering and of boxes, and how they run down one column after the other.
+"""What stands in the text columns: rows of lettering and of boxes, tables, and how rows run down column after column.
+
+Tables have names to the left and numbers in columns; two stand side by side where there is room.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import reduce
+from typing import Any
 
-from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, HEADING, SIZE, Runs, sentence_runs, width, wrap
+from graphplan.phrases import Said, Unknown, arranged, digits, figures, in_any_case, unit
+from graphplan.sheet.lettering.lettering import (
+    ANCHORS,
+    CAPS,
+    HEADING,
+    SIZE,
+    Runs,
+    name_runs,
+    sentence_runs,
+    width,
+    wrap,
+)
 from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Text, moved
 from graphplan.sheet.plates.pens import BORDER, LETTERS, THIN
+from graphplan.sheet.tolerances import ZERO_TOL
+from graphplan.sheet.words.lengths import size
+from graphplan.words.tongue import Tongue
 
 LEADING = 1.42  # of the letter size, base line to base line
 BELOW, BETWEEN = 0.36, 0.16  # of the letter size: rules under the base line
@@ -126,3 +145,176 @@ def lettered(placed: Sequence[Placed]) -> Iterator[Item]:
                 for k in range(times):
                     low = base - (BELOW + k * BETWEEN) * row.size
                     yield Polyline(THIN, row.layer, row.step, ((left, low), (right, low)))
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """How far off a result is drawn: in its own unit, and in mm of paper where it is one drawn vector; infinite where
+    no pencil follows the drawing."""
+
+    value: float
+    mm: float | None = None
+
+    @property
+    def told(self) -> Said:
+        """In figures; a dash where it has no bound."""
+        if math.isinf(self.value):
+            return figures("–")
+        return figures(digits(self.value, 2) + (f" ({digits(self.mm, 2)})" if self.mm is not None else ""))
+
+
+@dataclass(frozen=True)
+class Deviations:
+    """The deviation of every result by kind and name, and what is said of the drawing model and the worst step."""
+
+    results: Mapping[str, Mapping[str, Deviation]] = field(default_factory=dict)
+    told: str = ""
+
+    def of(self, *kinds: str) -> dict[str, Deviation]:
+        """The deviations of some kinds, by name."""
+        return {name: deviation for kind in kinds for name, deviation in self.results.get(kind, {}).items()}
+
+
+APART = 3.0  # mm between two columns
+TOGETHER = 15  # rows of a table stand in one column
+Table = list[list[Runs]]
+Off = Mapping[str, Deviation]  # how far off results are drawn, by name; empty where that is not told
+
+
+def vectors(say: Tongue, what: str, letter: str, unit: str, values: Mapping[str, Any], order: Iterable[str], off: Off,
+            beside: Mapping[str, Any], spoken: Callable[[str], str] = str) -> Table:
+    """Components, magnitudes and deviations, each row with its name first; nothing if there are none.
+
+    The head tells what has them, their letter and their unit; names may be `spoken` in another way.
+    """
+    head = [sentence_runs(text) for text in (what, f"{letter}_x", f"{letter}_y", f"|{letter}| {unit}")]
+    found = {name: (*values[name], size(*values[name])) for name in order if name in values}
+    return _table(say, head, found, _larger(largest_size(values), largest_size(beside)), off, spoken)
+
+
+def places(say: Tongue, head: Sequence[str], values: Mapping[str, Any], off: Off,
+           spoken: Callable[[str], str]) -> Table:
+    """Coordinates with their deviations, or components of headings; nothing if there are none."""
+    return _table(say, [*map(sentence_runs, head)], values, largest_size(values), off, spoken)
+
+
+def scalars(say: Tongue, what: str, name: str, unit: str, values: Mapping[str, Any], order: Iterable[str],
+            off: Off) -> Table:
+    """Single numbers with their deviations, each row with its name first; nothing if there are none."""
+    head = [sentence_runs(what), (*name_runs(name), *sentence_runs(f" {unit}"))]
+    found = {name: (values[name],) for name in order if name in values}
+    return _table(say, head, found, reduce(_larger, map(abs, values.values()), 0.0), off)
+
+
+def settled(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict[str, dict[str, Any]]:
+    """The results, with turnings as nothing that are but rounding beside what others of their kind are made of.
+
+    What is unknown is not weighed.
+    """
+    found = {kind: {**named} for kind, named in values.items()}
+    fastest = reduce(_larger, map(abs, values.get("omega", {}).values()), 0.0)
+    for turning, kind, other in (("omega", "velocity", fastest), ("alpha", "acceleration", fastest * fastest)):
+        least = ZERO_TOL * _larger(largest_size(values.get(kind, {})) / reach, other)
+        found |= {turning: {name: rate if isinstance(least, Unknown) or isinstance(rate, Unknown) or abs(rate) > least
+                            else 0.0 for name, rate in values[turning].items()}} if turning in values else {}
+    return found
+
+
+def _table(say: Tongue, head: list[Runs], values: Mapping[str, tuple[float, ...]], largest: float, off: Off,
+           spoken: Callable[[str], str] = str) -> Table:
+    """Numbers, of which the largest of their kind is told, under their head."""
+    rows = [[name_runs(spoken(name)), *(figure(say, x, largest) for x in found)] for name, found in values.items()]
+    return with_deviations(say, [head, *rows], list(values), off) if rows else []
+
+
+def with_deviations(say: Tongue, table: Table, names: Sequence[str], off: Off) -> Table:
+    """A table with a last column for the deviations of its rows, where they are told."""
+    told = [off.get(name) for name in names]
+    if not any(told):
+        return table
+    on_paper = any(deviation is not None and deviation.mm is not None for deviation in told)
+    head = say(arranged("± ({0})", unit("mm"))) if on_paper else "±"
+    column = [head, *("" if deviation is None else say(deviation.told) for deviation in told)]
+    return [[*row, sentence_runs(cell)] for row, cell in zip(table, column, strict=True)]
+
+
+def largest_size(values: Mapping[Any, Any]) -> float:
+    """The size of the largest vector."""
+    return reduce(_larger, (size(*value) for value in values.values()), 0.0)
+
+
+def _larger(a: float, b: float) -> float:
+    """The larger of two numbers, by arithmetic alone: they may be unknown."""
+    return (a + b + abs(a - b)) / 2
+
+
+def figure(say: Tongue, value: float, largest: float) -> Runs:
+    """A number of a table; what is only rounding beside its largest is zero."""
+    return sentence_runs(say(in_any_case(lambda: digits(value if abs(value) > ZERO_TOL * largest else 0.0))))
+
+
+def joined_tables(one: Table, two: Table, fits: Callable[[Table], bool]) -> list[Table]:
+    """Two tables as one where the names are the same and it fits, else those of the two that say anything."""
+    if one and two and [row[0] for row in one] == [row[0] for row in two]:
+        both = [[*left, *right[1:]] for left, right in zip(one, two, strict=True)]
+        if fits(both):
+            return [both]
+    return [table for table in (one, two) if table]
+
+
+def narrow(table: Table, wide: float) -> bool:
+    """Whether a table is no wider than this."""
+    return sum(_widths(table)) <= wide
+
+
+def _widths(table: Table) -> list[float]:
+    return [max(width(row[i], SIZE) for row in table) + APART for i in range(len(table[0]))]
+
+
+def rows(table: Table) -> Iterator[TextRow]:
+    """Names to the left, numbers to the right of their columns."""
+    edges = [0.0]
+    for wide in _widths(table) if table else ():
+        edges.append(edges[-1] + wide)
+    for i, row in enumerate(table):
+        numbers = [Cell(edge - APART / 2, runs, "end") for edge, runs in zip(edges[2:], row[1:], strict=True)]
+        gap, keep = (1.0, min(TOGETHER, len(table) - 1)) if i == 0 else (0.0, 0)
+        yield TextRow((Cell(0.0, row[0]), *numbers), gap=gap, keep=keep)
+
+
+TALL, TIGHT = 6.5, 5.2  # mm: a box has room for a number by hand, also where space is short
+NARROW = 11.0  # mm: the least that a number by hand needs
+TICK, TICKED = 2.2, 12.0  # mm: the box of a step, and where its sentence begins
+
+
+# ---- answer boxes: to fill in by hand, or to tick -------------------------------------------------------------------
+
+
+def answer_rows(table: Table, wide: float) -> Iterator[TextRow]:
+    """A table to fill in: its head and names as they are, and an empty box for every number."""
+    names = max(width(row[0], SIZE) for row in table) + APART
+    pitch = min((wide - names) / (len(table[0]) - 1), 2.4 * NARROW)
+    lefts = [names + i * pitch for i in range(len(table[0]) - 1)]
+    heads = [Cell(left + pitch / 2, runs, "middle") for left, runs in zip(lefts, table[0][1:], strict=True)]
+    yield TextRow((Cell(0.0, table[0][0]), *heads), gap=1.5, keep=min(TOGETHER, len(table) - 1))
+    for row in table[1:]:
+        boxes = [Rect(left, 0.0, left + pitch, TALL) for left, runs in zip(lefts, row[1:], strict=True) if runs]
+        yield TextRow((Cell(0.0, row[0]),), tall=TALL, boxes=tuple(boxes))
+
+
+def fits(table: Table, wide: float) -> bool:
+    """Whether all the boxes of a table have room for a number by hand."""
+    return max(width(row[0], SIZE) for row in table) + APART + (len(table[0]) - 1) * NARROW <= wide
+
+
+def ticked(row: TextRow) -> TextRow:
+    """A row with a box to tick before it."""
+    low = (row.height - TICK) / 2
+    return replace(row, gap=0.5, tall=row.height, boxes=(Rect(0.0, low, TICK, low + TICK),))
+
+
+def tightened(row: TextRow) -> TextRow:
+    """The row where space is short: nearer to the one above, its boxes for numbers lower."""
+    if row.boxes and row.tall > TIGHT:
+        row = replace(row, tall=TIGHT, boxes=tuple(replace(box, top=TIGHT) for box in row.boxes))
+    return replace(row, gap=row.gap / 2)

@@ -30,9 +30,18 @@ from graphplan.phrases import Said, arranged, coordinates, digits, joined, phras
 from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.lettering.lettering import name_runs, sentence_runs
-from graphplan.sheet.plates.given_arrows import rate_letters
-from graphplan.sheet.words.rows import TextRow
-from graphplan.sheet.words.tables import TICKED, Deviations, Table, answer_rows, fits, joined_tables, rows, ticked
+from graphplan.sheet.plates.annotations import rate_letters
+from graphplan.sheet.words.rows import (
+    TICKED,
+    Deviations,
+    Table,
+    TextRow,
+    answer_rows,
+    fits,
+    joined_tables,
+    rows,
+    ticked,
+)
 from graphplan.sheet.words.texts import Words
 
 INSTRUMENTS = {

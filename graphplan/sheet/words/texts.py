@@ -2,26 +2,45 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphplan.kernel.stages import Equation
+from graphplan.mechanism.model import FRAME
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import CENTRE, INFLECTION, MOTION_POLE, POLE, POLE_HEADING, WORDS
+from graphplan.methods.motion.circle_diagram import DrawnCircle
 from graphplan.methods.panels import pole_letter, slide_named
 from graphplan.phrases import Said, arranged, digits, joined, said, unit
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.lettering.lettering import HEADING, SIZE, Runs, equation_runs, sentence_runs, width, wrap
+from graphplan.sheet.lettering.lettering import (
+    CAPS,
+    HEADING,
+    SIZE,
+    Runs,
+    equation_runs,
+    name_runs,
+    sentence_runs,
+    width,
+    wrap,
+)
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Circle, Item, Polyline, Text
+from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.plates.view import interpolate
 from graphplan.sheet.tolerances import ZERO_TOL
 from graphplan.sheet.words.protocol import Entry, Passage, Protocol, lengths_of
 from graphplan.sheet.words.readings import Readings
-from graphplan.sheet.words.rows import Cell, TextRow, hung
-from graphplan.sheet.words.tables import (
+from graphplan.sheet.words.rows import (
+    Cell,
     Deviations,
     Table,
+    TextRow,
+    hung,
     joined_tables,
     narrow,
     places,
@@ -119,10 +138,8 @@ class Words:
     def _circle(self, wide: float) -> Iterator[TextRow]:
         """The circle diagram of the poles, where any are found by it."""
         if circle := self.drawing.circle:
-            from graphplan.sheet.words.circle_diagram import figure, tall  # most scenes ask for no poles
-
             yield self._heading(said("Circle diagram"))
-            yield TextRow((), tall=tall(circle), figure=tuple(figure(circle)), keep=1)
+            yield circle_diagram_row(circle)
             found = ", ".join(f"{side.number} {pole_letter(side.links)}" for side in circle.sides if side.number)
             told = said("A side joins two links whose pole is known, thick those of pins, guides and pitch points; 0 "
                         "is the frame. Found in this order: {0}.", found)
@@ -266,3 +283,43 @@ class Words:
 def _within(gap: float) -> str:
     """A difference as it is said on a sheet: rounding is not told in figures, which differ from machine to machine."""
     return said("below 10⁻¹²") if gap <= ZERO_TOL else digits(gap, 2)
+
+
+# ---- the circle diagram ----------------------------------------------------------------------------------------------
+
+MIN_RADIUS, PER_LINK = 10.0, 2.2  # mm: the circle's radius, and how much larger it is with each link beyond four
+LINK_RADIUS, AIR = 2.6, 1.5  # mm: the radius about a link's name, and what is left free around the figure
+NUMBER_SIZE = 0.8 * SIZE  # mm: the letters of numbers
+NUMBER_AT = 0.38  # of a side: where its number stands, off the middle, in which many sides cross
+BARE = Pen(0.0, pens.PAPER, fill=pens.PAPER)
+
+
+def circle_diagram_row(circle: DrawnCircle) -> TextRow:
+    """The circle diagram of the poles: links on a circle, the first at the upper left and the others the way of the
+    clock, and a side for each pole that is known.
+
+    Sides of the outset are thick, those that are found bear the number in whose order they are (Ozols 1974, 5-2).
+    """
+    links, items = circle.links, list[Item]()
+    radius = MIN_RADIUS + PER_LINK * max(0, len(links) - 4)
+    middle = radius + LINK_RADIUS + AIR
+    angles = {link: math.pi * (0.75 - 2 * place / len(links)) for place, link in enumerate(links)}
+    spots = {link: (middle + radius * math.cos(angle), middle + radius * math.sin(angle))
+             for link, angle in angles.items()}
+
+    def add_name(name: str, size: float, ground: Circle) -> None:
+        (x, y), runs = ground.centre, name_runs(name)
+        items.extend((ground, Text(pens.LETTERS, "text", None, (x, y - CAPS * size / 2), runs, size, "middle")))
+
+    for side in circle.sides:
+        pen = pens.PRODUCED if side.number else pens.NORMAL
+        items.append(Polyline(pen, "text", None, tuple(spots[link] for link in side.links)))
+    for side in circle.sides:
+        if side.number:
+            one, two = side.links
+            name, spot = str(side.number), interpolate(spots[one], spots[two], NUMBER_AT)
+            room = 0.7 * max(width(name_runs(name), NUMBER_SIZE), NUMBER_SIZE)
+            add_name(name, NUMBER_SIZE, Circle(BARE, "text", None, spot, room))
+    for link, spot in spots.items():
+        add_name("0" if link == FRAME else link, SIZE, Circle(pens.BALLOON, "text", None, spot, LINK_RADIUS))
+    return TextRow((), tall=2 * middle, figure=tuple(items), keep=1)

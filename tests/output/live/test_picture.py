@@ -26,12 +26,12 @@ from graphplan.sheet.cycle_frames import posed
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.lettering.letters import pictured
-from graphplan.sheet.lettering.obstacles import strokes as thin
-from graphplan.sheet.plates.clip import segment
+from graphplan.sheet.lettering.prices import strokes as thin
 from graphplan.sheet.plates.display import Circle, Item, Rect
 from graphplan.sheet.plates.drawn_step import LAYER
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
+from graphplan.sheet.plates.view import clip_segment
 
 SCENES = sample(["slider-crank", "double-butterfly"], packaged())
 POSES = 12  # of a turn
@@ -230,7 +230,7 @@ def test_letters_stand_as_on_a_sheet_of_the_pose(stage: Stage) -> None:
             assert letters.keys() == written.keys()
             assert not any(one.meets(other) for one, other in combinations(letters.values(), 2))
             lines = [ends for chain, _ in thin(plate.items()) for ends in pairwise(chain)]
-            crossed = [sum(any(segment(box, *ends) for ends in lines) for box in boxes.values())
+            crossed = [sum(any(clip_segment(box, *ends) for ends in lines) for box in boxes.values())
                        for boxes in (letters, written)]  # fmt: skip
             here, there, count = here + crossed[0], there + crossed[1], count + len(letters)
     assert here <= there + 0.02 * count

@@ -25,7 +25,7 @@ from graphplan.cams.law import ROUNDS, Law, Stretch
 from graphplan.cams.task import CONVEX, PRESSURE, SMALLEST, Limits, Task
 from graphplan.cams.tolerances import ARM_ANGLE
 from graphplan.errors import Refused
-from graphplan.mechanism.numerals import shown
+from graphplan.mechanism.numbers import shown
 
 SCAN, HALVINGS = 180, 48  # angles of an arm that are tried, before the best is searched between two of them
 

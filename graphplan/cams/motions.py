@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.mechanism.elimination import Elimination
+from graphplan.mechanism.equations import Elimination
 
 ORDERS = 4  # lift, velocity, acceleration and jerk
 HALF = Fraction(1, 2)

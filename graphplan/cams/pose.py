@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from graphplan.cams.follower import FlatOscillating, Oscillating, Translating
 from graphplan.cams.profile import Cam
 from graphplan.cams.tolerances import ZERO_LENGTH
-from graphplan.mechanism.numerals import shown
+from graphplan.mechanism.numbers import shown
 
 CAM, FOLLOWER = "1", "2"
 CENTRE, PIVOT, PROFILE, END, TOUCHED = "O", "B", "C", "A", "K"  # letters of points

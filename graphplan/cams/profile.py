@@ -22,7 +22,7 @@ from graphplan.cams.task import POINTED, PRESSURE, Task
 from graphplan.cams.tolerances import ANGLE_TOL_DEG, FLAT_ARC, LENGTH_TOL
 from graphplan.errors import GraphplanError, SceneError
 from graphplan.mechanism.items import Faults
-from graphplan.mechanism.numerals import shown
+from graphplan.mechanism.numbers import shown
 from graphplan.phrases import Said, arranged, digits, joined, phrase, said
 
 Array = Any

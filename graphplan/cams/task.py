@@ -17,8 +17,8 @@ from graphplan.cams.tolerances import LIFT_TOL
 from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
 from graphplan.mechanism.items import Faults, Item, Vector, described
 from graphplan.mechanism.model import Presentation
-from graphplan.mechanism.numerals import shown
-from graphplan.mechanism.tasks import read_task, task_table, task_text
+from graphplan.mechanism.numbers import shown
+from graphplan.mechanism.scene import read_task, task_table, task_text
 from graphplan.mechanism.units import Units
 from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER, choice
 

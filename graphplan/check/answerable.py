@@ -24,10 +24,9 @@ from typing import Any, Generic, TypeVar
 from graphplan.check.arithmetics import FLOATS, bounded_rates, enclosed, enclosures
 from graphplan.check.report import NOTHING_MOVES, Report
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
-from graphplan.mechanism.bracing import bracing
 from graphplan.mechanism.equations import System, stages
 from graphplan.mechanism.model import FRAME, Condition, Find, Loads, Scene
-from graphplan.mechanism.structure import structure
+from graphplan.mechanism.structure import bracing, structure
 from graphplan.methods.panels import JointForce
 from graphplan.solver import solve
 from graphplan.solver.instant_centres import relative

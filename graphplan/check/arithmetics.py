@@ -21,11 +21,11 @@ from graphplan.kernel.numbers import Domain, Fractions
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, evaluate
-from graphplan.mechanism.assembly import moved_on
-from graphplan.mechanism.directions import Misfit, vector
 from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide
-from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, is_exact, mapped
+from graphplan.mechanism.numbers import TO_A_FLOAT, Reckoning, is_exact, mapped
 from graphplan.mechanism.placements import placed_by
+from graphplan.mechanism.travel import moved_on
+from graphplan.mechanism.values import Misfit, vector
 from graphplan.methods.assembly import Assembler
 from graphplan.solver.blocks import by_blocks
 from graphplan.solver.bounds import PI, Unproven, bounded, heading

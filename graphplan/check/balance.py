@@ -26,7 +26,7 @@ from graphplan.machine.linkages.mass_centre import MassCentre, mass_centre
 from graphplan.machine.linkages.shaking import Shaking, shaking
 from graphplan.machine.linkages.spanning import spanning_tree
 from graphplan.mechanism.model import FRAME, Find, Loads, Scene
-from graphplan.mechanism.plane import times
+from graphplan.mechanism.numbers import times
 from graphplan.mechanism.scene import parse
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.solver import poses, solve, statics

@@ -10,11 +10,11 @@ from typing import Any
 
 from graphplan.check.arithmetics import Bounds, independent_facts
 from graphplan.check.compared import Results, plain
-from graphplan.mechanism.elimination import transpose
+from graphplan.mechanism.equations import transpose
 from graphplan.mechanism.model import FRAME, Contact, Force, Gear, Number, Pair, Scene, Slide
+from graphplan.mechanism.numbers import dot
 from graphplan.mechanism.pairs.pair import Statement
 from graphplan.mechanism.pairs.revolute import Revolute
-from graphplan.mechanism.plane import dot
 from graphplan.mechanism.units import metre
 from graphplan.methods import kinds
 from graphplan.methods.panels import JointForce

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 from graphplan.check.compared import Compared, Results
 from graphplan.check.report import Report
 from graphplan.errors import ConstructionError
-from graphplan.mechanism import numerals
 from graphplan.mechanism.model import Scene, Slide
+from graphplan.mechanism.numbers import root as exact_root
 from graphplan.methods import kinds
 from graphplan.methods.panels import JointForce
 
@@ -120,7 +120,7 @@ def _lengths(key: str, one: Any, two: Any, exact: bool) -> dict[str, Any]:
     if not exact:
         root = getattr(square, "root", None)  # of enclosures a number, of symbols what makes it
         return {key: math.sqrt(square) if root is None else root() if callable(root) else root}
-    root, rational = numerals.root(square)
+    root, rational = exact_root(square)
     return {**({key: number(root)} if rational else {}), f"{key}_squared": number(square)}
 
 

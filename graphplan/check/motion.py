@@ -33,7 +33,7 @@ from graphplan.machine.integrals import Reals
 from graphplan.machine.motion.drawing import MotionDrawing
 from graphplan.machine.motion.runs import Run
 from graphplan.machine.reduced.reduction import Reduction
-from graphplan.mechanism.load_tables import SPEED, LoadTable
+from graphplan.mechanism.loads import SPEED, LoadTable
 from graphplan.mechanism.model import FRAME, Force
 from graphplan.mechanism.units import NEWTONS
 

@@ -21,8 +21,8 @@ from graphplan.machine.reduced.reduced_loads import loads_with
 from graphplan.machine.reduced.reduction import Reduced, Reduction
 from graphplan.machine.reduced.unit_motion import at_unit_rate
 from graphplan.machine.tolerances import MACHINE_SHARE
-from graphplan.mechanism.load_tables import LoadTable
 from graphplan.mechanism.load_values import guide_origin
+from graphplan.mechanism.loads import LoadTable
 from graphplan.mechanism.model import FRAME, Force, Loads
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.methods.construction import Construction

@@ -21,7 +21,7 @@ from dataclasses import replace
 from graphplan.commands.choices import add_language, add_paper, add_pencil, add_steps, count, refuse_steps, with_steps
 from graphplan.commands.output import DOTS, SHEETS, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
-from graphplan.mechanism.presentation import FRAMES
+from graphplan.mechanism.sections import FRAMES
 
 ENDINGS = (".json", ".csv", ".toml", *SHEETS)
 POSITIONS, SHARE = 72, 0.5

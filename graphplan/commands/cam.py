@@ -48,7 +48,7 @@ from typing import TYPE_CHECKING
 from graphplan.commands.choices import add_language, add_paper, add_steps, count, refuse_steps, with_steps
 from graphplan.commands.output import DOTS, STANDARD, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
-from graphplan.mechanism.presentation import FRAMES
+from graphplan.mechanism.sections import FRAMES
 from graphplan.output import loaded
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from graphplan.commands.output import DOTS, Messages
 from graphplan.errors import ConstructionError, Disagreement, Refused, SingularPose
 from graphplan.mechanism.items import perhaps
 from graphplan.mechanism.pairs.pair import FRAME
-from graphplan.mechanism.presentation import FRAMES, MOST_POSITIONS, PROTOCOLS, SIZES
+from graphplan.mechanism.sections import FRAMES, MOST_POSITIONS, PROTOCOLS, SIZES
 from graphplan.methods.styles import INERTIA, METHODS, OF_PATHS
 from graphplan.words import LANGUAGES
 
@@ -181,7 +181,7 @@ def given(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
 
 def question(options: argparse.Namespace, scene: Scene) -> None:
     """Tell what in a scene is perhaps a slip of the pen, though it may be meant."""
-    from graphplan.mechanism.questions import questions
+    from graphplan.mechanism.checks import questions
 
     for asked in questions(scene):
         Messages(options.quiet).remark(f"{scene.name}: {asked}")

@@ -24,15 +24,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import (
-    add_choices,
-    add_preference,
-    add_sheet,
-    add_travel,
-    count,
-    drawable,
-    on_paper,
-)
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, add_travel, count, drawable, on_paper
 from graphplan.commands.output import kind, paged, write, write_all
 from graphplan.errors import Refused
 from graphplan.output import back_end

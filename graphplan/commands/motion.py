@@ -17,15 +17,7 @@ from __future__ import annotations
 import argparse
 import math
 
-from graphplan.commands.choices import (
-    add_diagrams,
-    add_steps,
-    count,
-    on_sheet,
-    question,
-    refuse_steps,
-    with_steps,
-)
+from graphplan.commands.choices import add_diagrams, add_steps, count, on_sheet, question, refuse_steps, with_steps
 from graphplan.commands.output import SHEETS, Messages, as_json, kind, write, write_sheets
 from graphplan.errors import Refused
 

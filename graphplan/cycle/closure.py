@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from graphplan.mechanism.plane import dot, less, plus, times, turned
+from graphplan.mechanism.numbers import dot, less, plus, times, turned
 
 RESIDUE, TRAVEL = -1, -2
 """Columns of an equation beside those of the unknowns: what it leaves open, and its change with the travel."""

@@ -19,9 +19,9 @@ from itertools import chain
 from typing import Any, ClassVar
 
 from graphplan.mechanism.model import FRAME, Contact, Gear, Number, Pair, Scene, Slide
+from graphplan.mechanism.numbers import X, less, times, turned
 from graphplan.mechanism.pairs.pair import ROLLING, TOUCHING, Along, Condition, KinematicPair, Statement
-from graphplan.mechanism.pairs.revolute import Revolute, across
-from graphplan.mechanism.plane import X, less, times, turned
+from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.structure import structure
 
 Array = Any
@@ -91,7 +91,7 @@ class Linkage:
 
     def _across(self, link: str) -> Pair:
         """The way x of the link's joints in the given pose; it turns with the link."""
-        x, y = across(self.scene, link, {name: (z.real, z.imag) for name, z in self.places.items()})
+        x, y = self.scene.across_link(link, {name: (z.real, z.imag) for name, z in self.places.items()})
         return x / math.hypot(x, y), y / math.hypot(x, y)
 
     def special(self, part: tuple[str, ...]) -> bool:

@@ -10,8 +10,8 @@ import numpy as np
 from graphplan.cycle.linkage import Array, number
 from graphplan.cycle.positions import Moved
 from graphplan.cycle.tolerances import LOOK_AHEAD
-from graphplan.mechanism.load_tables import SPEED, LoadTable
 from graphplan.mechanism.load_values import guide_origin, onward
+from graphplan.mechanism.loads import SPEED, LoadTable
 from graphplan.mechanism.model import Force, Scene, Slide
 from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.tolerances import DEAD_POINT_TOL

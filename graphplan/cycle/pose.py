@@ -21,14 +21,13 @@ from graphplan.cycle.tolerances import PLACE_TOL
 from graphplan.cycle.travel import check_drives
 from graphplan.cycle.turn import Turn, follow, under
 from graphplan.errors import Refused, SingularPose
-from graphplan.mechanism.assembly import moved_on
-from graphplan.mechanism.elimination import Elimination
+from graphplan.mechanism.equations import Elimination
 from graphplan.mechanism.load_values import filled_in
 from graphplan.mechanism.model import FRAME, Assembly, Extreme, Gear, Number, Pair, Placement, Scene, Slide
-from graphplan.mechanism.numerals import TO_A_FLOAT, is_exact
+from graphplan.mechanism.numbers import TO_A_FLOAT, is_exact
 from graphplan.mechanism.pairs.drives import TurningDrive
 from graphplan.mechanism.placements import needs
-from graphplan.mechanism.travel import coordinates, kept_pace, sense
+from graphplan.mechanism.travel import coordinates, kept_pace, moved_on, sense
 from graphplan.methods.motion.network import Network
 from graphplan.phrases import Said, said
 

@@ -1,25 +1,22 @@
 """Checks: what can be said against a scene only when all of it is known.
 
 Points that nothing uses, joints of a link that coincide, links that hang on nothing, gears without an arm, and a motion
-that the drives determine twice or not at all.
+that the drives determine twice or not at all. What a scene may well say, and is more often a slip of the pen, is asked.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from itertools import combinations, islice
 
-from graphplan.errors import by_name
-from graphplan.mechanism.bracing import Bracing, bracing
-from graphplan.mechanism.elimination import PRIME, Elimination
-from graphplan.mechanism.equations import System
-from graphplan.mechanism.frame_names import is_frame_synonym
+from graphplan.errors import Fault, by_name
+from graphplan.mechanism.equations import PRIME, Elimination, System
 from graphplan.mechanism.items import Faults, quoted
 from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Pair, Scene
-from graphplan.mechanism.numerals import exactly, is_exact
+from graphplan.mechanism.numbers import exactly, is_exact, shown
 from graphplan.mechanism.order import ordered_links
-from graphplan.mechanism.structure import mobility
+from graphplan.mechanism.structure import Bracing, bracing, mobility
 from graphplan.mechanism.tolerances import COINCIDENCE_TOL
 
 TRIED, TOLD = 200, 3  # sets of points, in a scene with many loose ends
@@ -56,6 +53,8 @@ def check_frame(scene: Scene, faults: Faults) -> None:
     """
     if FRAME in scene.links or (scene.motions and mobility(scene) == len(scene.drives) + 2 * len(scene.motions)):
         return
+    from graphplan.mechanism.slips import is_frame_synonym  # few scenes have no frame
+
     for link, points in scene.links.items():
         if is_frame_synonym(link):
             faults.add(f"links.{quoted(link)}", f"link {link} would move: the fixed link is called frame",
@@ -240,3 +239,18 @@ def missing_pivots(scene: Scene, freedoms: int) -> list[tuple[str, ...]]:
 def framed(scene: Scene, way: tuple[str, ...]) -> str:
     """The frame with these points, as it is written."""
     return f'frame = "{" ".join((*scene.links.get(FRAME, ()), *way))}"'
+
+
+# --- questions: no faults, but what is more often a slip of the pen --------------------------------------------------
+
+
+ROUGHEST = 2
+"""A coefficient of friction: no dry surfaces of machines rub more, and a wedge-shaped slide seldom seems to."""
+
+
+def questions(scene: Scene) -> Iterator[Fault]:
+    """What is to be looked at again, each with where it stands and what was perhaps meant."""
+    for number, friction in enumerate(scene.loads.frictions if scene.loads else (), 1):
+        if (coefficient := friction.coefficient) > ROUGHEST:
+            yield Fault(f"friction.{number}.coefficient", f"{shown(coefficient)} is more than dry surfaces have",
+                        f"perhaps {shown(coefficient / 100)}, if that is in percent")

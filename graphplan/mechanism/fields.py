@@ -14,8 +14,8 @@ from typing import Any, NamedTuple, TypeAlias
 
 from graphplan.errors import by_name
 from graphplan.mechanism.items import Item
+from graphplan.mechanism.numbers import Pair
 from graphplan.mechanism.pairs.pair import FRAME, KinematicPair
-from graphplan.mechanism.plane import Pair
 from graphplan.mechanism.units import Units
 
 Fragment = dict[str, Any]

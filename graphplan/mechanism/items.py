@@ -13,8 +13,7 @@ from fractions import Fraction
 from typing import TypeVar
 
 from graphplan.errors import Fault, by_name, printable
-from graphplan.mechanism.frame_names import with_frame
-from graphplan.mechanism.numerals import Unusable, integer, shown
+from graphplan.mechanism.numbers import Unusable, integer, shown
 
 T = TypeVar("T")
 Vector = tuple[Fraction, Fraction]
@@ -226,6 +225,8 @@ def described(value: object) -> str:
 def perhaps(name: str, known: Iterable[str], kind: str) -> str:
     """What was probably meant by `name`: the nearest known names, or else the whole choice."""
     from difflib import get_close_matches  # few scenes have faults
+
+    from graphplan.mechanism.slips import with_frame
 
     choice = list(known)
     if meant := with_frame(name, choice):

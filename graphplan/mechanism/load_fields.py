@@ -1,23 +1,26 @@
-"""Loads that change, as a scene writes them: rows in the scene, or in a file of two columns beside it."""
+"""Loads as a scene writes them: masses, forces, moments, what balances them, and friction.
+
+Those that change have rows in the scene, or in a file of two columns beside it.
+"""
 
 from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from graphplan.mechanism.directions import GUIDE
-from graphplan.mechanism.fields import Field, Kind, Names, Row
+from graphplan.mechanism.fields import Either, Field, Kind, Named, Names, Row, Rows, Table, on_link
 from graphplan.mechanism.items import Item, described, perhaps
-from graphplan.mechanism.load_tables import SPEED, SPEED_OF, TRAVEL, LoadTable
-from graphplan.mechanism.numerals import decimal, shown
-from graphplan.mechanism.pairs.drives import Drive
-from graphplan.mechanism.pairs.sliding import Slide
-from graphplan.mechanism.values import NUMBER, VECTOR
+from graphplan.mechanism.loads import SPEED, SPEED_OF, TRAVEL, LoadTable
+from graphplan.mechanism.model import FRAME, Balance, Contact, Drive, Force, Friction, Loads, Mass, Moment, Pair, Slide
+from graphplan.mechanism.numbers import decimal, shown
+from graphplan.mechanism.pairs.gear import LOADS
+from graphplan.mechanism.pairs.sliding import has_slide
+from graphplan.mechanism.values import AMOUNT, GUIDE, LINK, NUMBER, POINT, TWO_LINKS, VECTOR, moving
 
 MOST = 100_000  # rows of a table
 LARGEST = 8_000_000  # bytes of a file
@@ -179,3 +182,139 @@ def _period(table: LoadTable, names: Names) -> Fraction:
     first = next((pair for pair in names.pairs if isinstance(pair, Drive)), None)
     span = Fraction(table.rows[-1][0]) - Fraction(table.rows[0][0])
     return span if table.over == TRAVEL and first and not first.slides and span % 360 == 0 else Fraction(0)
+
+
+# --- masses, forces, moments ---------------------------------------------------------------------------------------
+
+
+def _weighed(link: str, item: Item, names: Names) -> None:
+    """A fault where a link can have no mass."""
+    if link == FRAME:
+        item.fault("the frame is given a mass", "a moving link")
+    elif link not in names.links:
+        item.faults.unknown(item.where, "link", link, names.links)
+
+
+MASSES = Named(Table("a mass", (
+    Field("mass", "its mass", AMOUNT, "a mass, such as mass = 10"),
+    Field("inertia", "its inertia about the centre of mass, in mass * m^2", AMOUNT, default=0),
+    Field("centre", "its centre of mass, a point of that link", POINT, 'a point of the link, such as centre = "S"'),
+), lambda row: Mass(**row.values) if on_link(row, row.item.key) else None), LINK, _weighed)
+
+_LOADED = moving("a load on the frame moves nothing")
+_STILL: Pair = (Fraction(0), Fraction(0))
+
+
+def _force(row: Row) -> Force | None:
+    """A force; of one with a table the value is filled in once the whole scene is read."""
+    changing, found = "over" in row.items, table(row)
+    if not on_link(row, row["on"]) or (changing and found is None):
+        return None
+    if "direction" in row.items and not changing:
+        return row.items["direction"].fault("a constant force has its direction in its value", "value, or over")
+    if not changing:
+        return Force(row["on"], row["at"], row["value"])
+    if "direction" not in row.items:
+        return row.item.fault("direction is missing", "the direction of positive values, such as direction = [1, 0]")
+    vector, through, _ = row["direction"]
+    return Force(row["on"], row["at"], _STILL, found, vector, through)
+
+
+def _moment(row: Row) -> Moment | None:
+    """A moment; of one with a table the value is filled in once the whole scene is read."""
+    changing, found = "over" in row.items, table(row)
+    if changing and found is None:
+        return None
+    return Moment(row["on"], row.values.get("value", Fraction(0)), found)
+
+
+FORCES = Rows(Table("a force", (
+    Field("on", "the loaded link", _LOADED, 'the loaded link, such as on = "2"'),
+    Field("at", "a point of that link", POINT, 'a point of that link, such as at = "C"'),
+    Field("value", "the components of the force", VECTOR),
+    DIRECTION, *TABLE,
+), _force, either=EITHER, remedy="two components, such as value = [-150, 0], or over and a table"))
+MOMENTS = Rows(Table("a moment", (
+    Field("on", "the loaded link", _LOADED, 'the loaded link, such as on = "3"'),
+    Field("value", "the moment in force * m, counter-clockwise positive", NUMBER),
+    *TABLE,
+), _moment, either=EITHER, remedy="a moment, such as value = 12.0, or over and a table"))
+
+
+# --- balance and friction ------------------------------------------------------------------------------------------
+
+
+def _balance(row: Row) -> Balance | None:
+    vector, _, written = row["direction"]
+    return Balance(row["on"], row["at"], vector, written) if on_link(row, row["on"]) else None
+
+
+_BALANCED = moving("a balance on the frame, which does not move, keeps no motion")
+BALANCE = Rows(Either((Table("a moment", (
+    Field("link", "the link on which a moment keeps the motion", _BALANCED,
+          'the link on which a moment acts, such as link = "1"'),
+), lambda row: Balance(**row.values)), Table("a force along a line", (
+    Field("at", "the point of that link where the force acts", POINT,
+          'the point where a force acts, such as at = "B"'),
+    Field("on", "the link on which a force keeps the motion", _BALANCED,
+          'the link on which it acts, such as on = "1"'),
+    Field("direction", "the force's direction: a vector, an angle in degrees, or two points", GUIDE,
+          "the force's direction: a vector, an angle in degrees, or two points"),
+), _balance))), single=True)
+
+
+def _journal(row: Row) -> Friction | None:
+    at = row["at"]
+    if row.names.held[at] < 2 and row.item.faults.none_in("links"):
+        return row.items["at"].fault(f"{at} is no joint of two links", "a joint")
+    return Friction(at, None, row["radius"], row["coefficient"])
+
+
+def _rubbing(row: Row) -> Friction | None:
+    slide = has_slide(row, "a joint and its radius")
+    return Friction("", slide.links, Fraction(0), row["coefficient"]) if slide else None
+
+
+def _sliding(row: Row) -> Friction | None:
+    item, links = row.items["contact"], row["contact"]
+    known = [pair for pair in row.names.pairs if isinstance(pair, Contact)]
+    found = next((pair for pair in known if {*pair.links} == {*links}), None)
+    if found is None:
+        instead = ", ".join('contact = ["{}", "{}"]'.format(*pair.links) for pair in known) or "[[contacts]] with it"
+        return item.fault("no contact of links {} and {}".format(*links), instead) if item.faults.none_in(
+            "links", "contacts") else None
+    if found.rolling:
+        return item.fault(f"the contact {found.name} rolls: nothing slides in it", "a contact that slides")
+    return Friction("", None, Fraction(0), row["coefficient"], found.links)
+
+
+def _rubbed(friction: Friction) -> tuple[object, str]:
+    """The pair that has the friction."""
+    if friction.contact:
+        return friction.contact, "friction of contact {} {}".format(*friction.contact)
+    if friction.slide is None:
+        return friction.at, f"friction of joint {friction.at}"
+    return friction.slide, "friction of slide {} along {}".format(*friction.slide)
+
+
+_COEFFICIENT = Field("coefficient", "the coefficient of friction", AMOUNT,
+                     "the coefficient of friction, such as coefficient = 0.1")
+FRICTION = Rows(Either((Table("friction in a journal", (
+    Field("at", "the joint", POINT, 'a joint, such as at = "B", or slide = ["3", "2"]'),
+    Field("radius", "the journal's radius", AMOUNT, "the journal's radius"),
+    _COEFFICIENT,
+), _journal), Table("friction in a slide", (
+    Field("slide", "the sliding link and the link with the guide", TWO_LINKS, 'a slide, such as slide = ["3", "2"]'),
+    _COEFFICIENT,
+), _rubbing), Table("friction in a contact", (
+    Field("contact", "the two links that touch", TWO_LINKS, 'two links that touch, such as contact = ["2", "3"]'),
+    _COEFFICIENT,
+), _sliding))), once=_rubbed, remedy="one for each joint, slide or contact")
+
+
+def loads_of(read: Mapping[str, Any]) -> Loads | None:
+    """The loads of a scene, from what is read of its tables; None where it has none of them."""
+    if read.keys().isdisjoint(LOADS):
+        return None
+    return Loads(read.get("gravity", _STILL), read.get("masses", {}),
+                       *(read.get(table, ()) for table in ("forces", "moments", "balance", "friction")))

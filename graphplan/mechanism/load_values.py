@@ -13,12 +13,11 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from graphplan.mechanism.elimination import Elimination
-from graphplan.mechanism.load_tables import SPEED, LoadTable
+from graphplan.mechanism.equations import Elimination
+from graphplan.mechanism.loads import SPEED, LoadTable
 from graphplan.mechanism.model import Force, Moment, Scene, Slide
-from graphplan.mechanism.numerals import exactly, is_exact, root
+from graphplan.mechanism.numbers import Number, Pair, dot, exactly, is_exact, less, root, times
 from graphplan.mechanism.pairs.pair import FRAME, Along, Rate, Side, Sides, Statement
-from graphplan.mechanism.plane import Number, Pair, dot, less, times
 from graphplan.mechanism.tolerances import DEAD_POINT_TOL
 from graphplan.mechanism.travel import sense_of_travel
 

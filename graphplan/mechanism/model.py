@@ -7,30 +7,95 @@ angles in radians, counter-clockwise positive.
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import permutations
 from typing import Any
 
-from graphplan.mechanism.directions import Written
-from graphplan.mechanism.load_tables import LoadTable
+from graphplan.mechanism.loads import Balance, Force, Friction, Loads, LoadTable, Mass, Moment
+from graphplan.mechanism.numbers import Number, Pair
 from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.drives import Drive, DrivenPoint, Motion, SlidingDrive, TurningDrive
 from graphplan.mechanism.pairs.gear import Gear
-from graphplan.mechanism.pairs.pair import FRAME, Along, Condition, KinematicPair, Statement, Turning
+from graphplan.mechanism.pairs.pair import FRAME, Condition, KinematicPair
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.pairs.sliding import Slide
-from graphplan.mechanism.plane import Number, Pair
-from graphplan.mechanism.running import Flywheel, Run
-from graphplan.mechanism.sheet import Presentation
 from graphplan.mechanism.units import Units
+from graphplan.mechanism.values import Written
 
 __all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Extreme", "Find", "Flywheel", "Force",
            "Friction", "Gear", "LoadTable", "Loads", "Mass", "Moment", "Motion", "Number", "Pair", "Placement",
            "Presentation", "Run", "Scene", "Slide", "SlidingDrive", "TurningDrive", "Units", "Written"]
+
+
+@dataclass(frozen=True)
+class Presentation:
+    """How a scene wishes its sheet: texts that are empty, and scales that are None, are left to graphplan.
+
+    `k_s`, `k_v`, `k_a` and `k_F` are what a millimetre of paper stands for, in the scene's units; `multiples` are by
+    how much other plans are larger than the mechanism's; by `convention` scales are told as real per drawn, or as
+    drawn per real. `student` and `variant` are whose task it is in a class, and its number.
+    """
+
+    paper: str = ""
+    frame: str = "iso"
+    owner: str = ""
+    number: str = ""
+    date: str = ""
+    drawn_by: str = "graphplan"
+    approved_by: str = ""
+    language: str = "en"
+    k_s: Fraction | None = None
+    k_v: Fraction | None = None
+    k_a: Fraction | None = None
+    k_F: Fraction | None = None
+    multiples: dict[str, Fraction] = field(default_factory=dict)
+    convention: str = "real"
+    curves: tuple[str, ...] = ()
+    centrodes: tuple[str, ...] = ()
+    cubics: tuple[str, ...] = ()
+    positions: int = 0
+    student: str = ""
+    variant: str = ""
+
+    @property
+    def kappa(self) -> Fraction | None:
+        """How long a speed of one is drawn, where two of the scales of lengths, velocities and accelerations tie it."""
+        if self.k_s and self.k_v:
+            return self.k_s / self.k_v
+        return self.k_v / self.k_a if self.k_v and self.k_a else None
+
+    @property
+    def phi(self) -> Fraction | None:
+        """How long a force of one is drawn, where the scales of lengths and forces tie it."""
+        return self.k_s / self.k_F if self.k_s and self.k_F else None
+
+
+@dataclass(frozen=True)
+class Flywheel:
+    """What is asked of a flywheel: the mean `speed` of the first drive (rad/s, or lengths/s), and how even it runs.
+
+    `unevenness` is (omega_max - omega_min) / mean, the mean being half their sum; or the `inertia` (mass * m^2) is
+    given and the unevenness asked for. A constant moment on the drive `closes` the cycle, or the loads that change are
+    scaled by a constant ("load").
+    """
+
+    speed: Number
+    unevenness: Fraction | None = None
+    inertia: Fraction | None = None
+    closes: str = "drive"
+
+
+@dataclass(frozen=True)
+class Run:
+    """How far the true motion is followed: from which `speed` of the first drive (rad/s, or lengths/s), over which
+    `travel` (degrees, or lengths), and whether it is to come to rest (`stops`); None where nothing is said."""
+
+    speed: Number | None = None
+    travel: Fraction | None = None
+    stops: bool = False
 
 
 @dataclass(frozen=True)
@@ -67,122 +132,6 @@ class Find:
     def traced(self) -> dict[str, tuple[str, str]]:
         """The points on links the curvature of whose paths is asked for, by name: M on 2."""
         return {name: (point, link) for name in self.curvature for point, _, link in [name.partition(" on ")]}
-
-
-@dataclass(frozen=True)
-class Mass:
-    """A link's mass, its inertia about the centre of mass (mass * m^2), and that centre, a point of the link."""
-
-    mass: Number
-    inertia: Number
-    centre: str
-
-
-@dataclass(frozen=True)
-class Force:
-    """A given force on a link, at a point of it: `value` in this pose.
-
-    One that changes over the cycle has a `table` of its values along `direction`, of any length, which is fixed in the
-    plane, or turns with the two points that it goes `through`.
-    """
-
-    on: str
-    at: str
-    value: Pair
-    table: LoadTable | None = None
-    direction: Pair | None = None
-    through: tuple[str, str] | None = None
-
-
-@dataclass(frozen=True)
-class Moment:
-    """A given couple on a link, in force * m, counter-clockwise positive: `value` in this pose, and the `table` of one
-    that changes over the cycle."""
-
-    on: str
-    value: Number
-    table: LoadTable | None = None
-
-
-@dataclass(frozen=True)
-class Balance:
-    """The unknown that keeps the prescribed motion: a moment on `link`, or a force at its point `at` along `direction`.
-
-    The direction has any length, and is written as a slide's is; only where there is none it is a moment. It acts from
-    the frame, or from the link `on`, which has its counterpart.
-    """
-
-    link: str
-    at: str = ""
-    direction: Pair | None = None
-    written: Written = field(default=None, compare=False)
-    on: str = FRAME
-
-    def __hash__(self) -> int:
-        return hash((self.link, self.at, self.on))  # fractions take long
-
-    @property
-    def links(self) -> tuple[str, str]:
-        """The link on which it acts, and the one from which it does."""
-        return self.link, self.on
-
-    @property
-    def spellings(self) -> tuple[str, str, str]:
-        """Its names, each longer than the one before: by the link, by a force's point, and by its direction, too."""
-        if self.direction is None:
-            return self.link, self.link, self.link
-        dx, dy = map(float, self.direction)
-        return self.link, f"{self.link} at {self.at}", f"{self.link} at {self.at} along ({dx:g}, {dy:g})"
-
-    def states(self, scene: Scene) -> Iterator[Statement]:
-        """What would stand still if it were a support: a turning, or a motion along its direction."""
-        if self.direction is None:
-            yield Turning(self.link, self.on)
-        else:
-            yield Along(self.link, self.on, self.at, self.direction, "held")
-
-
-@dataclass(frozen=True)
-class Friction:
-    """Friction in a pair, with its coefficient: a journal `at` a joint, with its radius, a slide (link, along), or a
-    contact of two links."""
-
-    at: str
-    slide: tuple[str, str] | None
-    radius: Number
-    coefficient: Number
-    contact: tuple[str, str] | None = None
-
-    @property
-    def links(self) -> tuple[str, ...]:
-        """The links of a slide or a contact."""
-        return self.slide or self.contact or ()
-
-
-@dataclass(frozen=True)
-class Loads:
-    """What acts on the links besides each other: gravity is in m/s^2, all else in the scene's units.
-
-    `rounds` is how many rounds of friction are asked for; 0 means as many as it takes. `resting` are the names of the
-    pairs that are known to stand still: nothing rubs in them.
-    """
-
-    gravity: Pair
-    masses: dict[str, Mass]
-    forces: tuple[Force, ...]
-    moments: tuple[Moment, ...]
-    balances: tuple[Balance, ...]
-    frictions: tuple[Friction, ...] = ()
-    rounds: int = 0
-    resting: frozenset[str] = frozenset()
-
-    @cached_property
-    def named_balances(self) -> dict[str, Balance]:
-        """The balances by their names in results: the link, or where several act on one, more of what tells them apart.
-        """
-        borne = Counter(name for balance in self.balances for name in dict.fromkeys(balance.spellings))
-        return {next((name for name in balance.spellings if borne[name] == 1), balance.spellings[-1]): balance
-                for balance in self.balances}
 
 
 @dataclass(frozen=True)
@@ -333,6 +282,12 @@ class Scene:
     def contacts(self) -> tuple[Contact, ...]:
         """The links that touch each other."""
         return tuple(pair for pair in self.written if isinstance(pair, Contact))
+
+    def across_link(self, link: str, places: Mapping[str, tuple[Any, Any]]) -> tuple[Any, Any]:
+        """Square to a link that is a bar between two joints; of any other link along x."""
+        joints = [places[point] for point in self.links[link] if point in self.joints]
+        (ax, ay), (bx, by) = joints if len(joints) == 2 else ((0, 0), (0, 0))
+        return (ay - by, bx - ax) if (ax, ay) != (bx, by) else (1, 0)
 
     def turning_alike(self, link: str) -> tuple[str, ...]:
         """The links that turn as one does by the slides between them, itself first."""

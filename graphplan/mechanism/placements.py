@@ -12,13 +12,24 @@ from itertools import chain
 from typing import Any
 
 from graphplan.errors import by_name
-from graphplan.mechanism.directions import DIRECTION, TWO_POINTS, Misfit, Where, points_of, vector
 from graphplan.mechanism.fields import Either, Field, Kind, Named, Names, Table, Value
 from graphplan.mechanism.items import Item, described, quoted
 from graphplan.mechanism.model import Pair, Placement
-from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, exactly, is_exact, shown
+from graphplan.mechanism.numbers import TO_A_FLOAT, Reckoning, exactly, is_exact, shown
 from graphplan.mechanism.tolerances import TANGENCY_TOL
-from graphplan.mechanism.values import DISTANCE, NUMBER, POINT, VECTOR, choice
+from graphplan.mechanism.values import (
+    DIRECTION,
+    DISTANCE,
+    NUMBER,
+    POINT,
+    TWO_POINTS,
+    VECTOR,
+    Misfit,
+    Where,
+    choice,
+    points_of,
+    vector,
+)
 
 
 def _way(how: str, says: str, *fields: Field) -> Table:

@@ -16,11 +16,10 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.mechanism.model import FRAME, Contact, Gear, Number, Pair, Scene
-from graphplan.mechanism.numerals import is_exact, root
+from graphplan.mechanism.numbers import dot, is_exact, less, plus, root, times, turned
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.pairs.pair import LINE, ROLLING, TOUCHING, TURNING
 from graphplan.mechanism.pairs.sliding import Slide
-from graphplan.mechanism.plane import dot, less, plus, times, turned
 
 Higher = Gear | Contact
 

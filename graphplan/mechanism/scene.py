@@ -1,4 +1,7 @@
-"""Scenes: a mechanism read from TOML text, checked as a whole, with all its faults at once."""
+"""Scenes: a mechanism read from TOML text, checked as a whole, with all its faults at once; and tasks.
+
+A task is a file of one question, such as a cam or a rotor; it is read by a table of fields as scenes are.
+"""
 
 from __future__ import annotations
 
@@ -7,13 +10,13 @@ import re
 import sys
 import tomllib
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from errno import EBADF
 from fractions import Fraction
+from typing import Any, TypeVar
 
 from graphplan.errors import Fault, Refused, SceneError
-from graphplan.mechanism import sections
 from graphplan.mechanism.checks import (
     check_connections,
     check_frame,
@@ -22,18 +25,20 @@ from graphplan.mechanism.checks import (
     check_mobility,
     check_use,
 )
-from graphplan.mechanism.directions import points_of
 from graphplan.mechanism.fields import Field, Names, Table
 from graphplan.mechanism.items import Faults, Item, perhaps, quoted
+from graphplan.mechanism.load_fields import BALANCE, FORCES, FRICTION, MASSES, MOMENTS, loads_of
 from graphplan.mechanism.load_values import filled_in
 from graphplan.mechanism.model import Contact, Find, Gear, Pair, Presentation, Scene, Slide
-from graphplan.mechanism.numerals import decimal, is_exact
+from graphplan.mechanism.numbers import decimal, is_exact
 from graphplan.mechanism.pairs import fields
+from graphplan.mechanism.pairs.gear import LOADS
 from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.mechanism.placements import POINTS, needs, place
-from graphplan.mechanism.presentation import SHEET
 from graphplan.mechanism.scene_text import with_rows
-from graphplan.mechanism.values import TEXT, VECTOR
+from graphplan.mechanism.sections import FIND, FLYWHEEL, LINKS, MOTIONS, RUN, SHEET, UNITS
+from graphplan.mechanism.units import Units
+from graphplan.mechanism.values import TEXT, VECTOR, points_of
 from graphplan.mechanism.variation import VARY
 
 FOLDER = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
@@ -44,29 +49,29 @@ SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and
     Field("title", "what the mechanism is", TEXT),
     Field("source", "where it comes from: author, title, year, figure", TEXT),
     Field("gravity", "the acceleration of gravity in m/s^2, where forces are asked for", VECTOR, default=[0, 0]),
-    Field("units", "the units of the scene and of its results", sections.UNITS),
+    Field("units", "the units of the scene and of its results", UNITS),
     Field("points", "every named point, in this pose of the mechanism", POINTS,
           "[points] with entries such as A = [0, 0]"),
     Field("links", "a link is the list of its points; a point that several links name is a revolute joint there",
-          sections.LINKS, '[links] with entries such as 1 = "O A"'),
+          LINKS, '[links] with entries such as 1 = "O A"'),
     *PAIRS,
-    Field("motion", "the given motion of a point, for open chains", sections.MOTIONS),
+    Field("motion", "the given motion of a point, for open chains", MOTIONS),
     Field("find", "what is asked for; without it the velocity and acceleration of every joint, and the rates of every "
-          "link", sections.FIND),
+          "link", FIND),
     Field("sheet", "how the sheet should look; the command line has the last word", SHEET),
-    Field("masses", "the mass of a link", sections.MASSES),
-    Field("forces", "a force on a link", sections.FORCES),
-    Field("moments", "a moment on a link", sections.MOMENTS),
+    Field("masses", "the mass of a link", MASSES),
+    Field("forces", "a force on a link", FORCES),
+    Field("moments", "a moment on a link", MOMENTS),
     Field("balance", "the unknown that keeps the motion, one for each drive: a moment, or a force along a line",
-          sections.BALANCE),
-    Field("friction", "friction in a joint or in a slide", sections.FRICTION),
+          BALANCE),
+    Field("friction", "friction in a joint or in a slide", FRICTION),
     Field("flywheel", "how evenly the machine is to run over its cycle, for graphplan flywheel",
-          sections.FLYWHEEL),
-    Field("run", "how far the machine's true motion is followed, for graphplan motion", sections.RUN),
+          FLYWHEEL),
+    Field("run", "how far the machine's true motion is followed, for graphplan motion", RUN),
     Field("vary", "numbers that differ from student to student, by their paths, such as points.A.angle or "
           "drive.0.omega, for graphplan variants", VARY),
 ))
-ORDER = ("points", "links", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *sections.LOADS,
+ORDER = ("points", "links", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *LOADS,
          "flywheel", "run", "sheet", "vary")
 """In which sections are read: what others speak of comes first."""
 
@@ -150,7 +155,7 @@ def tables_of(text: str, name: str) -> dict[str, object]:
 
 def _no_toml(text: str, message: str) -> Fault:
     """What is wrong with a text that TOML refuses: a slip of the pen, a name given twice, or what TOML says itself."""
-    from graphplan.mechanism.doubled_keys import doubled_key  # few scenes have faults
+    from graphplan.mechanism.scene_text import doubled_key  # few scenes have faults
     from graphplan.mechanism.slips import slip_in_line
 
     # a numeral that Python refuses to read has no place of its own
@@ -193,7 +198,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         title=read.get("title", ""), source=read.get("source", ""), name=name, units=names.units,
         points={point: names.placed.get(point, (Fraction(0), Fraction(0))) for point in names.points},
         placements=placements, links=names.links, written=names.pairs, motions=read.get("motion", {}),
-        find=read.get("find") or _asked(names), loads=sections.loads(read), flywheel=read.get("flywheel"),
+        find=read.get("find") or _asked(names), loads=loads_of(read), flywheel=read.get("flywheel"),
         run=read.get("run"), sheet=read.get("sheet") or Presentation(), vary=read.get("vary", {}))
     scene = scene if len(faults) else _touching_on_normals(scene)
     kept = by_drive or scene.flywheel or scene.run
@@ -282,8 +287,59 @@ def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults, by_drive: bo
             check_connections(scene, faults)
         if faults.none_in("links"):
             scene = check_mobility(scene, faults)
-        if faults.none_in("links", "gears", "drive", *sections.LOADS):
+        if faults.none_in("links", "gears", "drive", *LOADS):
             check_loads(scene, faults, by_drive)
     check_joints(scene, placed, faults)
     return scene
 
+
+# --- tasks: files of one question, such as a cam or a rotor ----------------------------------------------------------
+
+
+T = TypeVar("T")
+LOOK = "paper", "frame", "language", "convention", "owner", "number", "date", "drawn_by", "approved_by"
+
+
+def _only(table: Table, *names: str) -> Table:
+    """A table of a scene, of which a task has these keys alone."""
+    return table._replace(fields=tuple(field for field in table.fields if field.name in names))
+
+
+def task_table(says: str, units: tuple[str, ...], *fields: Field) -> Table:
+    """The table of a whole task: its own fields, and title, source, these units and the sheet as scenes have them."""
+    return Table(says, (
+        Field("title", "what it is", TEXT),
+        Field("source", "where it comes from: author, title, year, figure", TEXT),
+        Field("units", "the units of the task", _only(UNITS, *units)),
+        *fields,
+        Field("sheet", "how the sheet should look; the command line has the last word", _only(SHEET, *LOOK)),
+    ))
+
+
+def task_text(source: str, command: str) -> str:
+    """The text of a file or of standard input (`-`); fails with `SceneError`."""
+    if source != "-" and not os.path.exists(source):
+        fault = Fault("file", "no such file", f"a task file, as graphplan {command} --help has one")
+        raise SceneError(source, (fault,))
+    return source_text(source, source)
+
+
+def read_task(whole: Table, text: str, name: str, made: Callable[[dict[str, Any], Units, Faults], T]) -> T:
+    """What is `made` of the values of a TOML text, by key, and of its units, and may have faults of its own.
+
+    Fails with `SceneError`, one line a fault, in which `name` stands for the file.
+    """
+    faults = Faults()
+    item, names = Item(tables_of(text, name), "", faults), Names(())
+    items = item.fields(whole.keys, {}) or {}
+    read: dict[str, Any] = {}
+    for field in sorted(whole.fields, key=lambda field: field.name != "units"):  # the sheet speaks of units
+        if field.name in items:
+            read[field.name] = field.kind.read(items[field.name], names)
+        elif field.wanted:
+            faults.add(field.name, f"the task has no {field.name}", field.wanted)
+        names.units = read.get("units") or names.units
+    task = made(read, names.units, faults) if len(faults) == 0 else None
+    if task is None or len(faults):
+        raise SceneError(name, tuple(faults))
+    return task

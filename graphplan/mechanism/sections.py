@@ -1,37 +1,34 @@
-"""Sections: the tables of a scene besides points, pairs and sheet: links, units, motions, questions, loads."""
+"""Sections: the tables of a scene besides points, pairs and loads: links, units, motions, questions, the sheet."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterator
 from fractions import Fraction
 from itertools import combinations, permutations
 from math import pi
-from typing import Any
 
 from graphplan.errors import by_name
-from graphplan.mechanism import model
-from graphplan.mechanism.directions import GUIDE
-from graphplan.mechanism.fields import Either, Field, Kind, Named, Names, Row, Rows, Table, on_link
-from graphplan.mechanism.items import Item
-from graphplan.mechanism.load_fields import DIRECTION, EITHER, TABLE, table
-from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Number, Pair, Slide
-from graphplan.mechanism.numerals import shown
-from graphplan.mechanism.pairs.gear import LOADS as LOADS
-from graphplan.mechanism.pairs.sliding import has_slide
-from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
-from graphplan.mechanism.values import (
-    AMOUNT,
-    FLAG,
-    LINK,
-    NAME,
-    NUMBER,
-    POINT,
-    TWO_LINKS,
-    VECTOR,
-    asked,
-    choice,
-    moving,
+from graphplan.mechanism.fields import Field, Kind, Named, Names, Row, Table
+from graphplan.mechanism.items import Item, described, perhaps
+from graphplan.mechanism.model import (
+    FRAME,
+    Contact,
+    Drive,
+    Find,
+    Flywheel,
+    Gear,
+    Motion,
+    Number,
+    Presentation,
+    Run,
+    Slide,
+    Units,
 )
+from graphplan.mechanism.numbers import shown
+from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
+from graphplan.mechanism.values import AMOUNT, DISTANCE, FLAG, LINK, NAME, NUMBER, POINT, TEXT, VECTOR, asked, choice
+from graphplan.words import LANGUAGES
 
 # --- links ---------------------------------------------------------------------------------------------------------
 
@@ -53,7 +50,7 @@ UNITS = Table("the units", (
     Field("length", "the unit of lengths", choice(*METRES), default="mm"),
     Field("force", "the unit of forces; moments are force * m", choice(*NEWTONS), default="N"),
     Field("mass", "the unit of masses; inertia is mass * m^2", choice(*KILOGRAMS), default="kg"),
-), lambda row: model.Units(**row.values))
+), lambda row: Units(**row.values))
 
 
 # --- motions and questions -----------------------------------------------------------------------------------------
@@ -72,7 +69,7 @@ def _moved(point: str, item: Item, names: Names) -> None:
 MOTIONS = Named(Table("a motion", (
     Field("velocity", "its velocity, in length/s", VECTOR, "two components, such as velocity = [10, 5]"),
     Field("acceleration", "its acceleration, in length/s^2", VECTOR, default=[0, 0]),
-), lambda row: model.Motion(**row.values)), POINT, _moved)
+), lambda row: Motion(**row.values)), POINT, _moved)
 
 
 def _still(point: object, item: Item, names: Names) -> bool:
@@ -169,64 +166,7 @@ FIND = Table("what is asked for", (
                 wrong=_untraced), default=[]),
     Field("inflection", 'the links whose inflection circles are asked for, or "all"',
           asked("link", '["2"]', _turning, entry=LINK, after=("links", "slides"), wrong=_unturned), default=[]),
-), lambda row: model.Find(**row.values))
-
-
-# --- masses, forces, moments ---------------------------------------------------------------------------------------
-
-
-def _weighed(link: str, item: Item, names: Names) -> None:
-    """A fault where a link can have no mass."""
-    if link == FRAME:
-        item.fault("the frame is given a mass", "a moving link")
-    elif link not in names.links:
-        item.faults.unknown(item.where, "link", link, names.links)
-
-
-MASSES = Named(Table("a mass", (
-    Field("mass", "its mass", AMOUNT, "a mass, such as mass = 10"),
-    Field("inertia", "its inertia about the centre of mass, in mass * m^2", AMOUNT, default=0),
-    Field("centre", "its centre of mass, a point of that link", POINT, 'a point of the link, such as centre = "S"'),
-), lambda row: model.Mass(**row.values) if on_link(row, row.item.key) else None), LINK, _weighed)
-
-_LOADED = moving("a load on the frame moves nothing")
-_STILL: Pair = (Fraction(0), Fraction(0))
-
-
-def _force(row: Row) -> model.Force | None:
-    """A force; of one with a table the value is filled in once the whole scene is read."""
-    changing, found = "over" in row.items, table(row)
-    if not on_link(row, row["on"]) or (changing and found is None):
-        return None
-    if "direction" in row.items and not changing:
-        return row.items["direction"].fault("a constant force has its direction in its value", "value, or over")
-    if not changing:
-        return model.Force(row["on"], row["at"], row["value"])
-    if "direction" not in row.items:
-        return row.item.fault("direction is missing", "the direction of positive values, such as direction = [1, 0]")
-    vector, through, _ = row["direction"]
-    return model.Force(row["on"], row["at"], _STILL, found, vector, through)
-
-
-def _moment(row: Row) -> model.Moment | None:
-    """A moment; of one with a table the value is filled in once the whole scene is read."""
-    changing, found = "over" in row.items, table(row)
-    if changing and found is None:
-        return None
-    return model.Moment(row["on"], row.values.get("value", Fraction(0)), found)
-
-
-FORCES = Rows(Table("a force", (
-    Field("on", "the loaded link", _LOADED, 'the loaded link, such as on = "2"'),
-    Field("at", "a point of that link", POINT, 'a point of that link, such as at = "C"'),
-    Field("value", "the components of the force", VECTOR),
-    DIRECTION, *TABLE,
-), _force, either=EITHER, remedy="two components, such as value = [-150, 0], or over and a table"))
-MOMENTS = Rows(Table("a moment", (
-    Field("on", "the loaded link", _LOADED, 'the loaded link, such as on = "3"'),
-    Field("value", "the moment in force * m, counter-clockwise positive", NUMBER),
-    *TABLE,
-), _moment, either=EITHER, remedy="a moment, such as value = 12.0, or over and a table"))
+), lambda row: Find(**row.values))
 
 
 # --- the machine over its cycle ------------------------------------------------------------------------------------
@@ -242,7 +182,7 @@ def _speed(row: Row) -> Number | None:
     return float(row["rpm"] / 30 * Fraction(pi))
 
 
-def _flywheel(row: Row) -> model.Flywheel | None:
+def _flywheel(row: Row) -> Flywheel | None:
     uneven = row.values.get("unevenness")
     if uneven is not None and not 0 < uneven < 2:
         return row.items["unevenness"].fault(f"an unevenness of {shown(uneven)}", "more than 0 and less than 2")
@@ -254,7 +194,7 @@ def _flywheel(row: Row) -> model.Flywheel | None:
         return None
     if speed <= 0:
         return row.item.fault(f"a mean speed of {shown(speed)}", "a speed above 0; which way it runs its drive says")
-    return model.Flywheel(speed, uneven, row.values.get("inertia"), row["closes"])
+    return Flywheel(speed, uneven, row.values.get("inertia"), row["closes"])
 
 
 FLYWHEEL = Table("a flywheel", (
@@ -267,12 +207,12 @@ FLYWHEEL = Table("a flywheel", (
 ), _flywheel, either=("speed", "rpm"), remedy="either speed in rad/s or rpm")
 
 
-def _run(row: Row) -> model.Run | None:
+def _run(row: Row) -> Run | None:
     if "speed" in row.items and "rpm" in row.items:
         return row.item.fault("speed and rpm are both given", "either speed in rad/s or rpm")
     if row.values.get("travel") == 0:
         return row.items["travel"].fault("a travel of 0 goes nowhere", "degrees or lengths, such as travel = 720")
-    return model.Run(_speed(row), row.values.get("travel"), row["stops"])
+    return Run(_speed(row), row.values.get("travel"), row["stops"])
 
 
 RUN = Table("a run", (
@@ -285,79 +225,114 @@ RUN = Table("a run", (
 ), _run)
 
 
-# --- balance and friction ------------------------------------------------------------------------------------------
+# --- the sheet: the paper, the frame and the title block that a scene wishes, and its scales -------------------------
 
 
-def _balance(row: Row) -> model.Balance | None:
-    vector, _, written = row["direction"]
-    return model.Balance(row["on"], row["at"], vector, written) if on_link(row, row["on"]) else None
+SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
+PAPERS = tuple(f"{size}{way}" for size in SIZES for way in ("", " portrait"))
+FRAMES = ("iso", "gost")
+ASIDE = "aside"
+PROTOCOLS = ("auto", ASIDE, "pages", "none")  # where the words stand: beside the plans, or on pages of their own
+PLANS = ("N-plan", "velocity plan", "acceleration plan", "lever")  # and force plans, by their links
+MOST_POSITIONS = 72  # positions that are drawn
+LENGTH = r"(?=[0.]*[1-9])(\d{1,9}(?:\.\d{1,9})?)"  # above zero
+RATIO = rf"\s*{LENGTH}\s*:\s*{LENGTH}\s*"
 
 
-_BALANCED = moving("a balance on the frame, which does not move, keeps no motion")
-BALANCE = Rows(Either((Table("a moment", (
-    Field("link", "the link on which a moment keeps the motion", _BALANCED,
-          'the link on which a moment acts, such as link = "1"'),
-), lambda row: model.Balance(**row.values)), Table("a force along a line", (
-    Field("at", "the point of that link where the force acts", POINT,
-          'the point where a force acts, such as at = "B"'),
-    Field("on", "the link on which a force keeps the motion", _BALANCED,
-          'the link on which it acts, such as on = "1"'),
-    Field("direction", "the force's direction: a vector, an angle in degrees, or two points", GUIDE,
-          "the force's direction: a vector, an angle in degrees, or two points"),
-), _balance))), single=True)
+def _line(item: Item, names: Names) -> str | None:
+    text = item.text("a text", "a text in quotes")
+    if text is not None and not text.replace("\N{NO-BREAK SPACE}", " ").isprintable():
+        item.fault("a text with line breaks or characters that cannot be printed", "a text on one line")
+    return text
 
 
-def _journal(row: Row) -> model.Friction | None:
-    at = row["at"]
-    if row.names.held[at] < 2 and row.item.faults.none_in("links"):
-        return row.items["at"].fault(f"{at} is no joint of two links", "a joint")
-    return model.Friction(at, None, row["radius"], row["coefficient"])
+def _ratio(item: Item, names: Names) -> Fraction | None:
+    """The scene's lengths in a millimetre of paper, from a ratio such as 1:2."""
+    ratio = re.fullmatch(RATIO, item.value) if isinstance(item.value, str) else None
+    if ratio is None:
+        return item.fault(f"{described(item.value)} is no ratio",
+                          'a length on paper to a length of the scene, such as "1:2"')
+    return Fraction(ratio[2]) / Fraction(ratio[1]) / 1000 / METRES[names.units.length]
 
 
-def _rubbing(row: Row) -> model.Friction | None:
-    slide = has_slide(row, "a joint and its radius")
-    return model.Friction("", slide.links, Fraction(0), row["coefficient"]) if slide else None
+def _plan(name: str, item: Item, names: Names) -> None:
+    """A fault where there is no such plan; which force plans there are only the drawing tells."""
+    if name not in PLANS and not name.startswith(("force plan ", "lever ")):
+        item.fault("there is no such plan", perhaps(name, (*PLANS, "force plan 2, 3"), "plan"))
 
 
-def _sliding(row: Row) -> model.Friction | None:
-    item, links = row.items["contact"], row["contact"]
-    known = [pair for pair in row.names.pairs if isinstance(pair, Contact)]
-    found = next((pair for pair in known if {*pair.links} == {*links}), None)
-    if found is None:
-        instead = ", ".join('contact = ["{}", "{}"]'.format(*pair.links) for pair in known) or "[[contacts]] with it"
-        return item.fault("no contact of links {} and {}".format(*links), instead) if item.faults.none_in(
-            "links", "contacts") else None
-    if found.rolling:
-        return item.fault(f"the contact {found.name} rolls: nothing slides in it", "a contact that slides")
-    return model.Friction("", None, Fraction(0), row["coefficient"], found.links)
+def _stands_still(point: object, item: Item, names: Names) -> bool:
+    """Whether a point whose path is asked for has none; that is a fault."""
+    still = point in names.points and point not in names.movable
+    if still:
+        item.fault(f"{point} does not move", "a point of moving links only")
+    return still
 
 
-def _rubbed(friction: model.Friction) -> tuple[object, str]:
-    """The pair that has the friction."""
-    if friction.contact:
-        return friction.contact, "friction of contact {} {}".format(*friction.contact)
-    if friction.slide is None:
-        return friction.at, f"friction of joint {friction.at}"
-    return friction.slide, "friction of slide {} along {}".format(*friction.slide)
+def _on_another(names: Names) -> Iterator[str]:
+    """Each link with each other one, by name."""
+    return (f"{link} {on}" for link, on in permutations((FRAME, *names.moving), 2))
 
 
-_COEFFICIENT = Field("coefficient", "the coefficient of friction", AMOUNT,
-                     "the coefficient of friction, such as coefficient = 0.1")
-FRICTION = Rows(Either((Table("friction in a journal", (
-    Field("at", "the joint", POINT, 'a joint, such as at = "B", or slide = ["3", "2"]'),
-    Field("radius", "the journal's radius", AMOUNT, "the journal's radius"),
-    _COEFFICIENT,
-), _journal), Table("friction in a slide", (
-    Field("slide", "the sliding link and the link with the guide", TWO_LINKS, 'a slide, such as slide = ["3", "2"]'),
-    _COEFFICIENT,
-), _rubbing), Table("friction in a contact", (
-    Field("contact", "the two links that touch", TWO_LINKS, 'two links that touch, such as contact = ["2", "3"]'),
-    _COEFFICIENT,
-), _sliding))), once=_rubbed, remedy="one for each joint, slide or contact")
-
-def loads(read: Mapping[str, Any]) -> model.Loads | None:
-    """The loads of a scene, from what is read of its tables; None where it has none of them."""
-    if read.keys().isdisjoint(LOADS):
+def _count(item: Item, names: Names) -> int | None:
+    number = item.number()
+    if number is None:
         return None
-    return model.Loads(read.get("gravity", _STILL), read.get("masses", {}),
-                       *(read.get(table, ()) for table in ("forces", "moments", "balance", "friction")))
+    if number.denominator != 1 or not 1 <= number <= MOST_POSITIONS:
+        return item.fault(f"{shown(number)} is no number of positions", f"a whole number from 1 to {MOST_POSITIONS}")
+    return int(number)
+
+
+def _presentation(row: Row) -> Presentation | None:
+    """How the scene wishes its sheet; all plans are drawn in lengths of the mechanism plan, so k_a is k_v^2/k_s."""
+    values = {key: row[key] for key in row.items}
+    if "scale" in values:
+        if "k_s" in values:
+            row.items["scale"].fault("k_s tells the scale already", "scale or k_s, not both")
+        values["k_s"] = values.pop("scale")
+    k_s, k_v, k_a = (values.get(key) for key in ("k_s", "k_v", "k_a"))
+    if k_s and k_v and k_a and shown(k_a) != shown(k_v**2 / k_s):
+        what = f"{shown(k_a)} does not fit k_s and k_v"
+        row.items["k_a"].fault(what, f"k_v^2/k_s, which is {shown(k_v**2 / k_s)}")
+    return Presentation(**{key: value for key, value in values.items() if value})
+
+
+def _above_0(what: str) -> Kind:
+    return Kind(DISTANCE.says, lambda item, names: item.positive(what), DISTANCE.schema)
+
+
+_TEXT, _SCALE = Kind("text", _line, TEXT.schema), _above_0("scale")
+SHEET = Table("the sheet", (
+    Field("paper", "the sheet; without it the smallest that will do", choice(*PAPERS)),
+    Field("frame", "frame and title block after ISO 5457 and ISO 7200, or after GOST 2.301 and GOST 2.104",
+          choice(*FRAMES), default="iso"),
+    Field("language", "the language of all words on the sheet", choice(*LANGUAGES), default="en"),
+    Field("convention", "scales as real per drawn (k_v, mm/s per mm) or drawn per real (mu_v, mm per mm/s)",
+          choice("real", "drawn"), default="real"),
+    Field("owner", "the legal owner, for the title block", _TEXT),
+    Field("number", "the identification number", _TEXT),
+    Field("date", "the date of issue", _TEXT),
+    Field("drawn_by", "who drew it", _TEXT, default="graphplan"),
+    Field("approved_by", "who approved it", _TEXT),
+    Field("scale", "the scale of the mechanism plan, a ratio of paper to scene",
+          Kind("ratio", _ratio, {"type": "string", "pattern": f"^{RATIO}$"})),
+    Field("k_s", "the same as lengths of the scene for a mm of paper", _SCALE),
+    Field("k_v", "the speed, in length/s, for a mm of paper", _SCALE),
+    Field("k_a", "the acceleration, in length/s^2, for a mm of paper", _SCALE),
+    Field("k_F", "the force for a mm of paper", _SCALE),
+    Field("multiples", "how many times as large as by these scales other plans are drawn, by their names",
+          Named(_above_0("multiple"), TEXT, _plan)),
+    Field("curves", 'the points whose paths over the motion are drawn on the mechanism plan, or "all"',
+          asked("point", '["M"]', lambda names: names.points, lambda names: names.movable, after=("points", "links"),
+                entry=POINT, wrong=_stands_still)),
+    Field("centrodes", "of which links, each with the link that it moves on, the fixed and the moving centrodes are "
+          'drawn there; or "all", those of all links on the frame',
+          asked("pair of links", '["2 frame"]', lambda names: [*_on_another(names)],
+                lambda names: tuple(f"{link} {FRAME}" for link in names.moving), many="pairs of links",
+                after=("links",))),
+    Field("cubics", "the links of which the points that keep the curvature of their paths are drawn there and their "
+          'centres: the cubic of stationary curvature of this pose; or "all"',
+          asked("link", '["2"]', lambda names: names.moving, after=("links",), entry=LINK)),
+    Field("positions", "how many positions of the mechanism are drawn there in faint lines, at equal travels",
+          Kind("whole number", _count, {"type": "integer", "minimum": 1, "maximum": MOST_POSITIONS})),
+), _presentation)

@@ -1,13 +1,14 @@
-"""Slips of the pen in numbers: a decimal comma, or a unit with the number, and what to write instead.
+"""Slips of the pen: a decimal comma, a unit with the number, the fixed link by another name; and what to write instead.
 
-Read only where a number is wanted and none is found, in a string or in text that is no TOML.
+Read only where a number or a name is wanted and none is found, in a string or in text that is no TOML.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
+from graphplan.mechanism.pairs.pair import FRAME
 from graphplan.mechanism.units import BY_QUANTITY
 
 NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
@@ -66,3 +67,29 @@ def _instead(number: str, unit: str, key: str) -> str:
         if found and key != "gravity":
             return f'{number}, with {quantity} = "{found}" in [units]'
     return f"{number} alone"
+
+
+# --- the fixed link by other names -----------------------------------------------------------------------------------
+
+
+SYNONYMS = frozenset((
+    "0", "frame", "ground", "base", "fixed", "fixed link", "chassis", "bed",  # English
+    "gestell", "rahmen", "grund", "boden", "statnis", "balsts", "rāmis", "pamatne",  # German, Latvian
+    "alus", "kere", "kinnislüli", "raam",  # Estonian
+    "стойка", "станина", "основание", "рама", "стояк", "основа",  # Russian, Ukrainian
+    "bâti", "bati", "bâtis", "telaio", "bastidor", "rám", "podstawa", "ostoja",
+))
+"""In small letters."""
+
+
+def is_frame_synonym(name: str) -> bool:
+    """Whether a name is one that the fixed link often has, and not frame itself."""
+    return name != FRAME and name.strip().lower() in SYNONYMS
+
+
+def with_frame(text: str, known: Collection[str]) -> str:
+    """A link, or several such as `3 along ground`, with frame for each such name that is not known; or nothing where
+    the scene knows no such link either."""
+    words = [FRAME if is_frame_synonym(word) and word not in known else word for word in text.split()]
+    meant = " ".join(words)
+    return meant if meant != text and meant in known else ""

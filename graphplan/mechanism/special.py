@@ -18,15 +18,14 @@ from functools import cache, partial
 from random import Random
 from typing import Any, NamedTuple
 
-from graphplan.mechanism.directions import Misfit, vector
 from graphplan.mechanism.equations import PIN, Equation, System, Thing, Unknown
 from graphplan.mechanism.model import FRAME, Balance, Condition, Scene, Slide
-from graphplan.mechanism.numerals import Reckoning, exactly, heading, is_exact, root
+from graphplan.mechanism.numbers import Reckoning, exactly, heading, is_exact, root
 from graphplan.mechanism.order import Key, by_name
 from graphplan.mechanism.pairs.pair import Attitude, Statement
-from graphplan.mechanism.pairs.revolute import across
 from graphplan.mechanism.placements import placed_by
 from graphplan.mechanism.tolerances import SERIES_TOL
+from graphplan.mechanism.values import Misfit, vector
 
 ORDER = 4
 """How far the motion is continued: velocities, accelerations, and twice more for links that can all but move."""
@@ -241,7 +240,7 @@ def fine_pose(scene: Scene) -> tuple[Scene, bool, dict[str, Place]]:
         arms = {name: (_decimal(x - first[0]), _decimal(y - first[1])) for name, (x, y) in points.items()}
         reach = max(max(map(abs, arm)) for arm in arms.values()) or Decimal(1)
         places = {name: (x / reach, y / reach) for name, (x, y) in arms.items()}
-        axes = {link: _unit(*map(Decimal, across(scene, link, places))) for link in scene.moving}
+        axes = {link: _unit(*map(Decimal, scene.across_link(link, places))) for link in scene.moving}
         return scene.posed(places, lambda one: _guide(one, points), lambda radius: _decimal(Fraction(radius)) / reach
                            ), False, axes
 

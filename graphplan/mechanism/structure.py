@@ -6,6 +6,10 @@ with m pairs) or deformable (a loop of links). Its order is the number of its ou
 Links held together by a drive count as one body. A drive between links that no pair joins prescribes their turning
 alone: it acts as a fictitious link that slides along both.
 
+Counting freedoms does not tell whether a mechanism is held as it should be: the count can be right while one part is
+held twice and another not at all. So the equations are solved for points in general position: what can still move
+while all drives stand still is loose; the transposed equations find those that only repeat what others say.
+
 Source: Jaanimets (1966), sections 1-9; Artobolevsky's classes.
 """
 
@@ -16,9 +20,8 @@ from collections.abc import Collection, Iterator, Mapping
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from graphplan.errors import Fault, SceneError
-from graphplan.mechanism.bracing import bracing
-from graphplan.mechanism.equations import System, stages
+from graphplan.errors import Fault, SceneError, by_name
+from graphplan.mechanism.equations import PRIME, Elimination, System, stages, transpose
 from graphplan.mechanism.model import FRAME, Drive, Scene
 from graphplan.mechanism.order import ordered_links
 from graphplan.mechanism.pairs.pair import KinematicPair
@@ -263,3 +266,31 @@ def roman(number: int) -> str:
         text += letters * (number // value)
         number %= value
     return text
+
+
+# --- how links are held ----------------------------------------------------------------------------------------------
+
+
+class Bracing(NamedTuple):
+    """The links that can move though every drive stands still, and the links that are held more than once."""
+
+    loose: tuple[str, ...]
+    overbraced: tuple[str, ...]
+
+    @property
+    def sound(self) -> bool:
+        """Whether the drives determine the motion, each link's once."""
+        return not self.loose and not self.overbraced
+
+
+def bracing(scene: Scene, balanced: bool = False) -> Bracing:
+    """How the scene's moving links are held: by its drives, or by its balances in their place."""
+    system = System(scene, balanced)
+    columns = {unknown: j for j, unknown in enumerate(system.unknowns)}
+    rows = [{columns[unknown]: c for unknown, c in equation.terms.items()} for equation in system.equations]
+    held = Elimination(rows, len(columns), PRIME)
+    loose = {system.unknowns[j][0][1] for j in held.free}
+    proofs = Elimination(transpose(rows, len(columns)), len(rows), PRIME) if held.dependent else None
+    repeated = [system.equations[i].fact for i in (proofs.free if proofs else ())]
+    overbraced = {link for fact in repeated for link in (fact.link, fact.on)}
+    return Bracing(*(tuple(sorted(found.intersection(scene.moving), key=by_name)) for found in (loose, overbraced)))

@@ -1,4 +1,4 @@
-"""Travel: how far the drives have gone from the given pose, each in the sense in which it moves.
+"""Travel: how far the drives have gone from the given pose, each in its own sense, and how that moves their links.
 
 The first drive's travel is the one parameter of the motion, and the others keep pace with it. A drive moves in the
 sense of its omega or speed; one that stands still counter-clockwise, or along its direction. Travel is printed in
@@ -14,11 +14,15 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from graphplan.errors import Refused
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.numbers import Number, Pair, Reckoning
+from graphplan.mechanism.pairs.pair import Attitude
 from graphplan.phrases import said
 
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
     from graphplan.mechanism.pairs.drives import Drive
+
 
 TURN = 2 * math.pi
 PRINTED_DIGITS = 12
@@ -86,3 +90,43 @@ def travel_text(scene: Scene, travel: float, digits: int = 6) -> str:
     """A travel in words, with its unit."""
     unit, name = travel_unit(scene)
     return f"{travel / unit:.{digits}g} {name}"
+
+
+# --- how links lie that drives have moved on -------------------------------------------------------------------------
+
+
+def moved_on(given: Scene, shifts: tuple[Fraction, ...], by: Reckoning) -> tuple[Pair, ...]:
+    """How each drive of a scene moves its link by so many degrees or lengths, counter-clockwise or along its direction:
+    the cosine and sine of a turn, or the vector of a shift."""
+    found: list[Pair] = []
+    for drive, shift in zip(given.drives, shifts, strict=True):
+        if not drive.slides:
+            found.append(by.heading(shift)[:2])
+            continue
+        x, y = given.driven_slide(drive).direction
+        square = x * x + y * y
+        part = shift / by.root(Fraction(square) if isinstance(square, float) else square)[0]
+        found.append((x * part, y * part))
+    return tuple(found)
+
+
+STILL = Attitude(0, 0, 1, 0)
+
+
+def turned_about(at: Pair, cos: Number, sin: Number) -> Attitude:
+    """A turn about a point."""
+    x, y = at
+    return Attitude(x - cos * x + sin * y, y - sin * x - cos * y, cos, sin)
+
+
+def following(first: Attitude, then: Attitude) -> Attitude:
+    """One after the other."""
+    x, y = then.at((first.x, first.y))
+    return Attitude(x, y, then.cos * first.cos - then.sin * first.sin,
+                    then.sin * first.cos + then.cos * first.sin)
+
+
+def undone(attitude: Attitude, at: Pair) -> Pair:
+    """The point that an attitude brings to a place."""
+    x, y = at[0] - attitude.x, at[1] - attitude.y
+    return attitude.cos * x + attitude.sin * y, attitude.cos * y - attitude.sin * x

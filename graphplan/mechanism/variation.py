@@ -13,7 +13,7 @@ from math import floor
 
 from graphplan.mechanism.fields import Either, Field, Kind, Named, Names, Row, Table, Value
 from graphplan.mechanism.items import Item, described, quoted
-from graphplan.mechanism.numerals import shown
+from graphplan.mechanism.numbers import shown
 from graphplan.mechanism.values import NUMBER
 
 MOST = 10_000  # values of one number

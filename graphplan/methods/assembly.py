@@ -18,13 +18,13 @@ from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.loci import sides
 from graphplan.kernel.primitives import cross, dot
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.assembly import undone
 from graphplan.mechanism.model import FRAME, Assembly, Extreme, Pair, Scene, Slide
+from graphplan.mechanism.numbers import less
 from graphplan.mechanism.order import ordered_points
 from graphplan.mechanism.pairs.pair import Attitude
 from graphplan.mechanism.pairs.revolute import Revolute
-from graphplan.mechanism.plane import less
 from graphplan.mechanism.structure import structure
+from graphplan.mechanism.travel import undone
 from graphplan.methods.figures import alike, figure
 from graphplan.methods.panels import MECHANISM, listed
 from graphplan.methods.placing import Body, Placing

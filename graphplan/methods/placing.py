@@ -13,11 +13,11 @@ from graphplan.errors import Refused, by_name
 from graphplan.kernel.primitives import dot
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Stage
-from graphplan.mechanism.assembly import STILL, following, turned_about, undone
 from graphplan.mechanism.model import FRAME, Assembly, Pair, Scene, Slide
+from graphplan.mechanism.numbers import less, plus, times
 from graphplan.mechanism.order import ordered_points
 from graphplan.mechanism.pairs.pair import Attitude
-from graphplan.mechanism.plane import less, plus, times
+from graphplan.mechanism.travel import STILL, following, turned_about, undone
 from graphplan.methods.figures import alike, angle, figure, same_place, widest
 from graphplan.methods.motion.network import Network
 from graphplan.methods.panels import MECHANISM, listed

@@ -16,7 +16,7 @@ from itertools import accumulate
 import ezdxf
 from ezdxf import units
 
-from graphplan.mechanism.presentation import SIZES
+from graphplan.mechanism.sections import SIZES
 from graphplan.mechanism.units import METRES
 from graphplan.output.cad.ink import FONTS, Ink
 from graphplan.output.cad.layers import NAME, VIEWPORTS, stage_layers, step_layers

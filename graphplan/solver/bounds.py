@@ -11,7 +11,7 @@ import math
 from fractions import Fraction
 from typing import Any
 
-from graphplan.mechanism import numerals
+from graphplan.mechanism.numbers import heading as exact_heading
 from graphplan.solver.tolerances import MARGIN, ROUNDOFF
 
 
@@ -123,4 +123,4 @@ PI = Bounded(math.pi, 2.0**-52)
 
 def heading(degrees: Fraction) -> tuple[Bounded, Bounded]:
     """Cosine and sine of an angle in degrees: each is within four roundings of one."""
-    return tuple(Bounded(float(part), 4 * ROUNDOFF) for part in numerals.heading(degrees)[:2])  # type: ignore[return-value]
+    return tuple(Bounded(float(part), 4 * ROUNDOFF) for part in exact_heading(degrees)[:2])  # type: ignore[return-value]

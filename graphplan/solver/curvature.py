@@ -11,7 +11,7 @@ from typing import Any
 
 from graphplan.errors import by_name
 from graphplan.mechanism.model import FRAME
-from graphplan.mechanism.plane import Pair, dot, plus, times, turned
+from graphplan.mechanism.numbers import Pair, dot, plus, times, turned
 from graphplan.solver.rates import Rates
 
 

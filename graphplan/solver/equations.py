@@ -21,13 +21,11 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from graphplan.errors import Refused, by_name
-from graphplan.mechanism.elimination import Elimination, transpose
-from graphplan.mechanism.equations import PIN
+from graphplan.mechanism.equations import PIN, Elimination, transpose
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene
-from graphplan.mechanism.numerals import is_exact
+from graphplan.mechanism.numbers import dot, is_exact, less, times
 from graphplan.mechanism.pairs.pair import Along, KinematicPair, Rate, Side, Sides, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
-from graphplan.mechanism.plane import dot, less, times
 from graphplan.solver.blocks import TOGETHER
 
 if TYPE_CHECKING:

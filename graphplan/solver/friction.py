@@ -18,9 +18,9 @@ from typing import Any
 
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import FRAME, Contact, Gear, Number, Pair, Scene, Slide
+from graphplan.mechanism.numbers import dot, less, plus, times, turned
 from graphplan.mechanism.pairs.pair import Along, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
-from graphplan.mechanism.plane import dot, less, plus, times, turned
 from graphplan.mechanism.units import metre
 from graphplan.solver.equations import Equations
 from graphplan.solver.higher_pairs import first_held, force, held_at, leant

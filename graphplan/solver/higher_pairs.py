@@ -12,8 +12,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from graphplan.mechanism.model import Contact, Force, Gear, Number, Pair
+from graphplan.mechanism.numbers import plus, times, turned
 from graphplan.mechanism.pairs.pair import Along, Rate, Statement
-from graphplan.mechanism.plane import plus, times, turned
 from graphplan.solver.equations import Equations
 
 NO_ARMS = (0, 0), (0, 0)

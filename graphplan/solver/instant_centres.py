@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import FRAME, Pair
-from graphplan.mechanism.plane import dot, times
+from graphplan.mechanism.numbers import dot, times
 from graphplan.solver.rates import Rates
 
 

@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.mechanism.elimination import transpose
+from graphplan.mechanism.equations import transpose
 from graphplan.mechanism.model import Balance, Force, Scene
-from graphplan.mechanism.numerals import mapped
+from graphplan.mechanism.numbers import mapped
 from graphplan.mechanism.order import with_values
 from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics

@@ -9,10 +9,10 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from graphplan.errors import SingularPose
-from graphplan.mechanism.elimination import Elimination
+from graphplan.mechanism.equations import Elimination
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
+from graphplan.mechanism.numbers import dot, less, times
 from graphplan.mechanism.pairs.pair import Rate, Sides
-from graphplan.mechanism.plane import dot, less, times
 from graphplan.solver.equations import Equations, Solution, moved
 
 if TYPE_CHECKING:

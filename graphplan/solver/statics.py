@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.errors import Refused, SingularPose
-from graphplan.mechanism.elimination import Elimination
+from graphplan.mechanism.equations import Elimination
 from graphplan.mechanism.model import (
     FRAME,
     Balance,
@@ -28,9 +28,9 @@ from graphplan.mechanism.model import (
     Scene,
     Slide,
 )
+from graphplan.mechanism.numbers import less, times, turned
 from graphplan.mechanism.pairs.pair import Along, Rate
 from graphplan.mechanism.pairs.revolute import Revolute
-from graphplan.mechanism.plane import less, times, turned
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.solver.equations import Equations, Solution, bound, held, require_fractions
 from graphplan.solver.higher_pairs import pushes

@@ -22,7 +22,7 @@ from graphplan.errors import Refused
 from graphplan.kernel import Board
 from graphplan.kernel.lemoine import counts
 from graphplan.kernel.passes import freeze
-from graphplan.mechanism.presentation import ASIDE
+from graphplan.mechanism.sections import ASIDE
 from graphplan.sheet.layout import composition
 from graphplan.sheet.layout.composition import Composition, composed
 from graphplan.sheet.layout.layout import pages

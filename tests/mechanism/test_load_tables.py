@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from graphplan.errors import Refused, SceneError
-from graphplan.mechanism.load_tables import LoadTable
+from graphplan.mechanism.loads import LoadTable
 from graphplan.mechanism.model import Balance, Flywheel, Run
 from graphplan.mechanism.scene import load, parse
 

@@ -18,6 +18,7 @@ from graphplan.cycle import closure
 from graphplan.cycle.groups import Group
 from graphplan.cycle.linkage import Apart, Geared, Linkage, Racked, direction
 from graphplan.mechanism.model import FRAME, Contact, Gear, Scene
+from graphplan.mechanism.numbers import dot, less, turned
 from graphplan.mechanism.pairs import KINDS
 from graphplan.mechanism.pairs.pair import (
     LINE,
@@ -34,7 +35,6 @@ from graphplan.mechanism.pairs.pair import (
     Touching,
     Turning,
 )
-from graphplan.mechanism.plane import dot, less, turned
 from graphplan.mechanism.scene import packaged
 from graphplan.mechanism.travel import paces
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from graphplan.errors import Refused
-from graphplan.mechanism.numerals import decimal
+from graphplan.mechanism.numbers import decimal
 from graphplan.mechanism.scene import FOLDER, packaged
 from graphplan.mechanism.scene_text import edited, with_keys, with_numbers, without_table, written
 from graphplan.mechanism.variation import numbers

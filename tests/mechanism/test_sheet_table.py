@@ -9,8 +9,8 @@ from scene_texts import PRESS, changed
 
 from graphplan.errors import SceneError
 from graphplan.mechanism.model import Presentation
-from graphplan.mechanism.presentation import FRAMES, PAPERS
 from graphplan.mechanism.scene import parse
+from graphplan.mechanism.sections import FRAMES, PAPERS
 from graphplan.sheet.frames import frame
 from graphplan.sheet.layout.paper import sheet_size
 from graphplan.words import LANGUAGES

@@ -14,9 +14,9 @@ from tiers import sample
 from graphplan.check.json_results import data
 from graphplan.check.trusted import report
 from graphplan.errors import ConstructionError, SingularPose
-from graphplan.mechanism.bracing import bracing
 from graphplan.mechanism.model import Friction, Scene, TurningDrive
 from graphplan.mechanism.scene import load, parse
+from graphplan.mechanism.structure import bracing
 from graphplan.mechanism.units import metre
 from graphplan.solver import Frictional, with_friction
 

@@ -19,7 +19,6 @@ from graphplan.check.forces import force_truth
 from graphplan.check.report import Report
 from graphplan.check.trusted import report
 from graphplan.errors import ConstructionError, Refused, SingularPose
-from graphplan.mechanism.bracing import bracing
 from graphplan.mechanism.model import (
     FRAME,
     Balance,
@@ -34,6 +33,7 @@ from graphplan.mechanism.model import (
     Units,
 )
 from graphplan.mechanism.scene import load
+from graphplan.mechanism.structure import bracing
 from graphplan.methods.construct import construct
 from graphplan.methods.styles import INERTIA
 

@@ -14,9 +14,9 @@ from tiers import sample
 
 from graphplan.check.trusted import report
 from graphplan.errors import Refused, SingularPose
-from graphplan.mechanism.bracing import bracing
 from graphplan.mechanism.model import Balance, Find, Scene, TurningDrive
 from graphplan.mechanism.scene import load, parse
+from graphplan.mechanism.structure import bracing
 from graphplan.methods.styles import INERTIA
 
 SOME = st.lists(st.sampled_from(sorted(GROUPS)), min_size=1, max_size=2)

@@ -12,7 +12,7 @@ from fractions import Fraction
 from random import Random
 from typing import Any
 
-from graphplan.mechanism.numerals import decimal
+from graphplan.mechanism.numbers import decimal
 from graphplan.mechanism.scene_text import written
 
 Tables = dict[str, Any]

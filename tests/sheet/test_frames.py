@@ -15,7 +15,7 @@ import graphplan as gp
 from graphplan.commands import main
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.presentation import SIZES
+from graphplan.mechanism.sections import SIZES
 from graphplan.output.svg import svg
 from graphplan.sheet.frames.frame import BORDER, FRAMES, frame_of
 from graphplan.sheet.frames.title import DOCUMENTS, SOLUTION, TITLE, Page

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from graphplan.mechanism.model import Pair, Scene
-from graphplan.mechanism.plane import dot, less, plus, times, turned
+from graphplan.mechanism.numbers import dot, less, plus, times, turned
 from graphplan.mechanism.scene import load
 
 Points = Mapping[str, Pair]

@@ -24,7 +24,7 @@ from graphplan.kernel.numbers import Domain, Fractions
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.mechanism.model import Find, Scene
-from graphplan.mechanism.numerals import mapped
+from graphplan.mechanism.numbers import mapped
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.solver import Rates, poses, solve

@@ -25,7 +25,7 @@ from graphplan.kernel.stages import Stage
 from graphplan.machine.linkages.spanning import SpanningTree, as_multiple, moments_of_mass, spanning_tree
 from graphplan.machine.tolerances import VECTOR_TOL
 from graphplan.mechanism.model import Mass, Number, Scene
-from graphplan.mechanism.plane import less
+from graphplan.mechanism.numbers import less
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said, digits, said
 

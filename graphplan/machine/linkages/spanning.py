@@ -15,7 +15,7 @@ from functools import cached_property
 
 from graphplan.machine.tolerances import COINCIDENCE_TOL
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene
-from graphplan.mechanism.plane import dot, less, plus, times, turned
+from graphplan.mechanism.numbers import dot, less, plus, times, turned
 
 
 @dataclass(frozen=True)

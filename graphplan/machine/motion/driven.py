@@ -18,7 +18,7 @@ from graphplan.errors import Refused
 from graphplan.machine.integrals import Piecewise, Reals, settled
 from graphplan.machine.reduced.reduction import Reduction
 from graphplan.machine.tolerances import INERTIA_TOL, MACHINE_SHARE
-from graphplan.mechanism.load_tables import LoadTable
+from graphplan.mechanism.loads import LoadTable
 from graphplan.mechanism.travel import travel_text, travel_unit
 
 SAMPLES = 48  # places of the cycle that show how large moments and inertias are

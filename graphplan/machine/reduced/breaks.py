@@ -17,7 +17,7 @@ from graphplan.cycle.linkage import Array
 from graphplan.machine.reduced.reduced_loads import LoadValues
 from graphplan.machine.reduced.unit_motion import UnitMotion
 from graphplan.machine.tolerances import BREAK_DISTANCE, BREAK_TOL, TABLE_TOL
-from graphplan.mechanism.load_tables import TRAVEL, LoadTable
+from graphplan.mechanism.loads import TRAVEL, LoadTable
 from graphplan.mechanism.model import Slide
 from graphplan.mechanism.travel import TURN
 from graphplan.methods import kinds

@@ -41,7 +41,7 @@ from graphplan.machine.reduced.reduced_loads import LoadValues, acting
 from graphplan.machine.reduced.unit_motion import Rates, UnitMotion, at_unit_rate
 from graphplan.machine.tolerances import BALANCE_TOL, BREAK_OFFSET, SIGNLESS_TOL
 from graphplan.mechanism.model import FRAME, Find, Force, Friction, Loads, Scene, Slide
-from graphplan.mechanism.plane import times
+from graphplan.mechanism.numbers import times
 from graphplan.mechanism.travel import travel_text
 from graphplan.mechanism.units import NEWTONS, weight
 from graphplan.methods import kinds

@@ -18,7 +18,7 @@ from graphplan.cycle.loads import direction, place
 from graphplan.cycle.turn import Turn
 from graphplan.machine.reduced.unit_motion import Rates, UnitMotion
 from graphplan.machine.tolerances import DEAD_POINT_TOL
-from graphplan.mechanism.load_tables import SPEED, LoadTable
+from graphplan.mechanism.loads import SPEED, LoadTable
 from graphplan.mechanism.model import FRAME, Force, Loads, Moment, Scene, Slide
 from graphplan.mechanism.order import named_forces, named_moments
 from graphplan.mechanism.units import KILOGRAMS, NEWTONS

@@ -16,8 +16,8 @@ from graphplan.machine.rotors.trial import TRIALS, Trial, TrialWeights
 from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
 from graphplan.mechanism.items import Faults, Item, described
 from graphplan.mechanism.model import Presentation
-from graphplan.mechanism.numerals import heading, shown
-from graphplan.mechanism.tasks import read_task, task_table
+from graphplan.mechanism.numbers import heading, shown
+from graphplan.mechanism.scene import read_task, task_table
 from graphplan.mechanism.units import KILOGRAMS, METRES, Units
 from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER
 

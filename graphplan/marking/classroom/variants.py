@@ -24,7 +24,7 @@ from graphplan.errors import Refused
 from graphplan.marking.classroom.flaws import Draw, Flaw, Quality, flaw, sheet_of
 from graphplan.marking.tolerances import SCALE_STEP
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.numerals import decimal
+from graphplan.mechanism.numbers import decimal
 from graphplan.mechanism.scene_text import Tables, edited, with_keys, with_numbers, without_table, written
 from graphplan.mechanism.variation import Choices, parts
 from graphplan.methods.executors import SharedOut

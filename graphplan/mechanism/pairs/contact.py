@@ -4,20 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
-from graphplan.mechanism.directions import GUIDE, Written
 from graphplan.mechanism.fields import Field, Kind, Names, Row, Rows, Table
 from graphplan.mechanism.items import Item, described
-from graphplan.mechanism.numerals import exactly
-from graphplan.mechanism.pairs.pair import ROLLING, TOUCHING, Along, KinematicPair, Rolling, Statement, Touching
-from graphplan.mechanism.plane import Pair, dot, less, plus, times, turned
+from graphplan.mechanism.numbers import Pair, dot, exactly, less, plus, times, turned
+from graphplan.mechanism.pairs.pair import (
+    ROLLING,
+    TOUCHING,
+    Along,
+    GivenPose,
+    KinematicPair,
+    Rolling,
+    Statement,
+    Touching,
+)
 from graphplan.mechanism.tolerances import NORMAL_SINE_TOL, PLACE_TOL
-from graphplan.mechanism.values import FLAG, POINT, TWO_LINKS, centres_on
+from graphplan.mechanism.values import FLAG, GUIDE, POINT, TWO_LINKS, Written, centres_on
 from graphplan.phrases import phrase
-
-if TYPE_CHECKING:
-    from graphplan.mechanism.model import Scene
 
 
 @dataclass(frozen=True)
@@ -82,7 +86,7 @@ class Contact(KinematicPair):
         part = dot(normal, less(exactly(points[self.at]), exactly(centre))) / dot(normal, normal)
         return plus(exactly(centre), times(part, normal))
 
-    def states(self, scene: Scene) -> Iterator[Statement]:
+    def states(self, scene: GivenPose) -> Iterator[Statement]:
         """The one profile does not leave the other, nor slips on it where they roll."""
         (link, on, centre), points = self.curved, scene.points
         normal, arm, straight = self.normal(points), less(points[centre], points[self.at]), self.direction is not None

@@ -6,17 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import pi
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from graphplan.mechanism.fields import Either, Field, Row, Rows, Table
-from graphplan.mechanism.numerals import exactly, is_exact, root
-from graphplan.mechanism.pairs.pair import FRAME, Along, KinematicPair, Statement, Turning
+from graphplan.mechanism.numbers import Number, Pair, X, Y, dot, exactly, is_exact, root
+from graphplan.mechanism.pairs.pair import FRAME, Along, GivenPose, KinematicPair, Statement, Turning
 from graphplan.mechanism.pairs.sliding import has_slide
-from graphplan.mechanism.plane import Number, Pair, X, Y, dot
 from graphplan.mechanism.values import BODY, NUMBER, TWO_LINKS, moving
-
-if TYPE_CHECKING:
-    from graphplan.mechanism.model import Scene
 
 
 @dataclass(frozen=True)
@@ -55,7 +51,7 @@ class TurningDrive(Drive):
 
     letter, slides = "T", False
 
-    def states(self, scene: Scene) -> Iterator[Statement]:
+    def states(self, scene: GivenPose) -> Iterator[Statement]:
         """How the link turns on the other."""
         yield Turning(*self.links, *self.rates)
 
@@ -65,7 +61,7 @@ class SlidingDrive(Drive):
 
     slides = True
 
-    def states(self, scene: Scene) -> Iterator[Statement]:
+    def states(self, scene: GivenPose) -> Iterator[Statement]:
         """How the point of its slide runs along the guide."""
         slide = scene.driven_slide(self)
         yield Along(*self.links, slide.at, slide.direction, "along", *self.rates)
@@ -92,7 +88,7 @@ class DrivenPoint(KinematicPair):
         """The link that is told of it; it moves over the frame."""
         return self.link, FRAME
 
-    def states(self, scene: Scene) -> Iterator[Statement]:
+    def states(self, scene: GivenPose) -> Iterator[Statement]:
         """How the point moves along x and y."""
         for axis, way in ((X, "x"), (Y, "y")):
             rates = dot(axis, self.motion.velocity), dot(axis, self.motion.acceleration)

@@ -6,20 +6,41 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
-from graphplan.mechanism.directions import GUIDE, Written
 from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
 from graphplan.mechanism.items import Item
-from graphplan.mechanism.numerals import TO_A_FLOAT, exactly, is_exact, root, shown, shown_apart
-from graphplan.mechanism.pairs.pair import ROLLING, KinematicPair, OnRack, Rolling, Statement
-from graphplan.mechanism.plane import Number, Pair, dot, less, plus, times, turned
+from graphplan.mechanism.numbers import (
+    TO_A_FLOAT,
+    Number,
+    Pair,
+    dot,
+    exactly,
+    is_exact,
+    less,
+    plus,
+    root,
+    shown,
+    shown_apart,
+    times,
+    turned,
+)
+from graphplan.mechanism.pairs.pair import ROLLING, GivenPose, KinematicPair, OnRack, Rolling, Statement
 from graphplan.mechanism.tolerances import LENGTH_TOL, PLACE_TOL
-from graphplan.mechanism.values import AMOUNT, CENTRES, DISTANCE, FLAG, RADII, TEETH, TWO_LINKS, centres_on, choice
+from graphplan.mechanism.values import (
+    AMOUNT,
+    CENTRES,
+    DISTANCE,
+    FLAG,
+    GUIDE,
+    RADII,
+    TEETH,
+    TWO_LINKS,
+    Written,
+    centres_on,
+    choice,
+)
 from graphplan.phrases import phrase
-
-if TYPE_CHECKING:
-    from graphplan.mechanism.model import Scene
 
 LOADS = ("forces", "moments", "friction", "masses", "balance")
 """The tables that load a scene: without them nothing hangs on pressure angles."""
@@ -66,7 +87,7 @@ class Gear(KinematicPair):
         """The pair's name in results, such as `2 3`, or where it is not alone `2 3 at B C`."""
         return " ".join((*self.wheels, *(() if self.alone else ("at", *self.centres))))
 
-    def states(self, scene: Scene) -> Iterator[Statement]:
+    def states(self, scene: GivenPose) -> Iterator[Statement]:
         """One link rolls on the other."""
         if self.direction is not None:
             yield OnRack(*self.wheels, self.centres[0], self.direction, ROLLING, name=self.name, radius=self.radius)

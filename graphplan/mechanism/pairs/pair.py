@@ -15,18 +15,16 @@ A test differentiates the first and compares it with the others.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, Protocol
 
-from graphplan.mechanism.frame_names import FRAME as FRAME
-from graphplan.mechanism.numerals import is_exact
-from graphplan.mechanism.plane import Number, Pair, dot, less, plus, times, turned
+from graphplan.mechanism.numbers import Number, Pair, dot, is_exact, less, plus, times, turned
 
-if TYPE_CHECKING:
-    from graphplan.mechanism.model import Scene
+FRAME = "frame"
+"""The name of the fixed link."""
 
 TOUCHING, ROLLING = "touching", "rolling"
 """The ways in which higher pairs bind."""
@@ -348,6 +346,17 @@ class Rolling:
 Statement = Turning | Along | Rolling
 
 
+class GivenPose(Protocol):
+    """What pairs read of the scene that they are in."""
+
+    @property
+    def points(self) -> Mapping[str, Pair]:
+        """Where the points are."""
+
+    def driven_slide(self, drive: Any) -> Any:
+        """The slide in which a sliding drive works."""
+
+
 class KinematicPair:
     """A pair of links, or what drives one.
 
@@ -374,6 +383,6 @@ class KinematicPair:
         """The links that it joins; the first carries the pin, or moves on the other."""
         raise NotImplementedError
 
-    def states(self, scene: Scene) -> Iterator[Statement]:
+    def states(self, scene: GivenPose) -> Iterator[Statement]:
         """What it states, in the numbers of a scene."""
         raise NotImplementedError

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from graphplan.mechanism.pairs.pair import FRAME, POINT, Along, KinematicPair
-from graphplan.mechanism.plane import X, turned
-
-if TYPE_CHECKING:
-    from graphplan.mechanism.model import Scene
+from graphplan.mechanism.numbers import X, turned
+from graphplan.mechanism.pairs.pair import FRAME, POINT, Along, GivenPose, KinematicPair
 
 
 @dataclass(frozen=True)
@@ -30,17 +27,10 @@ class Revolute(KinematicPair):
         """The links that it joins."""
         return self.pinned
 
-    def states(self, scene: Scene) -> Iterator[Along]:
+    def states(self, scene: GivenPose) -> Iterator[Along]:
         """No link's point leaves that of the one with the pin."""
         pin, *others = self.pinned
         for link in others:
             axis, to = self.axes.get(link, X), link if link in self.axes else FRAME
             yield Along(link, pin, self.at, axis, "x", to=to)
             yield Along(link, pin, self.at, turned(axis), "y", to=to)
-
-
-def across(scene: Scene, link: str, places: Mapping[str, tuple[Any, Any]]) -> tuple[Any, Any]:
-    """Square to a link that is a bar between two joints; of any other link along x."""
-    joints = [places[point] for point in scene.links[link] if point in scene.joints]
-    (ax, ay), (bx, by) = joints if len(joints) == 2 else ((0, 0), (0, 0))
-    return (ay - by, bx - ax) if (ax, ay) != (bx, by) else (1, 0)

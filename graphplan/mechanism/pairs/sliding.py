@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
-from graphplan.mechanism.directions import GUIDE, Written
 from graphplan.mechanism.fields import Field, Row, Rows, Table, on_link
-from graphplan.mechanism.pairs.pair import LINE, TURNING, Along, KinematicPair, Statement, Turning
-from graphplan.mechanism.plane import Pair, turned
-from graphplan.mechanism.values import LINK, POINT
+from graphplan.mechanism.numbers import Pair, turned
+from graphplan.mechanism.pairs.pair import LINE, TURNING, Along, GivenPose, KinematicPair, Statement, Turning
+from graphplan.mechanism.values import GUIDE, LINK, POINT, Written
 from graphplan.phrases import phrase
-
-if TYPE_CHECKING:
-    from graphplan.mechanism.model import Scene
 
 
 @dataclass(frozen=True)
@@ -65,7 +61,7 @@ class Slide(KinematicPair):
         """The pair's name in results, such as `3 along 2`."""
         return f"{self.link} along {self.along}"
 
-    def states(self, scene: Scene) -> Iterator[Statement]:
+    def states(self, scene: GivenPose) -> Iterator[Statement]:
         """A link that slides along another neither turns on it nor leaves the guide."""
         if self.turns_alike:
             yield Turning(self.link, self.along)

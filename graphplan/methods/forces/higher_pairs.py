@@ -18,8 +18,8 @@ from dataclasses import dataclass, field, replace
 from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Contact, Gear, Pair, Scene, Slide
+from graphplan.mechanism.numbers import dot, turned
 from graphplan.mechanism.pairs.pair import LINE
-from graphplan.mechanism.plane import dot, turned
 from graphplan.mechanism.replaced import RollingGuide, replaced
 from graphplan.methods.forces import stages
 from graphplan.methods.forces.free_bodies import DrawnForces, Span, signed

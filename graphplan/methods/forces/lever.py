@@ -20,10 +20,10 @@ from functools import partial
 from typing import NamedTuple
 
 from graphplan.kernel.program import Mark
-from graphplan.mechanism.bracing import bracing
 from graphplan.mechanism.model import FRAME, Balance, Drive, Find, Pair, Scene, Slide, SlidingDrive, TurningDrive
 from graphplan.mechanism.order import ordered_drives
 from graphplan.mechanism.pairs.pair import KinematicPair
+from graphplan.mechanism.structure import bracing
 from graphplan.methods import kinds
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.forces import stages

@@ -14,8 +14,7 @@ from functools import cache, cached_property
 from random import Random
 from typing import NamedTuple, TypeGuard
 
-from graphplan.mechanism.elimination import PRIME
-from graphplan.mechanism.equations import System, stages
+from graphplan.mechanism.equations import PRIME, System, stages
 from graphplan.mechanism.model import Balance, Scene, Slide
 from graphplan.methods.motion.residues import Triple, cross, quarter, residues
 from graphplan.methods.panels import JointForce

@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from itertools import chain, combinations
 from random import Random
 
-from graphplan.mechanism.elimination import PRIME
+from graphplan.mechanism.equations import PRIME
 from graphplan.mechanism.model import Pair, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import RollingGuide

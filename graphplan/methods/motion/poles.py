@@ -22,7 +22,7 @@ from graphplan.kernel.passes import needed_steps
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Stage
 from graphplan.mechanism.model import FRAME, Pair, Scene
-from graphplan.mechanism.numerals import is_exact
+from graphplan.mechanism.numbers import is_exact
 from graphplan.mechanism.order import ordered
 from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.gear import Gear

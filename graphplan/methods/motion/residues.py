@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from graphplan.mechanism.elimination import PRIME
+from graphplan.mechanism.equations import PRIME
 from graphplan.mechanism.model import Number, Pair
 
 Two = tuple[int, int]

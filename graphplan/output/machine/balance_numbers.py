@@ -13,7 +13,7 @@ from graphplan.machine.linkages.counterweights import Counterweight
 from graphplan.machine.linkages.engine import Engine
 from graphplan.machine.linkages.spanning import as_multiple
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.plane import less
+from graphplan.mechanism.numbers import less
 from graphplan.mechanism.travel import printed_travels
 from graphplan.mechanism.units import KILOGRAMS, METRES
 

@@ -21,7 +21,7 @@ from itertools import pairwise
 from zlib import crc32
 
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.presentation import SIZES
+from graphplan.mechanism.sections import SIZES
 from graphplan.phrases import joined, said
 from graphplan.sheet.frames.title import GostBlock, IsoBlock, TitleBlock
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, sentence_runs

@@ -12,7 +12,7 @@ from typing import Any
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Number
-from graphplan.mechanism.presentation import ASIDE, PROTOCOLS
+from graphplan.mechanism.sections import ASIDE, PROTOCOLS
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import digits

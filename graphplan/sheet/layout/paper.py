@@ -20,7 +20,7 @@ from typing import NamedTuple, TypeVar
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Number
-from graphplan.mechanism.presentation import SIZES
+from graphplan.mechanism.sections import SIZES
 from graphplan.sheet.frames.frame import Frame
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.scales import round_up

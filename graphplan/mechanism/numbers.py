@@ -1,4 +1,7 @@
-"""Numerals: numbers exactly as they are written, their square roots, and directions from angles."""
+"""Numbers exactly as they are written, their square roots, directions from angles, and vectors of the plane.
+
+The vectors are over any numbers that know + - * : floats, fractions, residues, power series, arrays.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,37 @@ from fractions import Fraction
 from math import cos, isqrt, radians, sin
 from typing import Any, NamedTuple
 
-from graphplan.mechanism.plane import Pair
+Number = Fraction | float
+Pair = tuple[Number, Number]
+
+X: Pair = (1, 0)
+Y: Pair = (0, 1)
+
+
+def plus(a: Pair, b: Pair) -> Pair:
+    """The sum of two vectors."""
+    return a[0] + b[0], a[1] + b[1]
+
+
+def less(a: Pair, b: Pair) -> Pair:
+    """The vector from b to a."""
+    return a[0] - b[0], a[1] - b[1]
+
+
+def times(factor: Number, a: Pair) -> Pair:
+    """The vector a, `factor` times as long."""
+    return factor * a[0], factor * a[1]
+
+
+def turned(a: Pair) -> Pair:
+    """The vector a, turned counter-clockwise by a quarter."""
+    return -a[1], a[0]
+
+
+def dot(a: Pair, b: Pair) -> Number:
+    """The scalar product of a and b."""
+    return a[0] * b[0] + a[1] * b[1]
+
 
 _DIGITS = 100
 """The longest numeral that is read: no drawing needs more, and exact arithmetic on more may never end."""

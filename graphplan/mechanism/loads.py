@@ -1,21 +1,25 @@
-"""Load tables: forces and moments that change over the cycle, straight between the rows of a table.
+"""Loads: masses, forces, moments, balances and friction; of those that change over the cycle their tables.
 
-A table is over the travel of the first drive from the given pose (degrees, or lengths where it slides), over the
-position of a slide, once around, the outward stroke's rows first, or over a speed. Two rows at one place are a jump.
-At a jump, and at the end of a stroke, the load is that into which the motion goes on.
+A table is straight between its rows. It is over the travel of the first drive from the given pose (degrees, or lengths
+where it slides), over the position of a slide, once around, the outward stroke's rows first, or over a speed. Two rows
+at one place are a jump. At a jump, and at the end of a stroke, the load is that into which the motion goes on.
 """
 
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
+from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.mechanism.plane import Number
+from graphplan.mechanism.numbers import Number, Pair
+from graphplan.mechanism.pairs.pair import FRAME, Along, GivenPose, Statement, Turning
 from graphplan.mechanism.tolerances import TABLE_END_TOL
+from graphplan.mechanism.values import Written
 
 TRAVEL, SPEED, SPEED_OF = "travel", "speed", "speed of "
 
@@ -174,3 +178,119 @@ class LoadTable:
         what = f"{table} over {self.over} goes from {low} to {high}, and {float(place):.6g} is asked for"
         where = f"{self.scene}: {self.where}" if self.scene else self.where
         return Refused(where, what, "rows as far as the motion goes")
+
+
+@dataclass(frozen=True)
+class Mass:
+    """A link's mass, its inertia about the centre of mass (mass * m^2), and that centre, a point of the link."""
+
+    mass: Number
+    inertia: Number
+    centre: str
+
+
+@dataclass(frozen=True)
+class Force:
+    """A given force on a link, at a point of it: `value` in this pose.
+
+    One that changes over the cycle has a `table` of its values along `direction`, of any length, which is fixed in the
+    plane, or turns with the two points that it goes `through`.
+    """
+
+    on: str
+    at: str
+    value: Pair
+    table: LoadTable | None = None
+    direction: Pair | None = None
+    through: tuple[str, str] | None = None
+
+
+@dataclass(frozen=True)
+class Moment:
+    """A given couple on a link, in force * m, counter-clockwise positive: `value` in this pose, and the `table` of one
+    that changes over the cycle."""
+
+    on: str
+    value: Number
+    table: LoadTable | None = None
+
+
+@dataclass(frozen=True)
+class Balance:
+    """The unknown that keeps the prescribed motion: a moment on `link`, or a force at its point `at` along `direction`.
+
+    The direction has any length, and is written as a slide's is; only where there is none it is a moment. It acts from
+    the frame, or from the link `on`, which has its counterpart.
+    """
+
+    link: str
+    at: str = ""
+    direction: Pair | None = None
+    written: Written = field(default=None, compare=False)
+    on: str = FRAME
+
+    def __hash__(self) -> int:
+        return hash((self.link, self.at, self.on))  # fractions take long
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """The link on which it acts, and the one from which it does."""
+        return self.link, self.on
+
+    @property
+    def spellings(self) -> tuple[str, str, str]:
+        """Its names, each longer than the one before: by the link, by a force's point, and by its direction, too."""
+        if self.direction is None:
+            return self.link, self.link, self.link
+        dx, dy = map(float, self.direction)
+        return self.link, f"{self.link} at {self.at}", f"{self.link} at {self.at} along ({dx:g}, {dy:g})"
+
+    def states(self, scene: GivenPose) -> Iterator[Statement]:
+        """What would stand still if it were a support: a turning, or a motion along its direction."""
+        if self.direction is None:
+            yield Turning(self.link, self.on)
+        else:
+            yield Along(self.link, self.on, self.at, self.direction, "held")
+
+
+@dataclass(frozen=True)
+class Friction:
+    """Friction in a pair, with its coefficient: a journal `at` a joint, with its radius, a slide (link, along), or a
+    contact of two links."""
+
+    at: str
+    slide: tuple[str, str] | None
+    radius: Number
+    coefficient: Number
+    contact: tuple[str, str] | None = None
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """The links of a slide or a contact."""
+        return self.slide or self.contact or ()
+
+
+@dataclass(frozen=True)
+class Loads:
+    """What acts on the links besides each other: gravity is in m/s^2, all else in the scene's units.
+
+    `rounds` is how many rounds of friction are asked for; 0 means as many as it takes. `resting` are the names of the
+    pairs that are known to stand still: nothing rubs in them.
+    """
+
+    gravity: Pair
+    masses: dict[str, Mass]
+    forces: tuple[Force, ...]
+    moments: tuple[Moment, ...]
+    balances: tuple[Balance, ...]
+    frictions: tuple[Friction, ...] = ()
+    rounds: int = 0
+    resting: frozenset[str] = frozenset()
+
+    @cached_property
+    def named_balances(self) -> dict[str, Balance]:
+        """The balances by their names in results: the link, or where several act on one, more of what tells them apart.
+        """
+        borne = Counter(name for balance in self.balances for name in dict.fromkeys(balance.spellings))
+        return {next((name for name in balance.spellings if borne[name] == 1), balance.spellings[-1]): balance
+                for balance in self.balances}

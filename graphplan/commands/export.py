@@ -1,4 +1,4 @@
-"""Export the construction: to GeoGebra, JSXGraph, GCLC and LaTeX step by step, as data, as code, or its sheet.
+"""Export the construction: to GeoGebra, GCLC and LaTeX step by step, as data, as code, or its sheet.
 
 In the step formats every mark depends on the marks that it was drawn from, so a joint can be dragged where the program
 lets one drag; the plans stand where they stand on the sheet. Code computes what the scene asks for in poses as they
@@ -31,7 +31,6 @@ formats:
 """ + "".join(f"  {name:12} {format.suffix:6} {format.told}\n" for name, format in FORMATS.items()) + """
 examples:
   graphplan export rosenauer-basic -o chain.ggb
-  graphplan export scene.toml -o page.html --library jsxgraphcore.js
   graphplan export scene.toml -o figure.tex --format tkz-euclide --language de
   graphplan export scene.toml -o figure.tex --bare --width 0.8
   graphplan export scene.toml -o slides.tex --overlays
@@ -43,8 +42,6 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="FILE", required=True, help="the file to write")
     command.add_argument("--format", choices=tuple(FORMATS),
                          help="the format; without it the suffix of FILE says which")
-    command.add_argument("--library", metavar="FILE",
-                         help="a copy of jsxgraphcore.js that goes into the page, which is then complete in itself")
     command.add_argument("--bare", action="store_true", help="LaTeX: the picture or the slides alone, for \\input; "
                          f"beside FILE stands {STYLE}, the style of all pictures")
     command.add_argument("--width", type=_width, metavar="W", help="LaTeX: how wide the picture is, in mm, or up to 1 "
@@ -81,6 +78,8 @@ def format_of(output: str, named: str | None) -> str:
     if not Path(output).suffix:
         raise Refused(f"{output}: output", "a name without a suffix is no format",
                       f"a name in {', '.join(endings)}, or --format {'|'.join(FORMATS)}")
+    if Path(output).suffix.lower() == ".html":
+        raise Refused(f"{output}: output", "pages are written by another command", f"graphplan live SCENE -o {output}")
     suffix = kind(output, endings, "construction")
     return next(name for name, format in FORMATS.items() if format.suffix == suffix)
 
@@ -92,18 +91,7 @@ def _more(name: str, options: argparse.Namespace) -> Mapping[str, Any]:
         raise Refused(f"--{next(iter(given))}", f"{name} has no use for it", "leave it out, or export LaTeX, .tex")
     if options.width and options.overlays:
         raise Refused(f"--width {options.width:g}", "slides are as large as the screen", "leave it out, or --overlays")
-    return {**given, **(_library(name, options.library) if options.library is not None else {})}
-
-
-def _library(name: str, library: str) -> Mapping[str, str]:
-    """The text of a library that is given."""
-    if name != "jsxgraph":
-        raise Refused(f"--library {library}", f"{name} has no place for it", "leave it out, or export a page, .html")
-    try:
-        return {"script": Path(library).read_text(encoding="utf-8")}
-    except (OSError, UnicodeDecodeError) as error:
-        why = getattr(error, "strerror", None) or "this is no text"
-        raise Refused(f"--library {library}", f"cannot be read ({why})", "name a copy of jsxgraphcore.js") from None
+    return given
 
 
 def _width(text: str) -> float:

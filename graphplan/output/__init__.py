@@ -27,7 +27,6 @@ class Format(NamedTuple):
 
 FORMATS = {
     "ggb": Format(".ggb", said("GeoGebra, 4.0 and later"), "exports.geogebra", "geogebra", "plates"),
-    "jsxgraph": Format(".html", said("a web page of JSXGraph elements"), "exports.jsxgraph", "jsxgraph", "plates"),
     "gcl": Format(".gcl", said("GCLC, the language of constructions"), "exports.gclc", "gclc", "plates"),
     "tikz": Format(".tex", said("LaTeX with TikZ"), "exports.tikz", "tikz", "composition"),
     "tkz-euclide": Format(".tex", said("LaTeX with tkz-euclide, by --format"), "exports.tkz", "tkz_euclide",

@@ -21,7 +21,7 @@ from graphplan.commands.export import READ, format_of
 from graphplan.output import FORMATS, back_end
 
 BEGINS = {
-    "ggb": b"PK", "jsxgraph": b"<!DOCTYPE html>", "json": b"{", "svg": b"<?xml", "pdf": b"%PDF", "png": b"\x89PNG",
+    "ggb": b"PK", "json": b"{", "svg": b"<?xml", "pdf": b"%PDF", "png": b"\x89PNG",
 }
 BOTH = "jaanimets-10", "rosenauer-basic"
 
@@ -62,10 +62,9 @@ def test_help_tells_every_format() -> None:
 
 
 @pytest.mark.parametrize(("arguments", "said"), [
-    (["-o", "{tmp}/a.dwg"], "a name in .ggb, .html, .gcl"),
+    (["-o", "{tmp}/a.dwg"], "a name in .ggb, .gcl"),
     (["-o", "{tmp}/a"], "a name without a suffix is no format"),
-    (["-o", "{tmp}/a.ggb", "--library", "{tmp}/b.js"], "ggb has no place for it"),
-    (["-o", "{tmp}/a.html", "--library", "{tmp}/b.js"], "cannot be read (No such file or directory)"),
+    (["-o", "{tmp}/a.html"], "graphplan live SCENE -o"),
     (["-o", "{tmp}/none/a.ggb"], "cannot be written"),
     (["-o", "{tmp}/a.ggb", "--method", "poles", "--plan", "nonsense"], "nonsense"),
 ])
@@ -109,14 +108,6 @@ def test_the_steps_are_those_that_are_printed(tmp_path: Path, capsys: pytest.Cap
     assert path.read_text() == capsys.readouterr().out
 
 
-def test_the_library_goes_inside(tmp_path: Path) -> None:
-    """A page with a copy of the library names no file beside it."""
-    library, path = tmp_path / "copy.js", tmp_path / "a.html"
-    library.write_text("var JXG_is_here;")
-    assert main(["export", "four-bar", "-o", str(path), "--library", str(library)]) == 0
-    assert "var JXG_is_here;" in path.read_text()
-    assert "<script src=" not in path.read_text()
-
 
 def test_a_step_export_loads_no_renderer(tmp_path: Path) -> None:
     """matplotlib is not loaded for a GeoGebra file."""
@@ -127,7 +118,7 @@ def test_a_step_export_loads_no_renderer(tmp_path: Path) -> None:
     assert done.stdout.strip() == "[]"
 
 
-@pytest.mark.parametrize("name", ["ggb", "jsxgraph", "gcl", "tikz", "tkz-euclide", "json"])
+@pytest.mark.parametrize("name", ["ggb", "gcl", "tikz", "tkz-euclide", "json"])
 def test_exports_speak_the_language(name: str, tmp_path: Path) -> None:
     """Sentences and captions of every step format come in the language asked for."""
     path = tmp_path / f"a{FORMATS[name].suffix}"

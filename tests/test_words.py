@@ -164,7 +164,7 @@ def test_numbers_and_units_are_written_as_the_language_has_them(name: str, code:
     """No number of a solution or a guided handout has a decimal point, but in the source, which is as it is printed;
     and no unit is in Latin letters where the language has others."""
     composition = compose(drawing_of(name), tongue=tongue(code))
-    sheets = [*handout.solution(composition), *handout.guided(composition)]
+    sheets = [*handout.solution(composition), *handout.guided_task(composition)]
     told = " ".join(plain(item.runs) for sheet in sheets for item in sheet.items if isinstance(item, Text))
     told = f"{told} {sheets[0].description}".replace(drawing_of(name).scene.source, "")
     assert re.findall(r"\S*\d\.\d\S*", told) == []

@@ -85,7 +85,7 @@ def cost(drawing: Construction, composition: Composition) -> Cost:
     crossings = [Crossing(drawn.number(step.index), drawn.text(step.index), crossing(step, drawing.values))
                  for step in drawn.steps if step.op.crossing]
     points = (plate for plate in composition.plates.steps if plate.kind == POINT)
-    off_sheet = tuple(point.number for point in points if not point.view.rect.holds(point.at))
+    off_sheet = tuple(point.number for point in points if not point.view.rect.holds(point.spot))
     return Cost(counts(drawn), len(drawn) - drawn.givens, tuple(crossings), off_sheet)
 
 
@@ -147,7 +147,7 @@ class Drafted(Errors):
     @cached_property
     def hand(self) -> Hand:
         """The hand that draws it."""
-        return hand(self.drawing, self.composition.scales.of, self.pencil)
+        return hand(self.drawing, self.composition.scales.lengths_per_mm, self.pencil)
 
     @cached_property
     def cost(self) -> Cost:
@@ -168,10 +168,10 @@ class Drafted(Errors):
         """Cost and errors in words, a line each."""
         off: dict[ResultKind, list[Said]] = {}
         for result in self.results:
-            off.setdefault(result.kind, []).append(joined((result.thing, arranged("±{0}", result.deviation.told)), " "))
+            off.setdefault(result.kind, []).append(joined((result.thing, arranged("±{0}", result.deviation.text)), " "))
         told = [joined((kind.words, joined(found)), ": ") for kind, found in off.items()]
         controls = control_errors(self.drawing, self.hand, self.composition.scales)
-        told += [said("control of link {0}: ±{1} mm", control.link, Deviation(mm).told) for control, mm in controls]
+        told += [said("control of link {0}: ±{1} mm", control.link, Deviation(mm).text) for control, mm in controls]
         return [*self.cost.lines(), said("Drawing errors on {0}: {1}", self.paper, self.told), *told]
 
     @property
@@ -202,7 +202,7 @@ class Drafted(Errors):
 
 def percent(part: float) -> Said:
     """A part of a whole, in at most two digits; a dash where it has no bound."""
-    return arranged("{0} %", Deviation(100 * part).told)
+    return arranged("{0} %", Deviation(100 * part).text)
 
 
 def _known(error: float | None) -> float | None:
@@ -222,11 +222,11 @@ def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,
     the words do not fit the paper named.
     """
     composer = Composer(drawing, paper, check, tongue, protocol, traced(drawing.scene), lettered)
-    usual = first_order(drawing, hand(drawing, composer.usual.of, pencil), composer.usual)
+    usual = first_order(drawing, hand(drawing, composer.usual.lengths_per_mm, pencil), composer.usual)
     composition = composer.compose(Errors(drawing, pencil, tuple(map(_brief, usual))).deviations, worded=False)
     for _ in range(ATTEMPTS):
         scales = composition.scales
-        results = first_order(drawing, hand(drawing, scales.of, pencil), scales)
+        results = first_order(drawing, hand(drawing, scales.lengths_per_mm, pencil), scales)
         composition = composer.compose(Errors(drawing, pencil, results).deviations)
         if composition.scales == scales:
             return Drafted(drawing, pencil, results, composition)

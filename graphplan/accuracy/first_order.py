@@ -140,7 +140,7 @@ def control_errors(drawing: Construction, hand: Hand, scales: Scales) -> list[tu
     for control in drawing.controls:
         off = math.sqrt(float(np.sum(_squares(domain, control.off(values)))))
         start, end = (hand.values[mark] for mark in control.marks[-1])
-        found.append((control, off / math.dist(start, end) / scales.of(MECHANISM)))
+        found.append((control, off / math.dist(start, end) / scales.lengths_per_mm(MECHANISM)))
     return found
 
 
@@ -160,7 +160,7 @@ def _of_mm(kind: ResultKind, marks: Sequence[Any], scales: Scales, panel: str) -
     if (kind.single and not kind.turning and len(marks) > 1) or kind.dimension in (HEADING, CURVING):
         return None
     measures = {VELOCITY: scales.speed, ACCELERATION: scales.acceleration, FORCES: scales.force}
-    scale = scales.of(panel) if kind.dimension in (LENGTH, PLACE) else measures[kind.group](panel)
+    scale = scales.lengths_per_mm(panel) if kind.dimension in (LENGTH, PLACE) else measures[kind.group](panel)
     return scale / math.dist(marks[0], marks[1]) if kind.turning else scale
 
 

@@ -251,8 +251,8 @@ class Comparison:
         if worst is None:
             return name, *[""] * (len(OFF) - 1 + 2 * bool(self.hands))
         own, mm = worst.deviation.value, worst.deviation.mm
-        row = (name, worst.named, percent(one.error), f"{Deviation(own).told} {worst.unit(self.scene)}",
-               "" if mm is None else Deviation(mm).told, one.named(worst.worst_step))
+        row = (name, worst.named, percent(one.error), f"{Deviation(own).text} {worst.unit(self.scene)}",
+               "" if mm is None else Deviation(mm).text, one.named(worst.worst_step))
         if not self.hands:
             return row
         scatter = sampled(one.drawing, one.hand, self.hands)

@@ -95,10 +95,10 @@ def _shown(sheet: Sheet, drawn: Program, options: argparse.Namespace) -> Sheet:
     """What of the sheet is asked for."""
     if not (options.until or options.steps):
         return sheet
-    from graphplan.sheet.layout.layout import numbered, selected
+    from graphplan.sheet.layout.layout import sheet_at_step, step_range
 
-    first, last = numbered(drawn, options.steps or options.until)
-    return selected(sheet, last, first if options.steps else 0)
+    first, last = step_range(drawn, options.steps or options.until)
+    return sheet_at_step(sheet, last, first if options.steps else 0)
 
 
 def asked(options: argparse.Namespace) -> str:

@@ -64,7 +64,7 @@ def _suffix(options: argparse.Namespace) -> str:
 
 def _pages(composition: Composition, only: str | None) -> list[Sheet]:
     """The pages of the parts that are wanted."""
-    from graphplan.sheet.handout import guided, solution, task
+    from graphplan.sheet.handout import guided_task, solution, task
 
-    pages = {"task": task, "guided": guided, "solution": solution}
+    pages = {"task": task, "guided": guided_task, "solution": solution}
     return [sheet for part in PARTS if only in (None, part) for sheet in pages[part](composition)]

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 from xml.etree.ElementTree import Element, SubElement, tostring
 
 from graphplan.output.svg import groups, rounded
-from graphplan.sheet.lettering.lettering import FONTS, Run
-from graphplan.sheet.plates.display import Sheet, Text, moved
+from graphplan.sheet.lettering.lettering import FONTS, TextRun
+from graphplan.sheet.plates.display import Sheet, Text, move_item
 from graphplan.sheet.plates.pens import LETTERS, PAPER
 
 if TYPE_CHECKING:
@@ -53,8 +53,8 @@ class Film:
             rects = sheet.panels.values()
             left, top = min(rect.left for rect in rects) - MARGIN, max(rect.top for rect in rects) + MARGIN
             right, low = max(rect.right for rect in rects) + MARGIN, min(rect.bottom for rect in rects) - FOOT
-            kept = [moved(item, -left, -low) for item in sheet.items]
-            kept.append(Text(LETTERS, "travel", None, (right - left - MARGIN, 2.0), (Run(told),), TOLD, "end"))
+            kept = [move_item(item, -left, -low) for item in sheet.items]
+            kept.append(Text(LETTERS, "travel", None, (right - left - MARGIN, 2.0), (TextRun(told),), TOLD, "end"))
             yield replace(sheet, width=right - left, height=top - low, items=tuple(kept))
 
 

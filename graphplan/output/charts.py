@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from graphplan.output.canvas import LINE, MARGIN, TITLE, Canvas
 from graphplan.phrases import digits
 from graphplan.sheet.layout.scales import round_up
-from graphplan.sheet.lettering.lettering import SIZE, Run, Runs, width, wrap
+from graphplan.sheet.lettering.lettering import SIZE, Runs, TextRun, width, wrap
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import GREY, PAPER, Pen
 
@@ -61,7 +61,7 @@ def drawn(chart: Chart) -> str:
 def _set(words: str) -> Runs:
     """Words with powers raised, such as 10^-3."""
     parts = re.split(r"\^(-?[\d.]*\d)", words)
-    return tuple(Run(text.replace("-", "−") if k % 2 else text, k % 2) for k, text in enumerate(parts) if text)
+    return tuple(TextRun(text.replace("-", "−") if k % 2 else text, k % 2) for k, text in enumerate(parts) if text)
 
 
 def _key_rows(chart: Chart, end: float) -> Iterable[list[tuple[float, str, Look]]]:

@@ -20,7 +20,7 @@ def protocol(sheet: Panelled) -> dict[str, Any]:
     """The paper of a sheet and the steps of its construction, those that are given first."""
     drawn, say = sheet.recorded, sheet.tongue
     program, plans = drawn.program, drawn.plans
-    on_paper = OnPaper(drawn.values, plans.__getitem__, drawn.scales.of)
+    on_paper = OnPaper(drawn.values, plans.__getitem__, drawn.scales.lengths_per_mm)
     stages = {step.index: number for number, (_, steps) in enumerate(program.stages) for step in steps}
     entries = []
     for step in program.steps:
@@ -41,7 +41,7 @@ def protocol(sheet: Panelled) -> dict[str, Any]:
 
 
 def _lengths(sheet: Panelled, step: Step) -> Sequence[Any]:
-    return sheet.measure(sheet.recorded.plans[step.index]).of(step)
+    return sheet.measure(sheet.recorded.plans[step.index]).for_step(step)
 
 
 def place(step: Step, value: Sequence[Any], per_mm: float) -> list[float]:

@@ -25,17 +25,17 @@ from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
-from graphplan.sheet.frames.frame import Frame, frame_of
+from graphplan.sheet.frames.frame import SheetFrame, frame_of
 from graphplan.sheet.frames.title import Page, TitleBlock
-from graphplan.sheet.layout.layout import stacked
-from graphplan.sheet.layout.paper import lower_right, packed, sheet_size, words_page
+from graphplan.sheet.layout.layout import back_to_front
+from graphplan.sheet.layout.paper import lower_right, paginate_tightly, sheet_size, words_page
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import HEADING, SIZE, LetterSizes, letter_sizes, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Text
-from graphplan.sheet.words.lengths import Lengths, Measure
-from graphplan.sheet.words.rows import Cell, Placed, TextRow, answer_rows, fill, hung, lettered
-from graphplan.sheet.words.rows import rows as table_rows
+from graphplan.sheet.words.lengths import Lengths, PaperDistance
+from graphplan.sheet.words.rows import Cell, Placed, TextRow, answer_rows, fill, paragraph_rows, row_items
+from graphplan.sheet.words.rows import table_rows as table_rows
 from graphplan.words.tongue import Tongue, tongue
 
 PAPERS = ("A3", "A2", "A1")
@@ -70,8 +70,8 @@ class Recorded:
 class PaperLengths(Lengths):
     """The lengths of what is drawn in mm of paper: they are told as they are."""
 
-    def _given(self, quantity: Quantity, laid: Measure, where: int) -> Said:
-        return arranged("{0}: {1}", quantity.written, laid.told) if quantity.written else laid.told
+    def _given_quantity(self, quantity: Quantity, laid: PaperDistance, where: int) -> Said:
+        return arranged("{0}: {1}", quantity.written, laid.text) if quantity.written else laid.text
 
 
 @dataclass(frozen=True)
@@ -150,7 +150,7 @@ class Panelled(ABC):
         return letter_sizes(self.paper)
 
     @cached_property
-    def _frame(self) -> tuple[Frame, TitleBlock]:
+    def _frame(self) -> tuple[SheetFrame, TitleBlock]:
         """The frame and the title block."""
         frame = frame_of(self.scene)
         return frame, frame.block(self.scene, self.tongue)
@@ -168,7 +168,7 @@ class Panelled(ABC):
     @cached_property
     def title(self) -> Rect:
         """Where the title block stands: under the words."""
-        return lower_right(self.space, self._pitch, self._frame[1].on(self.paper))
+        return lower_right(self.space, self._pitch, self._frame[1].on_paper(self.paper))
 
     @cached_property
     def panels(self) -> Mapping[Panel, Rect]:
@@ -188,7 +188,7 @@ class Panelled(ABC):
         """Words in their column; nothing where they do not fit."""
         right, times = self.space.right - GAP, self.letters.times
         column = Rect(right - times * COLUMN, self.title.top + GAP, right, self.space.top - GAP)
-        return fill([row.enlarged(times) for row in rows], [column])
+        return fill([row.enlarge(times) for row in rows], [column])
 
     @cached_property
     def brief(self) -> list[TextRow]:
@@ -214,10 +214,10 @@ class Panelled(ABC):
         they do not stand `beside` the panels."""
         page = words_page(self.paper, *self._frame)
         first, rows = [*self.brief, *(self.tabled if beside else ())], [*(() if beside else self.tabled), *self.steps]
-        filled = packed([row.enlarged(self.letters.times) for row in rows], page)
+        filled = paginate_tightly([row.enlarge(self.letters.times) for row in rows], page)
         sheet = self._page(first, 1 + len(filled))
-        return [sheet, *(replace(sheet, panels={}, items=tuple(stacked([
-            *self._framed(page.title, {}, number, 1 + len(filled)), *lettered(placed)])))
+        return [sheet, *(replace(sheet, panels={}, items=tuple(back_to_front([
+            *self._framed(page.title, {}, number, 1 + len(filled)), *row_items(placed)])))
             for number, placed in enumerate(filled, 2))]
 
     def _page(self, rows: Sequence[TextRow], count: int) -> Sheet:
@@ -227,10 +227,10 @@ class Panelled(ABC):
         items = [*self._framed(self.title, self.panels, 1, count)]
         for panel in self.panels:
             items += self.figure(panel, self.room(panel))
-        items += lettered(self.placed(rows) or [])
+        items += row_items(self.placed(rows) or [])
         sentences = tuple(self.tongue(program.told(step.index)) for step in program.steps)
         return Sheet(wide, high, self.space, {str(panel): rect for panel, rect in self.panels.items()},
-                     tuple(stacked(items)), self.scene.title, self.tongue(self.told), sentences, scales,
+                     tuple(back_to_front(items)), self.scene.title, self.tongue(self.told), sentences, scales,
                      self.tongue.code, self.scene.text, program.givens)
 
     def _framed(self, title: Rect, panels: Mapping[Panel, Rect], number: int, of: int) -> Iterator[Item]:
@@ -241,7 +241,7 @@ class Panelled(ABC):
             yield Outline(pens.BORDER, "paper", None, rect.corners, str(panel))
             yield from self._caption(panel, rect)
         page = Page(self.document, self.paper, self.tongue(self.scale), number, of)
-        yield from block.on(self.paper).items(title, page)
+        yield from block.on_paper(self.paper).items(title, page)
 
     def _caption(self, panel: Panel, rect: Rect) -> Iterator[Item]:
         """What a panel is, in letters of marks where that has room on a line, else in small ones; under it its scales.
@@ -271,7 +271,7 @@ class Panelled(ABC):
     def _set(self, words: Words, number: str = "", step: int | None = None) -> Iterator[TextRow]:
         """A table, or words in lines that hang from a number."""
         if isinstance(words, str):
-            yield from hung(sentence_runs(self.tongue(words), self._names), COLUMN, INDENT, number, step)
+            yield from paragraph_rows(sentence_runs(self.tongue(words), self._names), COLUMN, INDENT, number, step)
         else:
             table = [[sentence_runs(self.tongue(cell), self._names) for cell in row] for row in words]
             yield from answer_rows(table, COLUMN) if isinstance(words, Blank) else table_rows(table)
@@ -308,7 +308,7 @@ class Panelled(ABC):
     def spoken(self, step: Step) -> Said:
         """A step in words, with its length on paper."""
         told, lengths = self.recorded.program.told(step.index), self.measure(self.recorded.plans[step.index])
-        return joined((told, *(arranged("{0}.", length.told) for length in lengths.of(step))), " ")
+        return joined((told, *(arranged("{0}.", length.text) for length in lengths.for_step(step))), " ")
 
 
 def pages(kind: Callable[[str], Panelled], paper: str | None = None, papers: Sequence[str] = PAPERS) -> list[Sheet]:

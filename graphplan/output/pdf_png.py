@@ -26,7 +26,7 @@ from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 
 from graphplan.errors import Refused
-from graphplan.sheet.lettering.lettering import ANCHORS, DROP, lowered
+from graphplan.sheet.lettering.lettering import ANCHORS, DROP, script_size
 from graphplan.sheet.plates.display import (
     Arc,
     Arrow,
@@ -271,7 +271,7 @@ def _round(path: Path, centre: Spot, radius: float) -> Path:
 def _pieces(text: Text) -> Iterator[tuple[str, Spot, float]]:
     """What is lettered in one go, where, and in which size: single words, as renderers push letters together and the
     next level is to stand close by; the last run whole."""
-    sizes = [lowered(text.size) if run.level else text.size for run in text.runs]
+    sizes = [script_size(text.size) if run.level else text.size for run in text.runs]
     long = sum(_width(run.text, text.bold) * size for run, size in zip(text.runs, sizes, strict=True))
     x = text.at[0] - ANCHORS[text.anchor] * long
     for k, (run, size) in enumerate(zip(text.runs, sizes, strict=True), 1):

@@ -15,7 +15,7 @@ import numpy as np
 
 from graphplan.output.canvas import CIRCLE, CROSSED, LAYER, LINE, MARGIN, TITLE, Canvas
 from graphplan.phrases import digits, joined, phrase, said, unit
-from graphplan.sheet.lettering.lettering import SIZE, Run, Runs, sentence_runs, width, wrap
+from graphplan.sheet.lettering.lettering import SIZE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates.display import Arrow, Rect
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, PAPER, RED, VIOLET, Pen
 from graphplan.words.tongue import ENGLISH, Tongue
@@ -219,9 +219,9 @@ class _Column:
                 drive: [self.say(digits(value)) + ("°" if angle else "") for value in travel]}
         for y, (what, words) in zip((level - 3, level - 3 - LINE), rows.items(), strict=True):
             canvas.text((axis - 8, y), sentence_runs(self.say(what)), anchor="end")
-            room = max(width((Run(word),), SIZE) for word in words) + 0.7 * SIZE
+            room = max(width((TextRun(word),), SIZE) for word in words) + 0.7 * SIZE
             for x, word in list(zip(xs, words, strict=True))[:: int(np.ceil(room * (len(xs) - 1) / self.length))]:
-                canvas.text((axis + x, y), (Run(word),), anchor="middle")
+                canvas.text((axis + x, y), (TextRun(word),), anchor="middle")
         whole = digits(float(curve.time[-1] - curve.time[0]))
         scale = said("{0} = {1} {2} per mm", "mu_t", digits(float(scales.mu_t)), unit("s"))
         length = joined((digits(self.length), unit("mm")), " "), joined((whole, unit("s")), " ")
@@ -290,7 +290,7 @@ class _Axes:
         self.canvas.items.append(Arrow(AXIS, LAYER, None, self._at(start), self._at(end), 2.6))
 
     def text(self, x: float, y: float, words: str | Runs, anchor: str = "start") -> None:
-        self.canvas.text(self._at((x, y)), (Run(words),) if isinstance(words, str) else words, anchor=anchor)
+        self.canvas.text(self._at((x, y)), (TextRun(words),) if isinstance(words, str) else words, anchor=anchor)
 
     def found(self, method: str, spots: Iterable[Spot]) -> None:
         """The points that a method found, or the line through them."""

@@ -18,7 +18,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.program import Panel, Step
 from graphplan.output.panelled import Recorded
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.labels import placed
+from graphplan.sheet.lettering.labels import place_letters
 from graphplan.sheet.lettering.lettering import LetterSizes, name_runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Spot, Text
@@ -101,7 +101,7 @@ class StepInk:
         marks = [self.spots[step.index] for step in self.steps(panel)
                  if step.op.gives == POINT and rect.holds(self.spots[step.index])]
         wanted = [*self.wishes(panel, named), *wishes]
-        return [*ink, *placed(wanted, [*off, *taken], marks, rect, self.letters)]
+        return [*ink, *place_letters(wanted, [*off, *taken], marks, rect, self.letters)]
 
     def wishes(self, panel: Panel, named: Callable[[Step], bool] = lambda step: True) -> Iterator[Wish]:
         """The letters of the points of a panel, and of its lines that have some."""

@@ -17,7 +17,7 @@ import svgwrite
 from svgwrite.text import TSpan
 
 from graphplan.phrases import said
-from graphplan.sheet.lettering.lettering import ANCHORS, DROP, FONTS, lowered, width
+from graphplan.sheet.lettering.lettering import ANCHORS, DROP, FONTS, script_size, width
 from graphplan.sheet.plates.display import (
     Arc,
     Arrow,
@@ -168,7 +168,8 @@ class _SheetWriter:
         return MAKE.polyline(self._spots(spots), **look(pen) | {"fill": "none"})
 
     def _arc(self, arc: Arc) -> Element:
-        (x, y), (u, v), r = self._spot(arc.at(arc.start)), self._spot(arc.at(arc.end)), rounded(arc.radius, FINE)
+        (x, y), (u, v), r = self._spot(arc.spot_at(arc.start)), self._spot(arc.spot_at(arc.end)), rounded(arc.radius,
+                                                                                                          FINE)
         large = int(arc.end - arc.start > 180)
         if math.isclose(arc.end - arc.start, 180):  # SVG: what is too small for its chord has that for a diameter
             r = rounded(math.dist((x, y), (u, v)) / 2 - 0.1**FINE, FINE)
@@ -202,7 +203,7 @@ class _SheetWriter:
         level = 0
         for run in () if plain else text.runs:
             dy = rounded((level - run.level) * DROP * text.size)
-            size, level = rounded(lowered(text.size)) if run.level else None, run.level
+            size, level = rounded(script_size(text.size)) if run.level else None, run.level
             made.add(MAKE.tspan(run.text, font_size=size)).update({"dy": dy or None})
         return made
 

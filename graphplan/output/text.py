@@ -19,9 +19,9 @@ from graphplan.phrases import arranged, coordinates, joined, said
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.words.lengths import Length, Lengths
-from graphplan.sheet.words.protocol import Passage, Protocol, lengths_of, measured
+from graphplan.sheet.words.protocol import Passage, Protocol, lengths_of, with_lengths
 from graphplan.sheet.words.readings import Readings
-from graphplan.sheet.words.texts import Words
+from graphplan.sheet.words.texts import SheetWords
 from graphplan.words.tongue import Tongue
 
 WIDTH = 110
@@ -41,7 +41,8 @@ def protocol(composition: Composition, structure: Iterable[str] = (), drafting: 
     lines += [say(said("Structure: {0}", line)) for line in structure]
     lines += ["", *_scales(composition), *_pose(drawing.scene, composition.scales, say), "", *_wrapped(say(said(
         "Vectors are underlined twice of which magnitude and direction are known, once where one of the two or a "
-        "locus is.")), ""), *_passages(told.passages, say, movements), *_results(Words(plans), composition.scales, say)]
+        "locus is.")), ""), *_passages(told.passages, say, movements), *_results(SheetWords(plans), composition.scales,
+                                                                                 say)]
     lines += ["", say(said("Cost: {0}.", counts(drawing.drawn).told))]
     lines += [line for told in drafting for line in _wrapped(say(told), "")]
     if drawing.forms:
@@ -60,14 +61,14 @@ def _pose(scene: Scene, scales: Scales, say: Tongue) -> list[str]:
              for step in program.steps[: program.givens]]
     lines = _wrapped(say(said("Mechanism plan, in mm of paper: {0}.", joined(given))), "")
     for step in program.steps[program.givens :]:
-        lines += _wrapped(say(measured(program.told(step.index), partial(lengths.of, step))), "  ")
+        lines += _wrapped(say(with_lengths(program.told(step.index), partial(lengths.for_step, step))), "  ")
     return lines
 
 
 def _scales(composition: Composition) -> Iterator[str]:
     """What a millimetre of each plan stands for."""
     plans, scales = composition.plans, composition.scales
-    told = [joined((plan.words, joined(scales.said(plan, plans.kinds(plan)))), ": ") for plan in plans.panels]
+    told = [joined((plan.words, joined(scales.scale_texts(plan, plans.kinds(plan)))), ": ") for plan in plans.panels]
     paper = composition.arrangement.paper
     yield from _wrapped(plans.tongue(said("Scales on {0}: {1}.", paper, joined(told, "; "))), "")
 
@@ -81,8 +82,8 @@ def _passages(passages: Iterable[Passage], say: Tongue, movements: bool) -> Iter
             yield from ("", say(said("On the {0}", passage.plan.words)) + ":")
         yield from _head(passage, say)
         for entry in passage.entries:
-            yield from _numbered(entry.number, say(entry.told))
-            for one in entry.movements if movements and entry.folded else ():
+            yield from _numbered(entry.number, say(entry.text))
+            for one in entry.movements if movements and entry.is_compound else ():
                 yield from _numbered(str(one.number), say(one.sentence), HANGING)
         for control in passage.controls:
             yield from _wrapped(say(control), "    ", "")
@@ -107,12 +108,12 @@ def _underlines(equation: Equation) -> str:
     return "".join(line).rstrip()
 
 
-def _results(words: Words, scales: Scales, say: Tongue) -> Iterator[str]:
+def _results(words: SheetWords, scales: Scales, say: Tongue) -> Iterator[str]:
     """What is read off the sheet, each beside the computed value, and the results in tables."""
     read = list(Readings(words.drawing, lengths_of(words.plans, scales), words.values))
     yield from ("", say(said("Measured on the sheet")) + ":") if read else ()
     for one in read:
-        yield from _wrapped(say(one.told), "  ")
+        yield from _wrapped(say(one.text), "  ")
     for number, table in enumerate(words.result_tables()):
         yield from ("",) if number else ("", say(said("Results")) + ":")
         cells = [["".join(f"_{run.text}" if run.level else run.text for run in runs) for runs in row] for row in table]
@@ -140,7 +141,7 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
     (stages, stage_of), spoken = told.stages, {one.index: one for one in told.steps}
     compound_of = {one.index: number for number, compound in enumerate(drawing.compounds)
                    for one in compound.movements}
-    on_paper = OnPaper(drawing.values, composition.plans.plan_of_step.__getitem__, composition.scales.of)
+    on_paper = OnPaper(drawing.values, composition.plans.plan_of_step.__getitem__, composition.scales.lengths_per_mm)
     for plate in composition.plates.steps:
         step, number, words = plate.step, stage_of.get(plate.index), spoken.get(plate.index)
         entries.append({
@@ -178,10 +179,10 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
                      "lengths": _measures(entry.lengths)}
                     for passage in told.passages for entry in passage.entries],
         "controls": [say(control) for passage in told.passages for control in passage.controls],
-        "readings": [{"kind": one.kind, "of": one.of, "said": say(one.told), "value": one.value,
+        "readings": [{"kind": one.kind, "of": one.of, "said": say(one.text), "value": one.value,
                       "computed": one.computed, "lengths": _measures([one.length])}
                      for one in Readings(drawing, lengths_of(composition.plans, composition.scales),
-                                         Words(composition.plans).values)],
+                                         SheetWords(composition.plans).values)],
         "steps": entries,
     }
 

@@ -31,7 +31,7 @@ def pdf(drawing: Construction, paper: str | None = None, check: Mapping[str, Any
     from graphplan.output.pdf_png import pdf as write
     from graphplan.sheet.layout.layout import pages
 
-    return write(pages(composition or _composed(drawing, paper, check, language)))
+    return write(pages(composition or _compose(drawing, paper, check, language)))
 
 
 def png(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
@@ -47,10 +47,10 @@ def _laid_out(drawing: Construction, paper: str | None, check: Mapping[str, Any]
     """The sheet as a display list, in a language by its code."""
     from graphplan.sheet.layout.layout import layout
 
-    return layout(drawing, composition=composition or _composed(drawing, paper, check, language))
+    return layout(drawing, composition=composition or _compose(drawing, paper, check, language))
 
 
-def _composed(drawing: Construction, paper: str | None, check: Mapping[str, Any] | None,
+def _compose(drawing: Construction, paper: str | None, check: Mapping[str, Any] | None,
               language: str | None) -> Composition:
     """Where all of it lies, in a language by its code."""
     from graphplan.cycle.motion_curves import traced

@@ -23,14 +23,14 @@ from graphplan.methods.forces.changing import given_loads
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.frames.title import CONSTRUCTION
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.layout import captions, sheet, stacked
+from graphplan.sheet.layout.layout import back_to_front, captions, sheet
 from graphplan.sheet.layout.paper import MARGIN
-from graphplan.sheet.lettering.labels import placed
-from graphplan.sheet.lettering.letters import inside, of_mechanism
+from graphplan.sheet.lettering.labels import place_letters
+from graphplan.sheet.lettering.letters import mechanism_wishes, wishes_inside
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import EDGE, Arrow, Item, Outline, Polyline, Rect, Sheet, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
-from graphplan.sheet.plates.plans import Plans, around, grown
+from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
 from graphplan.sheet.plates.plate import Plate
 from graphplan.sheet.plates.view import View, clip_item, interpolate
 from graphplan.sheet.tolerances import MARK_TOL
@@ -128,9 +128,10 @@ def sheets(composition: Composition, ways: Sequence[tuple[Construction, Places]]
     poses = [next(filter(None, (_drawn(one, composition, sound, guides, loads or {}, k) for one, sound in ways)), None)
              for k in range(count)]
     rows = replace(composition.arrangement, rows=())
-    links = [around([(z.real, z.imag) for z in here.values()]) for k in range(count)
+    links = [bounding_box([(z.real, z.imag) for z in here.values()]) for k in range(count)
              if all(map(cmath.isfinite, (here := _at(k, points)[0]).values()))]
-    wide = _enlarged(replace(composition, arrangement=rows), around([spot for box in links for spot in box.corners]))
+    wide = _enlarged(replace(composition, arrangement=rows),
+                     bounding_box([spot for box in links for spot in box.corners]))
     base = _roomy(wide, links, [Plans(found) for found in poses if found])
     for k, found in enumerate(poses):
         if found:
@@ -145,7 +146,7 @@ def _sheet(composition: Composition, items: Iterable[Item]) -> Sheet:
     panels = composition.arrangement.panels
     outlines = (Outline(pens.BORDER, "paper", None, rect.corners, panel) for panel, rect in panels.items())
     whole = sheet(composition, (), CONSTRUCTION)
-    return replace(whole, items=tuple(stacked([*outlines, *captions(composition), *items])))
+    return replace(whole, items=tuple(back_to_front([*outlines, *captions(composition), *items])))
 
 
 def _drawn(drawing: Construction, composition: Composition, points: Places, guides: Places, loads: Places,
@@ -195,14 +196,15 @@ def _roomy(composition: Composition, links: Sequence[Rect], poses: Sequence[Plan
         boxes = sorted((plans.extent(panel).core for plans in poses), key=_extent)
         if panel == MECHANISM:
             boxes = [*sorted(links, key=_extent), *boxes]
-        kept = [window.back(spot) for spot in _shown(plate)]
-        views[panel] = slid(window, _gathered([around(kept), *boxes] if kept else boxes, window)) if boxes else window
+        kept = [window.to_plan(spot) for spot in _shown(plate)]
+        views[panel] = slid(window,
+                            _gathered([bounding_box(kept), *boxes] if kept else boxes, window)) if boxes else window
     return replace(composition, views=views)
 
 
 def _shown(plate: Plate) -> Iterator[Spot]:
     """What of a plan must be on paper for its steps to be seen: its marks, and of lines the middle of what is drawn."""
-    yield from (drawn.at for drawn in plate.steps if plate.shown(drawn))
+    yield from (drawn.spot for drawn in plate.steps if plate.is_on_panel(drawn))
     yield from (interpolate(*stretch.ends, 0.5) for stretch in plate.stretches.values())
 
 
@@ -214,7 +216,7 @@ def _gathered(boxes: Sequence[Rect], window: View) -> Rect:
     """One box around as many boxes, the first ones first, as find room in a window."""
     rect, whole = window.rect, boxes[0]
     for box in boxes[1:]:
-        larger = grown(grown(whole, (box.left, box.bottom)), (box.right, box.top))
+        larger = extend_box(extend_box(whole, (box.left, box.bottom)), (box.right, box.top))
         if larger.width * window.scale <= rect.width and larger.height * window.scale <= rect.height:
             whole = larger
     return whole
@@ -238,7 +240,8 @@ def _undrawn(composition: Composition, points: Mapping[str, complex], guides: Ma
     mechanism = DrawnMechanism(scene, window)
     shown = [*(motion.items(window, scene) if motion else ()), *mechanism.items()]
     items = [cut for item in shown for cut in clip_item(item, window.rect)]
-    letters = placed([*inside(of_mechanism(mechanism), window.rect)], items, [*mechanism.shown.values()], window.rect,
+    letters = place_letters([*wishes_inside(mechanism_wishes(mechanism), window.rect)], items,
+                            [*mechanism.visible_points.values()], window.rect,
                      composition.arrangement.letters)
     return [*items, *letters]
 

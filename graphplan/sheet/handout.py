@@ -15,12 +15,12 @@ from graphplan.phrases import Said
 from graphplan.sheet.frames.frame import corner_marks, frame_of, page_code, sheet_code
 from graphplan.sheet.frames.title import GUIDED, SOLUTION, TASK
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.layout import captions, framed, pages, sheet, with_numbers, words_pages
-from graphplan.sheet.layout.paper import enlarged, packed, words_page
+from graphplan.sheet.layout.layout import captions, frame_items, pages, sheet, with_numbers, words_pages
+from graphplan.sheet.layout.paper import enlarge_words, paginate_tightly, words_page
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.labels import placed
-from graphplan.sheet.lettering.lettering import listed
-from graphplan.sheet.lettering.letters import of_mechanism
+from graphplan.sheet.lettering.labels import place_letters
+from graphplan.sheet.lettering.lettering import list_runs
+from graphplan.sheet.lettering.letters import mechanism_wishes
 from graphplan.sheet.plates.annotations import GivenArrows
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Sheet, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
@@ -29,7 +29,7 @@ from graphplan.sheet.plates.pens import GREY, ORIGIN, Pen
 from graphplan.sheet.plates.plate import Plate
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 from graphplan.sheet.words.rows import fill
-from graphplan.sheet.words.task import Task
+from graphplan.sheet.words.task import TaskWords
 
 RULING, RULED, CROSS = Pen(0.13, GREY), 10.0, 0.5  # a cross every 10 mm, half so long
 LARGE = 1.4  # times: the words of one page that has room for it
@@ -53,49 +53,49 @@ def task(composition: Composition) -> list[Sheet]:
     return _pages(composition, TASK)
 
 
-def guided(composition: Composition) -> list[Sheet]:
+def guided_task(composition: Composition) -> list[Sheet]:
     """The same with the steps in words, a box to tick before each; the drawing is the student's."""
     return _pages(composition, GUIDED)
 
 
 def _pages(composition: Composition, document: Said) -> list[Sheet]:
     """The sheet with its plans, and pages of words where there is no room for them beside the plans."""
-    composition = _worded(composition, document == GUIDED)
-    items = [*framed(composition), *captions(composition)]
+    composition = _with_task_words(composition, document == GUIDED)
+    items = [*frame_items(composition), *captions(composition)]
     for plate in composition.plates:
-        items += begun(plate)
+        items += starting_items(plate)
     first = sheet(composition, items, document)
     pages, own = [first, *words_pages(first, composition, document)], code(composition)
-    return [_marked(page, page_code(own, number)) for number, page in enumerate(pages, 1)]
+    return [_with_corner_marks(page, page_code(own, number)) for number, page in enumerate(pages, 1)]
 
 
-def _marked(page: Sheet, code: int) -> Sheet:
+def _with_corner_marks(page: Sheet, code: int) -> Sheet:
     """A page with the marks of a code in its corners."""
     return replace(page, items=(*page.items, *corner_marks(page.width, page.height, page.frame, code)))
 
 
-def _worded(composition: Composition, guided: bool) -> Composition:
+def _with_task_words(composition: Composition, guided: bool) -> Composition:
     """The composition with other words in the place of the protocol, on pages of A4 where they are apart."""
     arrangement, scene = composition.arrangement, composition.plans.drawing.scene
-    words, frame = partial(Task(composition.plans, composition=composition).lines, guided=guided), frame_of(scene)
+    words, frame = partial(TaskWords(composition.plans, composition=composition).lines, guided=guided), frame_of(scene)
     rows = arrangement.set(words) if arrangement.columns else ()
     if rows and fill(rows, arrangement.columns) is not None:
         return replace(composition, arrangement=replace(arrangement, rows=rows), protocol=())
     page = words_page(frame.paper("A4"), frame, frame.block(scene, composition.plans.tongue))
-    filled = packed(enlarged(words, LARGE)(page.further[0].width), page)
+    filled = paginate_tightly(enlarge_words(words, LARGE)(page.further_columns[0].width), page)
     if len(filled) > 1:
-        filled = packed(page.set(words), page)
+        filled = paginate_tightly(page.set(words), page)
     apart = tuple((page, one) for one in filled)
     return replace(composition, arrangement=replace(arrangement, rows=()), protocol=apart)
 
 
-def begun(plate: Plate) -> Iterator[Item]:
+def starting_items(plate: Plate) -> Iterator[Item]:
     """What a plan has before its first step: the mechanism with what drives and loads it, or crosses to measure by; and
     where it begins."""
     rect, begins = plate.view.rect, plate.beginnings
-    spots = [drawn.at for drawn in begins]
-    items: list[Item] = [Circle(ORIGIN, LAYER, drawn.index, drawn.at, plate.size(drawn)) for drawn in begins]
-    wishes = [Wish(listed([drawn.name]), (drawn.at,), step=drawn.index, label=drawn.name)
+    spots = [drawn.spot for drawn in begins]
+    items: list[Item] = [Circle(ORIGIN, LAYER, drawn.index, drawn.spot, plate.dot_radius(drawn)) for drawn in begins]
+    wishes = [Wish(list_runs([drawn.name]), (drawn.spot,), step=drawn.index, label=drawn.name)
               for drawn in begins if drawn.name]
     if plate.panel == MECHANISM:
         scene = plate.plates.scene
@@ -103,12 +103,12 @@ def begun(plate: Plate) -> Iterator[Item]:
         given = [] if scene.assembly else list(GivenArrows(mechanism, plate.plans.tongue))
         items += mechanism.items() if scene.assembly else (item for item in plate.mechanism if item.layer != MOTION)
         items += (item for arrow, _ in given for item in arrow)
-        wishes += [*of_mechanism(mechanism), *(value for _, value in given)]
-        spots += mechanism.shown.values()
+        wishes += [*mechanism_wishes(mechanism), *(value for _, value in given)]
+        spots += mechanism.visible_points.values()
     else:
         yield from _ruling(rect, spots)
     yield from items
-    yield from placed(wishes, items, spots, rect, plate.plates.letters)
+    yield from place_letters(wishes, items, spots, rect, plate.plates.letters)
 
 
 def _standing(plate: Plate) -> DrawnMechanism:

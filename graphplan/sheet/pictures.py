@@ -22,17 +22,17 @@ import shapely
 from graphplan.kernel.kinds import CIRCLE, OPENING, POINT, Movement
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.phrases import Said, arranged
-from graphplan.sheet.layout.layout import stacked
+from graphplan.sheet.layout.layout import back_to_front
 from graphplan.sheet.lettering.label_candidates import AIR
-from graphplan.sheet.lettering.letters import picture
+from graphplan.sheet.lettering.letters import plate_items
 from graphplan.sheet.lettering.prices import strokes
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
-from graphplan.sheet.plates.plans import Plans, around, grown
+from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
 from graphplan.sheet.plates.plate import Plate, Plates
-from graphplan.sheet.plates.view import least, view
+from graphplan.sheet.plates.view import fit_scale, view
 from graphplan.sheet.words.protocol import Entry, Passage, Protocol, SpokenStep
 
 MARGIN = 7.0  # mm about the marks, for their letters
@@ -43,7 +43,7 @@ OPEN = 9.0  # mm: a mechanism with a shorter link is not shown where nothing is 
 FIRM = 0.25  # mm: no new stroke is thinner
 
 
-def used(program: Program, own: Collection[int]) -> frozenset[int]:
+def marks_used(program: Program, own: Collection[int]) -> frozenset[int]:
     """The marks of before that steps read: with an opening its two points, with a line those that it is named by."""
     found, waiting = set[int](), [arg for index in own for arg in program.steps[index].args]
     while waiting:
@@ -60,12 +60,12 @@ class Excerpt(Plate):
     """A plate that shows some of its steps, their `own`, and those that they use."""
 
     own: frozenset[int]
-    used: frozenset[int]
+    earlier: frozenset[int]
 
     @cached_property
     def steps(self) -> list[DrawnStep]:
         """What is shown, in drawing order."""
-        shown = self.own | self.used
+        shown = self.own | self.earlier
         return [drawn for drawn in self.plates.steps if drawn.panel == self.panel and drawn.index in shown]
 
     @cached_property
@@ -75,7 +75,7 @@ class Excerpt(Plate):
         if all(math.dist(whole.spots[p], whole.spots[q]) >= OPEN for link in scene.moving
                for p, q in combinations(scene.links[link], 2) if scene.points[p] != scene.points[q]):
             return whole
-        read = {step.name for step in self.plates.plans.drawing.drawn.steps if step.index in self.used and step.name}
+        read = {step.name for step in self.plates.plans.drawing.drawn.steps if step.index in self.earlier and step.name}
         links = [link for link in scene.moving if len(read.intersection(scene.links[link])) > 1]
         return replace(whole, links=links, points=read.intersection(scene.points))
 
@@ -91,12 +91,12 @@ class Excerpt(Plate):
         every, last = super().marks(curve), max(self.own)
         if curve.index in self.own:
             return every
-        shown = [mark for mark in every if mark.index in self.own or mark.index in self.used]
+        shown = [mark for mark in every if mark.index in self.own or mark.index in self.earlier]
         return (shown if curve.kind == CIRCLE else []) or [mark for mark in every if mark.index <= last] or every
 
     def strokes(self, drawn: DrawnStep) -> Iterator[Stroke]:
         """What of a line is drawn; of a point of before that is laid off from elsewhere nothing."""
-        if drawn.index in self.own or drawn.root is None or self.shown(drawn.root):
+        if drawn.index in self.own or drawn.root is None or self.is_on_panel(drawn.root):
             yield from super().strokes(drawn)
 
     def breaks(self, stretch: Stroke) -> Iterator[tuple[Stroke, DrawnStep]]:
@@ -108,12 +108,12 @@ class Excerpt(Plate):
         return drawn.number > 0 and (drawn.index in self.own or not drawn.name)
 
     @cached_property
-    def asked(self) -> list[Stroke]:
+    def wanted_vectors(self) -> list[Stroke]:
         """The vectors whose ends are both shown."""
         shown = {drawn.index for drawn in self.steps}
-        return [one for one in super().asked if {one.start.index, one.end.index} <= shown]
+        return [one for one in super().wanted_vectors if {one.start.index, one.end.index} <= shown]
 
-    def inked(self, item: Item) -> Item:
+    def ink_or_grey(self, item: Item) -> Item:
         """An item in ink where it is new, else in grey: the mechanism paler, letters in one that can be read."""
         if isinstance(item, Text):
             return item if item.step in self.own else replace(item, pen=pens.FAINT)
@@ -126,18 +126,18 @@ class Excerpt(Plate):
 def excerpt(plans: Plans, own: Collection[int], wide: float, high: float) -> Excerpt:
     """The picture of some steps of one plan, so many mm wide and as high as they need, but no higher than that."""
     program, shown = plans.drawing.drawn, frozenset(own)
-    panel, before = plans.plan_of_step[max(shown)], used(program, shown)
+    panel, before = plans.plan_of_step[max(shown)], marks_used(program, shown)
     box = _box(plans, panel, shown, before)
     inner = wide - 2 * MARGIN
     rect = Rect(0.0, 0.0, wide, min(inner * max(box.height / box.width, FLAT) + 2 * MARGIN, high))
-    window = view(box, rect, least(box, rect.inset(MARGIN, MARGIN, MARGIN, MARGIN)))
+    window = view(box, rect, fit_scale(box, rect.inset(MARGIN, MARGIN, MARGIN, MARGIN)))
     return Excerpt(Plates(plans, dict.fromkeys(plans.panels, window)), panel, shown, before)
 
 
 def _box(plans: Plans, panel: Panel, own: Collection[int], before: Collection[int]) -> Rect:
     """What of a plan a picture shows, in units of the plan."""
     halves = [spot for index, spot in plans.apexes(panel).items() if index in own]
-    core = around([*_spots(plans, panel, {*own, *before}), *halves] or [plans.extent(panel).core.centre])
+    core = bounding_box([*_spots(plans, panel, {*own, *before}), *halves] or [plans.extent(panel).core.centre])
     whole = plans.extent(panel).core
     size = max(whole.width, whole.height)
     box = _at_least(core, CONTEXT * size or 1.0)
@@ -146,7 +146,7 @@ def _box(plans: Plans, panel: Panel, own: Collection[int], before: Collection[in
     more |= {mark for index in before for mark in plans.marks_on.get(index, ()) if mark <= max(own)}
     x, y = core.centre
     for spot in sorted(_spots(plans, panel, more), key=lambda spot: math.dist(spot, (x, y))):
-        larger = grown(box, spot)
+        larger = extend_box(box, spot)
         box = larger if max(larger.width, larger.height) <= most else box
     return box
 
@@ -225,7 +225,7 @@ class Picture:
     @cached_property
     def items(self) -> list[Item]:
         """The same with its letters, from back to front."""
-        return stacked(map(self.excerpt.inked, picture(self.excerpt)))
+        return back_to_front(map(self.excerpt.ink_or_grey, plate_items(self.excerpt)))
 
     @property
     def heading(self) -> Said:
@@ -234,9 +234,9 @@ class Picture:
         return arranged("{0:capital}", self.excerpt.panel.words) if more else one.title
 
     @property
-    def crowded(self) -> bool:
+    def letters_crowded(self) -> bool:
         """Whether its letters cannot all be read."""
-        return crowded(self.items)
+        return letters_crowded(self.items)
 
     def halves(self) -> Iterator[Picture]:
         """The same in two pictures, or some more."""
@@ -246,7 +246,7 @@ class Picture:
         else:
             (part,) = self.parts
             most = (len(part.steps) + 1) // 2 + len(part.steps) // 6
-            halves = ((one,) for one in part.cut(parted(self.protocol.plans.drawing.drawn, part.steps, most)))
+            halves = ((one,) for one in part.cut(cut_into_runs(self.protocol.plans.drawing.drawn, part.steps, most)))
         for parts in halves:
             yield replace(self, parts=parts)
 
@@ -255,19 +255,20 @@ def pictures(protocol: Protocol, cut: str, room: tuple[float, float],
              fits: Callable[[Picture], bool]) -> list[Picture]:
     """The pictures of a construction, each no larger than its room, width and height in mm, and so that it `fits`."""
     ways = {MARK: _by_marks, STEP: _by_steps, STAGE: _by_stages}
-    return [one for parts in ways[cut](protocol) for one in _parted(Picture(protocol, tuple(parts), room), fits)]
+    return [one for parts in ways[cut](protocol)
+            for one in _split_until_it_fits(Picture(protocol, tuple(parts), room), fits)]
 
 
-def _parted(one: Picture, fits: Callable[[Picture], bool]) -> Iterator[Picture]:
+def _split_until_it_fits(one: Picture, fits: Callable[[Picture], bool]) -> Iterator[Picture]:
     """A picture, or as many as it takes for each to fit, and for its letters to stand apart."""
-    if len(one.steps) > 1 and not (fits(one) and not one.crowded):
+    if len(one.steps) > 1 and not (fits(one) and not one.letters_crowded):
         for half in one.halves():
-            yield from _parted(half, fits)
+            yield from _split_until_it_fits(half, fits)
     else:
         yield one
 
 
-def _parts(protocol: Protocol) -> Iterator[Part]:
+def _passage_parts(protocol: Protocol) -> Iterator[Part]:
     """The passages plan by plan."""
     plan_of_step = protocol.plans.plan_of_step
     for passage in protocol.passages:
@@ -278,14 +279,14 @@ def _parts(protocol: Protocol) -> Iterator[Part]:
 
 def _by_steps(protocol: Protocol) -> Iterator[list[Part]]:
     """A picture for each step."""
-    for part in _parts(protocol):
+    for part in _passage_parts(protocol):
         yield from ([one] for one in part.cut([step] for step in part.steps))
 
 
 def _by_marks(protocol: Protocol) -> Iterator[list[Part]]:
     """A picture up to each entry that gives a point with a letter; what leaves no line stands with what follows."""
     begun, plan_of_step = list[Part](), protocol.plans.plan_of_step
-    for part in _parts(protocol):
+    for part in _passage_parts(protocol):
         if begun and plan_of_step[begun[-1].steps[0].index] != plan_of_step[part.steps[0].index]:
             yield begun
             begun = []
@@ -309,21 +310,21 @@ def _by_marks(protocol: Protocol) -> Iterator[list[Part]]:
 def _by_stages(protocol: Protocol) -> Iterator[list[Part]]:
     """A picture for each stage, or for short ones that follow each other on a plan; long ones have several."""
     plans, short = protocol.plans, list[Part]()
-    for part in _parts(protocol):
+    for part in _passage_parts(protocol):
         home = plans.plan_of_step[part.steps[0].index]
         count = sum(len(one.steps) for one in short)
         if short and (count + len(part.steps) > SHORT or plans.plan_of_step[short[-1].steps[0].index] != home):
             yield short
             short = []
         if len(part.steps) > SHORT:
-            yield from ([one] for one in part.cut(parted(plans.drawing.drawn, part.steps, MOST[STAGE])))
+            yield from ([one] for one in part.cut(cut_into_runs(plans.drawing.drawn, part.steps, MOST[STAGE])))
         else:
             short.append(part)
     if short:
         yield short
 
 
-def parted(program: Program, steps: Sequence[Step], most: int) -> list[Sequence[Step]]:
+def cut_into_runs(program: Program, steps: Sequence[Step], most: int) -> list[Sequence[Step]]:
     """Steps that follow each other in runs of at most so many, cut where the fewest marks are used on both sides."""
     last = {arg: step.index for step in steps for arg in step.args}
     alive = [sum(last.get(step.index, -1) >= at.index for step in steps if step.index < at.index) for at in steps]
@@ -339,7 +340,7 @@ def parted(program: Program, steps: Sequence[Step], most: int) -> list[Sequence[
     return [steps[a:b] for a, b in pairwise(ends)]
 
 
-def crowded(items: Iterable[Item]) -> bool:
+def letters_crowded(items: Iterable[Item]) -> bool:
     """Whether letters stand on each other, or a thin line of another step goes through them."""
     drawn = list(items)
     letters = [item for item in drawn if isinstance(item, Text)]

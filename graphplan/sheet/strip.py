@@ -21,11 +21,11 @@ from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import SIZE, letter_sizes, sentence_runs, wrap
 from graphplan.sheet.pictures import MARK, STAGE, STEP, Part, Picture, pictures
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Spot, moved
+from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Spot, move_item
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.protocol import Protocol
-from graphplan.sheet.words.rows import LEADING, Cell, TextRow, lettered
-from graphplan.sheet.words.texts import Words
+from graphplan.sheet.words.rows import LEADING, Cell, TextRow, row_items
+from graphplan.sheet.words.texts import SheetWords
 
 WANTED = {MARK: 84.0, STEP: 84.0, STAGE: 176.0}  # mm: about how wide columns are
 BESIDE = 0.58  # of a column has a picture that has its words beside it
@@ -41,7 +41,7 @@ def strip(composition: Composition, paper: str | None = None, *, cut: str = MARK
     It is on the paper named, or that of the scene's sheet, else A3; its pictures have scales of their own. Fails
     with `Refused` where a picture with its words is larger than the paper.
     """
-    return Strip.of(composition, cut, paper).sheets
+    return Strip.from_composition(composition, cut, paper).sheets
 
 
 def by_stages(composition: Composition, paper: str | None = None) -> tuple[list[Sheet], list[Sheet]]:
@@ -50,7 +50,7 @@ def by_stages(composition: Composition, paper: str | None = None) -> tuple[list[
     Every stage has its equation, its law, and its steps beside an enlarged picture, on the paper named, or that of the
     scene's sheet, else A3. It is for what is drawn on one sheet, but cannot be read there. Fails as :func:`strip` does.
     """
-    film = Strip.of(composition, STAGE, paper)
+    film = Strip.from_composition(composition, STAGE, paper)
     whole = with_results_alone(composition)
     before = pages(replace(whole, further=len(film.pages)))
     return before, film.sheets_after(len(before))
@@ -65,7 +65,7 @@ class Strip:
     paper: str
 
     @classmethod
-    def of(cls, composition: Composition, cut: str, paper: str | None = None) -> Strip:
+    def from_composition(cls, composition: Composition, cut: str, paper: str | None = None) -> Strip:
         """The strip of a composed construction, in its pose alone.
 
         By stages an A4 stands upright, as words are beside the pictures, and lengths are told: those of the sheet.
@@ -81,7 +81,7 @@ class Strip:
         return self.protocol.plans
 
     @property
-    def size(self) -> tuple[float, float]:
+    def paper_size(self) -> tuple[float, float]:
         """Width and height of a sheet."""
         return sheet_size(self.paper)
 
@@ -94,11 +94,11 @@ class Strip:
     def title(self) -> TitleBlock:
         """The title block in the letters of this paper."""
         scene = self.plans.drawing.scene
-        return frame_of(scene).block(scene, self.plans.tongue).on(self.paper)
+        return frame_of(scene).block(scene, self.plans.tongue).on_paper(self.paper)
 
     @cached_property
     def frame(self) -> Rect:
-        return frame_of(self.plans.drawing.scene).space(*self.size)
+        return frame_of(self.plans.drawing.scene).space(*self.paper_size)
 
     @cached_property
     def block(self) -> Rect:
@@ -172,10 +172,11 @@ class Strip:
         document = CONSTRUCTION if self.cut == STAGE else STRIP
         title = self.title.items(self.block, Page(document, self.paper, NO_SCALE, number, of))
         items = [*style.items(self.paper, self.frame, say), *title]
-        items += [moved(item, 0.0, 0.0, self.times) for place, corner in page for item in self._cell(place, corner)]
+        items += [move_item(item, 0.0, 0.0, self.times) for place, corner in page for item in self._cell(place, corner)]
         told = said("Film strip of a graphical construction: {0} steps in {1} pictures.",
                     len(drawing.drawn) - drawing.drawn.givens, len(self.pictures))
-        return Sheet(*self.size, self.frame, {}, tuple(items), scene.title, say(told), tuple(self.plans.sentences),
+        return Sheet(*self.paper_size, self.frame, {}, tuple(items), scene.title, say(told),
+                     tuple(self.plans.sentences),
                      Scales(1.0, drawing.kappa, scene.units.length, {}), say.code, scene.text, drawing.drawn.givens)
 
     def _cell(self, number: int, corner: Spot) -> Iterator[Item]:
@@ -184,13 +185,13 @@ class Strip:
         rect = one.excerpt.view.rect
         heads, told = self._rows(one, number)
         y -= sum(row.height for row in heads)
-        yield from _down(heads, x, corner[1])
+        yield from _stack_rows(heads, x, corner[1])
         yield Outline(pens.BORDER, "paper", None, tuple((u + x, v + y - rect.height) for u, v in rect.corners),
                       one.excerpt.panel)
         for item in one.items:
-            yield moved(item, x, y - rect.height)
+            yield move_item(item, x, y - rect.height)
         below = (0.0, rect.height + UNDER) if self.cut != STAGE else (rect.width + GAP, 0.0)
-        yield from _down(told, x + below[0], y - below[1])
+        yield from _stack_rows(told, x + below[0], y - below[1])
 
     def _height(self, one: Picture) -> float:
         """How far down a picture reaches with its words."""
@@ -201,9 +202,9 @@ class Strip:
     def _rows(self, one: Picture, number: int = 99) -> tuple[list[TextRow], list[TextRow]]:
         """What stands above a picture and below it: by stages also what these are."""
         heading = self._title(arranged("{0}. {1}", number + 1, one.heading), self.columns[0].width)
-        return [*heading], [row for part in one.parts for row in self._told(part, len(one.parts) > 1)]
+        return [*heading], [row for part in one.parts for row in self._part_rows(part, len(one.parts) > 1)]
 
-    def _told(self, part: Part, titled: bool) -> Iterator[TextRow]:
+    def _part_rows(self, part: Part, titled: bool) -> Iterator[TextRow]:
         """A part in words; what of a compound is in several pictures is told by its movements."""
         words, wide, stage, first = self.words, self.words_wide, part.passage.stage, part.steps[0].index
         if titled:
@@ -217,7 +218,7 @@ class Strip:
                 yield from words.entry(entry, wide)
                 continue
             if words.unfolded:
-                yield from words.paragraph(entry.told, wide, movements[0].index)
+                yield from words.paragraph(entry.text, wide, movements[0].index)
             for one in movements:
                 yield from words.paragraph(one.sentence, wide, one.index, str(one.number))
 
@@ -227,24 +228,24 @@ class Strip:
             yield TextRow((Cell(0.0, runs, bold=True),))
 
     @cached_property
-    def words(self) -> Words:
+    def words(self) -> SheetWords:
         return (_StageWords if self.cut == STAGE else _PictureWords)(self.plans)
 
 
-class _PictureWords(Words):
+class _PictureWords(SheetWords):
     """Entries that hang from the numbers of their first and their last movement."""
 
     indent = 12.5
 
 
-class _StageWords(Words):
+class _StageWords(SheetWords):
     """Entries with their movements, which hang from their numbers."""
 
     indent, unfolded = 8.5, True
 
 
-def _down(rows: Sequence[TextRow], x: float, y: float) -> Iterator[Item]:
+def _stack_rows(rows: Sequence[TextRow], x: float, y: float) -> Iterator[Item]:
     """Rows one under the other."""
     for row in rows:
         y -= row.height + row.gap
-        yield from lettered([(row, x, y + row.size * (LEADING - 1))])
+        yield from row_items([(row, x, y + row.size * (LEADING - 1))])

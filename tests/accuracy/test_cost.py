@@ -24,7 +24,7 @@ from graphplan.kernel.lemoine import counts
 from graphplan.kernel.passes import freeze
 from graphplan.mechanism.sections import ASIDE
 from graphplan.sheet.layout import composition
-from graphplan.sheet.layout.composition import Composition, composed
+from graphplan.sheet.layout.composition import Composition, best_composition
 from graphplan.sheet.layout.layout import pages
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates.display import Text
@@ -76,7 +76,7 @@ def test_steps_tell_cost_and_errors(capsys: pytest.CaptureFixture[str]) -> None:
     assert sum(step["share"] for step in data["pencil"]["worst result"]["shares"]) == pytest.approx(1)
     assert main(["steps", "four-bar"]) == 0
     text = capsys.readouterr().out
-    assert f"M ±{deviation.told}" in text
+    assert f"M ±{deviation.text}" in text
     assert f"step {worst['number']}." in text
 
 
@@ -89,7 +89,7 @@ def test_the_sheet_tells_every_error(name: str) -> None:
     words = [plain(item.runs) for sheet in sheets for item in sheet.items if isinstance(item, Text)]
     for kind, found in drafted.deviations.results.items():
         for deviation in found.values():
-            assert any(deviation.told in word for word in words), kind
+            assert any(deviation.text in word for word in words), kind
 
 
 def test_instruments_are_changed_as_they_are_needed() -> None:
@@ -116,9 +116,9 @@ def test_errors_compose_no_sheet_again(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def counted(plans: Plans, *rest: Any) -> Composition:
         times[plans.drawing.scene.name] += 1
-        return composed(plans, *rest)
+        return best_composition(plans, *rest)
 
-    monkeypatch.setattr(composition, "composed", counted)
+    monkeypatch.setattr(composition, "best_composition", counted)
     for name in ("four-bar", "alt-eight-link", "ozols-10-1", "class-four"):
         found, motion = drafted(drawing_of(name), Pencil()), traced(drawing_of(name).scene)
         often = times.pop(name)

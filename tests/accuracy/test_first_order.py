@@ -24,7 +24,7 @@ EXACT = 1e-9  # of an error: a known number of roundings
 def expected(drawing: Construction, pencil: Pencil, size: float = 200.0) -> list[Result]:
     """The results of a drawing of this size."""
     scales = scales_of(drawing, size)
-    return list(first_order(drawing, hand(drawing, scales.of, pencil), scales))
+    return list(first_order(drawing, hand(drawing, scales.lengths_per_mm, pencil), scales))
 
 
 def parts(value: Any) -> tuple[float, ...]:
@@ -36,7 +36,7 @@ def parts(value: Any) -> tuple[float, ...]:
 def test_first_order_is_how_fine_hands_scatter(name: str) -> None:
     """With a fine pencil every result has the mean and the standard deviation that first order expects."""
     drawing, scales = drawing_of(name), scales_of(drawing_of(name))
-    scatter = sampled(drawing, hand(drawing, scales.of, SHARP))
+    scatter = sampled(drawing, hand(drawing, scales.lengths_per_mm, SHARP))
     values = drawing.read(Floats())
     assert scatter.missed == 0
     for result in expected(drawing, SHARP):
@@ -60,7 +60,7 @@ def test_flat_crossings_are_missed_by_blunt_hands() -> None:
 def test_shares_are_the_variances_of_the_steps() -> None:
     """A step's share is the variance where it alone slips; all of them add up to the variance."""
     drawing, scales = drawing_of("four-bar"), scales_of(drawing_of("four-bar"))
-    whole = hand(drawing, scales.of, Pencil())
+    whole = hand(drawing, scales.lengths_per_mm, Pencil())
     results = first_order(drawing, whole, scales)
     for step, slips in enumerate(whole.slips):
         alone = Hand(whole.program, whole.values, [slips if i == step else (0.0,) * len(other)

@@ -19,7 +19,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.score import score
-from graphplan.sheet.handout import guided
+from graphplan.sheet.handout import guided_task
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates.display import Text
@@ -30,7 +30,7 @@ COMPONENTS = re.compile(r"\(x (−?\d+\.\d), y (−?\d+\.\d)\)")
 
 def spoken(composition: Composition) -> Iterator[tuple[int, str]]:
     """Each step with what the guided handout says after its number."""
-    texts = (item for page in guided(composition) for item in page.items
+    texts = (item for page in guided_task(composition) for item in page.items
              if isinstance(item, Text) and item.layer == "text" and item.step is not None)
     for index, items in groupby(texts, lambda item: item.step):
         words = list(items)
@@ -42,7 +42,7 @@ def obeyed(composition: Composition) -> list[Any]:
     """The construction with every length as it is spoken, in scene units: a ruler knows tenths of a millimetre."""
     drawing, told, values = composition.plans.drawing, dict(spoken(composition)), list[Any]()
     for step in drawing.drawn.steps:
-        per_mm = composition.scales.of(composition.plans.plan_of_step[step.index])
+        per_mm = composition.scales.lengths_per_mm(composition.plans.plan_of_step[step.index])
         value = step.op.rule(Floats(), *[values[arg] for arg in step.args], **step.params)
         values.append(measured(step, value, values, told.get(step.index, ""), per_mm))
     return values
@@ -71,7 +71,7 @@ def test_who_obeys_the_guided_handout_is_judged_right(name: str) -> None:
     values = obeyed(composition)
     exact = [step.index for step in drawing.drawn.steps if step.op.gives == POINT]
     off = [math.dist(values[i][:2], map(float, drawing.values[i][:2]))
-           / composition.scales.of(composition.plans.plan_of_step[i]) for i in exact]
+           / composition.scales.lengths_per_mm(composition.plans.plan_of_step[i]) for i in exact]
     assert 0.0 < max(off) < 0.5
     found = judge(drawing, composition, points(Drawn(drawing, values, frames(drawing, composition))), Pencil())
     assert score(found).total == 100
@@ -82,7 +82,7 @@ def test_who_mistakes_a_spoken_length_is_not() -> None:
     composition = drafted(drawing := gp.construct(gp.load("four-bar")), Pencil()).composition
     step = next(step for step in drawing.drawn.steps if step.op.root is not None and step.name)
     values = obeyed(composition)
-    start, per_mm = values[step.args[step.op.root or 0]], composition.scales.of(
+    start, per_mm = values[step.args[step.op.root or 0]], composition.scales.lengths_per_mm(
         composition.plans.plan_of_step[step.index])
     far = 1 + 2 * per_mm / math.dist(start, values[step.index])
     values[step.index] = tuple(x + far * (to - x) for x, to in zip(start, values[step.index], strict=True))

@@ -56,7 +56,7 @@ class Drawn:
     def table(self) -> Table:
         """Every point, by its letter, or where it has none by the number of its step."""
         drawn = self.composition.plates.steps
-        return [(one.name or str(one.number), complex(*one.at), str(one.panel)) for one in drawn if one.kind == POINT]
+        return [(one.name or str(one.number), complex(*one.spot), str(one.panel)) for one in drawn if one.kind == POINT]
 
     @property
     def letters(self) -> Table:

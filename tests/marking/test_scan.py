@@ -25,7 +25,7 @@ from graphplan.marking.scans.printed_ink import picture, pieces  # noqa: E402
 from graphplan.marking.scans.scan import SCALE, PencilPage, read_page, read_scan  # noqa: E402
 from graphplan.marking.scans.straighten import _by_marks, straighten  # noqa: E402
 from graphplan.marking.traces import PlanFrame, Trace  # noqa: E402
-from graphplan.sheet.frames.frame import cells, corner_marks, numbers, places, sheet_code  # noqa: E402
+from graphplan.sheet.frames.frame import corner_marks, corner_numbers, corner_rects, mark_cells, sheet_code  # noqa: E402
 from graphplan.sheet.handout import task  # noqa: E402
 from graphplan.sheet.layout.composition import compose  # noqa: E402
 from graphplan.sheet.plates.display import Sheet  # noqa: E402
@@ -89,7 +89,7 @@ def without(seen: Picture, corners: tuple[int, ...]) -> Picture:
     """The picture with some marks covered by a thumb."""
     image = seen.image.copy()
     for corner in corners:
-        rect = places(page().width, page().height, page().frame)[corner]
+        rect = corner_rects(page().width, page().height, page().frame)[corner]
         cv2.fillConvexPoly(image, seen.seen(np.array(rect.inset(-1, -1, -1, -1).corners)).astype(np.int32), 170)
     return replace(seen, image=image)
 
@@ -99,14 +99,14 @@ def test_marks_are_those_of_the_dictionary() -> None:
     words = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_ARUCO_ORIGINAL)
     for number in range(0, 1024, 11):
         image = cv2.aruco.generateImageMarker(words, number, 7)[1:6, 1:6] > 0
-        assert [[bit == "1" for bit in row] for row in cells(number)] == image.tolist()
-    assert [number >> 8 for number in numbers(CODE)] == [0, 1, 2, 3]
+        assert [[bit == "1" for bit in row] for row in mark_cells(number)] == image.tolist()
+    assert [number >> 8 for number in corner_numbers(CODE)] == [0, 1, 2, 3]
 
 
 def test_marks_cover_nothing_printed() -> None:
     """Marks lie on the paper and outside the frame, where there are neither plans nor words."""
     sheet = page()
-    for rect in places(sheet.width, sheet.height, sheet.frame):
+    for rect in corner_rects(sheet.width, sheet.height, sheet.frame):
         assert rect.left > 0
         assert rect.right < sheet.width
         assert rect.bottom > 0
@@ -161,7 +161,7 @@ def test_straightened_to_hundredths() -> None:
 def test_a_sheet_is_laid_by_all_its_marks(seed: int) -> None:
     """Corners that are seen a pixel off leave no mark far from where it is printed."""
     chance, sheet = np.random.default_rng(seed), page()
-    rects = places(sheet.width, sheet.height, sheet.frame)
+    rects = corner_rects(sheet.width, sheet.height, sheet.frame)
     marks = [np.array(rect.corners[::-1]) * 7 + chance.uniform(-1, 1, (4, 2)) for rect in rects]
     laid = _by_marks(dict(enumerate(marks)), sheet)
     off = [laid(np.array(rect.corners[::-1])) - seen for rect, seen in zip(rects, marks, strict=True)]

@@ -10,7 +10,7 @@ from graphplan.errors import Refused
 from graphplan.marking.classroom.pages import Sight, StackPage
 from graphplan.marking.classroom.register import Register, TaskSheet
 from graphplan.marking.classroom.stack import Assignment, Seen, assignments, coded, instead, placed
-from graphplan.sheet.frames.frame import numbers, page_code, sheet_code
+from graphplan.sheet.frames.frame import corner_numbers, page_code, sheet_code
 
 CODES = [sheet_code(f"variant {number}") for number in range(1, 5)]
 STUDENTS = "Student 1", "Student 2", "Student 3", ""
@@ -21,7 +21,7 @@ REGISTER = Register("Class", 1, {}, tuple(
 
 def marks(code: int, *corners: int) -> tuple[int, ...]:
     """Some marks of a code, or all four."""
-    return tuple(numbers(code)[corner] for corner in corners or range(4))
+    return tuple(corner_numbers(code)[corner] for corner in corners or range(4))
 
 
 def seen(name: str, upright: tuple[int, ...] = (), mirrored: tuple[int, ...] = (), *, blank: bool = False) -> Seen:

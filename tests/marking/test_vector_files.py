@@ -224,8 +224,8 @@ def own(scene: str) -> tuple[Composition, Sheet, dict[str, Spot]]:
     drawing = gp.construct(gp.load(scene))
     composition = compose(drawing, None, None)
     found = composition.plates
-    points = [mark for mark in found.drawn if mark.kind == POINT and mark.view.rect.holds(mark.at)]
-    named = {spelled(point.name): point.at for point in points if point.name and not CORNER.fullmatch(point.name)}
+    points = [mark for mark in found.all_marks if mark.kind == POINT and mark.view.rect.holds(mark.spot)]
+    named = {spelled(point.name): point.spot for point in points if point.name and not CORNER.fullmatch(point.name)}
     return composition, layout(drawing, composition=composition), named
 
 
@@ -246,7 +246,8 @@ def shown(sheet: Sheet) -> Iterable[Trace]:
             case Circle():
                 yield Trace(POINT, (item.centre,))
             case Arc():
-                yield Trace(CIRCLE, (item.at(item.start), item.at((item.start + item.end) / 2), item.at(item.end)))
+                yield Trace(CIRCLE, (item.spot_at(item.start), item.spot_at((item.start + item.end) / 2),
+                                     item.spot_at(item.end)))
             case Arrow() if math.dist(item.start, item.end) > item.head + 0.6:
                 yield from (Trace(LINE, (start, end)) for start, end in item.shaft)
 

@@ -33,7 +33,7 @@ from graphplan.marking.scans.image import Grey, picture  # noqa: E402
 from graphplan.marking.scans.sheet_marks import blank, sheet_marks  # noqa: E402
 from graphplan.mechanism.scene import load  # noqa: E402
 from graphplan.output.pdf_png import pdf  # noqa: E402
-from graphplan.sheet.frames.frame import corner_marks, numbers, sheet_code  # noqa: E402
+from graphplan.sheet.frames.frame import corner_marks, corner_numbers, sheet_code  # noqa: E402
 from graphplan.sheet.handout import code, task  # noqa: E402
 from graphplan.sheet.layout.scales import Scales  # noqa: E402
 from graphplan.sheet.plates.display import Rect, Sheet  # noqa: E402
@@ -257,7 +257,7 @@ def test_marks_are_read_any_way_up(made: Class, quarters: int) -> None:
     """Marks tell the sheet whichever way it lies, by two of them too; a page without ink is blank, a sheet is not."""
     sheet = made.sheets[0].composition
     image = scan(printed(task(sheet)[0]), [], 7, dpi=150, quarters=quarters).image
-    assert sheet_marks(image) == dict(enumerate(numbers(code(sheet))))
+    assert sheet_marks(image) == dict(enumerate(corner_numbers(code(sheet))))
     high, wide = image.shape
     half = image[: high // 2] if quarters % 2 else image[:, : wide // 2]
     assert len(sheet_marks(half)) == 2

@@ -9,7 +9,7 @@ import graphplan as gp
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.plates.display import Rect
-from graphplan.sheet.plates.plans import Plans, around
+from graphplan.sheet.plates.plans import Plans, bounding_box
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.symbols import reach
 from graphplan.sheet.plates.view import view
@@ -23,7 +23,7 @@ def laid_out(name: str, strict: bool = False, times: float = 1.0) -> tuple[Const
     drawing = gp.construct(gp.load(name), strict=strict)
     plans = Plans(drawing)
     wheels = {MECHANISM: [*reach(drawing.scene)]}
-    boxes = {panel: around([*wheels.get(panel, ()), *(plans.spot(index) for index in plans.points(panel))])
+    boxes = {panel: bounding_box([*wheels.get(panel, ()), *(plans.spot(index) for index in plans.points(panel))])
              for panel in plans.panels}
     views: dict[str, Any] = {}
     for place, (panel, box) in enumerate(boxes.items()):

@@ -104,7 +104,7 @@ def drafted_plates(name: str, strict: bool = False) -> tuple[Construction, Plate
 
 def moved(drawing: Construction, plates: Plates) -> tuple[DrawnStep, tuple[float, float], list[Any]]:
     """The last joint of the pose that steps read, elsewhere: where in mm, and the values of the program there."""
-    point = [mark for mark in plates.drawn if not mark.number and mark.index >= 0][-1]
+    point = [mark for mark in plates.all_marks if not mark.number and mark.index >= 0][-1]
     x, y = (part + 0.002 * plates.box.width / point.view.scale for part in point.value)
     return point, point.view((x, y)), evaluate(drawing.drawn, Floats(), {point.name: {"x": x, "y": y}})
 
@@ -114,9 +114,9 @@ def coordinates(mark: DrawnStep) -> list[float]:
     if mark.kind == OPENING:
         return [mark.radius]
     if mark.kind == CIRCLE:
-        return [*mark.at, mark.radius]
+        return [*mark.spot, mark.radius]
     if mark.kind != LINE:
-        return list(mark.at)
+        return list(mark.spot)
     a, b, c = mark.line
     return [-a * c / (a * a + b * b), -b * c / (a * a + b * b), b, -a]
 
@@ -133,7 +133,7 @@ def gap(mark: DrawnStep, found: Sequence[float]) -> float:
 
 def farthest(plates: Plates, found: Mapping[DrawnStep, complex], values: Sequence[Any]) -> float:
     """How far points lie from the program's values, beside the size of the paper."""
-    points = [mark for mark in plates.drawn if mark in found and mark.index >= 0]
+    points = [mark for mark in plates.all_marks if mark in found and mark.index >= 0]
     assert points
     spots = {point: complex(*point.view(values[point.index][:2])) for point in points}
     return max(abs(found[point] - spots[point]) for point in points) / plates.box.width

@@ -66,19 +66,19 @@ def test_marks_stand_where_the_sheet_has_them(name: str) -> None:
     common = [label for label in on_sheet if label in found and label.split()[0] in ("velocity", "acceleration")]
     assert common
     for label in common:
-        assert math.dist(found[label].start.at, on_sheet[label].start) < 0.01
-        assert math.dist(found[label].end.at, on_sheet[label].end) < 0.01
+        assert math.dist(found[label].start.spot, on_sheet[label].start) < 0.01
+        assert math.dist(found[label].end.spot, on_sheet[label].end) < 0.01
 
 
 @pytest.mark.parametrize("name", ["rosenauer-basic", "jaanimets-10", "slider-crank"])
 def test_identifiers_are_safe_and_unique(name: str) -> None:
     """Letters and digits alone, each once, whatever the marks are called; and every operand stands before its use."""
     _, plates, _ = drafted_plates(name)
-    ids = identifiers(plates.drawn)
-    assert len(set(ids.values())) == len(ids) == len(plates.drawn)
+    ids = identifiers(plates.all_marks)
+    assert len(set(ids.values())) == len(ids) == len(plates.all_marks)
     assert all(id.isascii() and id.isalnum() and id[0].isalpha() for id in ids.values())
     seen: set[str] = set()
-    for mark in plates.drawn:
+    for mark in plates.all_marks:
         assert all(ids[arg] in seen for arg in mark.args)
         seen.add(ids[mark])
 
@@ -87,14 +87,14 @@ def test_links_have_points_that_no_step_reads() -> None:
     """A point of a link that the construction does not need is part of the pose all the same."""
     _, plates, _ = drafted_plates("slider-crank")
     assert {point for points in plates.scene.links.values() for point in points} <= set(plates.pose)
-    assert set(plates.pose.values()) <= set(plates.drawn)
+    assert set(plates.pose.values()) <= set(plates.all_marks)
 
 
 @pytest.mark.parametrize("name", ["walschaerts-loaded", "jaanimets-10"])
 def test_plates_have_their_inner_points_tied_to_a_corner(name: str) -> None:
     """A link is a bar between its ends or a plate with a convex outline; what lies within a plate has a rib to it."""
     _, plates, composition = drafted_plates(name)
-    joints = {point.at: point.name for point in plates.pose.values()}
+    joints = {point.spot: point.name for point in plates.pose.values()}
     items = list(DrawnMechanism(plates.scene, composition.views[MECHANISM]).items())
     hulls = [item.spots for item in items if isinstance(item, Polygon) and item.layer == "plates"]
     ribs = [item.spots for item in items if isinstance(item, Polyline) and item.pen == LINK and len(item.spots) == 2]

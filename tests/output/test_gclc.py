@@ -18,7 +18,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.mechanism.scene import packaged
 from graphplan.output.exports.gclc import cornered, decimal, gclc
 from graphplan.output.exports.walk import extent, identifiers
-from graphplan.sheet.lettering.letters import pictures
+from graphplan.sheet.lettering.letters import letter_plates
 from graphplan.sheet.plates.display import Text
 from graphplan.sheet.plates.drawn_step import DrawnStep
 
@@ -37,15 +37,15 @@ def off(mark: DrawnStep, found: tuple[float, ...]) -> float:
 def test_every_mark_is_read_where_it_lies(name: str) -> None:
     """Every point, line, opening and circle of every packaged scene is recovered from the commands alone."""
     plates = cornered(laid_out(name)[1])
-    read, names = Reader().read(gclc(plates)), identifiers(plates.drawn)
-    assert max(off(mark, read.objects[names[mark]][1:]) for mark in plates.drawn) < 1e-6
+    read, names = Reader().read(gclc(plates)), identifiers(plates.all_marks)
+    assert max(off(mark, read.objects[names[mark]][1:]) for mark in plates.all_marks) < 1e-6
 
 
 def test_compasses_alone_are_read_too() -> None:
     """The construction with compasses and straightedge alone, with its marks between plans, is recovered as well."""
     plates = cornered(laid_out("slider-crank", strict=True)[1])
-    read, names = Reader().read(gclc(plates)), identifiers(plates.drawn)
-    points = [mark for mark in plates.drawn if mark.kind in (POINT, CIRCLE)]
+    read, names = Reader().read(gclc(plates)), identifiers(plates.all_marks)
+    points = [mark for mark in plates.all_marks if mark.kind in (POINT, CIRCLE)]
     assert max(off(mark, read.objects[names[mark]][1:]) for mark in points) < 1e-6
 
 
@@ -55,11 +55,11 @@ def test_a_moved_point_moves_the_construction(name: str) -> None:
     drawing, plates, _ = drafted_plates(name)
     plates = cornered(plates)
     point, at, values = moved(drawing, plates)
-    names = identifiers(plates.drawn)
+    names = identifiers(plates.all_marks)
     put = f"point {names[point]} {' '.join(map(decimal, at))}"
     source = re.sub(rf"(?m)^point {names[point]} .*$", put, gclc(plates))
     read = Reader().read(source)
-    marks = {mark: complex(*read.objects[names[mark]][1:]) for mark in plates.drawn if mark.kind == POINT}
+    marks = {mark: complex(*read.objects[names[mark]][1:]) for mark in plates.all_marks if mark.kind == POINT}
     assert farthest(plates, marks | {point: complex(*at)}, values) < 1e-6
 
 
@@ -71,18 +71,18 @@ def test_every_operation_is_translated(name: str, place: Place) -> None:
         plates = cornered(loose(program, values, place))
         read = Reader().read(gclc(plates))
         last = plates.steps[-1]
-        assert off(last, read.objects[identifiers(plates.drawn)[last]][1:]) < 1e-6
+        assert off(last, read.objects[identifiers(plates.all_marks)[last]][1:]) < 1e-6
 
 
 def test_every_step_is_said_with_its_conditions() -> None:
     """Each drawn step stands under its sentence, and under what would make it impossible; the drawing follows."""
     _, plates = laid_out("four-bar")
     source = gclc(plates)
-    places = [source.index(f"\n% {mark.number}. {mark.sentence}\n") for mark in plates.drawn if mark.number]
+    places = [source.index(f"\n% {mark.number}. {mark.sentence}\n") for mark in plates.all_marks if mark.number]
     assert places == sorted(places)
     assert places[-1] < source.index("% drawing: ")
     meet = next(mark for mark in plates.steps if mark.step.op.name == "meet")
-    made = f"intersec {identifiers(plates.drawn)[meet]}"
+    made = f"intersec {identifiers(plates.all_marks)[meet]}"
     assert f"{meet.sentence}\n% drawable unless two lines that should meet are parallel\n{made}" in source
     assert all(f"% plan: {plate.caption}\n" in source for plate in plates)
 
@@ -93,15 +93,16 @@ def test_the_picture_is_full_and_its_letters_stand_as_on_the_sheet(name: str) ->
     _, plates, _ = drafted_plates(name)
     read, moved = Reader().read(gclc(plates)), cornered(plates)
     wide, high = next(map(float, texts) for command, *texts in read.drawn if command == "dim")
-    ink = extent(item for panel in pictures(moved).values() for item in panel.items)
+    ink = extent(item for panel in letter_plates(moved).values() for item in panel.items)
     assert min(ink.left, ink.bottom, wide - ink.right, high - ink.top) >= 0
     assert max(ink.left, ink.bottom, wide - ink.right, high - ink.top) < 10.0
     filled = {frozenset(texts) for command, *texts in read.drawn if command == "filltriangle"}
-    names = identifiers(moved.drawn)
+    names = identifiers(moved.all_marks)
     plates_of_links = [{names[moved.pose[point]] for point in points} for link, points in moved.scene.links.items()
                        if link in moved.scene.moving and len(points) == 3 and name == "double-butterfly"]
     assert all(corners in filled for corners in plates_of_links)
-    stood = [text.box.centre for panel in pictures(moved).values() for text in panel.items if isinstance(text, Text)]
+    stood = [text.box.centre for panel in letter_plates(moved).values() for text in panel.items
+             if isinstance(text, Text)]
     stand = [read.objects[texts[0]][1:] for command, *texts in read.drawn if command == "printat"]
     assert len(stand) == len(stood)
     assert all(min(math.dist(one, other) for other in stand) < 0.8 for one in stood)
@@ -112,7 +113,7 @@ def test_what_the_sheet_shows_is_drawn() -> None:
     _, plates = laid_out("four-bar")
     source = gclc(plates)
     drawn = Reader().read(source).drawn
-    links, names = plates.scene.links, identifiers(plates.drawn)
+    links, names = plates.scene.links, identifiers(plates.all_marks)
     ends = [{names[plates.pose[point]] for point in links[link][:2]} for link in plates.scene.moving]
     segments = [set(texts) for command, *texts in drawn if command == "drawsegment"]
     assert all(pair in segments for pair in ends)

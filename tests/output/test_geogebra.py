@@ -56,7 +56,7 @@ def test_every_operation(name: str, place: Place) -> None:
     for program, values in programs(name):
         plates = loose(program, values, place)
         found, called = read(opened(geogebra(plates))), labels(plates)
-        for mark in plates.drawn:
+        for mark in plates.all_marks:
             assert gap(mark, coordinates(found[called[mark]])) < 1e-9
 
 
@@ -107,7 +107,7 @@ class Drag:
         one = Reached(*({name: np.array([z]) for name, z in some.items()} for some in (points, guides)))
         values = put_right(self.drawing, one, self.wrong)
         found = {}
-        for mark in self.plates.drawn:
+        for mark in self.plates.all_marks:
             if mark.kind == POINT:
                 z = points[mark.name] if mark.index < 0 else complex(*(float(np.ravel(part)[0]) for part
                                                                        in values[mark.index][:2]))
@@ -146,7 +146,7 @@ def test_a_handle_turns_the_drive() -> None:
     """A handle that is dragged around its orbit adds its turn to the slider's, and stays on the crank pin."""
     drag = Drag("four-bar")
     document, turn = opened(geogebra(drag.paper)), cmath.exp(1j * math.radians(25))
-    O, A = (complex(*drag.plates.pose[name].at) for name in "OA")
+    O, A = (complex(*drag.plates.pose[name].spot) for name in "OA")
     slid = read(document, {"drive_{1}": 30.0})
     begun = next(z for label, z in slid.items() if label.startswith("pin_"))
     assert abs(begun - slid["A"]) < 1e-9
@@ -178,7 +178,7 @@ def test_what_cannot_be_is_not_there_and_comes_back(program: GeoGebra, tmp_path:
     """A pin that is dragged too far takes the figure away; dragged back, it is there again."""
     _, plates, _ = drafted_plates("four-bar")
     program.open(tmp_path / "figure.ggb", geogebra(plates))
-    before, (x, y) = program.values(), plates.pose["C"].at
+    before, (x, y) = program.values(), plates.pose["C"].spot
     program.tell("drag", "C", x + 900, y)
     assert math.isnan(program.values()["B"].real)
     program.tell("drag", "C", x, y)
@@ -190,11 +190,11 @@ def test_the_navigation_bar_walks_the_steps(program: GeoGebra, tmp_path: Path) -
     _, plates, _ = drafted_plates("four-bar")
     program.open(tmp_path / "figure.ggb", geogebra(plates))
     called = labels(plates)
-    for number in (0, 5, max(mark.number for mark in plates.drawn)):
+    for number in (0, 5, max(mark.number for mark in plates.all_marks)):
         program.tell("step", f"step_{{{number}}}")
         seen = program.seen()
         assert {label for label in seen if label.startswith("step_")} == {f"step_{{{number}}}"}
-        later = {called[mark] for mark in plates.drawn if mark.number > number}
+        later = {called[mark] for mark in plates.all_marks if mark.number > number}
         assert not later & seen
 
 
@@ -233,7 +233,7 @@ def test_the_protocol_speaks() -> None:
     elements = {e.get("label"): e for e in document.findall("construction/element")}
     texts = {e.get("label"): e.get("exp") for e in document.findall("construction/expression")}
     stops = [label for label, element in elements.items() if element.find("breakpoint") is not None]
-    steps = [mark for mark in plates.drawn if mark.number]
+    steps = [mark for mark in plates.all_marks if mark.number]
     assert stops == [f"step_{{{number}}}" for number in range(len(steps) + 1)]
     for mark in steps:
         assert mark.sentence in texts[f"step_{{{mark.number}}}"].replace("”", '"')
@@ -263,7 +263,7 @@ def test_letters_that_mean_something_else() -> None:
     """A mark that is called e, which GeoGebra takes for a number, has another label and shows its letter."""
     _, plates, _ = drafted_plates("rosenauer-basic")
     called = labels(plates)
-    e = next(mark for mark in plates.drawn if mark.name == "e")
+    e = next(mark for mark in plates.all_marks if mark.name == "e")
     elements = opened(geogebra(plates)).findall("construction/element")
     element = next(element for element in elements if element.get("label") == called[e])
     assert called[e] != "e"

@@ -27,7 +27,7 @@ from graphplan.errors import Refused
 from graphplan.output.pdf_png import pdf, png
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout, pages
-from graphplan.sheet.lettering.lettering import ADVANCE, CAPS, Run, width
+from graphplan.sheet.lettering.lettering import ADVANCE, CAPS, TextRun, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Text
 
@@ -42,7 +42,8 @@ def sheet_of(name: str) -> Sheet:
 
 def lettered(*lines: str) -> Sheet:
     """A sheet with nothing but these lines of letters."""
-    texts = [Text(pens.LETTERS, "text", None, (30.0, 200.0 - 5 * k), (Run(line),), 2.5) for k, line in enumerate(lines)]
+    texts = [Text(pens.LETTERS, "text", None, (30.0, 200.0 - 5 * k), (TextRun(line),), 2.5) for k,
+             line in enumerate(lines)]
     return replace(sheet_of("four-bar"), items=tuple(texts))
 
 
@@ -214,7 +215,8 @@ def test_strokes_are_where_the_display_list_says(kind: type) -> None:
 @pytest.mark.parametrize("anchor", ["start", "middle", "end"])
 def test_letters_stand_where_they_are_measured_to_stand(anchor: str) -> None:
     """Capitals stand on the base line, are as high as measured, and fill the width that is measured; indices hang."""
-    text = Text(pens.LETTERS, "text", None, (100.0, 100.0), (Run("HMI EH"), Run("HH", -1), Run(" IMH")), 5.0, anchor)
+    text = Text(pens.LETTERS, "text", None, (100.0, 100.0), (TextRun("HMI EH"), TextRun("HH", -1), TextRun(" IMH")),
+                5.0, anchor)
     long = width(text.runs, text.size)
     left = 100.0 - {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor] * long
     found = inked(alone(text, Rect(left, 98.0, left + long, 104.0)))

@@ -47,7 +47,7 @@ def test_every_scene_is_written_in_what_every_font_has(name: str) -> None:
         assert source.isascii()
         assert source.count(r"\begin{scope}") == len(plates.plans.panels)
         for link in plates.scene.moving:
-            spots = {plates.pose[point].at for point in plates.scene.links[link]}
+            spots = {plates.pose[point].spot for point in plates.scene.links[link]}
             assert len(spots) < 3 or r"\draw[plate]" in source or r"\draw[bar]" in source
 
 

@@ -31,9 +31,9 @@ READ = re.compile(r"[(,{ ]([A-Za-z]\w*)(?=[),}$]|--)|--([A-Za-z]\w*)")
 
 def compiled(source: str, plates: Plates, folder: Path) -> dict[str, tuple[float, float]]:
     """The points of a plates in mm, as pdflatex tells them."""
-    names = identifiers(plates.drawn)
+    names = identifiers(plates.all_marks)
     made = {name for found in MADE.findall(source) for name in found if name}
-    points = [names[mark] for mark in plates.drawn if mark.kind == POINT and names[mark] in made]
+    points = [names[mark] for mark in plates.all_marks if mark.kind == POINT and names[mark] in made]
     probe = "".join(rf"\path ({id}); \pgfgetlastxy{{\X}}{{\Y}}\typeout{{AT {id} \X\space\Y}}" + "\n" for id in points)
     (folder / "figure.tex").write_text(source.replace(r"\end{tikzpicture}", probe + r"\end{tikzpicture}"))
     run = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "figure.tex"]
@@ -64,7 +64,7 @@ def test_every_step_is_said_and_nothing_used_before_it_is_made(writer: Export, n
     """Sentences stand in order; braces are balanced; each coordinate is made before it is read, and made once."""
     _, plates = laid_out(name)
     source = written(writer, plates)
-    places = [source.index(f"\n% {mark.number}. {mark.sentence}\n") for mark in plates.drawn if mark.number]
+    places = [source.index(f"\n% {mark.number}. {mark.sentence}\n") for mark in plates.all_marks if mark.number]
     assert places == sorted(places)
     body = re.sub(r"(?<!\\)%.*", "", source[source.index(r"\begin{tikzpicture}") :])
     bare = body.replace(r"\{", "").replace(r"\}", "")
@@ -91,7 +91,7 @@ def test_every_operation_is_translated(writer: Export, name: str, place: Place) 
         sentence = f"\n% {last.number}. {last.sentence}\n" if last.number else "tikzpicture}"
         said = written(writer, plates).partition(sentence)[2]
         made = {name for found in MADE.findall(said) for name in found if name}
-        called = identifiers(plates.drawn)[last]
+        called = identifiers(plates.all_marks)[last]
         needless = name == "line" and all(arg.panel == last.panel for arg in last.args)
         assert needless or made & {called, f"{called}_to"}
 
@@ -103,7 +103,7 @@ def test_what_tex_cannot_hold_is_left_out_and_told(writer: Export) -> None:
     out = VIEWS[MECHANISM].origin[0] + 6000.0, 0.0
     plates = loose(program, values, lambda _, index: TWO if index < 2 else MECHANISM,
                    {**VIEWS, TWO: replace(VIEWS[MECHANISM], origin=out)})  # fmt: skip
-    first, last, names = plates.steps[0], plates.steps[-1], identifiers(plates.drawn)
+    first, last, names = plates.steps[0], plates.steps[-1], identifiers(plates.all_marks)
     source = written(writer, plates)
     assert f"({names[first]})" not in source
     assert "too far out for TeX's dimensions" in source
@@ -117,10 +117,10 @@ def test_tex_puts_every_point_where_it_lies(writer: Export, name: str, tmp_path:
     if not available(writer):
         pytest.skip("there is no pdflatex with what this file needs")
     _, plates = laid_out(name)
-    found, names = compiled(written(writer, plates), plates, tmp_path), identifiers(plates.drawn)
-    points = [mark for mark in plates.drawn if mark.kind == POINT]
+    found, names = compiled(written(writer, plates), plates, tmp_path), identifiers(plates.all_marks)
+    points = [mark for mark in plates.all_marks if mark.kind == POINT]
     assert len(found) == len(points)
-    assert max(math.dist(found[names[mark]], mark.at) for mark in points) < 0.2
+    assert max(math.dist(found[names[mark]], mark.spot) for mark in points) < 0.2
 
 
 @BOTH
@@ -131,4 +131,4 @@ def test_tex_takes_plans_that_reach_metres_off_the_paper(writer: Export, tmp_pat
     _, plates = laid_out("slider-crank", times=40.0)
     source = written(writer, plates)
     assert "too far out for TeX's dimensions" in source
-    assert 0 < len(compiled(source, plates, tmp_path)) < len(plates.drawn)
+    assert 0 < len(compiled(source, plates, tmp_path)) < len(plates.all_marks)

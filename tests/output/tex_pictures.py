@@ -16,8 +16,8 @@ from matplotlib.image import imread
 from graphplan.output.exports.walk import extent
 from graphplan.output.pdf_png import png
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.layout import captions, layout, stacked
-from graphplan.sheet.plates.display import Rect, Text, moved
+from graphplan.sheet.layout.layout import back_to_front, captions, layout
+from graphplan.sheet.plates.display import Rect, Text, move_item
 
 ENGINES = "pdflatex", "lualatex", "xelatex"
 DPI, DARK = 127, 200  # five dots a millimetre; what is darker than this is ink
@@ -62,7 +62,7 @@ def strokes(composition: Composition) -> Ink:
     items = [item for picture in composition.pictures.values() for item in picture.items if not isinstance(item, Text)]
     sheet = layout(composition.plans.drawing, composition=composition)
     sheet = replace(sheet, width=box.width, height=box.height,
-                    items=tuple(moved(item, -box.left, -box.bottom) for item in stacked(items)))  # fmt: skip
+                    items=tuple(move_item(item, -box.left, -box.bottom) for item in back_to_front(items)))  # fmt: skip
     return imread(io.BytesIO(png(sheet, DPI)))[..., 0] * 255 < DARK
 
 

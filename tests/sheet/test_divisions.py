@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sheets import SCENES, composition_of
 
-from graphplan.sheet.layout.paper import Demand, divided
+from graphplan.sheet.layout.paper import Demand, divide_among_plans
 from graphplan.sheet.plates.display import Rect
 
 PAGE, BLOCK = Rect(20.0, 10.0, 410.0, 287.0), Rect(310.0, 10.0, 410.0, 40.0)
@@ -21,7 +21,7 @@ DEMANDS = st.lists(st.builds(Demand, SIDES, SIDES, st.integers(1, 60), st.just((
 def division(demands: list[Demand], block: Rect | None = None, page: Rect = PAGE) -> dict[str, Rect] | None:
     """The panels of plans that are called by their numbers; none is a twin."""
     named = {str(k): demand for k, demand in enumerate(demands)}
-    return divided(page, block, named, {name: name for name in named})
+    return divide_among_plans(page, block, named, {name: name for name in named})
 
 
 @given(DEMANDS, st.booleans())

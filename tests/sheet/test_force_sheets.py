@@ -52,7 +52,7 @@ def test_every_force_is_drawn_phi_lengths_long(name: str) -> None:
     drawing, sheet = drawing_of(name), sheet_of(name)
     for vector in (vector for vector in drawing.arrows if vector.kind in pens.FORCES):
         (x, y), (u, v) = (drawing.values[mark] for mark in (vector.start, vector.end))
-        true = math.hypot(u - x, v - y) / sheet.scales.of(vector.panel)
+        true = math.hypot(u - x, v - y) / sheet.scales.lengths_per_mm(vector.panel)
         arrows = [item for item in sheet.items if isinstance(item, Arrow) and item.step == max(vector.start, vector.end)
                   and item.label == f"{vector.kind} {vector.point}"]  # fmt: skip
         assert bool(arrows) == (true >= (HIDDEN if vector.panel == MECHANISM else SHORT))

@@ -19,7 +19,7 @@ from graphplan.mechanism.sections import SIZES
 from graphplan.output.svg import svg
 from graphplan.sheet.frames.frame import BORDER, FRAMES, frame_of
 from graphplan.sheet.frames.title import DOCUMENTS, SOLUTION, TITLE, Page
-from graphplan.sheet.handout import guided, solution, task
+from graphplan.sheet.handout import guided_task, solution, task
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, SIZE, plain
@@ -236,7 +236,7 @@ def pages() -> Iterator[tuple[list[Sheet], str]]:
     solved = solution(composition)
     yield solved, "Solution"
     yield task(composition), "Task"
-    yield guided(composition), "Guided construction"
+    yield guided_task(composition), "Guided construction"
     yield strip(composition, "A3"), "Film strip"
 
 

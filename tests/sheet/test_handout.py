@@ -19,9 +19,9 @@ from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import posed, sheets
 from graphplan.sheet.frames.frame import MARKS, corner_marks, page_code
-from graphplan.sheet.handout import code, guided, solution, task
+from graphplan.sheet.handout import code, guided_task, solution, task
 from graphplan.sheet.layout.composition import Composition, compose
-from graphplan.sheet.layout.paper import paged
+from graphplan.sheet.layout.paper import paginate
 from graphplan.sheet.lettering.lettering import plain, sentence_runs
 from graphplan.sheet.plates.display import Circle, Polygon, Sheet, Text
 from graphplan.sheet.words.rows import Cell, TextRow
@@ -34,7 +34,7 @@ Handout = tuple[Composition, Sheet, list[Sheet], list[Sheet]]
 def handout_of(name: str) -> Handout:
     """The composition of a scene, its solution, its task and its guided version."""
     composition, solved = composition_of(name), solved_of(name)
-    return composition, solved, task(composition), guided(composition)
+    return composition, solved, task(composition), guided_task(composition)
 
 
 def boxes(sheets: list[Sheet], ticks: bool = False) -> list[Polygon]:
@@ -73,7 +73,7 @@ def test_a_student_fills_in_name_group_date_and_variant(frame: str) -> None:
     """Every page of the task and the guided version asks who drew it, and names nobody; the solution does."""
     scene = gp.load("slider-crank")
     composition = compose(gp.construct(replace(scene, sheet=replace(scene.sheet, frame=frame))))
-    for pages in (task(composition), guided(composition)):
+    for pages in (task(composition), guided_task(composition)):
         for page in pages:
             told = {plain(item.runs) for item in page.items if isinstance(item, Text)}
             assert {"Name", "Group", "Date", "Variant"} <= told
@@ -99,7 +99,7 @@ def test_the_words_of_a_task_state_the_scales_and_where_plans_begin() -> None:
     told = " ".join(plain(item.runs) for page in pages for item in page.items if isinstance(item, Text))
     scales = composition.scales
     for panel in composition.plans.panels:
-        for scale in scales.said(panel, composition.plans.kinds(panel)):
+        for scale in scales.scale_texts(panel, composition.plans.kinds(panel)):
             assert told.count(plain(sentence_runs(scale))) == 2
     assert "origin a" in told
 
@@ -185,7 +185,7 @@ def test_words_run_on_over_pages_without_parting_what_keeps_together() -> None:
     arrangement = handout_of("four-bar")[0].arrangement
     numbers = count()
     rows = [TextRow((Cell(float(next(numbers)), ()),), keep=1 - i % 2) for i in range(400)]
-    pages = list(paged(rows, arrangement))
+    pages = list(paginate(rows, arrangement))
     assert len(pages) > 1
     assert [row for page in pages for row, _, _ in page] == rows
     assert all(len(page) % 2 == 0 for page in pages)
@@ -195,7 +195,7 @@ def test_what_is_higher_than_a_page_is_refused() -> None:
     """Rows that must stand together and cannot are refused with what to do."""
     rows = [TextRow((), keep=200)] * 201
     with pytest.raises(Refused, match="a larger sheet"):
-        list(paged(rows, handout_of("four-bar")[0].arrangement))
+        list(paginate(rows, handout_of("four-bar")[0].arrangement))
 
 
 # ---- around the cycle --------------------------------------------------------------------------------------------

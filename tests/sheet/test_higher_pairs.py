@@ -13,7 +13,7 @@ from graphplan.sheet.plates.display import Arc, Polyline, Rect
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.symbols import HATCH, belt, reach, wheels
 from graphplan.sheet.plates.view import View
-from graphplan.sheet.words.rows import settled
+from graphplan.sheet.words.rows import zero_rounding
 from graphplan.sheet.words.task import data
 
 EVERYWHERE = Rect(-math.inf, -math.inf, math.inf, math.inf)
@@ -65,4 +65,4 @@ def test_a_belt_touches_both_pulleys() -> None:
 def test_a_turning_that_is_but_rounding_is_nothing() -> None:
     """An angular acceleration far below what the accelerations make of it is told as 0."""
     values = {"acceleration": {"A": (3.0, 4.0)}, "alpha": {"2": 3e-15, "3": 0.2}, "omega": {"2": 1e-15}}
-    assert settled(values, 10.0) == values | {"alpha": {"2": 0.0, "3": 0.2}}
+    assert zero_rounding(values, 10.0) == values | {"alpha": {"2": 0.0, "3": 0.2}}

@@ -23,7 +23,7 @@ from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.plates.display import Circle, Polyline, Text
-from graphplan.sheet.plates.traced_motion import LAYER, once, outline
+from graphplan.sheet.plates.traced_motion import LAYER, outline, simplify_chain
 
 
 @cache
@@ -74,8 +74,8 @@ def test_a_path_is_whole_where_that_costs_a_bit() -> None:
 def test_a_path_that_goes_back_on_itself_is_drawn_once() -> None:
     """The end of a rocker goes to and fro on an arc; a curve that comes back another way is whole."""
     path = next(path for path in composed("four-bar", ("B",)).plans.motion.paths)
-    assert shapely.LineString(once(path.spots)).length < 0.51 * shapely.LineString(path.spots).length
-    assert len(once([(0, 0), (4, 0), (4, 3), (0, 0)])) == 4
+    assert shapely.LineString(simplify_chain(path.spots)).length < 0.51 * shapely.LineString(path.spots).length
+    assert len(simplify_chain([(0, 0), (4, 0), (4, 3), (0, 0)])) == 4
 
 
 def test_links_are_outlines() -> None:

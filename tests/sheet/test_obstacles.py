@@ -8,7 +8,7 @@ import random
 import numpy as np
 import pytest
 
-from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, Candidates
+from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, LabelCandidates
 from graphplan.sheet.lettering.prices import FAULT, STRANGER, TOUCH, Lines, Marks, Surfaces
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Polygon, Polyline, Spot
@@ -16,10 +16,11 @@ from graphplan.sheet.plates.display import Circle, Polygon, Polyline, Spot
 RATE = 3.0  # of a figure, for a mm^2
 
 
-def cells(*boxes: tuple[float, float, float, float], spot: Spot = (0.0, 0.0)) -> Candidates:
+def cells(*boxes: tuple[float, float, float, float], spot: Spot = (0.0, 0.0)) -> LabelCandidates:
     """Candidates which are, with the air around them, these boxes."""
     count = len(boxes)
-    return Candidates(np.arange(count), np.array(boxes) - AIR * OUTWARDS, np.full((count, 2), spot), np.zeros(count),
+    return LabelCandidates(np.arange(count), np.array(boxes) - AIR * OUTWARDS, np.full((count, 2), spot),
+                           np.zeros(count),
                   np.zeros(count, dtype=bool))  # fmt: skip
 
 

@@ -11,13 +11,13 @@ from sheets import composition_of
 import graphplan as gp
 from graphplan.errors import Refused
 from graphplan.methods.panels import MECHANISM
-from graphplan.sheet.layout.paper import COLUMN, packed, paged
-from graphplan.sheet.lettering.lettering import Run, plain, sentence_runs
+from graphplan.sheet.layout.paper import COLUMN, paginate, paginate_tightly
+from graphplan.sheet.lettering.lettering import TextRun, plain, sentence_runs
 from graphplan.sheet.plates import symbols
 from graphplan.sheet.plates.display import Arc, Rect
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.words.rows import TALL, TIGHT, Cell, TextRow, tightened
-from graphplan.sheet.words.task import Task
+from graphplan.sheet.words.rows import TALL, TIGHT, Cell, TextRow, tighten
+from graphplan.sheet.words.task import TaskWords
 
 
 @pytest.mark.parametrize(("name", "saved"), [("class-four", True), ("shaper", False)])
@@ -25,8 +25,8 @@ def test_rows_come_closer_where_that_saves_a_page(name: str, saved: bool) -> Non
     """A guided handout whose last table would need a page of its own is set closer; any other is not."""
     composition = composition_of(name)
     arrangement = composition.arrangement
-    rows = Task(composition.plans, composition=composition).lines(COLUMN, guided=True)
-    loose, found = list(paged(rows, arrangement)), packed(rows, arrangement)
+    rows = TaskWords(composition.plans, composition=composition).lines(COLUMN, guided=True)
+    loose, found = list(paginate(rows, arrangement)), paginate_tightly(rows, arrangement)
     assert len(found) == len(loose) - saved
     assert (found == loose) != saved
     assert sum(map(len, found)) == len(rows)
@@ -36,20 +36,20 @@ def test_a_page_ends_after_any_row_and_holds_no_row_that_is_higher() -> None:
     """In a column that holds one row the first stands alone; a row that is higher than any page is refused."""
     arrangement = composition_of("four-bar", protocol="aside").arrangement
     narrow = replace(arrangement, columns=arrangement.columns[:1])
-    high = TextRow((Cell(0.0, (Run("A"),)),), tall=0.6 * (narrow.columns[0].top - narrow.columns[0].bottom))
-    first, *others = paged([high, high, high], narrow)
+    high = TextRow((Cell(0.0, (TextRun("A"),)),), tall=0.6 * (narrow.columns[0].top - narrow.columns[0].bottom))
+    first, *others = paginate([high, high, high], narrow)
     assert (len(first), sum(map(len, others))) == (1, 2)
     with pytest.raises(Refused, match="does not fit on a page"):
-        list(paged([replace(high, tall=1e4), high], narrow))
+        list(paginate([replace(high, tall=1e4), high], narrow))
 
 
 def test_a_box_for_a_number_gets_lower_but_not_narrower() -> None:
     """Closer rows keep their words and the widths of their boxes."""
-    blank = TextRow((Cell(0.0, (Run("A"),)),), gap=1.0, tall=TALL, boxes=(Rect(10.0, 0.0, 30.0, TALL),))
-    tight = tightened(blank)
+    blank = TextRow((Cell(0.0, (TextRun("A"),)),), gap=1.0, tall=TALL, boxes=(Rect(10.0, 0.0, 30.0, TALL),))
+    tight = tighten(blank)
     assert (tight.cells, tight.gap, tight.height) == (blank.cells, 0.5, TIGHT)
     assert tight.boxes == (Rect(10.0, 0.0, 30.0, TIGHT),)
-    assert tightened(TextRow(blank.cells, gap=2.0)) == TextRow(blank.cells, gap=1.0)
+    assert tighten(TextRow(blank.cells, gap=2.0)) == TextRow(blank.cells, gap=1.0)
 
 
 def test_the_coefficient_of_friction_is_a_greek_letter() -> None:

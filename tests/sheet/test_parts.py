@@ -17,8 +17,8 @@ from graphplan.methods.panels import MECHANISM, N_PLAN, VELOCITY_PLAN, ForcePlan
 from graphplan.phrases import digits
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish, candidates
-from graphplan.sheet.lettering.labels import placed
-from graphplan.sheet.lettering.lettering import Run, name_runs, plain, sentence_runs, width, wrap
+from graphplan.sheet.lettering.labels import place_letters
+from graphplan.sheet.lettering.lettering import TextRun, name_runs, plain, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Arrow, Polygon, Polyline, Rect, Text
 from graphplan.sheet.plates.view import clip_item, clip_segment
@@ -53,15 +53,15 @@ def test_given_lengths_leave_the_first_scale_round() -> None:
 def test_scales_tie_velocity_and_acceleration_to_the_plan() -> None:
     """k_v = k_s/kappa and k_a = k_s/kappa^2, divided by the multiple of the plan."""
     scales = Scales(5.0, 0.1, "mm", {"N-plan": Fraction(2)})
-    assert scales.said("mechanism", {"velocity"}) == ["k_s = 5 mm/mm", "k_v = 50 mm/s per mm"]
-    assert scales.said("N-plan", {"acceleration"}) == ["k_a = 250 mm/s² per mm"]
+    assert scales.scale_texts("mechanism", {"velocity"}) == ["k_s = 5 mm/mm", "k_v = 50 mm/s per mm"]
+    assert scales.scale_texts("N-plan", {"acceleration"}) == ["k_a = 250 mm/s² per mm"]
 
 
 def test_the_scale_of_forces_follows_from_phi() -> None:
     """k_F = k_s/phi, divided by the multiple of the plan, in the scene's unit of force."""
     scales = Scales(5.0, 0.1, "mm", {"force plan 1": Fraction(2), "lever": Fraction(1, 2)}, 0.25, "kN")
-    assert scales.said("force plan 1", {"reaction", "part"}) == ["k_F = 10 kN/mm"]
-    assert scales.said("lever", {"velocity", "load", "balance"}) == ["k_v = 100 mm/s per mm", "k_F = 40 kN/mm"]
+    assert scales.scale_texts("force plan 1", {"reaction", "part"}) == ["k_F = 10 kN/mm"]
+    assert scales.scale_texts("lever", {"velocity", "load", "balance"}) == ["k_v = 100 mm/s per mm", "k_F = 40 kN/mm"]
 
 
 @pytest.mark.parametrize(("value", "text"), [
@@ -79,23 +79,23 @@ def test_the_title_block_gives_the_ratio(k_s: float, length: str, text: str) -> 
 
 
 @pytest.mark.parametrize(("name", "runs"), [
-    ("v_c", (Run("v"), Run("c", -1))),
-    ("alpha", (Run("α"),)),
-    ("alpha_3'", (Run("α′"), Run("3", -1))),
-    ("A_1", (Run("A"), Run("1", -1))),
-    ("P_25_1", (Run("P"), Run("25,1", -1))),
-    ("B''", (Run("B″"),)),
-    ("A2", (Run("A2"),)),
+    ("v_c", (TextRun("v"), TextRun("c", -1))),
+    ("alpha", (TextRun("α"),)),
+    ("alpha_3'", (TextRun("α′"), TextRun("3", -1))),
+    ("A_1", (TextRun("A"), TextRun("1", -1))),
+    ("P_25_1", (TextRun("P"), TextRun("25,1", -1))),
+    ("B''", (TextRun("B″"),)),
+    ("A2", (TextRun("A2"),)),
 ])  # fmt: skip
-def test_names_are_set_as_in_a_textbook(name: str, runs: tuple[Run, ...]) -> None:
+def test_names_are_set_as_in_a_textbook(name: str, runs: tuple[TextRun, ...]) -> None:
     """Subscripts, Greek letters and primes are recognised in a mark's name."""
     assert name_runs(name) == runs
 
 
 def test_names_run_together_are_told_apart() -> None:
     """In v_qC, the line through v_q and C, only q is a subscript."""
-    assert sentence_runs("Draw v_qC.", ("v_q", "C")) == (Run("Draw v"), Run("q", -1), Run("C."))
-    assert sentence_runs("alphabet", ("alpha",)) == (Run("alphabet"),)
+    assert sentence_runs("Draw v_qC.", ("v_q", "C")) == (TextRun("Draw v"), TextRun("q", -1), TextRun("C."))
+    assert sentence_runs("alphabet", ("alpha",)) == (TextRun("alphabet"),)
 
 
 @pytest.mark.parametrize(("panel", "kinds", "text"), [
@@ -172,8 +172,8 @@ def test_a_chain_that_leaves_and_returns_is_drawn_in_pieces() -> None:
 
 def test_columns_fill_one_after_the_other() -> None:
     """Rows run down the first column, then the next; a heading stays with what it heads."""
-    rows = [TextRow((Cell(0, (Run("text"),)),)) for _ in range(4)]
-    heading = TextRow((Cell(0, (Run("heading"),)),), keep=1)
+    rows = [TextRow((Cell(0, (TextRun("text"),)),)) for _ in range(4)]
+    heading = TextRow((Cell(0, (TextRun("heading"),)),), keep=1)
     high = 3 * rows[0].height + 0.1
     columns = [Rect(0, 0, 50, high), Rect(60, 0, 110, high)]
     placed_rows = fill([*rows[:2], heading, *rows[2:]], columns)
@@ -211,8 +211,8 @@ def test_kinds_of_line_have_pens_of_their_own() -> None:
 
 def test_a_bent_link_is_a_plate_and_a_straight_one_a_bar() -> None:
     """Three points on a line make a bar; off the line they make a tinted triangle."""
-    assert symbols.straight([(0, 0), (10, 0), (20, 0.05)])
-    assert not symbols.straight([(0, 0), (10, 4), (20, 0)])
+    assert symbols.are_collinear([(0, 0), (10, 0), (20, 0.05)])
+    assert not symbols.are_collinear([(0, 0), (10, 4), (20, 0)])
     plates = [item for item in symbols.plate([(0, 0), (10, 4), (20, 0), (10, 1)]) if isinstance(item, Polygon)]
     assert set(plates[0].spots) == {(0, 0), (10, 4), (20, 0)}
 
@@ -241,9 +241,9 @@ def test_a_block_is_turned_to_its_guide() -> None:
 def test_letters_in_a_crowd_do_not_overlap() -> None:
     """Thirty letters of marks within a few millimetres all find places of their own, the same every time."""
     marks = [(50 + i % 6, 50 + i // 6) for i in range(30)]
-    wishes = [Wish((Run(f"M{i}"),), (mark,), label=f"M{i}") for i, mark in enumerate(marks)]
-    items = placed(wishes, [], marks, SQUARE)
-    assert items == placed(wishes, [], marks, SQUARE)
+    wishes = [Wish((TextRun(f"M{i}"),), (mark,), label=f"M{i}") for i, mark in enumerate(marks)]
+    items = place_letters(wishes, [], marks, SQUARE)
+    assert items == place_letters(wishes, [], marks, SQUARE)
     texts = [(item.at, width(item.runs, item.size)) for item in items if isinstance(item, Text)]
     boxes = [Rect(x, y, x + long, y + 1.8) for (x, y), long in texts]
     assert len(boxes) == 30
@@ -252,7 +252,7 @@ def test_letters_in_a_crowd_do_not_overlap() -> None:
 
 def test_a_letter_whose_mark_is_off_the_panel_stands_whole_at_its_edge() -> None:
     """Its one place is as near to the mark as the panel allows, and as large as the letter."""
-    wish = Wish((Run("A"),), ((130, 50),))
+    wish = Wish((TextRun("A"),), ((130, 50),))
     wide, high = wish.extent
     assert candidates([wish], SQUARE).boxes.tolist() == [pytest.approx([100 - wide, 50, 100, 50 + high])]
 
@@ -260,7 +260,7 @@ def test_a_letter_whose_mark_is_off_the_panel_stands_whole_at_its_edge() -> None
 def test_a_letter_avoids_the_line_through_its_mark() -> None:
     """A letter beside a line does not stand on it."""
     line = Polyline(pens.THIN, "construction", None, ((0, 50), (100, 50)))
-    (text,) = placed([Wish((Run("A"),), ((50, 50),))], [line], [(50, 50)], SQUARE)
+    (text,) = place_letters([Wish((TextRun("A"),), ((50, 50),))], [line], [(50, 50)], SQUARE)
     assert isinstance(text, Text)
     assert text.at[1] > 50 or text.at[1] + 1.8 < 50
 

@@ -97,11 +97,11 @@ def test_drawn_per_real_is_one_over_real_per_drawn() -> None:
     real = compose(drawing).scales
     drawn = replace(real, convention="drawn")
     for panel in ("mechanism", *real.multiples):
-        for one, other in zip(real.said(panel, kinds), drawn.said(panel, kinds), strict=True):
+        for one, other in zip(real.scale_texts(panel, kinds), drawn.scale_texts(panel, kinds), strict=True):
             values = [float(re.findall(r"= (\S+) ", told)[0].replace("·10", "e")) for told in (one, other)]
             assert values[0] * values[1] == pytest.approx(1, rel=1e-3)
             assert other.startswith(one.replace("k_", "mu_", 1)[:5])
-    assert drawn.said("mechanism", kinds)[:2] == [f"mu_s = {1 / real.k_s:g} mm/mm",
+    assert drawn.scale_texts("mechanism", kinds)[:2] == [f"mu_s = {1 / real.k_s:g} mm/mm",
                                                   f"mu_v = {1 / real.speed('mechanism'):g} mm per mm/s"]
 
 

@@ -8,9 +8,9 @@ from sheets import SCENES, composition_of, drawing_of, outside, sheet_of
 import graphplan as gp
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
-from graphplan.sheet.layout.layout import numbered, selected
+from graphplan.sheet.layout.layout import sheet_at_step, step_range
 from graphplan.sheet.lettering.lettering import plain
-from graphplan.sheet.pictures import MARK, STAGE, STEP, parted, used
+from graphplan.sheet.pictures import MARK, STAGE, STEP, cut_into_runs, marks_used
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Text
 from graphplan.sheet.plates.plans import Plans
@@ -23,7 +23,7 @@ def test_a_step_shows_what_is_drawn_by_then(name: str) -> None:
     """Up to a step there is all that the steps before it made, nothing later, and no result."""
     drawn, sheet = drawing_of(name).drawn, sheet_of(name)
     last = drawn.givens + (len(drawn) - drawn.givens) // 2
-    shown = selected(sheet, last)
+    shown = sheet_at_step(sheet, last)
     assert {item.step for item in shown.items} - {None} == {item.step for item in sheet.items
                                                            if item.step is not None and item.step <= last}
     assert not [item for item in shown.items if item.layer == RESULTS]
@@ -32,14 +32,14 @@ def test_a_step_shows_what_is_drawn_by_then(name: str) -> None:
 def test_the_last_step_shows_the_whole_sheet() -> None:
     """Up to the last step a sheet is as it is, results and all."""
     sheet = sheet_of("four-bar")
-    assert selected(sheet, len(sheet.sentences) - 1) == sheet
+    assert sheet_at_step(sheet, len(sheet.sentences) - 1) == sheet
 
 
 def test_what_was_drawn_before_is_grey() -> None:
     """Steps before the first have a paler pen and the same place; those from it on are as they were."""
     sheet, drawn = sheet_of("four-bar"), drawing_of("four-bar").drawn
-    first, last = numbered(drawn, "5-9")
-    for item, one in zip(selected(sheet, last, first).items, selected(sheet, last).items, strict=True):
+    first, last = step_range(drawn, "5-9")
+    for item, one in zip(sheet_at_step(sheet, last, first).items, sheet_at_step(sheet, last).items, strict=True):
         assert (item == one) == (one.step is None or one.step >= first or item.pen == one.pen)
         assert item.pen.width == one.pen.width
 
@@ -57,7 +57,7 @@ def test_an_arrow_waits_for_both_its_ends(name: str) -> None:
 def test_steps_that_are_not_there_are_refused(text: str) -> None:
     """A number that is no step, or a range that runs backwards, is refused with the numbers that there are."""
     with pytest.raises(Refused, match="numbers from 1 to "):
-        numbered(drawing_of("four-bar").drawn, text)
+        step_range(drawing_of("four-bar").drawn, text)
 
 
 @pytest.mark.parametrize("name", SCENES[::6])
@@ -67,7 +67,7 @@ def test_the_strip_shows_every_step_once(name: str) -> None:
     composition, drawn = composition_of(name), drawing.drawn
     plans = composition.plans
     for cut in (MARK, STAGE):
-        film = Strip.of(composition, cut)
+        film = Strip.from_composition(composition, cut)
         assert [step.index for one in film.pictures for step in one.steps] == list(range(drawn.givens, len(drawn)))
         assert all(len({plans.plan_of_step[step.index] for step in one.steps}) == 1 for one in film.pictures)
         texts = [plain(item.runs) for page in film.sheets for item in page.items
@@ -92,24 +92,25 @@ def test_a_single_strip_has_a_picture_for_each_step() -> None:
     composition = composition_of("four-bar")
     drawn = composition.plans.drawing.drawn
     steps = len(drawn) - drawn.givens
-    assert len(Strip.of(composition, STEP).pictures) == steps > len(Strip.of(composition, MARK).pictures)
+    assert len(Strip.from_composition(composition, STEP).pictures) == steps > len(Strip.from_composition(composition,
+                                                                                                         MARK).pictures)
 
 
 @pytest.mark.parametrize("name", ["four-bar", "slotted-link", "jaanimets-10"])
 def test_a_picture_shows_what_its_steps_use(name: str) -> None:
     """Every point that a step of a picture draws or reads on its plan is in it, with nothing else of before."""
     composition = composition_of(name)
-    for one in Strip.of(composition, STAGE).pictures:
+    for one in Strip.from_composition(composition, STAGE).pictures:
         shown, own = one.excerpt, {step.index for step in one.steps}
         points = [drawn for drawn in shown.steps if drawn.kind == POINT and drawn.number]
-        assert all(shown.shown(mark) for mark in points)
+        assert all(shown.is_on_panel(mark) for mark in points)
         assert own <= {drawn.index for drawn in shown.steps}
-        assert {drawn.index for drawn in shown.steps} - own <= used(composition.plans.drawing.drawn, own)
+        assert {drawn.index for drawn in shown.steps} - own <= marks_used(composition.plans.drawing.drawn, own)
 
 
 def test_new_strokes_are_in_ink_and_others_in_grey() -> None:
     """In a picture what its steps draw is as dark as ink, what they use is paler, and so is the mechanism."""
-    one = Strip.of(composition_of("four-bar"), MARK).pictures[1]
+    one = Strip.from_composition(composition_of("four-bar"), MARK).pictures[1]
     own = {step.index for step in one.steps}
     dark = {item.step for item in one.items if not isinstance(item, Text) and item.pen.colour == pens.INK}
     assert dark <= own
@@ -121,7 +122,7 @@ def test_long_stages_are_cut_where_little_is_carried_over() -> None:
     """A stage is parted where the fewest of its marks are used on both sides, in runs no longer than asked."""
     drawn, cut = gp.construct(gp.load("four-bar"), strict=True).drawn, 0
     for _, steps in drawn.stages:
-        runs = parted(drawn, steps, 12)
+        runs = cut_into_runs(drawn, steps, 12)
         assert [step for run in runs for step in run] == steps
         assert max(map(len, runs)) <= 12
         if len(runs) == 2:

@@ -11,8 +11,8 @@ from graphplan.kernel.kinds import POINT
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import layout, pages, with_numbers
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.labels import placed
-from graphplan.sheet.lettering.lettering import Run, plain
+from graphplan.sheet.lettering.labels import place_letters
+from graphplan.sheet.lettering.lettering import TextRun, plain
 from graphplan.sheet.plates.display import Arc, Circle, Polyline, Rect, Sheet, Text
 
 NUMBERED = ("point", "line", "arc", "step")
@@ -75,8 +75,8 @@ def test_a_plain_sheet_has_only_the_numbers_that_are_spoken_of(name: str) -> Non
 
 def test_a_number_is_raised_behind_its_letter() -> None:
     """A raised number stands behind its letter, above its base line, smaller and apart."""
-    wish = Wish((Run("v"), Run("b", -1)), ((50.0, 50.0),), label="v_b", raised="5")
-    letter, number = placed([wish], [], [(50.0, 50.0)], Rect(0, 0, 100, 100))
+    wish = Wish((TextRun("v"), TextRun("b", -1)), ((50.0, 50.0),), label="v_b", raised="5")
+    letter, number = place_letters([wish], [], [(50.0, 50.0)], Rect(0, 0, 100, 100))
     assert isinstance(letter, Text)
     assert isinstance(number, Text)
     assert (plain(number.runs), number.label) == ("5", "step 5")
@@ -88,9 +88,9 @@ def test_a_number_is_raised_behind_its_letter() -> None:
 def test_a_number_without_room_has_a_leader() -> None:
     """A number that may stand anywhere along a line goes far and is tied to it where all near places are taken."""
     middle = (50.0, 50.0)
-    crowd = [Wish((Run("M"),), (middle,), label="M") for _ in range(30)]
-    along = Wish((Run("7"),), (middle,), label="line 7", step=7, free=True)
-    items = placed([*crowd, along], [], [], Rect(0, 0, 100, 100))
+    crowd = [Wish((TextRun("M"),), (middle,), label="M") for _ in range(30)]
+    along = Wish((TextRun("7"),), (middle,), label="line 7", step=7, free=True)
+    items = place_letters([*crowd, along], [], [], Rect(0, 0, 100, 100))
     number, *others = sorted((item for item in items if isinstance(item, Text)), key=lambda item: item.label)[::-1]
     assert number.label == "line 7"
     assert [item for item in items if isinstance(item, Polyline) and item.step == 7]

@@ -27,7 +27,7 @@ from graphplan.marking.judge.verdict import EARNED, UNSURE, WRONG, Judgement, Ve
 from graphplan.marking.traces import Trace
 from graphplan.phrases import joined
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.plates.display import Circle, Item, Photograph, Rect, Sheet, Spot, moved
+from graphplan.sheet.plates.display import Circle, Item, Photograph, Rect, Sheet, Spot, move_item
 from graphplan.sheet.plates.view import View, clip_item
 
 RING = 1.0  # mm about what is right
@@ -70,7 +70,7 @@ class ScanStrokes(StudentStrokes):
         panel = self.judgement.composition.plates.steps[verdict.step].panel
         if panel not in self.judgement.frames:
             return None
-        spot = self.judgement.composition.views[panel].back(self.about(verdict))
+        spot = self.judgement.composition.views[panel].to_plan(self.about(verdict))
         at = self.judgement.frames[panel].onto(complex(*spot))
         return at.real, at.imag
 
@@ -123,9 +123,9 @@ class Corrections:
         left, low = (min(max(at - half, 0.0), most - 2 * half)
                      for at, half, most in ((x, CUT[0], whole.width), (y, CUT[1], whole.height)))
         rect = Rect(left, low, left + 2 * CUT[0], low + 2 * CUT[1])
-        ring = Circle(CALLED.filled("none"), LAYER, None, (x, y), ABOUT)
+        ring = Circle(CALLED.with_fill("none"), LAYER, None, (x, y), ABOUT)
         items = [piece for item in (*mark.items(), ring) for piece in clip_item(item, rect)]
-        return self._page(cut(rect), *(moved(item, -rect.left, -rect.bottom) for item in items))
+        return self._page(cut(rect), *(move_item(item, -rect.left, -rect.bottom) for item in items))
 
     def _page(self, scan: Photograph, *items: Item) -> Sheet:
         return replace(self.true[0], items=(scan, *items), panels={}, width=scan.rect.width, height=scan.rect.height)

@@ -17,12 +17,12 @@ from graphplan.methods.kinds import KINDS, ResultKind
 from graphplan.phrases import said
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.layout import framed, layout, stacked, titled
-from graphplan.sheet.layout.paper import packed, words_page
+from graphplan.sheet.layout.layout import back_to_front, frame_items, layout, title_items
+from graphplan.sheet.layout.paper import paginate_tightly, words_page
 from graphplan.sheet.plates.display import Sheet
 from graphplan.sheet.tolerances import ZERO_TOL
-from graphplan.sheet.words.rows import TextRow, largest_size, lettered
-from graphplan.sheet.words.texts import Words
+from graphplan.sheet.words.rows import TextRow, largest_size, row_items
+from graphplan.sheet.words.texts import SheetWords
 
 KEY = said("Key")
 HEAD = "variant", "student", "quantity", "of", "x", "y", "value", "unit"
@@ -75,15 +75,15 @@ def key_table(found: Iterable[tuple[int, str, Iterable[Row]]]) -> str:
 def overview(composition: Composition, told: Sequence[tuple[int, str, str]]) -> Iterator[Sheet]:
     """The first pages of the key: each variant with its student and what was drawn for it."""
     plans, scene = composition.plans, composition.plans.drawing.scene
-    words, frame = Words(plans), frame_of(scene)
+    words, frame = SheetWords(plans), frame_of(scene)
     page = words_page(frame.paper("A4"), frame, frame.block(scene, plans.tongue))
 
     def rows(wide: float) -> Sequence[TextRow]:
         lines = [(f"{variant}", f"{student}: {values}" if student else values) for variant, student, values in told]
         return [row for number, line in lines for row in words.paragraph(line, wide, number=number)]
 
-    apart, filled = replace(composition, arrangement=page), packed(page.set(rows), page)
+    apart, filled = replace(composition, arrangement=page), paginate_tightly(page.set(rows), page)
     first = layout(plans.drawing, composition=composition, document=KEY)
     for number, placed in enumerate(filled, 1):
-        items = stacked([*framed(apart), *lettered(placed), *titled(apart, KEY, number, len(filled))])
+        items = back_to_front([*frame_items(apart), *row_items(placed), *title_items(apart, KEY, number, len(filled))])
         yield replace(first, width=page.width, height=page.height, frame=page.frame, panels={}, items=tuple(items))

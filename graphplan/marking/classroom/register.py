@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.sheet.frames.frame import numbers
+from graphplan.sheet.frames.frame import corner_numbers
 
 FILE = "class.json"
 REMEDY = "the class.json that graphplan variants wrote"
@@ -42,7 +42,7 @@ class Register:
 
     def with_code(self, code: int) -> TaskSheet | None:
         """The sheet that has these corner marks; None where none has."""
-        return next((sheet for sheet in self.sheets if numbers(sheet.code) == numbers(code)), None)
+        return next((sheet for sheet in self.sheets if corner_numbers(sheet.code) == corner_numbers(code)), None)
 
     def of(self, student: str) -> TaskSheet | None:
         """The sheet of a student; None where there is no such student."""
@@ -53,7 +53,7 @@ class Register:
         """The first two variants whose sheets have the same corner marks; None where all differ."""
         seen: dict[tuple[int, ...], int] = {}
         for sheet in self.sheets:
-            other = seen.setdefault(numbers(sheet.code), sheet.variant)
+            other = seen.setdefault(corner_numbers(sheet.code), sheet.variant)
             if other != sheet.variant:
                 return other, sheet.variant
         return None

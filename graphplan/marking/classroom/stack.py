@@ -18,7 +18,7 @@ from graphplan.marking.classroom.register import Register, TaskSheet
 from graphplan.marking.files.safe import MB, text
 from graphplan.mechanism.items import perhaps
 from graphplan.phrases import Said, joined, said
-from graphplan.sheet.frames.frame import numbers, page_code
+from graphplan.sheet.frames.frame import corner_numbers, page_code
 
 SURE, ENOUGH = 3, 2  # marks that tell a sheet though another one is misread, and though the others are lost
 ALL = 4  # marks of a page
@@ -84,7 +84,7 @@ def coded(sight: Sight, register: Register) -> Coded:
 def _fitting(marks: Sequence[int], sheets: Iterable[TaskSheet]) -> Iterator[tuple[TaskSheet, int]]:
     """The sheets and the pages of them that bear these marks: all of them, or at least three."""
     for sheet, page in product(sheets, range(1, PAGES + 1)):
-        own = len(set(marks) & set(numbers(page_code(sheet.code, page))))
+        own = len(set(marks) & set(corner_numbers(page_code(sheet.code, page))))
         if own >= SURE or own == len(marks) >= ENOUGH:
             yield sheet, page
 

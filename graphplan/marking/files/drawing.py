@@ -20,7 +20,7 @@ from graphplan.marking.files.safe import FARTHEST, TRACES, Budget, on_paper
 from graphplan.marking.spelling import lined
 from graphplan.marking.tolerances import SIZE_TOL
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
-from graphplan.sheet.lettering.lettering import SUBSCRIPT, Run, width
+from graphplan.sheet.lettering.lettering import SUBSCRIPT, TextRun, width
 
 STATED = 3.0  # what the unit that a file states speaks for itself, as a logarithm of odds
 WORDS = 500  # that may be names; more name nothing
@@ -31,7 +31,7 @@ AT, FREE, LONGEST = 0.3, 0.5, 30.0  # mm from a leader's end to its mark, and fr
 def lettering(text: str, at: Spot, size: float, anchor: float = 0.0) -> Lettering:
     """Words that are anchored at a part of their length: 0 at the beginning, 1 at the end; a subscript is smaller."""
     stem, _, index = text.partition("_")
-    long = width((Run(stem), Run(index, -1)), size)
+    long = width((TextRun(stem), TextRun(index, -1)), size)
     return Lettering(text, (at[0] - anchor * long, at[1]), size, long)
 
 

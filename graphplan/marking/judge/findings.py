@@ -28,8 +28,8 @@ from graphplan.methods.kinds import WORDS
 from graphplan.methods.panels import reactions_named
 from graphplan.phrases import Said, arranged, coordinates, digits, joined, phrase, said, unit
 from graphplan.sheet.lettering.lettering import HEADING, Runs, sentence_runs
-from graphplan.sheet.words.rows import Cell, TextRow, rows
-from graphplan.sheet.words.texts import Words
+from graphplan.sheet.words.rows import Cell, TextRow, table_rows
+from graphplan.sheet.words.texts import SheetWords
 
 FIGURES = 2  # of a distance on paper
 OFF, ALLOWED = phrase("off"), phrase("allowed")
@@ -267,7 +267,7 @@ class LegendRow(TextRow):
     state: str | None = None
 
 
-class Remarks(Words):
+class Remarks(SheetWords):
     """All that is said beside a judged drawing."""
 
     def lines(self, wide: float, judgement: Judgement, score: Score) -> list[TextRow]:
@@ -302,7 +302,7 @@ class Remarks(Words):
         told: list[tuple[str, float]] = [(GROUPS[group](), percent) for group, percent in score.groups.items()]
         told += [(KINDS[kind](), -cost) for kind, cost in score.costs.items()]
         told.append((said("in all, of 100"), score.total))
-        yield from rows([[self._runs(name), self._runs(digits(round(percent)))] for name, percent in told])
+        yield from table_rows([[self._runs(name), self._runs(digits(round(percent)))] for name, percent in told])
 
     def _numbers(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:
         """The numbers of the table beside the true ones, in the scene's units."""
@@ -314,7 +314,7 @@ class Remarks(Words):
             cells = written(one.number), figures(one.true), figures((one.off,)), figures((one.tolerance,))
             what = result_named(judgement, one.number.kind, one.number.of)
             table.append([self._runs(what), *map(self._runs, cells)])
-        yield from rows(table)
+        yield from table_rows(table)
         for one in judgement.numbers:
             if one.state == WRONG:
                 yield from self.paragraph(miss(judgement, one), wide)

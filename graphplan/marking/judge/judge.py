@@ -158,7 +158,8 @@ class Judge:
     def hidden(self) -> set[int]:
         """The steps that the task's own sheet does not show; another construction is not laid out for it."""
         task = self.reading.task
-        return {drawn.index for plate in task.plates for drawn in plate.hidden} if self.drawing is task.plans.drawing \
+        return {drawn.index for plate in task.plates
+                for drawn in plate.hidden_marks} if self.drawing is task.plans.drawing \
             else set()
 
     def _told(self) -> Iterator[Said]:

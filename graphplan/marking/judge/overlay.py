@@ -25,17 +25,17 @@ from graphplan.marking.judge.score import Score
 from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNSURE, WRONG, Judgement, Verdict
 from graphplan.marking.traces import Trace
 from graphplan.sheet.frames.frame import BORDER
-from graphplan.sheet.layout.layout import layout, titled
-from graphplan.sheet.layout.paper import packed
+from graphplan.sheet.layout.layout import layout, title_items
+from graphplan.sheet.layout.paper import paginate_tightly
 from graphplan.sheet.lettering.label_candidates import Array, Wish
-from graphplan.sheet.lettering.labels import placed
-from graphplan.sheet.lettering.lettering import CAPS, SIZE, Run, sentence_runs, width, wrap
-from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text, within
+from graphplan.sheet.lettering.labels import place_letters
+from graphplan.sheet.lettering.lettering import CAPS, SIZE, TextRun, sentence_runs, width, wrap
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text, lies_in
 from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.pens import LETTERS, PAPER, Pen
-from graphplan.sheet.plates.symbols import off, unit_vector
+from graphplan.sheet.plates.symbols import offset, unit_vector
 from graphplan.sheet.plates.view import View, clip_item, clip_segment, interpolate
-from graphplan.sheet.words.rows import LEADING, Placed, lettered
+from graphplan.sheet.words.rows import LEADING, Placed, row_items
 from graphplan.sheet.words.texts import RESULTS
 
 LAYER = "student"
@@ -65,17 +65,17 @@ def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     arrangement, tongue = composition.arrangement, composition.plans.tongue
     solution = layout(judgement.drawing, composition=composition)
     apart = (*arrangement.columns, arrangement.title)
-    around = [item for item in solution.items if item.layer in BESIDE and not within(item, apart)]
-    empty = [item for item in around if not within(item, arrangement.panels.values())]
+    around = [item for item in solution.items if item.layer in BESIDE and not lies_in(item, apart)]
+    empty = [item for item in around if not lies_in(item, arrangement.panels.values())]
     over = [faint(item) for item in solution.items if item.layer not in (*BESIDE, RESULTS)]
     student = StudentStrokes(judgement)
     over += student.items()
     over += [item for panel, view in composition.views.items() for item in told(student, panel, view.rect, over)]
     words = arrangement.set(lambda wide: Remarks(composition.plans).lines(wide, judgement, score))
-    about, pages = replace(solution, description=tongue(opinion(judgement))), packed(words, arrangement)
+    about, pages = replace(solution, description=tongue(opinion(judgement))), paginate_tightly(words, arrangement)
     sheets = []
     for number, page in enumerate(pages, 1):
-        block = titled(composition, VERDICT, number, len(pages))
+        block = title_items(composition, VERDICT, number, len(pages))
         items = [*(around + over if number == 1 else empty), *block, *_remarks(page)]
         sheets.append(replace(about, items=tuple(items), panels=solution.panels if number == 1 else {}))
     return sheets
@@ -103,15 +103,16 @@ def told(student: StudentStrokes, panel: str, rect: Rect, items: Sequence[Item])
             sentence = judgement.composition.plans.tongue(complaint(judgement, verdict))
             here += (boxed := [*callout(sentence, names, at, here, rect, CALLED, letters.text)])
             yield from boxed
-    wishes = [Wish((Run(called(drawn, verdict.at_fault).short),), (at,), SIZES[WRONG], True, Pen(0.0, RED, fill=RED),
+    wishes = [Wish((TextRun(called(drawn, verdict.at_fault).short),), (at,), SIZES[WRONG], True,
+                   Pen(0.0, RED, fill=RED),
                    bold=True) for verdict, at in wrong if verdict is not judgement.first]
-    yield from placed(wishes, here, [at for _, at in wrong], rect, letters)
+    yield from place_letters(wishes, here, [at for _, at in wrong], rect, letters)
 
 
 def _remarks(page: Sequence[Placed]) -> Iterator[Item]:
     """Rows as items, those of the legend with their samples."""
     for row, x, y in page:
-        yield from lettered([(row, x, y)])
+        yield from row_items([(row, x, y)])
         if isinstance(row, LegendRow):
             yield from sample(row.state, (x + row.cells[0].x / 2 - 0.5, y + LIFT - 0.3))
 
@@ -121,8 +122,8 @@ def callout(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[I
     """The box with its leader, in letters of a size; `items` are what it should not cover."""
     box, words = boxed(sentence, names, spot, items, rect, pen, size)
     nearest = min(max(spot[0], box.left), box.right), min(max(spot[1], box.bottom), box.top)
-    leader = off(spot, unit_vector(spot, nearest), RING)
-    yield Circle(pen.filled("none"), LAYER, None, spot, RING)
+    leader = offset(spot, unit_vector(spot, nearest), RING)
+    yield Circle(pen.with_fill("none"), LAYER, None, spot, RING)
     yield Polyline(pen, LAYER, None, (leader, nearest))
     yield from words
 
@@ -137,7 +138,7 @@ def boxed(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[Ite
     box = _box(wide, high, spot, items, rect)
     words = (Text(LETTERS, LAYER, None, (box.left + PAD, box.top - PAD - size * (CAPS + LEADING * i)), runs, size)
              for i, runs in enumerate(lines))
-    return box, [Polygon(pen.filled(PAPER), LAYER, None, box.corners), *words]
+    return box, [Polygon(pen.with_fill(PAPER), LAYER, None, box.corners), *words]
 
 
 def _box(wide: float, high: float, spot: Spot, items: Sequence[Item], rect: Rect) -> Rect:
@@ -207,13 +208,14 @@ class StudentMark:
         """Where a wrong mark should be."""
         step, wanted, here = self.verdict.step, self.wanted, self.at
         if wanted.kind == POINT:
-            return Polyline(WANTED, LAYER, step, (here, wanted.at))
+            return Polyline(WANTED, LAYER, step, (here, wanted.spot))
         if wanted.kind == LINE:
             at, long = foot(Floats(), wanted.line, here), max(REACH, math.dist(*self.spots[:2]) / 2)
-            return Polyline(WANTED, LAYER, step, (off(at, wanted.along, -long), off(at, wanted.along, long)))
-        middle = _angle(wanted.at, here)
+            return Polyline(WANTED, LAYER, step,
+                            (offset(at, wanted.direction, -long), offset(at, wanted.direction, long)))
+        middle = _angle(wanted.spot, here)
         wide = math.degrees(REACH / wanted.radius) if wanted.radius > REACH / math.pi else 180.0
-        return Arc(WANTED, LAYER, step, wanted.at, wanted.radius, middle - wide, middle + wide)
+        return Arc(WANTED, LAYER, step, wanted.spot, wanted.radius, middle - wide, middle + wide)
 
     def tolerance(self) -> Iterator[Item]:
         """The ellipse about where a point should be; it is as much larger as our sheet is than the student's.
@@ -221,13 +223,13 @@ class StudentMark:
         A mark that goes on rightly from where a wrong one should have been has none of its own.
         """
         ellipse, grown = self.verdict.ellipse, self.grown
-        far = math.dist(self.wanted.at, self.spots[0]) if ellipse else math.inf
+        far = math.dist(self.wanted.spot, self.spots[0]) if ellipse else math.inf
         if not ellipse or not math.isfinite(far) or (self.verdict.state != WRONG and far > grown * ellipse.major):
             return
         angle = math.radians(ellipse.angle)
         way = math.cos(angle), math.sin(angle)
         around = [math.tau * i / CORNERS for i in range(CORNERS)]
-        spots = [off(self.wanted.at, way, grown * ellipse.major * math.cos(t), grown * ellipse.minor * math.sin(t))
+        spots = [offset(self.wanted.spot, way, grown * ellipse.major * math.cos(t), grown * ellipse.minor * math.sin(t))
                  for t in around]
         yield Polygon(ALLOWED, LAYER, self.verdict.step, tuple(spots))
 
@@ -277,11 +279,11 @@ class StudentStrokes:
         plates = self.judgement.composition.plates
         wanted = replace(plates.steps[verdict.step], value=verdict.own)
         rect = wanted.view.rect
-        on = [wanted.at] if wanted.kind == POINT else [mark.at for mark in plates[wanted.panel].marks(wanted)]
+        on = [wanted.spot] if wanted.kind == POINT else [mark.spot for mark in plates[wanted.panel].marks(wanted)]
         middle = (rect.left + rect.right) / 2, (rect.bottom + rect.top) / 2
         if not on:
             on = [foot(Floats(), wanted.line, middle) if wanted.kind == LINE else
-                  wanted.at if wanted.kind == CIRCLE else middle]
+                  wanted.spot if wanted.kind == CIRCLE else middle]
         x, y = np.mean(on, axis=0)
         return min(max(float(x), rect.left), rect.right), min(max(float(y), rect.bottom), rect.top)
 
@@ -312,7 +314,7 @@ def sample(state: str | None, spot: Spot) -> Iterator[Item]:
     x, y = spot
     yield Polyline(PENS.get(state, SPARE), LAYER, None, ((x - 4.0, y), (x + 4.0, y)))
     if state == UNSURE:  # its ring is wider than a row is high
-        yield Circle(PENS[UNSURE].filled("none"), LAYER, None, spot, SIZES[WRONG])
+        yield Circle(PENS[UNSURE].with_fill("none"), LAYER, None, spot, SIZES[WRONG])
     else:
         yield from _point(spot, state, None)
 
@@ -333,11 +335,11 @@ def _point(spot: Spot, state: str | None, step: int | None) -> Iterator[Item]:
     firm = Pen(min(pen.width, 0.5), pen.colour, fill=PAPER)
     corners = Rect(x - size, y - size, x + size, y + size).corners
     if state == WRONG:
-        yield from (Polyline(firm.filled("none"), LAYER, step, ends) for ends in (corners[::2], corners[1::2]))
+        yield from (Polyline(firm.with_fill("none"), LAYER, step, ends) for ends in (corners[::2], corners[1::2]))
     elif state == FOLLOWS:
         yield Polygon(firm, LAYER, step, corners)
     elif state == UNSURE:
-        yield Circle(pen.filled("none"), LAYER, step, spot, size)
+        yield Circle(pen.with_fill("none"), LAYER, step, spot, size)
     else:
         yield Circle(firm, LAYER, step, spot, size)
 

@@ -20,7 +20,7 @@ from graphplan.errors import Refused
 from graphplan.marking.scans.image import Grey, Light, Spots, deviation
 from graphplan.marking.scans.printed_ink import Pieces, pieces
 from graphplan.marking.tolerances import MIN_DIVISOR
-from graphplan.sheet.frames.frame import numbers, places
+from graphplan.sheet.frames.frame import corner_numbers, corner_rects
 from graphplan.sheet.plates.display import Rect, Sheet
 
 GRID = 16  # pixels between the places where a warp is worked out; between them it is as good as straight
@@ -103,7 +103,7 @@ def find(image: Grey, code: int | None, name: str) -> dict[int, Spots]:
     if code is None:
         small_first = sorted(seen, key=lambda mark: abs(enclosed(mark[1])))  # what looks like a mark by chance is small
         return {number >> BITS: rim for number, rim in small_first}
-    own = {number: corner for corner, number in enumerate(numbers(code))}
+    own = {number: corner for corner, number in enumerate(corner_numbers(code))}
     found = {own[number]: corners for number, corners in seen if number in own}
     if not found and _of_one_sheet([(number >> BITS, corners) for number, corners in seen]):
         raise Refused(name, "the marks in its corners are those of another task",
@@ -358,7 +358,7 @@ def _starts(image: Grey, sheet: Sheet, light: Light, found: dict[int, Spots]) ->
 
 def _by_marks(found: dict[int, Spots], sheet: Sheet) -> Warp:
     """The plane through the corners of the marks."""
-    rects = places(sheet.width, sheet.height, sheet.frame)
+    rects = corner_rects(sheet.width, sheet.height, sheet.frame)
     printed = [spot for corner in found for spot in rects[corner].corners[::-1]]
     seen = np.concatenate([found[corner] for corner in found])
     return _plane(np.array(printed), seen, sheet)

@@ -13,7 +13,7 @@ from typing import Any
 from ezdxf.enums import MTextEntityAlignment, TextEntityAlignment
 
 from graphplan.output.cad.layers import NAME, Layers, colour, weight
-from graphplan.sheet.lettering.lettering import CAPS, Run, lowered, plain
+from graphplan.sheet.lettering.lettering import CAPS, TextRun, plain, script_size
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Spot, Text
 from graphplan.sheet.plates.pens import PAPER, Pen
 
@@ -98,7 +98,7 @@ class Ink:
         strokes: list[Any] = []
         for spots, fill in arrow.figures:
             corners = self._spots((*spots[:2], *reversed(spots[2:])))  # the last two of a solid cross
-            strokes += (self._filled(spots, arrow.pen.filled(fill), look) if fill == PAPER
+            strokes += (self._filled(spots, arrow.pen.with_fill(fill), look) if fill == PAPER
                         else [self.space.add_solid(corners, dxfattribs=look)])
         strokes += [self.space.add_line(*self._spots(shaft), dxfattribs=look) for shaft in arrow.shaft]
         start, end = self._spots((arrow.start, arrow.end))
@@ -118,7 +118,7 @@ class Ink:
                 ends = self._spots(((text.box.left, y), (text.box.right, y)))
                 return letters.set_placement(*ends, align=TextEntityAlignment.FIT)
             return letters.set_placement(self.at((x, y)), align=ANCHORS[text.anchor])
-        small = lowered(text.size) / text.size
+        small = script_size(text.size) / text.size
         written = "".join(_levelled(run, small) for run in text.runs)
         letters = self.space.add_mtext(written, dxfattribs=look | {"char_height": self.unit * high})
         return letters.set_location(self.at((x, y + high)), attachment_point=HANGING[text.anchor])
@@ -131,7 +131,7 @@ class Ink:
         return [self.at(spot) for spot in spots]
 
 
-def _levelled(run: Run, small: float) -> str:
+def _levelled(run: TextRun, small: float) -> str:
     """Letters in the language of stacked text: `small` is the size of those that hang or are raised."""
     if run.level == 0:
         return MEANT.sub(r"\\\g<0>", run.text)

@@ -18,12 +18,12 @@ from graphplan.output.cad.ink import STYLE, Ink
 from graphplan.output.cad.layers import FULL_SIZE, Layers
 from graphplan.sheet.lettering.lettering import CAPS, SMALL_SHEET, width
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.annotations import FIRST, Dimension, dimensions
+from graphplan.sheet.plates.annotations import FIRST, LinkDimension, dimensions
 from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
-from graphplan.sheet.plates.plans import around
+from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.plates.plate import Plates
-from graphplan.sheet.plates.symbols import GUIDE, LONG, NEAR, off
+from graphplan.sheet.plates.symbols import GUIDE, LONG, NEAR, offset
 from graphplan.sheet.plates.traced_motion import outline
 from graphplan.sheet.plates.view import View
 
@@ -67,8 +67,8 @@ class FullSize:
     def _guides(self) -> Iterator[Item]:
         """The line along which each block slides."""
         for slide in self.plates.scene.slides:
-            seat, along = self.drawn.seat(slide), self.drawn.along(slide)
-            ends = off(seat, along, -GUIDE), off(seat, along, GUIDE)
+            seat, along = self.drawn.seat(slide), self.drawn.direction(slide)
+            ends = offset(seat, along, -GUIDE), offset(seat, along, GUIDE)
             yield Polyline(pens.PRODUCED, f"{FULL_SIZE} guides", None, ends)
 
     def _letters(self) -> Iterator[Text]:
@@ -93,7 +93,7 @@ class FullSize:
         return cmath.rect(1.0, start + gap / 2)
 
     @cached_property
-    def dimensions(self) -> list[Dimension]:
+    def dimensions(self) -> list[LinkDimension]:
         """The dimensions of its links."""
         return dimensions(self.plates.scene, self.drawn.spots, self.items)
 
@@ -101,7 +101,7 @@ class FullSize:
     def box(self) -> Rect:
         """What it takes up, in units of the scene."""
         sides = [abs(one.aside) for one in self.dimensions]
-        box, margin = around(list(self.drawn.spots.values())), max([ROOM, *sides]) + FIRST
+        box, margin = bounding_box(list(self.drawn.spots.values())), max([ROOM, *sides]) + FIRST
         return box.inset(-margin, -margin, -margin, -margin).times(self.scale)
 
     def draw(self, space: Any, layers: Layers, decimal: str) -> None:

@@ -22,12 +22,12 @@ from graphplan.output.graphs import AXIS, CURVES, DIVISION, Figures, Graph, scal
 from graphplan.output.tolerances import BASE_TOL, OFFSET_TOL, RANGE_TOL, STILL_RATE
 from graphplan.phrases import Said, arranged, digits, phrase, said, unit
 from graphplan.sheet.layout.scales import round_up
-from graphplan.sheet.lettering.lettering import CAPS, Run
+from graphplan.sheet.lettering.lettering import CAPS, TextRun
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import around
-from graphplan.sheet.plates.view import View, clip_item, least, view
+from graphplan.sheet.plates.plans import bounding_box
+from graphplan.sheet.plates.view import View, clip_item, fit_scale, view
 
 LAW_PLAN = Panel("law", said("law"), said("Law of the follower over the turn of the cam"))
 CENTRE_PLAN = Panel("centre", said("cam centre"), said("Curve x(s): where the cam's centre lies"))
@@ -147,7 +147,7 @@ class Paper(Figures):
                 angle = float(jump.angle)
                 tip = at(angle, math.copysign(high, jump.after - jump.before))
                 yield Arrow(pens.VECTORS["acceleration"], "ruling", None, at(angle, 0.0), tip, 2.4)
-                yield self.text((tip[0] + 0.8, tip[1] - 1.0), (Run("∞"),))
+                yield self.text((tip[0] + 0.8, tip[1] - 1.0), (TextRun("∞"),))
 
     # ---- where the centre lies -------------------------------------------------------------------------------------
 
@@ -167,9 +167,9 @@ class Paper(Figures):
 
     def _window(self, spots: Sequence[complex], rect: Rect) -> View:
         """A view that holds these places, at a round scale."""
-        box = around([(z.real, z.imag) for z in spots])
+        box = bounding_box([(z.real, z.imag) for z in spots])
         room = rect.inset(*(SHARE * min(rect.width, rect.height),) * 4)
-        return view(box, room, float(round_up(least(box, room))))
+        return view(box, room, float(round_up(fit_scale(box, room))))
 
     def _curve_x(self, rect: Rect) -> Iterator[Item]:
         """The follower's path with x laid off, the curve of its ends, the tangents, and the centre."""

@@ -16,7 +16,7 @@ from graphplan.sheet.lettering.lettering import LetterSizes
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import around
+from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.plates.view import View
 from graphplan.words.tongue import ENGLISH
 
@@ -71,7 +71,8 @@ class CamPlan:
         low, high = (200.0, 320.0) if sense > 0 else (220.0, 340.0)
         turn = Arc(pens.DRIVE, "drive", None, O, radius, low, high)
         yield turn
-        tip, back = (turn.at(high), turn.at(high - 20)) if sense > 0 else (turn.at(low), turn.at(low + 20))
+        tip, back = (turn.spot_at(high), turn.spot_at(high - 20)) if sense > 0 else (turn.spot_at(low),
+                                                                                     turn.spot_at(low + 20))
         yield Arrow(pens.DRIVE, "drive", None, back, tip, 3.0)
 
     def _hatched(self, at: Spot, down: Spot, off: float) -> Iterator[Item]:
@@ -156,5 +157,5 @@ def extent(drawing: CamDrawing) -> Rect:
             x, y, square = drawing.values[drawing.common[name]]
             r = math.sqrt(square)
             spots += [(x - r, y - r), (x + r, y + r)]
-    box = around(spots)
+    box = bounding_box(spots)
     return box.inset(-cam.roller, -cam.roller, -cam.roller, -cam.roller)

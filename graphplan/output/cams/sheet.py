@@ -19,7 +19,7 @@ from graphplan.output.panelled import Panelled, Recorded, beside, pages, under
 from graphplan.phrases import Said, arranged, digits, joined, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.plates.display import Item, Rect, Sheet
-from graphplan.sheet.plates.view import least, view
+from graphplan.sheet.plates.view import fit_scale, view
 
 DOCUMENT = said("Cam sheet")
 MOVED = {"uniform": said("uniform"), "parabolic": said("parabolic"), "harmonic": said("harmonic"), "sine": said("sine"),
@@ -68,7 +68,7 @@ class CamSheet(Panelled):
     @cached_property
     def k_s(self) -> float:
         """Lengths for a mm of the plan, in a round scale."""
-        return float(round_up(least(extent(self.drawing), self.room(CAM_PLAN).inset(*(OUTSIDE,) * 4))))
+        return float(round_up(fit_scale(extent(self.drawing), self.room(CAM_PLAN).inset(*(OUTSIDE,) * 4))))
 
     def divided(self, room: Rect) -> dict[Panel, Rect]:
         """The plan, under it the curve x(s) if there is one, and beside them the diagrams."""

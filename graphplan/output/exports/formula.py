@@ -68,7 +68,7 @@ def _local(d: Symbols, kind: str, window: View, texts: Sequence[str]) -> tuple[A
     parts: list[Any] = [d.tape.input(text) for text in texts]
     if kind == OPENING:
         return (_square(parts[0] / window.scale),)
-    x, y = window.back((parts[0], parts[1]))
+    x, y = window.to_plan((parts[0], parts[1]))
     if kind == CIRCLE:
         return x, y, _square(parts[2] / window.scale)
     return (-parts[3], parts[2], parts[3] * x - parts[2] * y) if kind == LINE else (x, y)
@@ -81,7 +81,7 @@ def _square(part: Any) -> Any:
 def _told(d: Symbols, kind: str, window: View, value: Any) -> list[Any]:
     """A rule's answer in mm; of a line the point that is next to the middle of its window, and its way."""
     if kind == LINE:
-        (x, y), (a, b, c) = window.back(window.rect.centre), value
+        (x, y), (a, b, c) = window.to_plan(window.rect.centre), value
         off = (a * x + b * y + c) / (a * a + b * b)
         return [*window((x - a * off, y - b * off)), b, -a]
     at = () if kind == OPENING else window((value[0], value[1]))

@@ -234,7 +234,7 @@ class _GclcWriter(Source):
         return told
 
     def put(self, drawn: DrawnStep) -> None:
-        self.lines.append(f"point {self.names[drawn]} {' '.join(map(decimal, drawn.at))}")
+        self.lines.append(f"point {self.names[drawn]} {' '.join(map(decimal, drawn.spot))}")
 
     def reckon(self, drawn: DrawnStep) -> None:
         name, coordinates = self.names[drawn], [self._coordinates(arg) for arg in drawn.args]

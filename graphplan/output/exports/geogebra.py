@@ -88,7 +88,7 @@ class _GeoGebraWriter(Elements):
         """Reads the plates of the construction, those of the given pose, and the compounds that are by their rule."""
         super().__init__(plates)
         self.given, self.wrong = given, wrong
-        self.joints = {point.at: point for point in reversed(given.pose.values())}
+        self.joints = {point.spot: point for point in reversed(given.pose.values())}
         self.objects, box = Objects(self.title), plates.box
         self.size = min((WIDE - COLUMN) / box.width, (HIGH - ROWS) / box.height) * 0.97  # pixels for a mm
         self.by_name = {name: self.names[drawn] for name, drawn in plates.pose.items()}
@@ -142,7 +142,7 @@ class _GeoGebraWriter(Elements):
         self._walked(joined((begun, kept), " ") if changing else begun, 0)
         for drawn in self.plates.pose.values():
             self._due(drawn)
-        for drawn in self.plates.drawn:
+        for drawn in self.plates.all_marks:
             if drawn.number:
                 self._step(drawn)
 
@@ -160,7 +160,7 @@ class _GeoGebraWriter(Elements):
 
     def _walked(self, sentence: str, number: int) -> None:
         """The sentence of a step, seen until the next step is drawn; the navigation bar stops here."""
-        last = max(drawn.number for drawn in self.plates.drawn)
+        last = max(drawn.number for drawn in self.plates.all_marks)
         self.objects.shown_if = f"ConstructionStep[] < ConstructionStep[step_{{{number + 1}}}]" if number < last else ""
         told = f"{number}.  {sentence}" if number else self.say(sentence)
         element = self.objects.on_screen("step", quoted(told), 20, 60 + ROW * len(self.plates.scene.drives))
@@ -204,20 +204,20 @@ class _GeoGebraWriter(Elements):
         self.ways = found.ways if found else {}
         if found:
             linkage = Linkage(found, self.objects, self.by_name)
-            self.placed = linkage.enter(lambda name: self._point(pose[name], given[name].at))
+            self.placed = linkage.enter(lambda name: self._point(pose[name], given[name].spot))
         for name, drawn in pose.items():
             if name not in free:
                 if found:
                     self.objects.expression(self.names[drawn], "({}, {})".format(*self.placed.points[name]),
                                             type="point")
-                element = self._point(drawn, given[name].at)
+                element = self._point(drawn, given[name].spot)
                 empty(element, "fixed", val=not found)
 
     def _point(self, drawn: DrawnStep, at: Spot | None = None) -> Element:
         """A mark's element, at its place in the given pose."""
         label, point = self.names[drawn], drawn.kind == POINT
         letter = self._letter_of(drawn) if point else None
-        shown = bool(letter) or (point and drawn.view.rect.holds(drawn.at))
+        shown = bool(letter) or (point and drawn.view.rect.holds(drawn.spot))
         pen = pens.ARC if not point else pens.PAIR if not drawn.number else pens.ORIGIN if drawn.free else pens.DOT
         element = self.objects.element(TYPES[drawn.kind], label, shown, bool(letter), pen, POINTS if point else CURVES)
         if point:
@@ -251,15 +251,15 @@ class _GeoGebraWriter(Elements):
         for plate in self.plates:
             for letter in self.letters(plate):
                 found.setdefault(letter.mark, letter)
-        return {drawn: found.get(drawn) or Letter.beside(drawn) for drawn in self.plates.drawn
+        return {drawn: found.get(drawn) or Letter.beside(drawn) for drawn in self.plates.all_marks
                 if drawn.name and drawn.kind == POINT}
 
     def _stated(self, drawn: DrawnStep) -> Spot:
         """Where a mark lies in the given pose, for readers that take a file as it stands."""
         if self.plates is self.given or not drawn.number:
-            return drawn.at
+            return drawn.spot
         x, y = (float(np.ravel(part)[0]) for part in self._in_given_pose[drawn.index][:2])
-        return drawn.view((x, y)) if math.isfinite(x) and math.isfinite(y) else drawn.at
+        return drawn.view((x, y)) if math.isfinite(x) and math.isfinite(y) else drawn.spot
 
     @cached_property
     def _in_given_pose(self) -> list[Any]:
@@ -348,9 +348,9 @@ class _GeoGebraWriter(Elements):
             return self.by_name[self.joints[at].name]
         if not part.points:
             return spot(*at)
-        point = min(part.points, key=lambda name: math.dist(self.given.pose[name].at, at))
+        point = min(part.points, key=lambda name: math.dist(self.given.pose[name].spot, at))
         carrier, name = self.given.pose[point], self.by_name[point]
-        x, y = (number(round(one - other, 6)) for one, other in zip(at, carrier.at, strict=True))
+        x, y = (number(round(one - other, 6)) for one, other in zip(at, carrier.spot, strict=True))
         if part.link not in self.placed.turns:
             return f"{name} + ({x}, {y})"
         cos, sin = self.placed.turns[part.link]
@@ -360,6 +360,6 @@ class _GeoGebraWriter(Elements):
         """What a plan is, at the top of its window, and its scales."""
         rect = plate.view.rect
         self.objects.text("caption", quoted(plate.caption), spot(rect.left, rect.top), bold=True)
-        told = scales(self.plates).said(plate.panel, self.plates.plans.kinds(plate.panel))
+        told = scales(self.plates).scale_texts(plate.panel, self.plates.plans.kinds(plate.panel))
         if told:
             self.objects.text("scale", quoted(self.say(joined(told, ",  "))), spot(rect.left, rect.top - 5))

@@ -130,7 +130,7 @@ def labels(plates: Plates) -> dict[DrawnStep, str]:
     """The label of every mark: its letters where GeoGebra allows them, else its kind and place."""
     found: dict[DrawnStep, str] = {}
     taken = set(RESERVED)
-    for place, drawn in enumerate(plates.drawn):
+    for place, drawn in enumerate(plates.all_marks):
         letter = letters(drawn.name)
         fits = LABEL.fullmatch(letter) and not letter.startswith(TAKEN) and letter not in taken
         found[drawn] = letter if fits else f"{drawn.kind}_{{{place}}}"

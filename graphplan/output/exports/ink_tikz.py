@@ -36,17 +36,17 @@ def _drawn(item: Item) -> Iterator[str]:
     look = _look(item.pen)
     match item:
         case Polyline():
-            yield rf"\draw[{_look(item.pen.filled('none'))}] {_chain(item.spots)};"
+            yield rf"\draw[{_look(item.pen.with_fill('none'))}] {_chain(item.spots)};"
         case Polygon():
             yield rf"\path[{look}] {_chain(item.spots)} -- cycle;"
         case Circle():
             yield rf"\path[{look}] {_spot(item.centre)} circle[radius={rounded(item.radius)}];"
         case Arc():
-            yield (rf"\draw[{look}] {_spot(item.at(item.start))} arc[start angle={rounded(item.start)}, "
+            yield (rf"\draw[{look}] {_spot(item.spot_at(item.start))} arc[start angle={rounded(item.start)}, "
                    rf"end angle={rounded(item.end)}, radius={rounded(item.radius)}];")
         case Arrow():
             for ends in item.shaft:
-                yield rf"\draw[{_look(item.pen.filled('none'))}] {_chain(ends)};"
+                yield rf"\draw[{_look(item.pen.with_fill('none'))}] {_chain(ends)};"
             for corners, fill in item.figures:
                 yield rf"\fill[{_colour(fill)}] {_chain(corners)} -- cycle;"
         case Text():

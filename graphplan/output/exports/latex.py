@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from graphplan.kernel.stages import Equation
 from graphplan.phrases import said
-from graphplan.sheet.lettering.lettering import GREEK, LARGE_SHEET, SMALL_SHEET, Run, Runs, equation_runs
+from graphplan.sheet.lettering.lettering import GREEK, LARGE_SHEET, SMALL_SHEET, Runs, TextRun, equation_runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import SLIM
 from graphplan.sheet.plates.pens import Pen
@@ -36,8 +36,8 @@ STYLES: dict[str, Pen] = {
     "arrowhead": pens.SOLID, "balloon": pens.BALLOON, "drive": pens.DRIVE, "path of a point": pens.PATH,
     "end of a path": pens.PATH_END, "spot of a path": pens.PATH_DOT, "other position": pens.POSITION,
     "wheel": pens.WHEEL,
-    **{f"given {kind}": pen.filled("none") for kind, pen in pens.GIVEN.items()},
-    **{kind: pen.filled("none") for kind, pen in pens.VECTORS.items()},
+    **{f"given {kind}": pen.with_fill("none") for kind, pen in pens.GIVEN.items()},
+    **{kind: pen.with_fill("none") for kind, pen in pens.VECTORS.items()},
 }  # fmt: skip
 HEADS = {pens.FILLED: "head", pens.WHITE: "white head", pens.OPEN: "open head"}
 NAMES = {pen: name for name, pen in reversed(STYLES.items())}
@@ -217,7 +217,7 @@ def equation(told: Equation) -> str:
     return found + lettering(equation_runs(told.text[done:]))
 
 
-def _level(run: Run) -> str:
+def _level(run: TextRun) -> str:
     """A subscript or a superscript; of a run on the base line nothing."""
     return f"{'_' if run.level < 0 else '^'}{{{_formula(run.text.strip())}}}" if run.level else ""
 

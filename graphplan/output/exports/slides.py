@@ -16,7 +16,7 @@ from graphplan.sheet.layout.layout import captions
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates.display import Text
 from graphplan.sheet.words.protocol import Passage, Protocol
-from graphplan.sheet.words.texts import Words
+from graphplan.sheet.words.texts import SheetWords
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ class Slides:
 
     @cached_property
     def _names(self) -> tuple[str, ...]:
-        return Words(self.composition.plans).names
+        return SheetWords(self.composition.plans).names
 
 
 def captioned(composition: Composition, panel: str) -> Iterator[Text]:

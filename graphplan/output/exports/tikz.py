@@ -194,13 +194,13 @@ class TikzWriter(Source):
         if drawn.kind == OPENING:
             places = {"": (drawn.radius, 0.0)}
         elif drawn.kind == CIRCLE:
-            places = {"_at": drawn.at, "": (drawn.at[0] + drawn.radius, drawn.at[1])}
+            places = {"_at": drawn.spot, "": (drawn.spot[0] + drawn.radius, drawn.spot[1])}
         elif drawn.kind == LINE:
             (x, y), (dx, dy) = _nearest(drawn), heading(drawn)
             long = REACH / math.hypot(dx, dy)
             places = {"_at": (x, y), "_to": (x + dx * long, y + dy * long)}
         else:
-            places = {"": drawn.at}
+            places = {"": drawn.spot}
         self.lines += [rf"\coordinate ({self.names[drawn]}{end}) at {spot(at)};" for end, at in places.items()]
 
     def told(self, drawn: DrawnStep) -> dict[str, str]:
@@ -252,7 +252,7 @@ class TikzWriter(Source):
     def stroke(self, stroke: Stroke) -> None:
         """By parts of the way between two marks, or from one the way that a line runs."""
         head = f", {HEADS[stroke.pen.tip]}={stroke.head:.3g}" if stroke.head else ""
-        style = NAMES[stroke.pen.filled("none")] + head
+        style = NAMES[stroke.pen.with_fill("none")] + head
         start, end, parts = self.names[stroke.start], self.names[stroke.end], (stroke.low, stroke.high)
         if self.lost.intersection((stroke.of, stroke.start, stroke.end)):
             self._path(style, map(spot, stroke.ends))
@@ -332,7 +332,7 @@ class TikzWriter(Source):
 
 def _anchor(letter: Letter) -> tuple[str, Spot]:
     """By which of its sides lettering hangs on its mark, and how far off that side is."""
-    box, (x, y), middle = letter.text.box, letter.mark.at, letter.off
+    box, (x, y), middle = letter.text.box, letter.mark.spot, letter.off
     left, right, top = box.left - x, box.right - x, box.top - y
     if left > -BESIDE:
         side, across = " west", left
@@ -347,7 +347,7 @@ def _reach(drawn: DrawnStep) -> float:
     """How far out the coordinates of a mark lie."""
     if drawn.kind == OPENING:
         return drawn.radius
-    at = _nearest(drawn) if drawn.kind == LINE else drawn.at
+    at = _nearest(drawn) if drawn.kind == LINE else drawn.spot
     return max(map(abs, at)) + (drawn.radius if drawn.kind == CIRCLE else 0.0)
 
 

@@ -47,7 +47,7 @@ class TkzWriter(tikz.TikzWriter):
 
     def put(self, drawn: DrawnStep) -> None:
         if drawn.free and drawn not in self.literal:
-            self.lines.append(rf"\tkzDefPoint{tikz.spot(drawn.at)}{{{self.names[drawn]}}}")
+            self.lines.append(rf"\tkzDefPoint{tikz.spot(drawn.spot)}{{{self.names[drawn]}}}")
         else:
             super().put(drawn)
 
@@ -88,4 +88,4 @@ def _passing(drawn: DrawnStep) -> float:
     """How far to the left of a line a circle's centre lies, in radii."""
     line, circle = drawn.args
     a, b, c = line.line
-    return (a * circle.at[0] + b * circle.at[1] + c) / (math.hypot(a, b) * circle.radius)
+    return (a * circle.spot[0] + b * circle.spot[1] + c) / (math.hypot(a, b) * circle.radius)

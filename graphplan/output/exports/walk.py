@@ -18,13 +18,13 @@ from graphplan.mechanism.model import FRAME
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
 from graphplan.sheet.lettering.lettering import sentence_runs
-from graphplan.sheet.lettering.letters import pictures
+from graphplan.sheet.lettering.letters import letter_plates
 from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
-from graphplan.sheet.plates.drawn_mechanism import Figure, Guide, Rail
+from graphplan.sheet.plates.drawn_mechanism import Figure, FixedGuide, Rail
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import around
+from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.plates.plate import Plate, Plates
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 
@@ -53,12 +53,12 @@ def heading(line: DrawnStep) -> Spot:
     """How far, in mm, the two ends of a line stand apart: its own two points', or as the line that it follows."""
     movement, args = line.step.op.movement, line.args
     if movement in (Movement.RULED, Movement.BISECTED):
-        (x, y), (u, v) = args[0].at, args[1].at
+        (x, y), (u, v) = args[0].spot, args[1].spot
         return (u - x, v - y) if movement is Movement.RULED else (y - v, u - x)
     if movement in (Movement.PARALLEL, Movement.PERPENDICULAR):
         dx, dy = heading(args[0])
         return (dx, dy) if movement is Movement.PARALLEL else (-dy, dx)
-    return REACH * line.along[0], REACH * line.along[1]
+    return REACH * line.direction[0], REACH * line.direction[1]
 
 
 def parameters(drawn: DrawnStep) -> dict[str, float]:
@@ -84,7 +84,7 @@ class Riding(NamedTuple):
     link: str = ""
 
 
-def _riding(part: Figure | Guide | Rail) -> Riding:
+def _riding(part: Figure | FixedGuide | Rail) -> Riding:
     """What a part of the mechanism rides on."""
     slide = part.slide
     link = "" if slide is None else slide.link if slide.link != FRAME else slide.along
@@ -110,15 +110,15 @@ class Letter:
     @classmethod
     def beside(cls, mark: DrawnStep) -> Letter:
         """A mark's own name above its right, where the sheet has none."""
-        at = mark.at[0] + 1.0, mark.at[1] + 1.0
+        at = mark.spot[0] + 1.0, mark.spot[1] + 1.0
         return cls(mark, Text(pens.LETTERS, "letters", None, at, sentence_runs(mark.name), 2.5))
 
     def at(self, off: Spot) -> Spot:
         """The spot so far off its mark."""
-        return self.mark.at[0] + off[0], self.mark.at[1] + off[1]
+        return self.mark.spot[0] + off[0], self.mark.spot[1] + off[1]
 
     def _from_mark(self, spot: Spot) -> Spot:
-        return spot[0] - self.mark.at[0], spot[1] - self.mark.at[1]
+        return spot[0] - self.mark.spot[0], spot[1] - self.mark.spot[1]
 
 
 class Walk:
@@ -130,12 +130,12 @@ class Walk:
         self.plates, self.say = plates, plates.plans.tongue
         self.title, self.source = plates.scene.title, plates.scene.source
         self.names = self.named()
-        self.joints: Mapping[Spot, DrawnStep] = {point.at: point for point in reversed(plates.pose.values())}
+        self.joints: Mapping[Spot, DrawnStep] = {point.spot: point for point in reversed(plates.pose.values())}
         self.lines: list[str] = []
 
     def named(self) -> Mapping[DrawnStep, str]:
         """What the marks are called in the target."""
-        return identifiers(self.plates.drawn)
+        return identifiers(self.plates.all_marks)
 
     # ---- the mechanism and the letters -----------------------------------------------------------------------------
 
@@ -161,10 +161,10 @@ class Walk:
                 riding = Riding(tuple(name for name, _ in one.given[:1]), one.on)
                 yield from ((item, riding) for item in one.items(plate.view, self.plates.scene))
         mechanism = plate.drawn_mechanism
-        for part in mechanism.parts():
+        for part in mechanism.figures():
             riding = _riding(part)
-            if isinstance(part, Guide) and part.slide.along == FRAME:
-                at, along = mechanism.seat(part.slide), mechanism.along(part.slide)
+            if isinstance(part, FixedGuide) and part.slide.along == FRAME:
+                at, along = mechanism.seat(part.slide), mechanism.direction(part.slide)
                 items: Iterable[Item] = symbols.guideway(at, along, part.side, ways.get(part.slide.name, (0.0, 0.0)))
             else:
                 items = part.items
@@ -172,7 +172,7 @@ class Walk:
 
     def pictured(self, plate: Plate) -> list[Item]:
         """What the sheet shows of a plan."""
-        return pictures(self.plates)[plate.panel].items
+        return letter_plates(self.plates)[plate.panel].items
 
     def letters(self, plate: Plate) -> Iterator[Letter]:
         """The letters of a plan where the sheet has them, each off the mark that it hangs on."""
@@ -187,10 +187,10 @@ class Walk:
         if text.step is None:
             pose = self.plates.pose
             name = text.label.partition(",")[0]
-            return pose[name] if name in pose else min(pose.values(), key=lambda mark: math.dist(mark.at, text.at))
+            return pose[name] if name in pose else min(pose.values(), key=lambda mark: math.dist(mark.spot, text.at))
         drawn = self.plates.steps[text.step]
         if drawn.kind == LINE:
-            return min(plate.marks(drawn), key=lambda mark: math.dist(mark.at, text.at))
+            return min(plate.marks(drawn), key=lambda mark: math.dist(mark.spot, text.at))
         ends = (vector.end for vector in plate.vectors if vector.of is drawn and vector.letter in text.label.split())
         return next(ends, drawn)
 
@@ -204,7 +204,7 @@ class Source(Walk):
     def steps(self) -> None:
         """What is said of each step, and its commands."""
         firsts = self.plates.firsts
-        for drawn in self.plates.drawn:
+        for drawn in self.plates.all_marks:
             if drawn in firsts:
                 self.lines += ["", f"% {self.say(said('plan: {0}', firsts[drawn].caption))}"]
             if drawn.number:
@@ -244,10 +244,10 @@ class Source(Walk):
         for stroke in (*plate.strokes(drawn), *(vector for vector in plate.vectors if vector.of is drawn)):
             self.stroke(stroke)
         for arc in plate.arcs(drawn):
-            if plate.shown(arc.mark):
+            if plate.is_on_panel(arc.mark):
                 self.arc(arc)
         if pen := plate.dot(drawn):
-            self.dot(drawn, pen, plate.size(drawn))
+            self.dot(drawn, pen, plate.dot_radius(drawn))
         for letter in letters:
             self.letter(letter)
 
@@ -309,7 +309,7 @@ class Elements(Walk):
         found: dict[DrawnStep, list[Stroke | StruckArc]] = {}
         for plate in self.plates:
             strokes = [*(stroke for drawn in plate.steps for stroke in plate.strokes(drawn)), *plate.vectors]
-            arcs = (arc for drawn in plate.steps for arc in plate.arcs(drawn) if plate.shown(arc.mark))
+            arcs = (arc for drawn in plate.steps for arc in plate.arcs(drawn) if plate.is_on_panel(arc.mark))
             hung: list[tuple[Stroke | StruckArc, tuple[DrawnStep, ...]]]
             hung = [*((stroke, (stroke.of, stroke.start, stroke.end)) for stroke in strokes),
                     *((arc, (arc.of, arc.mark)) for arc in arcs)]  # fmt: skip
@@ -360,4 +360,4 @@ def extent(items: Iterable[Item]) -> Rect:
                 spots += [(x - r, y - r), (x + r, y + r)]
             case _:
                 spots += corners(item)
-    return around(spots or [(0.0, 0.0)]).inset(-1.0, -1.0, -1.0, -1.0)
+    return bounding_box(spots or [(0.0, 0.0)]).inset(-1.0, -1.0, -1.0, -1.0)

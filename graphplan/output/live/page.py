@@ -28,9 +28,9 @@ from graphplan.output.svg import svg
 from graphplan.phrases import Said, unit
 from graphplan.sheet.frames.title import CONSTRUCTION
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.layout import captions, framed, layout, sheet
+from graphplan.sheet.layout.layout import captions, frame_items, layout, sheet
 from graphplan.sheet.plates.display import Rect, Sheet
-from graphplan.sheet.plates.plans import Plans, around
+from graphplan.sheet.plates.plans import Plans, bounding_box
 from graphplan.words.tongue import Tongue, tongue
 
 PACKING = 9  # how hard gzip tries
@@ -142,7 +142,7 @@ class LivePage:
         """What of a variant is said in a language, told once."""
         if (number, say.code) not in self._told:
             compositions = [self._in(one, say) for one in self.variants[number].compositions]
-            still = [*framed(compositions[0]), *captions(compositions[0])]
+            still = [*frame_items(compositions[0]), *captions(compositions[0])]
             self._told[number, say.code] = {
                 "title": say.title(self.title), "svg": _inline(sheet(compositions[0], still, CONSTRUCTION)),
                 "pictures": [pictures.picture(one, {} if k else self._places[number])
@@ -190,7 +190,7 @@ def _program(composition: Composition) -> Data:
                    "plan": panels.index(plans.plan_of_step[step.index]),
                    "number": max(0, drawing.drawn.number(step.index))} for step in drawing.drawn.steps],
         "panels": [_box(rects[panel], high) for panel in panels],
-        "plans": _box(around([spot for rect in rects.values() for spot in rect.corners]), high),
+        "plans": _box(bounding_box([spot for rect in rects.values() for spot in rect.corners]), high),
         "vectors": [{"name": vector.label, "panel": panels.index(plans.plan_of_step[vector.end]), "end": vector.end,
                      "start": vector.start} for vector in drawing.arrows
                     if vector.kind in (kinds.VELOCITY, kinds.ACCELERATION)],

@@ -30,16 +30,16 @@ from graphplan.sheet.lettering.lettering import (
     DROP,
     LetterSizes,
     Runs,
-    lowered,
     name_runs,
+    script_size,
     sentence_runs,
     width,
 )
-from graphplan.sheet.lettering.letters import Letters, wishes_on
+from graphplan.sheet.lettering.letters import PlateLetters, wishes_on
 from graphplan.sheet.plates import display, drawn_mechanism, pens, symbols
 from graphplan.sheet.plates import plate as strokes
 from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Spot
-from graphplan.sheet.plates.drawn_mechanism import Figure, Guide, Rail
+from graphplan.sheet.plates.drawn_mechanism import Figure, FixedGuide, Rail
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import corner
@@ -60,7 +60,7 @@ MEASURES: dict[Any, tuple[str, ...]] = {  # of what is drawn: mm, degrees, price
 }  # fmt: skip
 TOGETHER = letters.NEAR  # mm: marks that lie so near to each other have their letters together
 PENS = {  # by what they draw
-    "arc": pens.ARC, "pair": pens.PAIR, "tracer": pens.DOT, "break": pens.THIN.filled(pens.GREY),
+    "arc": pens.ARC, "pair": pens.PAIR, "tracer": pens.DOT, "break": pens.THIN.with_fill(pens.GREY),
     "leader": pens.LEADER, "balloon": pens.BALLOON, "letters": pens.LETTERS, "faint": pens.FAINT,
     "ground": pens.GROUND, "hatch": pens.HATCH, "produced": pens.PRODUCED, "bar": pens.BAR, "hollow": pens.HOLLOW,
     "path": pens.PATH,
@@ -112,8 +112,8 @@ class _Teller:
             "slides": [self._slide(slide) for slide in self.scene.slides],
             "links": [list(map(self.points.index, self.scene.links[link])) for link in self.scene.moving],
             "steps": [self._step(drawn) for drawn in self.plates.steps],
-            "vectors": [self._vector(plate, stroke) for plate in self.plates for stroke in plate.asked],
-            "parts": list(map(self._part, self.mechanism.parts())),
+            "vectors": [self._vector(plate, stroke) for plate in self.plates for stroke in plate.wanted_vectors],
+            "parts": list(map(self._part, self.mechanism.figures())),
             "pairs": list(map(self.points.index, self.mechanism.pairs)),
             "joints": [self._lettering(sentence_runs(name, (name,))) for name in self.points],
             "numbers": [self._link_number(wish) for wish in self.mechanism.wishes()],
@@ -147,7 +147,7 @@ class _Teller:
         """What is drawn of a step, told by marks."""
         plate = self.plates[drawn.panel]
         found: Data = {"number": drawn.number, "kind": drawn.kind, "panel": self.panels.index(drawn.panel),
-                       "spoken": Letters(plate).spoken(drawn),
+                       "spoken": PlateLetters(plate).is_mentioned(drawn),
                        "title": self.titles[drawn.index]}
         if drawn.name:
             found |= {"name": drawn.name, "letter": self._lettering(name_runs(drawn.name), corner(drawn.step))}
@@ -164,7 +164,7 @@ class _Teller:
             runs = sentence_runs(self.plates.plans.tongue(said("to {0}", name)), (name,))
             found |= {"text": name, "to": self._lettering(runs, size=self.plates.letters.text)}
         if drawn.kind == POINT and (dot := plate.dotting(drawn)):
-            found["dot"] = [self.pen(dot), plate.size(drawn)]
+            found["dot"] = [self.pen(dot), plate.dot_radius(drawn)]
         if drawn.kind == POINT and drawn.root:
             given = plate.given_pen(drawn)
             found |= {"root": drawn.root.index, "pen": self.pen(plate.laid_pen(drawn)),
@@ -187,12 +187,12 @@ class _Teller:
 
     # ---- the mechanism ---------------------------------------------------------------------------------------------
 
-    def _part(self, part: Figure | Guide | Rail) -> Data:
+    def _part(self, part: Figure | FixedGuide | Rail) -> Data:
         """A part of the mechanism's picture, and what it moves with."""
         if isinstance(part, Figure):
             return {"frame": self._frame(part), "items": [self._item(item, part) for item in part.items]}
         slide, seat = self.scene.slides.index(part.slide), self.points.index(part.seat)
-        if isinstance(part, Guide):
+        if isinstance(part, FixedGuide):
             return {"ground": slide, "block": seat, "side": part.side}
         return {"rail": slide, "block": seat, "end": self.points.index(part.end)}
 
@@ -236,7 +236,7 @@ class _Teller:
         """The number of a link, and where it may stand."""
         link = wish.label.removeprefix("link ")
         spots = [self._off(spot, self.scene.links[link]) for spot in wish.spots]
-        return {"label": wish.label, "letter": self._lettering(wish.runs, size=wish.size), "clear": wish.clear,
+        return {"label": wish.label, "letter": self._lettering(wish.runs, size=wish.letter_size), "clear": wish.clear,
                 "free": wish.free, "frame": self._turning(link), "spots": spots}
 
     def places(self) -> Places:
@@ -266,7 +266,7 @@ def _measures(sizes: LetterSizes) -> Data:
     found = {name: getattr(module, name) for module, names in MEASURES.items() for name in names}
     return found | {"TOGETHER": TOGETHER, "MARGIN": MARGIN, "CAPS": CAPS, "DEPTH": DEPTH, "DROP": DROP,
                     "LETTER": sizes.mark, "TEXT": sizes.text, "ADVANCE": {char: ADVANCE[char] for char in "0, ≡"},
-                    "LOWERED": {size: lowered(size) for size in vars(sizes).values()}}
+                    "LOWERED": {size: script_size(size) for size in vars(sizes).values()}}
 
 
 def _fine(length: float) -> float:

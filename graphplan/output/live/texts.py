@@ -25,7 +25,7 @@ from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.protocol import Entry, Passage, Protocol, lengths_of
 from graphplan.sheet.words.readings import Readings
 from graphplan.sheet.words.rows import Table
-from graphplan.sheet.words.texts import Words
+from graphplan.sheet.words.texts import SheetWords
 from graphplan.words.tongue import Tongue
 
 LEVELS = "{}", "<sup>{}</sup>", "<sub>{}</sub>"  # of letters: on the line, above it, and, as the last, below
@@ -39,8 +39,8 @@ class FollowingScales(Scales):
     later: Later = field(default_factory=Later)
     panels: tuple[str, ...] = ()
 
-    def of(self, panel: str) -> Any:
-        return super().of(panel) * self.later.input(f"s[{self.panels.index(panel)}]")
+    def lengths_per_mm(self, panel: str) -> Any:
+        return super().lengths_per_mm(panel) * self.later.input(f"s[{self.panels.index(panel)}]")
 
 
 class Following(Construction):
@@ -103,7 +103,7 @@ class Telling:
 
     def __post_init__(self) -> None:
         self.names = tuple(step.name for step in self.plans.drawing.drawn.steps if step.name)
-        self.words = Words(self.plans)
+        self.words = SheetWords(self.plans)
 
     def set(self, text: str) -> str:
         """Words with the names of marks set as on the sheet."""
@@ -137,9 +137,9 @@ class Telling:
     def _entries(self, entries: Iterable[Entry]) -> Iterator[str]:
         """Entries as items of a list; one of several movements has a list of these."""
         for entry in entries:
-            told = f"<b>{entry.number}</b> {self._part(self.set(entry.told))}"
+            told = f"<b>{entry.number}</b> {self._part(self.set(entry.text))}"
             last = entry.movements[-1].number
-            if not entry.folded:
+            if not entry.is_compound:
                 yield f'<li><button type="button" data-place="{last}">{told}</button></li>'
                 continue
             parts = "".join(f'<li><button type="button" data-place="{one.number}"><b>{one.number}</b> '
@@ -152,7 +152,7 @@ class Telling:
         """What is measured on the drawing, and what it means, as items of a list; empty where that is nothing."""
         found = Readings(self.plans.drawing, lengths_of(self.plans, self.scales), self.words.values)
         return (f"<li>{self._part(self.set(in_any_case(lambda one=one: _reading(found, one))))}</li>"  # type: ignore[misc]
-                for one in found.drawn)
+                for one in found.drawn_readings)
 
     def results(self) -> str:
         """What is read when all is drawn, as tables."""
@@ -174,8 +174,8 @@ class Telling:
 
 def _reading(found: Readings, reading: Reading) -> Said:
     """A reading in a sentence, which is empty where there is nothing to read."""
-    measured = found.measured(reading)
-    return measured.told if measured else arranged("")
+    measured = found.measure(reading)
+    return measured.text if measured else arranged("")
 
 
 def html(runs: Runs) -> str:

@@ -29,14 +29,14 @@ from graphplan.output.step_ink import HEAD, StepInk
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.labels import placed
-from graphplan.sheet.lettering.letters import of_mechanism
+from graphplan.sheet.lettering.labels import place_letters
+from graphplan.sheet.lettering.letters import mechanism_wishes
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Sheet, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import around
-from graphplan.sheet.plates.view import View, clip_item, least, view
+from graphplan.sheet.plates.plans import bounding_box
+from graphplan.sheet.plates.view import View, clip_item, fit_scale, view
 
 FORCE = Panel("shaking force", said("shaking force"), said("Shaking force: its polar diagram"))
 CYCLE = Panel("cycle", said("cycle"), said("Shaking force and moment over the travel"))
@@ -107,7 +107,7 @@ class BalanceSheet(Panelled):
         """What a panel shows, and its scale."""
         if panel == MECHANISM:
             scale = Scales(self.k_s, 1.0, self.scene.units.length, {}, convention=self.scene.sheet.convention)
-            return said("Mass centre by principal vectors"), joined(scale.said(MECHANISM, set()), ",  ")
+            return said("Mass centre by principal vectors"), joined(scale.scale_texts(MECHANISM, set()), ",  ")
         if panel == FORCE:
             return panel.heading, scale_words("J", self.polar(self.room(panel)).k, "N", self.scene.sheet.convention)
         return panel.heading, None
@@ -134,12 +134,12 @@ class BalanceSheet(Panelled):
         program = self.before.centre.program
         ends = [self.before.centre.values[index][:2] for index in program.wanted]
         places = [*((z.real, z.imag) for z in (*paths, *weights)), *ends]
-        return around([*places, *((float(x), float(y)) for x, y in self.scene.points.values())])
+        return bounding_box([*places, *((float(x), float(y)) for x, y in self.scene.points.values())])
 
     @cached_property
     def k_s(self) -> float:
         """Lengths for a mm of the mechanism, in a round scale."""
-        return float(round_up(least(self._box, self.room(MECHANISM).inset(*(OUTSIDE,) * 4))))
+        return float(round_up(fit_scale(self._box, self.room(MECHANISM).inset(*(OUTSIDE,) * 4))))
 
     def _mechanism(self, rect: Rect) -> Iterator[Item]:
         """The links with their counterweights, the paths of the mass centre, and the steps."""
@@ -148,7 +148,7 @@ class BalanceSheet(Panelled):
         ink = StepInk(self.recorded, {MECHANISM: window}, self.letters)
         others = [*self._weights(window), *self._paths(window), *drawn.items(), *self._vectors(ink)]
         path = [window((float(z.real), float(z.imag))) for z in self.before.path[self.places]]
-        wishes = [*of_mechanism(drawn), *self._numbers(path, window.rect)]
+        wishes = [*mechanism_wishes(drawn), *self._numbers(path, window.rect)]
         yield from ink.lettered(MECHANISM, others, wishes, lambda step: step.op.movement is not Movement.GIVEN)
 
     def _vectors(self, ink: StepInk) -> Iterator[Item]:
@@ -164,7 +164,7 @@ class BalanceSheet(Panelled):
         for motion, pen in self.motions:
             spots = [window((float(z.real), float(z.imag))) for z in motion.path]
             yield from clip_item(Polyline(pen, "links", None, tuple(self._smooth(motion, spots))), window.rect)
-            yield from (Circle(pen.filled(pen.colour), "links", None, spots[k], 0.5) for k in self.places)
+            yield from (Circle(pen.with_fill(pen.colour), "links", None, spots[k], 0.5) for k in self.places)
 
     def _weights(self, window: View) -> Iterator[Item]:
         """The counterweights where they stand, their areas as their masses, on arms from their pivots."""
@@ -220,10 +220,10 @@ class BalanceSheet(Panelled):
             spots = [polar.at(float(z.real), float(z.imag)) for z in self._force(motion)]
             ink += clip_item(Polyline(pen, "links", None, tuple(self._smooth(motion, spots))), polar.rect)
             shown = [spots[k] for k in self.places if polar.rect.holds(spots[k])]
-            ink += [Circle(pen.filled(pen.colour), "links", None, spot, 0.5) for spot in shown]
+            ink += [Circle(pen.with_fill(pen.colour), "links", None, spot, 0.5) for spot in shown]
             ends += shown
         spots = [polar.at(float(z.real), float(z.imag)) for z in self._force(self.before)[self.places]]
-        yield from (*ink, *placed([*self._numbers(spots, polar.rect)], ink, ends, polar.rect, self.letters))
+        yield from (*ink, *place_letters([*self._numbers(spots, polar.rect)], ink, ends, polar.rect, self.letters))
 
     def _force(self, motion: MassMotion) -> Any:
         """The shaking force, zero where it is rounding alone."""

@@ -31,7 +31,7 @@ from graphplan.sheet.lettering.lettering import CAPS, name_runs, sentence_runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import around
+from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.plates.view import View, clip_item, view
 
 FINE, CHORD, LEVEL = Pen(0.13, "#8a8a8a"), Pen(0.25, pens.VIOLET), Pen(0.25, pens.GREEN, (5.0, 1.0))
@@ -85,7 +85,7 @@ def extent(frames: Mapping[str, Frame], pole: float, true: Mapping[str, tuple[Sp
         x, y = frame.origin
         spots += [(left, low), (right, top), (x + frame.level[0], y + frame.upright[0]),
                   (x + frame.level[1], y + frame.upright[1])]
-    return around([(float(x), float(y)) for x, y in spots])
+    return bounding_box([(float(x), float(y)) for x, y in spots])
 
 
 def _margin(figures: Figures) -> float:

@@ -19,18 +19,18 @@ from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.output.graphs import Figures
 from graphplan.phrases import Said, joined, said
-from graphplan.sheet.handout import begun
+from graphplan.sheet.handout import starting_items
 from graphplan.sheet.layout.composition import windows
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import LetterSizes
-from graphplan.sheet.lettering.letters import pictured
+from graphplan.sheet.lettering.letters import letter_plate
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import Extent, Plans, around
+from graphplan.sheet.plates.plans import Extent, Plans, bounding_box
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import PointPath, TracedMotion
-from graphplan.sheet.plates.view import View, least, view
+from graphplan.sheet.plates.view import View, fit_scale, view
 from graphplan.words.tongue import Tongue
 
 LEVERS = Panel("levers", said("levers"), said("Orthogonal velocities in the other positions"))
@@ -84,15 +84,15 @@ class LeverFigures:
     def heading(self, panel: Panel, scales: Scales) -> tuple[Said, Said]:
         """What a plan of the given pose shows, and its scales."""
         shown = self.plans.kinds(panel)
-        return panel.caption(shown), joined(scales.said(panel, shown), ",  ")
+        return panel.caption(shown), joined(scales.scale_texts(panel, shown), ",  ")
 
     def picture(self, plates: Plates, panel: Panel) -> list[Item]:
         """A plan of the given pose with its letters."""
-        return pictured(plates[panel]).items
+        return letter_plate(plates[panel]).items
 
     def begun(self, plates: Plates, panel: Panel) -> list[Item]:
         """What of a plan is given: the mechanism with its loads in its positions, or where it begins."""
-        given = list(begun(plates[panel]))
+        given = list(starting_items(plates[panel]))
         return [*given, *plates[panel].positions(given)]
 
     # ---- the other positions ---------------------------------------------------------------------------------------
@@ -125,8 +125,8 @@ class LeverFigures:
         shown = range(1, self.count, 1 + self.count // MOST)
         cells, number = _grid(rect, len(shown)), NUMBER * self.letters.text
         rooms = [cell.inset(FREE, FREE, FREE, FREE + number) for cell in cells]
-        boxes = [around([(0.0, 0.0), *self._spots(k)]) for k in shown]
-        scale = max(map(least, boxes, rooms)) or 1.0
+        boxes = [bounding_box([(0.0, 0.0), *self._spots(k)]) for k in shown]
+        scale = max(map(fit_scale, boxes, rooms)) or 1.0
         paper = Figures(self.letters, self.tongue)
         for k, cell, room, box in zip(shown, cells, rooms, boxes, strict=True):
             yield paper.text((cell.left + FREE, cell.top - number), str(k))

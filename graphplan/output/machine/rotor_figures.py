@@ -18,8 +18,8 @@ from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import around
-from graphplan.sheet.plates.view import View, least, view
+from graphplan.sheet.plates.plans import bounding_box
+from graphplan.sheet.plates.view import View, fit_scale, view
 
 HEAD, LETTERED, SEEN = 3.5, 3.0, 0.1  # mm: heads of vectors; a side with letters, and one that is drawn, is longer
 AROUND = 8.0  # mm about a figure, for its letters
@@ -34,9 +34,9 @@ class RotorFigures(RotorViews):
 
     def window(self, rect: Rect, points: Sequence[complex]) -> View:
         """Marks in the middle of a panel, at a round scale."""
-        box = around([(z.real, z.imag) for z in points])
+        box = bounding_box([(z.real, z.imag) for z in points])
         room = rect.inset(AROUND, AROUND, AROUND, AROUND)
-        return view(box, room, float(round_up(least(box, room) or 1.0)))
+        return view(box, room, float(round_up(fit_scale(box, room) or 1.0)))
 
     def scaled(self, rect: Rect, words: Said) -> Item:
         """The scale of a plan, in the corner of its panel."""
@@ -128,7 +128,7 @@ class RotorFigures(RotorViews):
         arc = Arc(DIMENSION, "links", None, D, radius, low, high)
         yield arc
         if radius > 2 * LETTERED:
-            yield from self.backed(arc.at((low + high) / 2), "alpha", middle=True)
+            yield from self.backed(arc.spot_at((low + high) / 2), "alpha", middle=True)
 
     def _weights(self, plan: View, z: dict[str, complex], steps: dict[str, int]) -> Iterator[Item]:
         """The polygon of the trial weights, and the permanent weight."""

@@ -26,7 +26,7 @@ from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arranged, digits, joined, phrase, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.plates.display import Item, Rect, Sheet
-from graphplan.sheet.words.lengths import Lengths, Measure
+from graphplan.sheet.words.lengths import Lengths, PaperDistance
 
 SIDE_VIEW = Panel("side view", said("side view"))
 CURVE = Panel("trial weights", said("trial weights"), said("Trial weights over the turn"))
@@ -60,14 +60,14 @@ class RotorLengths(Lengths):
         """What a mm stands for where a step is drawn, and its unit."""
         plan, length = self.plan(where), self.scales.length
         measures = {MOMENTS: f"{self.scales.unit}·{length}²", FORCES: f"{self.scales.unit}·{length}"}
-        return self.scales.of(plan), self.scales.unit if kind == "weight" else measures.get(plan, length)
+        return self.scales.lengths_per_mm(plan), self.scales.unit if kind == "weight" else measures.get(plan, length)
 
-    def _given(self, quantity: Quantity, laid: Measure, where: int) -> Said:
+    def _given_quantity(self, quantity: Quantity, laid: PaperDistance, where: int) -> Said:
         """A quantity with its value over its scale; amplitudes have no unit."""
         if quantity.kind != AMPLITUDE:
-            return super()._given(quantity, laid, where)
-        per = self.scales.of(self.plan(where))
-        return arranged("{0}: {1} : {2} = {3}", quantity.written, digits(laid.mm * per), digits(per), laid.told)
+            return super()._given_quantity(quantity, laid, where)
+        per = self.scales.lengths_per_mm(self.plan(where))
+        return arranged("{0}: {1} : {2} = {3}", quantity.written, digits(laid.mm * per), digits(per), laid.text)
 
 
 @dataclass(frozen=True)
@@ -124,7 +124,7 @@ class RotorSheet(Panelled):
         """How far off the corrections of the first answer are drawn, in first order."""
         drawing, plans = self.balanced.drawing, self.recorded.plans
         hand = program_hand(drawing.program, drawing.values,
-                            lambda step: self.recorded.scales.of(plans[step.index]), self.pencil)
+                            lambda step: self.recorded.scales.lengths_per_mm(plans[step.index]), self.pencil)
         found = []
         for k, one in enumerate(self.balanced.corrections):
             ways = math.radians(one.angle), math.radians(one.angle + 90)

@@ -15,7 +15,7 @@ from graphplan.machine.rotors.trial_runs import Effect, angle_of
 from graphplan.output.graphs import Figures
 from graphplan.phrases import Said, said
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.labels import placed
+from graphplan.sheet.lettering.labels import place_letters
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polyline, Rect, Spot
@@ -99,7 +99,7 @@ class RotorViews(Figures):
     def lettered(self, items: Sequence[Item], wishes: Sequence[Wish], rect: Rect) -> Iterator[Item]:
         """A figure with its letters, each where it can be read."""
         yield from items
-        yield from placed(wishes, items, [wish.spots[0] for wish in wishes if not wish.free], rect, self.letters)
+        yield from place_letters(wishes, items, [wish.spots[0] for wish in wishes if not wish.free], rect, self.letters)
 
     def _radii(self) -> Iterator[tuple[complex, str, Pen, int]]:
         """Masses and corrections across the axis: place, name, pen and step; of other answers dashed."""
@@ -118,8 +118,8 @@ class RotorViews(Figures):
         arc = Arc(DIMENSION, "links", step, plan.origin, radius, 0.0, one.angle)
         yield arc
         back = one.angle - math.degrees(TIP / radius)
-        yield Arrow(Pen(0.18, pens.INK, fill=pens.INK), "links", step, arc.at(back), arc.at(one.angle), TIP)
-        yield from self.backed(arc.at(one.angle / 2 if one.angle < 180 else one.angle - 30), f"alpha_{one.letter}",
+        yield Arrow(Pen(0.18, pens.INK, fill=pens.INK), "links", step, arc.spot_at(back), arc.spot_at(one.angle), TIP)
+        yield from self.backed(arc.spot_at(one.angle / 2 if one.angle < 180 else one.angle - 30), f"alpha_{one.letter}",
                                middle=True)
 
     def _trial_masses(self, plan: View, effect: Effect, index: int) -> Iterator[tuple[Spot, str]]:

@@ -36,7 +36,7 @@ LETTERED = "ABCDEFGHJKLMNPQRSTUVWXYZ"  # without I and O, which are read as figu
 
 
 @dataclass(frozen=True)
-class Frame:
+class SheetFrame:
     """A kind of frame: the border beside the binding, how A4 lies, its title block, and what fills its border."""
 
     edge: float
@@ -64,7 +64,7 @@ class Frame:
         yield from self.border(paper, space, tongue)
 
 
-def frame_of(scene: Scene) -> Frame:
+def frame_of(scene: Scene) -> SheetFrame:
     """The frame that a scene wishes for its sheet."""
     return FRAMES[scene.sheet.frame]
 
@@ -125,8 +125,8 @@ def _format(paper: str, space: Rect, tongue: Tongue) -> Iterator[Item]:
 
 
 FRAMES = {
-    "iso": Frame(EDGE, ("A4", "A4 portrait"), IsoBlock, _fields),
-    "gost": Frame(5.0, ("A4 portrait",), GostBlock, _format),
+    "iso": SheetFrame(EDGE, ("A4", "A4 portrait"), IsoBlock, _fields),
+    "gost": SheetFrame(5.0, ("A4 portrait",), GostBlock, _format),
 }
 
 
@@ -149,14 +149,14 @@ def page_code(code: int, page: int) -> int:
     return code if page == 1 else sheet_code(f"{code}, page {page}")
 
 
-def numbers(code: int) -> tuple[int, int, int, int]:
+def corner_numbers(code: int) -> tuple[int, int, int, int]:
     """The numbers of a sheet's marks, from the lower left corner, counter-clockwise: which corner, and a quarter of
     the code, never 255: the mark 1023 is the only one that looks the same upside down."""
     first, second, third, fourth = (corner << 8 | (code >> 8 * corner & 255) % 255 for corner in range(4))
     return first, second, third, fourth
 
 
-def places(width: float, height: float, frame: Rect) -> tuple[Rect, Rect, Rect, Rect]:
+def corner_rects(width: float, height: float, frame: Rect) -> tuple[Rect, Rect, Rect, Rect]:
     """Where the marks of a sheet lie, from the lower left corner, counter-clockwise."""
     border = min(frame.left, frame.bottom, width - frame.right, height - frame.top)
     side, near = min(LARGEST, border - CLEAR - MIN_EDGE), CLEAR
@@ -169,11 +169,11 @@ def places(width: float, height: float, frame: Rect) -> tuple[Rect, Rect, Rect, 
 
 def corner_marks(width: float, height: float, frame: Rect, code: int) -> list[Item]:
     """The marks of a sheet with this code, each on white of its own, over whatever the border has there."""
-    return [item for rect, number in zip(places(width, height, frame), numbers(code), strict=True)
+    return [item for rect, number in zip(corner_rects(width, height, frame), corner_numbers(code), strict=True)
             for item in _mark(rect, number)]
 
 
-def cells(number: int) -> tuple[str, ...]:
+def mark_cells(number: int) -> tuple[str, ...]:
     """A mark without its border, row by row from above: 1 is white."""
     return tuple(WORDS[number >> shift & 3] for shift in (8, 6, 4, 2, 0))
 
@@ -183,7 +183,7 @@ def _mark(rect: Rect, number: int) -> Iterator[Item]:
     cell = rect.width / CELLS
     yield _block(WHITE, rect.inset(-CLEAR, -CLEAR, -CLEAR, -CLEAR))
     yield _block(BLACK, rect)
-    for row, bits in enumerate(cells(number), 1):
+    for row, bits in enumerate(mark_cells(number), 1):
         top = rect.top - row * cell
         for start, end in _runs(bits):
             yield _block(WHITE, Rect(rect.left + (start + 1) * cell, top - cell, rect.left + (end + 1) * cell, top))

@@ -17,7 +17,7 @@ from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import Said, joined, said, unit
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, SIZE, Runs, letter_sizes, sentence_runs, width, wrap
-from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot, Text, moved
+from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot, Text, move_item
 from graphplan.sheet.plates.pens import BORDER, FAINT, FRAME, LETTERS
 from graphplan.words.tongue import Tongue
 
@@ -80,7 +80,7 @@ def stroke(start: Spot, end: Spot, wide: bool = False) -> Polyline:
     return Polyline(FRAME if wide else BORDER, "paper", None, (start, end))
 
 
-def filled(rect: Rect, text: str, sizes: Sequence[float] = (SIZE,), *, what: str, bold: bool = False,
+def fit_text(rect: Rect, text: str, sizes: Sequence[float] = (SIZE,), *, what: str, bold: bool = False,
            middle: bool = True) -> Iterator[Text]:
     """Lettering that fills a rectangle, half-way up, in the first of some sizes in which all its lines have room.
 
@@ -121,7 +121,7 @@ BY_HAND = (  # each with mm to write in, where the scene does not say it
 )  # fmt: skip
 
 
-class _Filled(NamedTuple):
+class _FilledCell(NamedTuple):
     """What a cell tells. It is as wide as its text, or where that differs from page to page as the `longest` is, or
     where it is `least` mm wide, as that."""
 
@@ -136,7 +136,7 @@ class _Filled(NamedTuple):
         return max(_long(self.heading) + 2 * CELL, self.least or _long(self.longest or self.text) + 2 * CELL)
 
     @property
-    def size(self) -> float:
+    def letter_size(self) -> float:
         """The size of the lettering, smaller only where the text is longer than what should be the longest."""
         room = self.least - 2 * CELL if self.least else _long(self.longest)
         return SIZE * min(1.0, room / _long(self.text)) if room and self.text else SIZE
@@ -155,7 +155,7 @@ class IsoBlock:
     tongue: Tongue
     times: float = 1.0
 
-    def on(self, paper: str) -> IsoBlock:
+    def on_paper(self, paper: str) -> IsoBlock:
         """The block in the letters of a sheet."""
         return replace(self, times=letter_sizes(paper).times)
 
@@ -170,14 +170,15 @@ class IsoBlock:
     def items(self, rect: Rect, page: Page) -> Iterator[Item]:
         """The block in its rectangle."""
         whole = Rect(0.0, 0.0, rect.width / self.times, rect.height / self.times)
-        return (moved(item, rect.left, rect.bottom, self.times) for item in self._items(whole, page))
+        return (move_item(item, rect.left, rect.bottom, self.times) for item in self._items(whole, page))
 
     def _height(self, wide: float) -> float:
         """The height of a block so wide in the letters in which it is set, whatever its page."""
         longest = self._longest()["sheet.k_s"]
-        return max(self._needed(wide, Page(document, "A0", longest, 10, 10)) for document in (CONSTRUCTION, GUIDED))
+        return max(self._page_height(wide, Page(document, "A0", longest, 10, 10))
+                   for document in (CONSTRUCTION, GUIDED))
 
-    def _needed(self, wide: float, page: Page) -> float:
+    def _page_height(self, wide: float, page: Page) -> float:
         rows = sum(_high(row, wide) for row in self._rows(wide, page))
         return rows + 2 * PAD + sum(PITCH * size for _, size, _ in self._title(wide, page))
 
@@ -216,14 +217,15 @@ class IsoBlock:
 
     # ---- cells -----------------------------------------------------------------------------------------------------
 
-    def _rows(self, wide: float, page: Page) -> Iterator[list[_Filled]]:
+    def _rows(self, wide: float, page: Page) -> Iterator[list[_FilledCell]]:
         """The cells in rows: first those that a scene fills or not, then those of every sheet."""
         found, longest = values(self.scene, self.tongue, page), self._longest()
-        optional, always = ([_Filled(self.tongue(cell.words), found[cell.field], longest.get(cell.field, ""))
+        optional, always = ([_FilledCell(self.tongue(cell.words), found[cell.field], longest.get(cell.field, ""))
                              for cell in cells] for cells in (OPTIONAL, ALWAYS))
-        by_hand = [_Filled(self.tongue(cell.words), found.get(cell.field, ""), least=least) for cell, least in BY_HAND]
+        by_hand = [_FilledCell(self.tongue(cell.words), found.get(cell.field, ""), least=least) for cell,
+                   least in BY_HAND]
         for cells in ([cell for cell in optional if cell.text], by_hand if page.filled_by_hand else always):
-            row: list[_Filled] = []
+            row: list[_FilledCell] = []
             for made in cells:
                 if row and sum(other.natural for other in (*row, made)) > wide:
                     yield row
@@ -246,12 +248,12 @@ def _long(text: str, size: float = SIZE) -> float:
     return width(sentence_runs(text), size)
 
 
-def _high(row: list[_Filled], wide: float) -> float:
+def _high(row: list[_FilledCell], wide: float) -> float:
     """The height of a row: cells that stand alone may have more than one line."""
     return CELL_HIGH + PITCH * SIZE * (max(len(cell.lines(wide)) for cell in row) - 1)
 
 
-def _cells(row: list[_Filled], rect: Rect) -> Iterator[Item]:
+def _cells(row: list[_FilledCell], rect: Rect) -> Iterator[Item]:
     """A row of cells, which share the width that they do not need."""
     spare = max(rect.width - sum(cell.natural for cell in row), 0.0) / len(row)
     x = rect.left
@@ -262,7 +264,7 @@ def _cells(row: list[_Filled], rect: Rect) -> Iterator[Item]:
         lines = cell.lines(rect.width)
         for k, runs in enumerate(reversed(lines)):
             at = x + CELL, rect.bottom + FOOT + k * PITCH * SIZE
-            yield Text(LETTERS, "text", None, at, runs, cell.size)
+            yield Text(LETTERS, "text", None, at, runs, cell.letter_size)
         x += cell.natural + spare
 
 
@@ -313,7 +315,7 @@ class GostBlock:
     scene: Scene
     tongue: Tongue
 
-    def on(self, paper: str) -> GostBlock:
+    def on_paper(self, paper: str) -> GostBlock:
         """The same on every sheet."""
         return self
 
@@ -337,7 +339,7 @@ class GostBlock:
             text = " ".join(filter(None, (self.tongue(cell.words), found.get(cell.field, ""))))
             place = Rect(x + left, y + low, x + right, y + high)
             what = cell.field or cell.words
-            yield from filled(place, text, cell.sizes, what=what, bold=cell.bold, middle=cell.middle)
+            yield from fit_text(place, text, cell.sizes, what=what, bold=cell.bold, middle=cell.middle)
 
 
 def _roles(roles: Sequence[tuple[Said | str, str]]) -> Iterator[TitleCell]:

@@ -16,7 +16,7 @@ from graphplan.mechanism.sections import ASIDE, PROTOCOLS
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import digits
-from graphplan.sheet.frames.frame import Frame, frame_of
+from graphplan.sheet.frames.frame import SheetFrame, frame_of
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.given_scales import FREE, GivenScales, given_scales
 from graphplan.sheet.layout.paper import (
@@ -26,26 +26,36 @@ from graphplan.sheet.layout.paper import (
     Demand,
     Measure,
     arrangements,
-    divided,
-    inside,
-    packed,
-    paged,
+    divide_among_plans,
+    paginate,
+    paginate_tightly,
     room,
+    room_for_marks,
     sheet_size,
     words_page,
 )
 from graphplan.sheet.layout.scales import Scales, lengths_of, ratio, round_up
-from graphplan.sheet.lettering.lettering import folded, letter_sizes, sentence_runs
-from graphplan.sheet.lettering.letters import Picture, pictures
+from graphplan.sheet.lettering.lettering import letter_sizes, sentence_runs, two_line_width
+from graphplan.sheet.lettering.letters import LetteredPlate, letter_plates
 from graphplan.sheet.plates.display import Rect
-from graphplan.sheet.plates.plans import Extent, Plans, around
+from graphplan.sheet.plates.plans import Extent, Plans, bounding_box
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import TracedMotion
-from graphplan.sheet.plates.view import COARSER, MUCH_COARSER, View, least, plan_box, plan_scale, view, wanted, whole
+from graphplan.sheet.plates.view import (
+    COARSER,
+    MUCH_COARSER,
+    View,
+    fit_scale,
+    plan_box,
+    plan_scale,
+    view,
+    wanted_box,
+    whole_plan_scale,
+)
 from graphplan.sheet.tolerances import AREA_TOL, MIN_VECTOR, SCALE_TOL
 from graphplan.sheet.words.lengths import LARGEST
 from graphplan.sheet.words.rows import Deviations, Placed, TextRow
-from graphplan.sheet.words.texts import RESULTS, Words
+from graphplan.sheet.words.texts import RESULTS, SheetWords
 from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
 
@@ -86,9 +96,9 @@ class Composition:
         return Plates(self.plans, self.views, self.arrangement.letters)
 
     @cached_property
-    def pictures(self) -> dict[Panel, Picture]:
+    def pictures(self) -> dict[Panel, LetteredPlate]:
         """The plans with their letters."""
-        return pictures(self.plates)
+        return letter_plates(self.plates)
 
     @property
     def poor(self) -> float:
@@ -96,7 +106,7 @@ class Composition:
         found = [picture.letters for picture in self.pictures.values()]
         return sum(one.poor for one in found) / max(1, sum(len(one.wishes) for one in found))
 
-    def worded(self, **words: Any) -> Composition:
+    def with_words(self, **words: Any) -> Composition:
         """The same plans with other words: their letters stand where they stood."""
         found = replace(self, **words)
         found.__dict__.update({name: self.__dict__[name] for name in ("plates", "pictures") if name in self.__dict__})
@@ -113,7 +123,7 @@ class Composition:
         weights = {panel: count / sum(marks.values()) if len(marks) > 2 else 0.5 for panel, count in marks.items()}
         weights[MECHANISM] = 1.0
         large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())
-        shown = (self._size(panel) / need for panel, need in self.needs.items() if need)
+        shown = (self._size_mm(panel) / need for panel, need in self.needs.items() if need)
         return round(large - SHORT * len(self.short), 9), min(shown, default=0.0)
 
     @property
@@ -130,18 +140,19 @@ class Composition:
         return _legible(self.plans, self.views, paper) and self.poor <= POOR[paper[:2]]
 
     @property
-    def oversized(self) -> dict[str, float]:
+    def oversize_factors(self) -> dict[str, float]:
         """The plans that do not fit their panels at a given scale, and by how much they are too large."""
-        much = {panel: least(self.extents[panel].core, inside(window.rect)) * window.scale
+        much = {panel: fit_scale(self.extents[panel].core, room_for_marks(window.rect)) * window.scale
                 for panel, window in self.views.items()}
         return {panel: times for panel, times in much.items() if times > 1 + SCALE_TOL}
 
     def _scale(self, panel: str) -> float:
         """How large a plan is; one of which marks are cut off counts no larger than all of it would be."""
         view = self.views[panel]
-        return view.scale if panel == MECHANISM else min(view.scale, whole(self.extents[panel], inside(view.rect)))
+        return view.scale if panel == MECHANISM else min(view.scale, whole_plan_scale(self.extents[panel],
+                                                                                      room_for_marks(view.rect)))
 
-    def _size(self, panel: str) -> float:
+    def _size_mm(self, panel: str) -> float:
         """The larger side of a plan on paper."""
         core = self.extents[panel].core
         return max(core.width, core.height) * self.views[panel].scale
@@ -150,7 +161,7 @@ class Composition:
 Protocol = tuple[Arrangement, list[Placed]]  # a page of words, and what stands on it
 
 
-def composed(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, paper: str | None,
+def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, paper: str | None,
              protocol: str = PROTOCOLS[0], lettered: bool = True) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
@@ -163,43 +174,43 @@ def composed(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, 
     frame, given = frame_of(plans.drawing.scene), given_scales(plans)
     tried: list[Composition] = []
     for name in [frame.paper(paper)] if paper else frame.papers:
-        for words in (ways := _ways(protocol, rows)):
+        for words in (ways := _word_choices(protocol, rows)):
             wants = [_demands(plans, extents, scales, name) for scales in ((given, FREE) if given[0] else (FREE,))]
-            found = list(arrangements(name, partial(_divided, wants, plans), words, frame, title))
+            found = list(arrangements(name, partial(_divide_region, wants, plans), words, frame, title))
             if words and protocol != ASIDE:
                 found = [arrangement for arrangement in found if arrangement.share >= MOST_OF_PAGE]
             tried = [_windows(arrangement, extents, needs, plans, given) for arrangement in found] or tried
-            fitting = [composition for composition in tried if not composition.oversized]
+            fitting = [composition for composition in tried if not composition.oversize_factors]
             if not (found and fitting):
                 continue
             best, asked = max(fitting, key=lambda c: c.score), given[0] or (paper and words is ways[-1])
             if (not lettered or best.poor <= UNREADABLE) if asked else (
                     _legible(plans, best.views, name) and (not lettered or best.poor <= POOR[name[:2]])):
                 return best
-    if any(composition.oversized for composition in tried):
+    if any(composition.oversize_factors for composition in tried):
         raise _too_large(tried)
-    larger = composed(plans, rows, title, None, protocol).arrangement.paper if paper else "other scales"
+    larger = best_composition(plans, rows, title, None, protocol).arrangement.paper if paper else "other scales"
     raise Refused(f"paper {paper or 'A0'}", "words and plans do not fit on it legibly", f"{larger}, or no name")
 
 
-def _divided(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: Rect,
+def _divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: Rect,
              block: Rect | None) -> dict[str, Rect] | None:
     """The panels in a region by the first demands for which there is room."""
-    found = (divided(region, block, demands, plans.twins) for demands in wants)
+    found = (divide_among_plans(region, block, demands, plans.twins) for demands in wants)
     return next(filter(None, found), None)
 
 
-def _ways(protocol: str, rows: Measure[Sequence[TextRow]]) -> Sequence[Measure[Sequence[TextRow]] | None]:
+def _word_choices(protocol: str, rows: Measure[Sequence[TextRow]]) -> Sequence[Measure[Sequence[TextRow]] | None]:
     """The words that an arrangement is to hold: all or none, and which is tried first."""
     return {PROTOCOLS[0]: (rows, None), ASIDE: (rows,)}.get(protocol, (None,))
 
 
-def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: Frame,
+def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: SheetFrame,
                    title: TitleBlock) -> tuple[Protocol, ...]:
     """The words on pages of their own: one of the smallest paper that holds them all, else several like the sheet's."""
     for name in frame.papers:
         page = words_page(name, frame, title)
-        found = packed(page.set(rows), page)
+        found = paginate_tightly(page.set(rows), page)
         if len(found) == 1 or math.prod(sheet_size(name)) >= math.prod(sheet_size(paper)):
             break
     return tuple((page, placed) for placed in found)
@@ -207,8 +218,8 @@ def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: Frame,
 
 def _too_large(tried: Sequence[Composition]) -> Refused:
     """The refusal of given scales at which plans do not fit any of some compositions, with the largest that do."""
-    nearest = min(tried, key=lambda composition: max(composition.oversized.values()))
-    scales, paper, oversized = nearest.scales, nearest.arrangement.paper, nearest.oversized
+    nearest = min(tried, key=lambda composition: max(composition.oversize_factors.values()))
+    scales, paper, oversized = nearest.scales, nearest.arrangement.paper, nearest.oversize_factors
     if MECHANISM in oversized:
         k_s = float(round_up(scales.k_s * oversized[MECHANISM]))
         most = f"{ratio(k_s, scales.length)} (k_s = {digits(k_s)}) or smaller"
@@ -226,10 +237,10 @@ def _demands(plans: Plans, extents: Mapping[str, Extent], given: GivenScales, pa
     found, (k_s, multiples), size = dict[str, Demand](), given, letter_sizes(paper).text
     for panel in plans.panels:
         head = sentence_runs(plans.tongue(panel.caption(plans.kinds(panel))))
-        box = wanted(extents[panel], COARSER if panel == MECHANISM else MUCH_COARSER)
+        box = wanted_box(extents[panel], COARSER if panel == MECHANISM else MUCH_COARSER)
         scale = k_s if panel == MECHANISM else k_s / float(multiples[panel]) if k_s and panel in multiples else None
         found[panel] = Demand(box.width, box.height, max(1, len(plans.points(panel))), _lengths(plans, panel),
-                              folded(head, size) + 2 * SIDE, scale)
+                              two_line_width(head, size) + 2 * SIDE, scale)
     return found
 
 
@@ -250,9 +261,10 @@ def _windows(arrangement: Arrangement, extents: Mapping[str, Extent], needs: Map
 def windows(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans,
             given: GivenScales = FREE) -> tuple[Scales, dict[str, View]]:
     """The scales, round if they are not given, and the windows of plans in their rooms."""
-    scales = _scales({panel: inside(rect) for panel, rect in rooms.items()}, extents, plans, given)
-    boxes = {panel: plan_box(extent, inside(rooms[panel]), scales.of(panel)) for panel, extent in extents.items()}
-    return scales, {panel: view(box, rooms[panel], scales.of(panel)) for panel, box in boxes.items()}
+    scales = _scales({panel: room_for_marks(rect) for panel, rect in rooms.items()}, extents, plans, given)
+    boxes = {panel: plan_box(extent, room_for_marks(rooms[panel]), scales.lengths_per_mm(panel)) for panel,
+             extent in extents.items()}
+    return scales, {panel: view(box, rooms[panel], scales.lengths_per_mm(panel)) for panel, box in boxes.items()}
 
 
 def _scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans, given: GivenScales) -> Scales:
@@ -268,7 +280,7 @@ def _scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Pla
         scale = max(plan_scale(extents[panel], rooms[panel], MUCH_COARSER, lengths),
                     round_up(extents[panel].longest / side, lengths))
         most[twin] = max(scale, most.get(twin, scale))
-    for source, panel in plans.carried:
+    for source, panel in plans.carry_overs:
         if panel != MECHANISM:
             twin, taken = plans.twins[panel], most.get(plans.twins[source], own)
             most[twin] = max(most[twin], round_up(float(taken) / LARGEST, _lengths(plans, panel)))
@@ -279,7 +291,7 @@ def _scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Pla
 
 def _sides(rects: Iterable[Rect]) -> tuple[float, float]:
     """How wide and how high it is what some rooms take up."""
-    box = around([corner for rect in rects for corner in rect.corners])
+    box = bounding_box([corner for rect in rects for corner in rect.corners])
     return box.width, box.height
 
 
@@ -287,7 +299,7 @@ def _legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:
     """Whether the links are long enough for letters, and no plan is crowded; large sheets are soon good enough."""
     for panel, window in views.items():
         spots = [spot for spot in (window(plans.spot(i)) for i in plans.points(panel)) if window.rect.holds(spot)]
-        box = around(spots or [(0.0, 0.0)])
+        box = bounding_box(spots or [(0.0, 0.0)])
         size = max(box.area, (box.width**2 + box.height**2) / 4)
         if AREA_TOL < size < LARGE.get(paper, CROWDED) * len(spots):  # marks that all coincide are nowhere apart
             return False
@@ -328,13 +340,13 @@ class Composer:
         self.plans, self.protocol = Plans(drawing, say, motion=motion), protocol
         self.paper, self.lettered = paper or scene.sheet.paper or None, lettered
         self.frame, self.title = frame_of(scene), frame_of(scene).block(scene, say)
-        self.words = Words(self.plans, check or {})
+        self.words = SheetWords(self.plans, check or {})
         self._composed: tuple[Composition, dict[float, list[TextRow]]] | None = None
 
     @property
     def usual(self) -> Scales:
         """The scales on panels of a usual size."""
-        rooms: dict[str, Rect] = dict.fromkeys(self.plans.panels, inside(room(Rect(0.0, 0.0, *USUAL))))
+        rooms: dict[str, Rect] = dict.fromkeys(self.plans.panels, room_for_marks(room(Rect(0.0, 0.0, *USUAL))))
         extents: dict[str, Extent] = {panel: self.plans.extent(panel) for panel in self.plans.panels}
         return _scales(rooms, extents, self.plans, given_scales(self.plans))
 
@@ -343,13 +355,13 @@ class Composer:
         what its words measure is so at its scales."""
         scales = self._composed[0].scales if self._composed else self.usual
         for _ in range(ROUNDS):
-            found, composition = self._at(scales, pencil or Deviations())
+            found, composition = self._compose_at(scales, pencil or Deviations())
             if composition.scales == scales:
                 break
             scales = composition.scales
-        return self._worded(composition, found) if worded else composition
+        return self._with_words(composition, found) if worded else composition
 
-    def _at(self, scales: Scales, pencil: Deviations) -> tuple[Measure[list[TextRow]], Composition]:
+    def _compose_at(self, scales: Scales, pencil: Deviations) -> tuple[Measure[list[TextRow]], Composition]:
         """Words that measure at some scales, for columns of any width, and the composition that they lead to."""
         found: dict[float, list[TextRow]] = {}
 
@@ -359,28 +371,28 @@ class Composer:
                 found[wide] = self.words.rows(wide, scales, pencil)
             return found[wide]
 
-        if not (self._composed and all(_alike(was, rows(wide)) for wide, was in self._composed[1].items())):
-            page = composed(self.plans, rows, self.title, self.paper, self.protocol, self.lettered)
+        if not (self._composed and all(_need_same_room(was, rows(wide)) for wide, was in self._composed[1].items())):
+            page = best_composition(self.plans, rows, self.title, self.paper, self.protocol, self.lettered)
             self._composed = page, dict(found)
         return rows, self._composed[0]
 
-    def _worded(self, composition: Composition, rows: Measure[Sequence[TextRow]]) -> Composition:
+    def _with_words(self, composition: Composition, rows: Measure[Sequence[TextRow]]) -> Composition:
         """The composition with its words, beside the plans or on pages of their own."""
         arrangement = composition.arrangement
         if arrangement.columns:
-            return composition.worded(arrangement=replace(arrangement, rows=arrangement.set(rows)))
+            return composition.with_words(arrangement=replace(arrangement, rows=arrangement.set(rows)))
         pages = () if self.protocol == "none" else protocol_pages(arrangement.paper, rows, self.frame, self.title)
-        return composition.worded(protocol=pages)
+        return composition.with_words(protocol=pages)
 
 
 def with_results_alone(composition: Composition) -> Composition:
     """The composition whose pages of words have no steps, which are told elsewhere."""
     rows = [row for _, placed in composition.protocol for row, _, _ in placed if row.layer == RESULTS]
-    pages = ((page, placed) for page, _ in composition.protocol[:1] for placed in paged(rows, page))
-    return composition.worded(protocol=tuple(pages))
+    pages = ((page, placed) for page, _ in composition.protocol[:1] for placed in paginate(rows, page))
+    return composition.with_words(protocol=tuple(pages))
 
 
-def _alike(one: Sequence[TextRow], other: Sequence[TextRow]) -> bool:
+def _need_same_room(one: Sequence[TextRow], other: Sequence[TextRow]) -> bool:
     """Whether some rows take the same room as others."""
     return len(one) == len(other) and all(
         (p.height, p.gap, p.keep) == (q.height, q.gap, q.keep) for p, q in zip(one, other, strict=True))

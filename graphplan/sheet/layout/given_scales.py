@@ -34,7 +34,7 @@ def given_scales(plans: Plans) -> GivenScales:
 def _mechanism_scale(drawing: Construction) -> float | None:
     """The one scale of the mechanism plan that all given scales lead to; none where none is given."""
     first: float | None = None
-    for name, scale, lengths in _given(drawing):
+    for name, scale, lengths in _scales_of_scene(drawing):
         if first is not None and not math.isclose(scale * lengths, first, rel_tol=SCALE_TOL):
             raise Refused(f"sheet.{name} = {scale:g}", "the other scales of the scene's sheet do not go with it",
                           f"{name} = {first / lengths:.6g}, or leave one of them out")  # fmt: skip
@@ -42,7 +42,7 @@ def _mechanism_scale(drawing: Construction) -> float | None:
     return first
 
 
-def _given(drawing: Construction) -> Iterator[tuple[str, float, float]]:
+def _scales_of_scene(drawing: Construction) -> Iterator[tuple[str, float, float]]:
     """The given scales: each with its name, and how many lengths one of its kind is drawn long."""
     sheet = drawing.scene.sheet
     if sheet.k_F and drawing.scene.loads is None:

@@ -17,14 +17,14 @@ from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.paper import SIDE
-from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Run, Runs, sentence_runs, width, wrap
+from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Sheet, Text
 from graphplan.sheet.plates.pens import pale
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 from graphplan.sheet.words.protocol import Protocol
-from graphplan.sheet.words.rows import fill, lettered
+from graphplan.sheet.words.rows import fill, row_items
 from graphplan.sheet.words.texts import RESULTS
 from graphplan.words.tongue import Tongue
 
@@ -40,7 +40,7 @@ def layout(drawing: Construction, paper: str | None = None, check: Mapping[str, 
     `document` is what its title block calls it. Fails with `Refused` where the words do not fit the paper named.
     """
     composition = composition or compose(drawing, paper, check, tongue=tongue)
-    items = [*framed(composition), *captions(composition)]
+    items = [*frame_items(composition), *captions(composition)]
     for drawn in composition.pictures.values():
         items += drawn.items
     return sheet(composition, items, document)
@@ -51,10 +51,10 @@ def sheet(composition: Composition, items: Iterable[Item], document: Said) -> Sh
     arrangement, plans = composition.arrangement, composition.plans
     drawing, scales = plans.drawing, composition.scales
     sentences = tuple(map(plans.tongue, Protocol(plans, scales).sentences))
-    items = [*items, *lettered(fill(arrangement.rows, arrangement.columns) or []),
-             *titled(composition, document, 1, composition.page_count)]
+    items = [*items, *row_items(fill(arrangement.rows, arrangement.columns) or []),
+             *title_items(composition, document, 1, composition.page_count)]
     return Sheet(
-        arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(stacked(items)),
+        arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(back_to_front(items)),
         drawing.scene.title, _description(composition, plans), sentences, scales,
         plans.tongue.code, drawing.scene.text, drawing.drawn.givens,
     )  # fmt: skip
@@ -70,11 +70,12 @@ def words_pages(first: Sheet, composition: Composition, document: Said) -> Itera
     """The pages of words that follow a first sheet."""
     for number, (page, placed) in enumerate(composition.protocol, 2):
         apart = replace(composition, arrangement=page)
-        items = stacked([*framed(apart), *lettered(placed), *titled(apart, document, number, composition.page_count)])
+        items = back_to_front([*frame_items(apart), *row_items(placed),
+                               *title_items(apart, document, number, composition.page_count)])
         yield replace(first, width=page.width, height=page.height, frame=page.frame, panels={}, items=tuple(items))
 
 
-def framed(composition: Composition) -> Iterator[Item]:
+def frame_items(composition: Composition) -> Iterator[Item]:
     """The frame with its border, and the panels."""
     arrangement, plans = composition.arrangement, composition.plans
     yield from frame_of(plans.drawing.scene).items(arrangement.paper, arrangement.frame, plans.tongue)
@@ -82,14 +83,15 @@ def framed(composition: Composition) -> Iterator[Item]:
         yield Outline(pens.BORDER, "paper", None, rect.corners, panel)
 
 
-def titled(composition: Composition, document: Said, number: int = 1, of: int = 1) -> Iterator[Item]:
+def title_items(composition: Composition, document: Said, number: int = 1, of: int = 1) -> Iterator[Item]:
     """The title block of a page."""
     arrangement, scene = composition.arrangement, composition.plans.drawing.scene
     page = Page(document, arrangement.paper, composition.scales.ratio, number, of)
-    return frame_of(scene).block(scene, composition.plans.tongue).on(arrangement.paper).items(arrangement.title, page)
+    return frame_of(scene).block(scene, composition.plans.tongue).on_paper(arrangement.paper).items(arrangement.title,
+                                                                                                    page)
 
 
-def stacked(items: Iterable[Item]) -> list[Item]:
+def back_to_front(items: Iterable[Item]) -> list[Item]:
     """From back to front: paper, mechanism, each step with its letters and its sentence, pairs, the other letters."""
     rank = {layer: i for i, layer in enumerate(BACK)} | {layer: 10**7 + i for i, layer in enumerate(FRONT)}
     return sorted(items, key=lambda item: 10**6 + item.step if item.step is not None else rank[item.layer])
@@ -98,7 +100,7 @@ def stacked(items: Iterable[Item]) -> list[Item]:
 def _description(composition: Composition, plans: Plans) -> str:
     """What a reader who cannot see the sheet is told."""
     steps = len(plans.drawing.drawn) - plans.drawing.drawn.givens
-    told = [joined((panel.words, joined(composition.scales.said(panel, plans.kinds(panel)))), ": ")
+    told = [joined((panel.words, joined(composition.scales.scale_texts(panel, plans.kinds(panel)))), ": ")
             for panel in composition.plans.panels]
     return plans.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, joined(told, "; ")))
 
@@ -116,7 +118,8 @@ def captions(composition: Composition) -> Iterator[Text]:
     for panel, head in heads.items():
         large = HEADING if len(fitting[HEADING]) == len(heads) else letters.mark
         size, room = large if panel in fitting[large] else letters.text, panels[panel].width - 2 * SIDE
-        told = [sentence_runs(plans.tongue(scale)) for scale in composition.scales.said(panel, plans.kinds(panel))]
+        told = [sentence_runs(plans.tongue(scale))
+                for scale in composition.scales.scale_texts(panel, plans.kinds(panel))]
         lines = [(line, size, True) for line in wrap(head, size, room, bold=True)[:2]]
         fine = letters.mark if len(lines) == 1 else letters.text
         lines += [(line, fine, False) for line in _scales(told, fine, room)]
@@ -131,7 +134,7 @@ def _scales(told: Sequence[Runs], size: float, room: float) -> list[Runs]:
     """Scales in lines, none of them broken that has room on one."""
     lines: list[Runs] = []
     for number, scale in enumerate(told, 1):
-        part = (*scale, Run(",")) if number < len(told) else scale
+        part = (*scale, TextRun(",")) if number < len(told) else scale
         longer = (*lines[-1], *SPACE, *part) if lines else ()
         if longer and len(wrap(longer, size, room)) == 1:
             lines[-1] = longer
@@ -143,7 +146,7 @@ def _scales(told: Sequence[Runs], size: float, room: float) -> list[Runs]:
 # ---- a part of what is drawn -----------------------------------------------------------------------------------------
 
 
-def numbered(drawn: Program, text: str) -> tuple[int, int]:
+def step_range(drawn: Program, text: str) -> tuple[int, int]:
     """The first and the last step, by index, of a text such as `12` or `5-12`; fails with `Refused`."""
     first, _, last = text.partition("-")
     most = len(drawn) - drawn.givens
@@ -152,7 +155,7 @@ def numbered(drawn: Program, text: str) -> tuple[int, int]:
     return int(first) - 1 + drawn.givens, int(last or first) - 1 + drawn.givens
 
 
-def selected(sheet: Sheet, last: int, first: int = 0) -> Sheet:
+def sheet_at_step(sheet: Sheet, last: int, first: int = 0) -> Sheet:
     """The sheet as it stands after the step of index `last`, with the steps before `first` in grey.
 
     The words end there too; results are read when all is drawn.
@@ -160,7 +163,7 @@ def selected(sheet: Sheet, last: int, first: int = 0) -> Sheet:
     complete = last == len(sheet.sentences) - 1
     items = [item for item in sheet.items
              if (complete or item.layer != RESULTS if item.step is None else item.step <= last)]
-    return replace(sheet, items=tuple([inked(item, first) for item in items]))
+    return replace(sheet, items=tuple([ink_or_grey(item, first) for item in items]))
 
 
 def with_numbers(composition: Composition) -> Composition:
@@ -168,6 +171,6 @@ def with_numbers(composition: Composition) -> Composition:
     return replace(composition, plans=replace(composition.plans, numbered=True))
 
 
-def inked(item: Item, first: int) -> Item:
+def ink_or_grey(item: Item, first: int) -> Item:
     """The item as it is, or in grey if a step before `first` made it."""
     return item if item.step is None or item.step >= first else replace(item, pen=pale(item.pen))

@@ -21,13 +21,13 @@ from typing import NamedTuple, TypeVar
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Number
 from graphplan.mechanism.sections import SIZES
-from graphplan.sheet.frames.frame import Frame
+from graphplan.sheet.frames.frame import SheetFrame
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import LetterSizes, letter_sizes
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.tolerances import EDGE_TOL
-from graphplan.sheet.words.rows import Placed, TextRow, fill, tightened
+from graphplan.sheet.words.rows import Placed, TextRow, fill, tighten
 
 CAPTION, MARGIN = 11.0, 9.0  # mm: a panel's caption strip, and what is kept free for letters around its figure
 EDGE, SIDE = 0.5, 2.5  # mm of a panel on each side of its room, and of its caption
@@ -85,7 +85,7 @@ class Shape(NamedTuple):
     name: str = ""
 
 
-def divided(region: Rect, block: Rect | None, demands: Mapping[str, Demand],
+def divide_among_plans(region: Rect, block: Rect | None, demands: Mapping[str, Demand],
             twins: Mapping[str, str]) -> dict[str, Rect] | None:
     """The panels of plans in a region, with the title block in its lower right corner where one is given; none where
     they have no room however small they are drawn. Twins have one scale."""
@@ -125,20 +125,20 @@ def _best(region: Rect, demands: Mapping[str, Demand], twins: Mapping[str, str],
         for start in range(len(leaves) - count + 1):
             end = start + count
             found = [shape for middle in range(start + 1, end)
-                     for one, two in product(runs[start, middle], runs[middle, end]) for shape in _joined(one, two)
+                     for one, two in product(runs[start, middle], runs[middle, end]) for shape in _join_shapes(one, two)
                      if shape.wide <= region.width and shape.high <= region.height]
-            runs[start, end] = _least(found)
+            runs[start, end] = _minimal_shapes(found)
     whole = [shape for shape in runs[0, len(leaves)] if shape.wide <= region.width and shape.high <= region.height]
     return max(whole, key=lambda shape: min(region.width / shape.wide, region.height / shape.high), default=None)
 
 
-def _joined(one: Shape, two: Shape) -> tuple[Shape, Shape]:
+def _join_shapes(one: Shape, two: Shape) -> tuple[Shape, Shape]:
     """Two runs side by side, and one under the other."""
     return (Shape(one.wide + two.wide, max(one.high, two.high), (one, two), True),
             Shape(max(one.wide, two.wide), one.high + two.high, (one, two)))
 
 
-def _least(shapes: Sequence[Shape]) -> list[Shape]:
+def _minimal_shapes(shapes: Sequence[Shape]) -> list[Shape]:
     """The shapes than which none other is smaller both ways, or of very many some."""
     found: list[Shape] = []
     for shape in sorted(shapes, key=lambda shape: (shape.wide, shape.high)):
@@ -187,7 +187,7 @@ class Arrangement:
     rows: tuple[TextRow, ...] = ()
 
     @property
-    def further(self) -> tuple[Rect, ...]:
+    def further_columns(self) -> tuple[Rect, ...]:
         """The columns of a page of words, those over the title block ending above it: as wide as on the first page."""
         wide = self.columns[0].width if self.columns else self.letters.times * COLUMN
         count = max(1, int((self.frame.width + EDGE_TOL) // (wide + GUTTER)))
@@ -200,7 +200,7 @@ class Arrangement:
 
     def set(self, words: Measure[Sequence[TextRow]]) -> tuple[TextRow, ...]:
         """Words set for its columns, in its letters."""
-        return enlarged(words, self.letters.times)(self.further[0].width)
+        return enlarge_words(words, self.letters.times)(self.further_columns[0].width)
 
     @property
     def share(self) -> float:
@@ -208,9 +208,9 @@ class Arrangement:
         return sum(panel.area for panel in self.panels.values()) / (self.width * self.height)
 
 
-def enlarged(words: Measure[Sequence[TextRow]], times: float) -> Measure[tuple[TextRow, ...]]:
+def enlarge_words(words: Measure[Sequence[TextRow]], times: float) -> Measure[tuple[TextRow, ...]]:
     """Words in letters so many times as large."""
-    return lambda wide: tuple(row.enlarged(times) for row in words(wide / times))
+    return lambda wide: tuple(row.enlarge(times) for row in words(wide / times))
 
 
 def room(panel: Rect) -> Rect:
@@ -218,7 +218,7 @@ def room(panel: Rect) -> Rect:
     return panel.inset(EDGE, EDGE, EDGE, CAPTION)
 
 
-def inside(room: Rect) -> Rect:
+def room_for_marks(room: Rect) -> Rect:
     """Where the figure's own marks may lie: there is room for letters around them."""
     return room.inset(MARGIN, MARGIN, MARGIN, MARGIN)
 
@@ -235,42 +235,44 @@ def sheet_size(paper: str) -> tuple[float, float]:
 MOST_OF_PAGE = 0.6  # what plans take of a page on which words stand
 
 
-def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | None, frame: Frame,
+def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | None, frame: SheetFrame,
                  title: TitleBlock) -> Iterator[Arrangement]:
     """The ways to divide one sheet: with columns that hold all the words, or without any where there are no `rows`.
 
     `divide` gives the panels in a region, of which the title block may take a corner.
     """
     wide, high = sheet_size(paper)
-    space, title, times = frame.space(wide, high), title.on(paper), letter_sizes(paper).times
-    words = rows and enlarged(rows, times)
-    found = (*_beside(space, words, title, times * COLUMN), *_below(space, words, title, times * COLUMN)) if words \
-        else _alone(space, title, times * COLUMN)
+    space, title, times = frame.space(wide, high), title.on_paper(paper), letter_sizes(paper).times
+    words = rows and enlarge_words(rows, times)
+    found = (*_words_beside(space, words, title, times * COLUMN),
+             *_words_below(space, words, title, times * COLUMN)) if words \
+        else _plans_alone(space, title, times * COLUMN)
     for plans, columns, block in found:
         if panels := divide(plans, None if columns else block):
             filled = words(columns[0].width) if words else ()
             yield Arrangement(paper, wide, high, space, panels, columns, block, filled)
 
 
-def words_page(paper: str, frame: Frame, title: TitleBlock) -> Arrangement:
+def words_page(paper: str, frame: SheetFrame, title: TitleBlock) -> Arrangement:
     """A page of words alone."""
     wide, high = sheet_size(paper)
     space, column = frame.space(wide, high), letter_sizes(paper).times * COLUMN
-    page = Arrangement(paper, wide, high, space, {}, (), lower_right(space, column + GUTTER, title.on(paper)))
-    return replace(page, columns=page.further)
+    page = Arrangement(paper, wide, high, space, {}, (), lower_right(space, column + GUTTER, title.on_paper(paper)))
+    return replace(page, columns=page.further_columns)
 
 
 Division = tuple[Rect, tuple[Rect, ...], Rect]
 Divide = Callable[[Rect, Rect | None], dict[str, Rect] | None]
 
 
-def _alone(space: Rect, title: TitleBlock, column: float) -> Iterator[Division]:
+def _plans_alone(space: Rect, title: TitleBlock, column: float) -> Iterator[Division]:
     """Plans alone, with a title block as wide as a column, or as wide as it can be."""
     for block in dict.fromkeys(lower_right(space, pitch, title) for pitch in (column + GUTTER, space.width)):
         yield space, (), block
 
 
-def _beside(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBlock, column: float) -> Iterator[Division]:
+def _words_beside(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBlock,
+                  column: float) -> Iterator[Division]:
     """Text in as few columns as hold it, to the right of the plans, which end above a title block that is wider."""
     text = rows(column)
     pitch = column + GUTTER
@@ -284,7 +286,8 @@ def _beside(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBlock, 
             return
 
 
-def _below(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBlock, column: float) -> Iterator[Division]:
+def _words_below(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBlock,
+                 column: float) -> Iterator[Division]:
     """Text in a strip under the plans, as low as it can be."""
     count = int((space.width + GUTTER) // (column + GUTTER))
     pitch = space.width / count
@@ -321,12 +324,12 @@ def _columns(region: Rect, count: int, block: Rect, wide: float | None = None) -
 # ---- words that run from one page to the next -----------------------------------------------------------------------
 
 
-def paged(rows: Sequence[TextRow], arrangement: Arrangement) -> Iterator[list[Placed]]:
+def paginate(rows: Sequence[TextRow], arrangement: Arrangement) -> Iterator[list[Placed]]:
     """The rows page by page: the columns of the arrangement, if it has any, then as many pages of columns as it takes.
 
     Fails with `Refused` where what must stand together is higher than a page.
     """
-    columns, further = arrangement.columns, arrangement.further
+    columns, further = arrangement.columns, arrangement.further_columns
     while rows:
         count = _fitting(rows, columns)
         if not count and columns is further:
@@ -335,9 +338,9 @@ def paged(rows: Sequence[TextRow], arrangement: Arrangement) -> Iterator[list[Pl
         rows, columns = rows[count:], further
 
 
-def packed(rows: Sequence[TextRow], arrangement: Arrangement) -> list[list[Placed]]:
+def paginate_tightly(rows: Sequence[TextRow], arrangement: Arrangement) -> list[list[Placed]]:
     """The rows page by page, closer to each other where that saves a page; fails as :func:`paged` does."""
-    loose, tight = (list(paged(kind, arrangement)) for kind in (rows, [tightened(row) for row in rows]))
+    loose, tight = (list(paginate(kind, arrangement)) for kind in (rows, [tighten(row) for row in rows]))
     return tight if len(tight) < len(loose) else loose
 
 

@@ -68,23 +68,23 @@ class Scales:
     unit: str = "N"
     convention: str = "real"
 
-    def of(self, panel: str) -> float:
+    def lengths_per_mm(self, panel: str) -> float:
         """Scene lengths for one mm on a panel."""
         return self.k_s / float(self.multiples.get(panel, 1))
 
     def speed(self, panel: str) -> float:
         """Speed for one mm of a vector on a panel."""
-        return self.of(panel) / self.kappa
+        return self.lengths_per_mm(panel) / self.kappa
 
     def acceleration(self, panel: str) -> float:
         """Acceleration for one mm of a vector on a panel."""
-        return self.of(panel) / self.kappa**2
+        return self.lengths_per_mm(panel) / self.kappa**2
 
     def force(self, panel: str) -> float:
         """Force for one mm of a vector on a panel."""
-        return self.of(panel) / self.phi
+        return self.lengths_per_mm(panel) / self.phi
 
-    def said(self, panel: str, kinds: set[str]) -> list[Said]:
+    def scale_texts(self, panel: str, kinds: set[str]) -> list[Said]:
         """The scales of a panel with their units; `kinds` are the kinds of vector drawn on it."""
         told = [] if panel in self.multiples else [self._static("s", self.k_s, self.length)]
         if kinds & VELOCITIES:
@@ -108,7 +108,7 @@ class Scales:
     def ratio(self) -> Said:
         """The scale of the mechanism plan as a title block has it, such as 1 : 5."""
         told = ratio(self.k_s, self.length)
-        return joined((told, *self.said("", set())), "; ") if self.convention == "drawn" else told
+        return joined((told, *self.scale_texts("", set())), "; ") if self.convention == "drawn" else told
 
 
 def ratio(k_s: float, length: str) -> Said:

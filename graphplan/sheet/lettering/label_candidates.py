@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.sheet.lettering.lettering import CAPS, DEPTH, DROP, SMALL_SHEET, LetterSizes, Run, Runs, width
+from graphplan.sheet.lettering.lettering import CAPS, DEPTH, DROP, SMALL_SHEET, LetterSizes, Runs, TextRun, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import Pen
@@ -51,37 +51,37 @@ class Wish:
     letters: LetterSizes = SMALL_SHEET
 
     @property
-    def size(self) -> float:
+    def letter_size(self) -> float:
         """Of the letters."""
         return self.letters.text if self.minor or self.balloon else self.letters.mark
 
     @property
     def extent(self) -> tuple[float, float]:
         if self.balloon:
-            return 2 * BALLOON * self.size, 2 * BALLOON * self.size
+            return 2 * BALLOON * self.letter_size, 2 * BALLOON * self.letter_size
         small = self.letters.text
-        return self.tail + width(self.figures, small), self.lift + small * CAPS + self.size * self.depth
+        return self.tail + width(self.figures, small), self.lift + small * CAPS + self.letter_size * self.depth
 
     @property
     def figures(self) -> Runs:
-        return (Run(self.raised),) if self.raised else ()
+        return (TextRun(self.raised),) if self.raised else ()
 
     @property
     def tail(self) -> float:
         """Where the raised figures begin, beside the letters."""
-        return width(self.runs, self.size, self.bold) + (APART if self.raised else 0.0)
+        return width(self.runs, self.letter_size, self.bold) + (APART if self.raised else 0.0)
 
     @property
     def lift(self) -> float:
         """How far above the base line the figures stand: half a capital; without any, they end where the letters do."""
-        return self.size * CAPS / 2 if self.raised else (self.size - self.letters.text) * CAPS
+        return self.letter_size * CAPS / 2 if self.raised else (self.letter_size - self.letters.text) * CAPS
 
     @property
     def depth(self) -> float:
         """How far the letters reach below the base line, in ems."""
         return DROP + 0.15 if any(run.level < 0 for run in self.runs) else DEPTH
 
-    def items(self, place: Candidates) -> Iterator[Item]:
+    def items(self, place: LabelCandidates) -> Iterator[Item]:
         """The letter at its place."""
         left, low, right, top = map(float, place.boxes)
         x, y = map(float, place.spots)
@@ -90,12 +90,13 @@ class Wish:
             end_x, end_y = map(float, place.ends)
             yield Polyline(pens.LEADER, self.layer, self.step, ((x, y), (end_x, end_y)))
         if self.balloon:
-            yield Circle(pens.BALLOON, self.layer, self.step, middle, BALLOON * self.size)
-            base = middle[0], middle[1] - self.size * CAPS / 2
-            yield Text(self.pen, self.layer, self.step, base, self.runs, self.size, "middle", label=self.label)
+            yield Circle(pens.BALLOON, self.layer, self.step, middle, BALLOON * self.letter_size)
+            base = middle[0], middle[1] - self.letter_size * CAPS / 2
+            yield Text(self.pen, self.layer, self.step, base, self.runs, self.letter_size, "middle", label=self.label)
         else:
-            x, y = left, low + self.size * self.depth
-            yield Text(self.pen, self.layer, self.step, (x, y), self.runs, self.size, bold=self.bold, label=self.label)
+            x, y = left, low + self.letter_size * self.depth
+            yield Text(self.pen, self.layer, self.step, (x, y), self.runs, self.letter_size, bold=self.bold,
+                       label=self.label)
             if self.raised:
                 at = x + self.tail, y + self.lift
                 yield Text(pens.FAINT, self.layer, self.step, at, self.figures, self.letters.text,
@@ -103,7 +104,7 @@ class Wish:
 
 
 @dataclass(frozen=True)
-class Candidates:
+class LabelCandidates:
     """Candidates, letter by letter: boxes, the spots they stand for, what their distance costs, which need a leader.
 
     Boxes are rows of left, bottom, right, top.
@@ -125,20 +126,20 @@ class Candidates:
         """Where leaders end: on each box the spot that is nearest to its own."""
         return np.clip(self.spots, self.boxes[..., :2], self.boxes[..., 2:])
 
-    def of(self, letters: Sequence[int]) -> Candidates:
+    def for_letters(self, letters: Sequence[int]) -> LabelCandidates:
         """The same places, of these letters of a longer list."""
-        return Candidates(np.array(letters)[self.letters], *list(vars(self).values())[1:])
+        return LabelCandidates(np.array(letters)[self.letters], *list(vars(self).values())[1:])
 
-    def joined(self, more: Candidates) -> Candidates:
+    def append(self, more: LabelCandidates) -> LabelCandidates:
         """These places and, after them, more; letters are no longer in order."""
         pairs = zip(vars(self).values(), vars(more).values(), strict=True)
-        return Candidates(*map(np.concatenate, pairs))
+        return LabelCandidates(*map(np.concatenate, pairs))
 
-    def __getitem__(self, chosen: Any) -> Candidates:
-        return Candidates(*(part[chosen] for part in vars(self).values()))
+    def __getitem__(self, chosen: Any) -> LabelCandidates:
+        return LabelCandidates(*(part[chosen] for part in vars(self).values()))
 
 
-def candidates(wishes: Sequence[Wish], rect: Rect, rings: Array = RINGS, ways: int = 16) -> Candidates:
+def candidates(wishes: Sequence[Wish], rect: Rect, rings: Array = RINGS, ways: int = 16) -> LabelCandidates:
     """All the places for letters inside the panel, so many ways: spot by spot, from the nearest ring outwards."""
     counts = [len(wish.spots) for wish in wishes]
     spots = np.array([spot for wish in wishes for spot in wish.spots])
@@ -157,11 +158,11 @@ def candidates(wishes: Sequence[Wish], rect: Rect, rings: Array = RINGS, ways: i
     cost = (costs + (0.05 * number[at] + LEADER * led) * free[at])[:, None] + TASTE * ((16 * turns - 2) % 16)
     inside = ((boxes[..., :2] >= (rect.left, rect.bottom)) & (boxes[..., 2:] <= (rect.right, rect.top))).all(axis=-1)
     row, _ = np.nonzero(inside)
-    found = Candidates(letter[at][row], boxes[inside], spots[at][row], cost[inside], led[row])
+    found = LabelCandidates(letter[at][row], boxes[inside], spots[at][row], cost[inside], led[row])
     return _with_outsiders(found, wishes, rect)
 
 
-def _with_outsiders(found: Candidates, wishes: Sequence[Wish], rect: Rect) -> Candidates:
+def _with_outsiders(found: LabelCandidates, wishes: Sequence[Wish], rect: Rect) -> LabelCandidates:
     """The places, and for each letter whose mark is at the edge one that is as near as the panel allows."""
     outside = np.flatnonzero(np.bincount(found.letters, minlength=len(wishes)) == 0).tolist()
     if not outside:
@@ -169,7 +170,7 @@ def _with_outsiders(found: Candidates, wishes: Sequence[Wish], rect: Rect) -> Ca
     boxes = [_pushed_in(wishes[letter], rect) for letter in outside]
     spots = [wishes[letter].spots[0] for letter in outside]
     more: tuple[Any, ...] = outside, boxes, spots, np.full(len(outside), EDGE), np.zeros(len(outside), dtype=bool)
-    every = Candidates(*(np.concatenate(pair) for pair in zip(vars(found).values(), more, strict=True)))
+    every = LabelCandidates(*(np.concatenate(pair) for pair in zip(vars(found).values(), more, strict=True)))
     return every[every.letters.argsort(kind="stable")]
 
 

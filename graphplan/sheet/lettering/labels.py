@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from graphplan.sheet.lettering.label_candidates import FINE, Array, Candidates, Wish, candidates
+from graphplan.sheet.lettering.label_candidates import FINE, Array, LabelCandidates, Wish, candidates
 from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes
 from graphplan.sheet.lettering.prices import CLASH, FAULT, Lines, Marks, Prices, Standing, Surfaces, overlap
 from graphplan.sheet.plates.display import Item, Rect, Spot
@@ -27,7 +27,7 @@ HEAP = 150_000  # places on a plan: among so many no second thought puts letters
 WORK = 8e6  # places times letters: what asking others to move may take on a plan; each time looks at all of its places
 
 
-class Resettling:
+class Relabelling:
     """Letters at their places, that change them as long as it helps; `choice` is the place of each.
 
     Letters that took their places one by one may have left no good one for the last. A letter with a fault takes a
@@ -50,21 +50,21 @@ class Resettling:
         worst = np.argsort(-fault, kind="stable")
         return [int(letter) for letter in worst if fault[letter] >= FAULT]
 
-    def settled(self) -> Array:
+    def relabel(self) -> Array:
         """The places when no letter with a fault finds a better one."""
         for _ in range(ROUNDS if len(self.prices.found.boxes) < HEAP else 0):
-            if not sum([self._improved(letter) for letter in self.faulty]):
+            if not sum([self._improve(letter) for letter in self.faulty]):
                 break
         return self.choice
 
     def _met_at(self, letter: int, place: int) -> float:
         """What a letter pays at a place for the others that stand."""
         self.standing.put(letter, None)
-        met = float(self.standing.met(self.prices.found[place : place + 1])[0])
+        met = float(self.standing.clash_costs(self.prices.found[place : place + 1])[0])
         self.standing.put(letter, self.prices.found[self.choice[letter]])
         return met
 
-    def _improved(self, letter: int) -> bool:
+    def _improve(self, letter: int) -> bool:
         """Whether a letter found a better place, if need be where others stood."""
         span, found, before = self.spans[letter], self.prices.found, self._cost(letter)
         places = np.arange(span.start, span.stop)
@@ -73,7 +73,7 @@ class Resettling:
         if not len(places):
             return False
         self.standing.put(letter, None)
-        cost = alone + self.standing.met(found[places])
+        cost = alone + self.standing.clash_costs(found[places])
         self.standing.put(letter, found[self.choice[letter]])
         moved = bool((cost < before - BETTER).any())
         if moved:
@@ -82,9 +82,9 @@ class Resettling:
         if before - found.cost[self.choice[letter]] < FAULT:
             return moved
         tempting = [int(places[k]) for k in alone.argsort(kind="stable")[:TRIES] if alone[k] < before - BETTER]
-        return any(self._made_room(letter, place, before) for place in tempting) or moved
+        return any(self._make_room(letter, place, before) for place in tempting) or moved
 
-    def _made_room(self, letter: int, place: int, before: float) -> bool:
+    def _make_room(self, letter: int, place: int, before: float) -> bool:
         """Whether a letter takes a place because those that stand there pay less elsewhere than it saves."""
         others = [other for other in self._in_the_way(place) if other != letter]
         if not 0 < len(others) <= MOVED or self.left <= 0:
@@ -97,7 +97,7 @@ class Resettling:
         self._move(letter, place)
         for other in others:
             span = self.spans[other]
-            self._move(other, self.prices.cheapest(span, self.standing.met(self.prices.found[span])))
+            self._move(other, self.prices.cheapest(span, self.standing.clash_costs(self.prices.found[span])))
         if sum(self._cost(one) for one in was) < paid - BETTER:
             return True
         for one, old in was.items():
@@ -107,7 +107,7 @@ class Resettling:
     def _in_the_way(self, place: int) -> Iterator[int]:
         """The letters on which a place lies."""
         boxes = self.prices.found.boxes[place : place + 1]
-        yield from (int(other) for other in np.flatnonzero(self.standing.touched(boxes)))
+        yield from (int(other) for other in np.flatnonzero(self.standing.letters_touching(boxes)))
 
     def _cost(self, letter: int) -> float:
         """What a letter pays where it stands."""
@@ -124,14 +124,14 @@ WAYS = 24  # from a mark to the places for second thoughts
 POOR = 2.0  # the price of what a letter covers, from which on it can hardly be read
 
 
-def placed(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,
+def place_letters(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,
            letters: LetterSizes = SMALL_SHEET) -> list[Item]:
     """The letters in their places and sizes, with leaders where they had to go far."""
     return lettering(wishes, items, marks, rect, letters).items
 
 
 @dataclass(frozen=True)
-class Lettering:
+class PlacedLetters:
     """Letters in places that were found quickly, and how many of them stand badly there."""
 
     wishes: Sequence[Wish] = ()
@@ -152,29 +152,29 @@ class Lettering:
         return [item for wish, place in self.places for item in wish.items(place)]
 
     @cached_property
-    def places(self) -> list[tuple[Wish, Candidates]]:
+    def places(self) -> list[tuple[Wish, LabelCandidates]]:
         """The last place of each letter, after second thoughts about those that cannot be read."""
         if self.prices is None or self.choice is None or self.rect is None:
             return []
         prices, choice = self.prices, self.choice
-        if faulty := sorted(Resettling(prices, choice).faulty):
-            more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE, WAYS).of(faulty)
-            prices, moved = prices.extended(more)
-            choice = Resettling(prices, moved[choice]).settled()
+        if faulty := sorted(Relabelling(prices, choice).faulty):
+            more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE, WAYS).for_letters(faulty)
+            prices, moved = prices.with_more_places(more)
+            choice = Relabelling(prices, moved[choice]).relabel()
         return [(wish, prices.found[place]) for wish, place in zip(self.wishes, choice, strict=True)]
 
 
 def lettering(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,
-              letters: LetterSizes = SMALL_SHEET) -> Lettering:
+              letters: LetterSizes = SMALL_SHEET) -> PlacedLetters:
     """The same, and how well they stand."""
     if not wishes:
-        return Lettering()
+        return PlacedLetters()
     wishes = [replace(wish, letters=letters) for wish in wishes]
     prices = Prices(candidates(wishes, rect), (Lines(items), Marks(marks), Surfaces(items)))
-    return Lettering(wishes, rect, prices, _chosen(prices, len(wishes)))
+    return PlacedLetters(wishes, rect, prices, _choose_places(prices, len(wishes)))
 
 
-def _chosen(prices: Prices, count: int) -> Array:
+def _choose_places(prices: Prices, count: int) -> Array:
     """One place for every letter: greedily, the fewest good places first, then sweeps of improvement."""
     spans = prices.spans(count)
     choices, least = prices.choices(np.array([span.start for span in spans]))

@@ -71,15 +71,15 @@ def letter_sizes(paper: str) -> LetterSizes:
     return SMALL_SHEET if paper.partition(" ")[0] in ("A4", "A3") else LARGE_SHEET
 
 
-class Run(NamedTuple):
+class TextRun(NamedTuple):
     """A stretch of text on one level: 0 on the base line, -1 subscript, 1 superscript."""
 
     text: str
     level: int = 0
 
 
-Runs = tuple[Run, ...]
-SPACE: Runs = (Run(" "),)
+Runs = tuple[TextRun, ...]
+SPACE: Runs = (TextRun(" "),)
 
 
 def name_runs(name: str) -> Runs:
@@ -90,7 +90,7 @@ def name_runs(name: str) -> Runs:
     letter = GREEK[stem.lower()] if stem in (*GREEK, *CAPITALS) else stem
     letter = letter.upper() if stem in CAPITALS else letter
     index = re.sub(r"(?<=\d)_(?=\d)", ",", index).replace("_", "")
-    return _joined((Run(letter + primes), Run(GREEK.get(index, index), -1)))
+    return _merge_runs((TextRun(letter + primes), TextRun(GREEK.get(index, index), -1)))
 
 
 _PLAIN = re.compile(r"\b(?:[A-Za-z]|" + "|".join(GREEK) + r")_[A-Za-z0-9]{1,2}\b|\b(?:omega|alpha|mu)\b")
@@ -99,7 +99,7 @@ _PLAIN = re.compile(r"\b(?:[A-Za-z]|" + "|".join(GREEK) + r")_[A-Za-z0-9]{1,2}\b
 @lru_cache(maxsize=4096)  # the words of a sheet are set for every width of column that is tried
 def sentence_runs(sentence: str, names: tuple[str, ...] = ()) -> Runs:
     """A sentence as runs; `names` are marks whose names may stand in it, even run together as in `v_qC`."""
-    return _spelled(sentence, _pattern(names) if names else _PLAIN)
+    return _set_names(sentence, _pattern(names) if names else _PLAIN)
 
 
 @lru_cache(maxsize=8)
@@ -111,13 +111,13 @@ def _pattern(names: tuple[str, ...]) -> re.Pattern[str]:
     return re.compile("|".join([*parts, _PLAIN.pattern]))
 
 
-def _spelled(sentence: str, pattern: re.Pattern[str]) -> Runs:
-    runs: list[Run] = []
+def _set_names(sentence: str, pattern: re.Pattern[str]) -> Runs:
+    runs: list[TextRun] = []
     done = 0
     for found in pattern.finditer(sentence):
-        runs += [Run(sentence[done : found.start()]), *name_runs(found.group())]
+        runs += [TextRun(sentence[done : found.start()]), *name_runs(found.group())]
         done = found.end()
-    return _joined((*runs, Run(sentence[done:])))
+    return _merge_runs((*runs, TextRun(sentence[done:])))
 
 
 _SYMBOLS = re.compile(r"\^([A-Za-z]+)|_([A-Za-z0-9,']+(?:\([A-Za-z0-9]+\))?)")
@@ -126,37 +126,37 @@ _SYMBOLS = re.compile(r"\^([A-Za-z]+)|_([A-Za-z0-9,']+(?:\([A-Za-z0-9]+\))?)")
 @lru_cache(maxsize=4096)
 def equation_runs(text: str) -> Runs:
     """An equation as runs: a^n_BA is a with n above and BA below."""
-    runs, done = list[Run](), 0
+    runs, done = list[TextRun](), 0
     for found in _SYMBOLS.finditer(text):
         above, below = found.groups()
-        runs += [Run(text[done : found.start()]), Run(above, 1) if above else Run(below, -1)]
+        runs += [TextRun(text[done : found.start()]), TextRun(above, 1) if above else TextRun(below, -1)]
         done = found.end()
-    return _joined((*runs, Run(text[done:])))
+    return _merge_runs((*runs, TextRun(text[done:])))
 
 
-def _joined(runs: Iterable[Run]) -> Runs:
+def _merge_runs(runs: Iterable[TextRun]) -> Runs:
     """Without empty runs, and neighbours on one level made one."""
-    found: list[Run] = []
+    found: list[TextRun] = []
     for run in runs:
         if found and found[-1].level == run.level:
-            found[-1] = Run(found[-1].text + run.text, run.level)
+            found[-1] = TextRun(found[-1].text + run.text, run.level)
         elif run.text:
             found.append(run)
     return tuple(found)
 
 
-def listed(names: Iterable[str], lead: str = "") -> Runs:
+def list_runs(names: Iterable[str], lead: str = "") -> Runs:
     """Names side by side, after the words that lead to them."""
-    runs = [run for name in names for run in (Run(", "), *name_runs(name))]
-    return _joined((Run(lead), *runs[1:]))
+    runs = [run for name in names for run in (TextRun(", "), *name_runs(name))]
+    return _merge_runs((TextRun(lead), *runs[1:]))
 
 
 def width(runs: Runs, size: float, bold: bool = False) -> float:
     """How long the lettering is, in mm."""
-    return _ems(runs, lowered(size) / size) * size * (_BOLD if bold else 1.0)
+    return _ems(runs, script_size(size) / size) * size * (_BOLD if bold else 1.0)
 
 
-def lowered(size: float) -> float:
+def script_size(size: float) -> float:
     """The size of subscripts and superscripts: smaller than the letters, but no smaller than words are."""
     return max(SUBSCRIPT * size, min(size, SIZE))
 
@@ -170,25 +170,25 @@ def _ems(runs: Runs, small: float) -> float:
 def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]:
     """The lettering in lines no longer than `room`, broken at spaces; a word too long for a line is broken anywhere."""
     lines: list[Runs] = []
-    line: list[Run] = []
+    line: list[TextRun] = []
     long, space = 0.0, width(SPACE, size, bold)
-    for word, ems in _words(runs, lowered(size) / size):
+    for word, ems in _words(runs, script_size(size) / size):
         wide = ems * size * (_BOLD if bold else 1.0)
         if line and long + space + wide <= room:
             line += (*SPACE, *word)
             long += space + wide
             continue
         if line:
-            lines.append(_joined(line))
+            lines.append(_merge_runs(line))
         line, long = [*word], wide
         while long > room and len(_flat(line)) > 1:
-            head, rest = _broken(line, size, room, bold)
+            head, rest = _break_line(line, size, room, bold)
             lines.append(head)
             line, long = [*rest], width(rest, size, bold)
-    return [*lines, _joined(line)] if line else lines
+    return [*lines, _merge_runs(line)] if line else lines
 
 
-def folded(runs: Runs, size: float) -> float:
+def two_line_width(runs: Runs, size: float) -> float:
     """How wide bold lettering is at least on two lines."""
     long = width(runs, size, bold=True)
     return next((part * long for part in (0.55, 0.65, 0.8) if len(wrap(runs, size, part * long, bold=True)) <= 2), long)
@@ -202,23 +202,23 @@ def plain(runs: Runs) -> str:
 @lru_cache(maxsize=4096)
 def _words(runs: Runs, small: float) -> list[tuple[Runs, float]]:
     """The words, each with its length beside the size of the letters, and with subscripts so much smaller."""
-    words: list[list[Run]] = [[]]
+    words: list[list[TextRun]] = [[]]
     for run in runs:
         for i, part in enumerate(run.text.split(" ")):
             if i:
                 words.append([])
             if part:
-                words[-1].append(Run(part, run.level))
+                words[-1].append(TextRun(part, run.level))
     return [(tuple(word), _ems(tuple(word), small)) for word in words if word]
 
 
-def _flat(runs: Iterable[Run]) -> Runs:
+def _flat(runs: Iterable[TextRun]) -> Runs:
     """One run for every character."""
-    return tuple(Run(char, run.level) for run in runs for char in run.text)
+    return tuple(TextRun(char, run.level) for run in runs for char in run.text)
 
 
-def _broken(runs: Iterable[Run], size: float, room: float, bold: bool) -> tuple[Runs, Runs]:
+def _break_line(runs: Iterable[TextRun], size: float, room: float, bold: bool) -> tuple[Runs, Runs]:
     """The longest beginning that fits, and the rest."""
     chars = _flat(runs)
     count = max(1, next((i for i in range(1, len(chars)) if width(chars[: i + 1], size, bold) > room), len(chars)))
-    return _joined(chars[:count]), _joined(chars[count:])
+    return _merge_runs(chars[:count]), _merge_runs(chars[count:])

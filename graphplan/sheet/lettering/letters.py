@@ -12,13 +12,13 @@ from graphplan.kernel.program import Panel, Program
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.labels import Lettering, lettering
-from graphplan.sheet.lettering.lettering import listed, name_runs, sentence_runs
+from graphplan.sheet.lettering.labels import PlacedLetters, lettering
+from graphplan.sheet.lettering.lettering import list_runs, name_runs, sentence_runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Rect, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
-from graphplan.sheet.plates.plans import around, corner
+from graphplan.sheet.plates.plans import bounding_box, corner
 from graphplan.sheet.plates.plate import Plate, Plates
 from graphplan.sheet.plates.symbols import RADIUS
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
@@ -34,27 +34,27 @@ STRUCK = 1.0, 0.0, 0.85, 0.15, 0.7, 0.3, 0.5  # the same along an arc
 Span = tuple[Spot, Spot]
 
 
-def picture(plate: Plate) -> list[Item]:
+def plate_items(plate: Plate) -> list[Item]:
     """The items of a plan, with the mechanism if it is its plan, and the letters that avoid them; in no order."""
-    return pictured(plate).items
+    return letter_plate(plate).items
 
 
-def pictures(plates: Plates) -> dict[Panel, Picture]:
+def letter_plates(plates: Plates) -> dict[Panel, LetteredPlate]:
     """The plans with their letters; those of the same windows are drawn once."""
     windows, known = (*plates.views.values(), plates.letters), plates.plans.drawn
     if windows not in known:
-        known[windows] = {plate.panel: pictured(plate) for plate in plates}
-    found: dict[Panel, Picture] = known[windows]
+        known[windows] = {plate.panel: letter_plate(plate) for plate in plates}
+    found: dict[Panel, LetteredPlate] = known[windows]
     return found
 
 
 @dataclass(frozen=True)
-class Picture:
+class LetteredPlate:
     """A plan and its letters."""
 
     plate: Plate
     strokes: list[Item]
-    letters: Lettering
+    letters: PlacedLetters
 
     @cached_property
     def items(self) -> list[Item]:
@@ -62,32 +62,33 @@ class Picture:
         return [*self.strokes, *self.letters.items, *self.plate.positions(self.letters.items)]
 
 
-def pictured(plate: Plate) -> Picture:
+def letter_plate(plate: Plate) -> LetteredPlate:
     """The same, and how well the letters stand."""
     items, wishes = [*plate.items(), *plate.mechanism], wishes_on(plate)
-    marks = [drawn.at for drawn in plate.steps if plate.shown(drawn)]
+    marks = [drawn.spot for drawn in plate.steps if plate.is_on_panel(drawn)]
     if plate.panel == MECHANISM:
-        marks += list(plate.drawn_mechanism.shown.values())
+        marks += list(plate.drawn_mechanism.visible_points.values())
     rect = plate.view.rect
-    return Picture(plate, items, lettering([*inside(wishes, rect)], items, marks, rect, plate.plates.letters))
+    return LetteredPlate(plate, items,
+                         lettering([*wishes_inside(wishes, rect)], items, marks, rect, plate.plates.letters))
 
 
 def wishes_on(plate: Plate) -> list[Wish]:
     """The letters of a plan, on its panel or beyond."""
-    wishes = list(Letters(plate).wishes())
+    wishes = list(PlateLetters(plate).wishes())
     if plate.panel != MECHANISM:
         return wishes
-    return [*of_mechanism(plate.drawn_mechanism), *wishes, *_path_letters(plate)]
+    return [*mechanism_wishes(plate.drawn_mechanism), *wishes, *_path_letters(plate)]
 
 
-def inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:
+def wishes_inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:
     """The letters of what is on the panel."""
     for wish in wishes:
         if spots := tuple(filter(rect.holds, wish.spots)):
             yield replace(wish, spots=spots)
 
 
-def of_mechanism(mechanism: DrawnMechanism) -> Iterator[Wish]:
+def mechanism_wishes(mechanism: DrawnMechanism) -> Iterator[Wish]:
     """The letters of the joints, then the numbers of the links."""
     for spot, (runs, label) in mechanism.letters().items():
         yield Wish(runs, (spot,), RADIUS + 0.3, label=label)
@@ -109,7 +110,7 @@ def _path_letters(plate: Plate) -> Iterator[Wish]:
 
 
 @dataclass(frozen=True)
-class Letters:
+class PlateLetters:
     """What stands beside the strokes of one plan."""
 
     plate: Plate
@@ -128,7 +129,7 @@ class Letters:
                 yield from self._arc_number(drawn)
         spans = self._spans()
         for (start, end), vectors in spans.items():
-            yield from self._vector_letter(vectors, any(_same(span, (end, start)) for span in spans))
+            yield from self._vector_letter(vectors, any(_coincide(span, (end, start)) for span in spans))
 
     def _point_letters(self) -> Iterator[Wish]:
         """The letters, and apart from them the numbers, of each place: marks that coincide stand together."""
@@ -137,14 +138,14 @@ class Letters:
             lettered = [mark for mark in marks if mark.name and not self._of_pose(mark)]
             if lettered:
                 names, bold = [mark.name for mark in lettered], all(corner(mark.step) for mark in lettered)
-                yield Wish(listed(names), (spot,), clear, step=lettered[0].index, label=",".join(names), bold=bold,
-                           raised=self._raised(*lettered))
+                yield Wish(list_runs(names), (spot,), clear, step=lettered[0].index, label=",".join(names), bold=bold,
+                           raised=self._raised_numbers(*lettered))
             numbered = [mark for mark in marks if mark not in lettered]
             if numbered:
                 said = _numbers(*numbered)
                 yield Wish(sentence_runs(said), (spot,), clear, True, pens.FAINT, numbered[0].index, f"point {said}")
 
-    def _raised(self, *marks: DrawnStep) -> str:
+    def _raised_numbers(self, *marks: DrawnStep) -> str:
         """The numbers that letters bear, where they do."""
         return _numbers(*filter(self.plate.numbers, marks))
 
@@ -154,8 +155,8 @@ class Letters:
         places: dict[Spot, list[DrawnStep]] = {}
         for mark in self.plate.steps:
             own = not self._of_pose(mark) or self.plate.numbers(mark)
-            if mark.number and own and self.plate.shown(mark) and self.spoken(mark):
-                key = next((other for other in places if math.dist(other, mark.at) < NEAR), mark.at)
+            if mark.number and own and self.plate.is_on_panel(mark) and self.is_mentioned(mark):
+                key = next((other for other in places if math.dist(other, mark.spot) < NEAR), mark.spot)
                 places.setdefault(key, []).append(mark)
         return places
 
@@ -164,9 +165,9 @@ class Letters:
         return mark.name in self.plate.plans.drawing.scene.points
 
     def _at_joint(self, spot: Spot) -> bool:
-        return any(math.dist(point.at, spot) < 1.0 for point in self.plate.plates.pose.values())
+        return any(math.dist(point.spot, spot) < 1.0 for point in self.plate.plates.pose.values())
 
-    def spoken(self, drawn: DrawnStep) -> bool:
+    def is_mentioned(self, drawn: DrawnStep) -> bool:
         """Whether a mark has a letter, or is spoken of by its number in a later step, or bears it in any case."""
         return bool(drawn.name) or self.plate.numbers(drawn) or drawn.index in self._read
 
@@ -179,11 +180,11 @@ class Letters:
 
     def _line_letters(self, line: DrawnStep, stretch: Stroke) -> Iterator[Wish]:
         """A locus' letter or a line's number, near an end; and where a line that breaks off goes."""
-        spots = tuple(interpolate(*stretch.ends, t) for t in self._along(line, stretch))
+        spots = tuple(interpolate(*stretch.ends, t) for t in self._label_fractions(line, stretch))
         if line.name:
             yield Wish(name_runs(line.name), spots, 0.5, step=line.index, label=line.name, free=True,
-                       raised=self._raised(line))
-        elif self.spoken(line):
+                       raised=self._raised_numbers(line))
+        elif self.is_mentioned(line):
             number = _numbers(line)
             yield Wish(sentence_runs(number), spots, 0.5, True, pens.FAINT, line.index, f"line {number}", free=True)
         for arrow, mark in self.plate.breaks(stretch):
@@ -191,7 +192,7 @@ class Letters:
             runs = sentence_runs(self.plate.plans.tongue(said("to {0}", name)), (name,))
             yield Wish(runs, near, 0.6, True, pens.FAINT, line.index, f"to {name} {line.index}")
 
-    def _along(self, line: DrawnStep, stretch: Stroke) -> Sequence[float]:
+    def _label_fractions(self, line: DrawnStep, stretch: Stroke) -> Sequence[float]:
         """Where along a line its letter may stand; numbers stand at its ends, the outer end of the figure first."""
         if not self.plate.numbers(line):
             return ALONG
@@ -204,12 +205,12 @@ class Letters:
     @cached_property
     def _middle(self) -> Spot:
         """The middle of the plan's marks."""
-        return around([mark.at for mark in self.plate.steps if self.plate.shown(mark)]).centre
+        return bounding_box([mark.spot for mark in self.plate.steps if self.plate.is_on_panel(mark)]).centre
 
     def _arc_number(self, circle: DrawnStep) -> Iterator[Wish]:
         """An arc's number, near an end of it."""
         arcs = [arc.item for arc in self.plate.arcs(circle)]
-        spots = [arc.at(arc.start + (arc.end - arc.start) * t) for t in STRUCK for arc in arcs]
+        spots = [arc.spot_at(arc.start + (arc.end - arc.start) * t) for t in STRUCK for arc in arcs]
         if inside := tuple(filter(self.plate.view.rect.holds, spots)):
             number = _numbers(circle)
             yield Wish(sentence_runs(number), inside, 0.5, True, pens.FAINT, circle.index, f"arc {number}", free=True)
@@ -219,7 +220,7 @@ class Letters:
         spans: dict[Span, list[Stroke]] = {}
         for vector in self.plate.vectors:
             ends = vector.ends
-            spans.setdefault(next((span for span in spans if _same(span, ends)), ends), []).append(vector)
+            spans.setdefault(next((span for span in spans if _coincide(span, ends)), ends), []).append(vector)
         return spans
 
     def _vector_letter(self, vectors: list[Stroke], answered: bool) -> Iterator[Wish]:
@@ -231,7 +232,7 @@ class Letters:
         names = tuple(dict.fromkeys(v.letter for v in vectors if v.letter and v.letter != first.end.name))
         if names:
             spots = tuple(interpolate(*first.ends, t) for t in (NEAR_HEAD if answered else MIDDLE))
-            yield Wish(listed(names), spots, 0.7, pen=replace(first.pen, width=0.0), step=first.of.index,
+            yield Wish(list_runs(names), spots, 0.7, pen=replace(first.pen, width=0.0), step=first.of.index,
                        label=" ".join(names), free=True)
 
 
@@ -239,6 +240,6 @@ def _numbers(*marks: DrawnStep) -> str:
     return ", ".join(str(mark.number) for mark in marks)
 
 
-def _same(one: Span, other: Span) -> bool:
+def _coincide(one: Span, other: Span) -> bool:
     """Whether two spans are one on paper."""
     return all(math.dist(p, q) < NEAR for p, q in zip(one, other, strict=True))

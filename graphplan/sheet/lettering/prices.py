@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, Candidates
+from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, LabelCandidates
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Spot
 
 FAULT = 40.0  # the price of a line through the letters, or of letters that seem to belong to another mark
@@ -34,7 +34,7 @@ class Lines:
         self.stroke = np.repeat(np.arange(len(chains)), [len(chain) - 1 for chain, _ in chains])
         self.prices = np.array([price for _, price in chains])
 
-    def price(self, found: Candidates) -> Array:
+    def price(self, found: LabelCandidates) -> Array:
         """For every stroke its length in a place and the air around it, and for touching it."""
         cells, count = found.cells, len(self.prices)
         who, what = self.tree.query(_diagonals(cells))
@@ -93,7 +93,7 @@ class Marks:
         self.spots = np.array(spots, dtype=float).reshape(-1, 2)
         self.tree = shapely.STRtree(shapely.points(self.spots))
 
-    def price(self, found: Candidates) -> Array:
+    def price(self, found: LabelCandidates) -> Array:
         """For every mark that is nearer than the place's own, or that its leader passes."""
         own = _gap(found.boxes, found.spots)
         near = np.where(found.led, 0.0, own + BESIDE)  # a leader tells whose the letters are
@@ -102,9 +102,9 @@ class Marks:
         nearer = foreign & (_gap(found.boxes[who], self.spots[what]) < near[who])
         mistaken = _gap(found.boxes[who], self.spots[what]) < near[who] - BESIDE - MISTAKEN
         return STRANGER * np.bincount(who[nearer], minlength=len(own)) + _faulty(who[mistaken], len(own)) \
-            + self._passed(found)
+            + self._leader_faults(found)
 
-    def _passed(self, found: Candidates) -> Array:
+    def _leader_faults(self, found: LabelCandidates) -> Array:
         """For every place whose leader passes another mark."""
         led = np.flatnonzero(found.led)
         leaders = shapely.linestrings(np.stack([found.spots[led], found.ends[led]], axis=1))
@@ -126,7 +126,7 @@ class Surfaces:
         self.figures, self.rates = np.array([f for f, _ in figures]), np.array([price for _, price in figures])
         self.tree = shapely.STRtree(self.figures)
 
-    def price(self, found: Candidates) -> Array:
+    def price(self, found: LabelCandidates) -> Array:
         """For the area of every surface that a place and the air around it cover, and for touching it."""
         cells = shapely.box(*found.cells.T)
         who, what = self.tree.query(cells, predicate="intersects")
@@ -161,7 +161,7 @@ class Prices:
     found, part by part, only for places that would win without it.
     """
 
-    def __init__(self, found: Candidates, parts: Sequence[Lines | Marks | Surfaces]):
+    def __init__(self, found: LabelCandidates, parts: Sequence[Lines | Marks | Surfaces]):
         self.found, self.parts, self.cost = found, parts, found.cost.copy()
         self.known = np.zeros(len(found.cost), dtype=int)  # how many parts a place's price holds
 
@@ -200,9 +200,9 @@ class Prices:
         """What of the cost of some places is for what they cover, and not for being far away."""
         return self.total(places) - self.found.cost[places]
 
-    def extended(self, more: Candidates) -> tuple[Prices, Array]:
+    def with_more_places(self, more: LabelCandidates) -> tuple[Prices, Array]:
         """The prices with more places for some letters, and where each place went."""
-        every = self.found.joined(more)
+        every = self.found.append(more)
         order = every.letters.argsort(kind="stable")
         longer = Prices(every[order], self.parts)
         count = len(self.cost)
@@ -223,7 +223,7 @@ class Standing:
     def __init__(self, count: int):
         self.boxes, self.leaders = np.full((count, 4), np.nan), np.full((count, 4), np.nan)
 
-    def put(self, letter: int, place: Candidates | None) -> None:
+    def put(self, letter: int, place: LabelCandidates | None) -> None:
         """A letter stands at a place, or nowhere."""
         self.boxes[letter] = self.leaders[letter] = np.nan
         if place is not None:
@@ -231,13 +231,13 @@ class Standing:
             if place.led:
                 self.leaders[letter] = *place.spots, *place.ends
 
-    def touched(self, boxes: Array) -> Array:
+    def letters_touching(self, boxes: Array) -> Array:
         """Which letters stand in any of some boxes, or have a leader that goes through one."""
         low, high = boxes[:, None, :2] - AIR, boxes[:, None, 2:] + AIR
         there = ((self.boxes[:, :2] < high) & (self.boxes[:, 2:] > low)).all(axis=2).any(axis=0)
         return np.asarray(there | _crossings(boxes, self.leaders).any(axis=0))
 
-    def met(self, places: Candidates) -> Array:
+    def clash_costs(self, places: LabelCandidates) -> Array:
         """What it costs places that other letters stand there, or that a leader goes through letters."""
         crossed = np.zeros(len(places.boxes))
         led, lines = np.flatnonzero(places.led), self.leaders[~np.isnan(self.leaders[:, 0])]

@@ -22,7 +22,7 @@ from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.symbols import NEAR, Vector, hull, off, places, straight, unit_vector
+from graphplan.sheet.plates.symbols import NEAR, Vector, are_collinear, distinct_spots, hull, offset, unit_vector
 from graphplan.sheet.plates.view import interpolate
 from graphplan.words.tongue import Tongue
 
@@ -33,7 +33,7 @@ ACROSS, PER_MM = 4.0, 0.5  # what is paid for what it crosses, and for each mm a
 
 
 @dataclass(frozen=True)
-class Dimension:
+class LinkDimension:
     """The distance of two points of the mechanism, by name, and how far to the left of the way its line stands, mm."""
 
     start: str
@@ -41,7 +41,7 @@ class Dimension:
     aside: float
 
 
-def dimensions(scene: Scene, spots: Mapping[str, Spot], obstacles: Iterable[Item]) -> list[Dimension]:
+def dimensions(scene: Scene, spots: Mapping[str, Spot], obstacles: Iterable[Item]) -> list[LinkDimension]:
     """The dimensions of all links, the frame's among them; each distance once, the shortest nearest to its link.
 
     Reads where points are in mm, and what else is drawn.
@@ -51,11 +51,12 @@ def dimensions(scene: Scene, spots: Mapping[str, Spot], obstacles: Iterable[Item
     bodies = [[spots[name] for name in names] for names in scene.links.values()]
     drawn = [*filter(None, map(_figure, obstacles)),
              *(shapely.LineString(ends) for body in bodies for ends in _sides(body))]
-    found: list[Dimension] = []
-    for p, q in sorted(_measured(scene, spots), key=lambda pair: (math.dist(spots[pair[0]], spots[pair[1]]), pair)):
-        aside, figure = min((_tried(spots[p], spots[q], level, side, drawn) for level in range(LEVELS)
+    found: list[LinkDimension] = []
+    for p, q in sorted(_measured_pairs(scene, spots),
+                       key=lambda pair: (math.dist(spots[pair[0]], spots[pair[1]]), pair)):
+        aside, figure = min((_price_place(spots[p], spots[q], level, side, drawn) for level in range(LEVELS)
                              for side in (1, -1)), key=lambda tried: tried[0])[1:]
-        found.append(Dimension(p, q, aside))
+        found.append(LinkDimension(p, q, aside))
         drawn.append(figure)
     return found
 
@@ -74,7 +75,7 @@ def _figure(item: Item) -> Any:
     return None
 
 
-def _measured(scene: Scene, spots: Mapping[str, Spot]) -> Iterator[tuple[str, str]]:
+def _measured_pairs(scene: Scene, spots: Mapping[str, Spot]) -> Iterator[tuple[str, str]]:
     """The pairs of points of each link that are measured, no two of them at the same two places."""
     known = set[frozenset[Spot]]()
     named: dict[Spot, str] = {}
@@ -97,10 +98,10 @@ def _place(spot: Spot, known: Iterable[Spot]) -> Spot:
 def _sides(spots: Sequence[Spot]) -> Iterator[tuple[Spot, Spot]]:
     """From point to point of a straight link; the sides of a plate, and from its two nearest corners to an inner point.
     """
-    apart = places(spots)
+    apart = distinct_spots(spots)
     if len(apart) < 2:
         return
-    if straight(apart):
+    if are_collinear(apart):
         end, _ = max(((p, q) for p in apart for q in apart), key=lambda ends: math.dist(*ends))
         yield from pairwise(sorted(apart, key=lambda spot: math.dist(end, spot)))
         return
@@ -112,17 +113,19 @@ def _sides(spots: Sequence[Spot]) -> Iterator[tuple[Spot, Spot]]:
             yield from ((corner, inner) for corner in sorted(corners, key=lambda spot: math.dist(spot, inner))[:2])
 
 
-def _tried(p: Spot, q: Spot, level: int, side: int, drawn: Sequence[Any]) -> tuple[float, float, Any]:
+def _price_place(p: Spot, q: Spot, level: int, side: int, drawn: Sequence[Any]) -> tuple[float, float, Any]:
     """What a place costs, how far aside it is, and what stands there: the line with its number, and the two lines that
     lead to it."""
     import shapely
 
     way, aside = unit_vector(p, q), side * (FIRST + APART * level)
-    start, end = off(p, way, 0.0, aside), off(q, way, 0.0, aside)
-    middle = off(((start[0] + end[0]) / 2, (start[1] + end[1]) / 2), way, 0.0, LETTERS)
-    number = shapely.LineString([off(middle, way, -FIGURES / 2), off(middle, way, FIGURES / 2)]).buffer(LETTERS / 2)
+    start, end = offset(p, way, 0.0, aside), offset(q, way, 0.0, aside)
+    middle = offset(((start[0] + end[0]) / 2, (start[1] + end[1]) / 2), way, 0.0, LETTERS)
+    number = shapely.LineString([offset(middle, way, -FIGURES / 2),
+                                 offset(middle, way, FIGURES / 2)]).buffer(LETTERS / 2)
     line = shapely.union_all([shapely.LineString([start, end]).buffer(1.0), number])
-    leading = shapely.MultiLineString([(off(foot, way, 0.0, side * 1.0), top) for foot, top in ((p, start), (q, end))])
+    leading = shapely.MultiLineString([(offset(foot, way, 0.0, side * 1.0), top) for foot,
+                                       top in ((p, start), (q, end))])
     cost = float(level)
     for other in drawn:
         if line.intersects(other):
@@ -184,7 +187,7 @@ class GivenArrows:
     def _arrow(self, name: str, value: Pair, pen: Pen, told: Runs) -> Marked:
         """A vector from the point where it acts, or to it where only that way it stays on the panel."""
         along, at = unit_vector((0.0, 0.0), (float(value[0]), float(value[1]))), self.mechanism.spots[name]
-        ends = [(off(at, along, -long * back), off(at, along, long * (1 - back)))
+        ends = [(offset(at, along, -long * back), offset(at, along, long * (1 - back)))
                 for back in (0, 1) for long in LENGTHS]
         start, end = next((pair for pair in ends if all(map(self.rect.holds, pair))), ends[0])
         return self._straight(start, end, pen, told)
@@ -196,9 +199,9 @@ class GivenArrows:
 
     def _turn(self, at: Spot, sign: float, told: Runs) -> Marked:
         """An arc about a spot."""
-        return self._around(list(symbols.drive(at, (0.0, 1.0), sign)), told)
+        return self._turning_mark(list(symbols.drive(at, (0.0, 1.0), sign)), told)
 
-    def _around(self, items: list[Item], told: Runs) -> Marked:
+    def _turning_mark(self, items: list[Item], told: Runs) -> Marked:
         """What turns, with its value along the arc."""
         items = [replace(item, layer=LAYER) for item in items]
         arcs = [item for item in items if isinstance(item, Arc)]
@@ -210,16 +213,16 @@ class GivenArrows:
         scene, length = self.mechanism.scene, self.mechanism.scene.units.length
         if not drive.slides:
             told = self._value(rate_letters(drive)[0], abs(float(drive.rate)), "1/s")
-            found = list(self.mechanism.driven(drive))
+            found = list(self.mechanism.drive_symbol(drive))
             if not found:
                 return self._turn(self.mechanism.middle(drive.link), math.copysign(1.0, drive.rate), told)
-            _, wish = self._around(found, told)
+            _, wish = self._turning_mark(found, told)
             return [], wish
         told = self._value(rate_letters(drive)[0], abs(float(drive.rate)), f"{length}/s")
         slide = next(slide for slide in scene.slides if (slide.link, slide.along) == drive.links)
-        at, (x, y) = self.mechanism.seat(slide), self.mechanism.along(slide)
+        at, (x, y) = self.mechanism.seat(slide), self.mechanism.direction(slide)
         way: Vector = (x, y) if drive.rate > 0 else (-x, -y)
-        start, end = off(at, way, -LENGTHS[0] / 2, ASIDE), off(at, way, LENGTHS[0] / 2, ASIDE)
+        start, end = offset(at, way, -LENGTHS[0] / 2, ASIDE), offset(at, way, LENGTHS[0] / 2, ASIDE)
         return self._straight(start, end, pens.GIVEN["velocity"], told)
 
 

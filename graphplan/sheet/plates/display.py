@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, DEPTH, Run, width
+from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, DEPTH, TextRun, width
 from graphplan.sheet.plates.pens import FILLED, OPEN, PAPER, WHITE, Pen
 
 Spot = tuple[float, float]
@@ -110,7 +110,7 @@ class Arc(Item):
     start: float
     end: float
 
-    def at(self, angle: float) -> Spot:
+    def spot_at(self, angle: float) -> Spot:
         """The spot of the arc's circle at an angle."""
         turn = math.radians(angle)
         return self.centre[0] + self.radius * math.cos(turn), self.centre[1] + self.radius * math.sin(turn)
@@ -118,7 +118,7 @@ class Arc(Item):
     def spots(self, apart: float = 4.0) -> tuple[Spot, ...]:
         """The arc as a chain of spots, `apart` degrees or less."""
         count = max(1, math.ceil((self.end - self.start) / apart))
-        return tuple(self.at(self.start + (self.end - self.start) * i / count) for i in range(count + 1))
+        return tuple(self.spot_at(self.start + (self.end - self.start) * i / count) for i in range(count + 1))
 
 
 @dataclass(frozen=True)
@@ -134,7 +134,7 @@ class Arrow(Item):
     label: str = ""
 
     @property
-    def along(self) -> Spot:
+    def direction(self) -> Spot:
         """One mm its way."""
         dx, dy = self.end[0] - self.start[0], self.end[1] - self.start[1]
         length = math.hypot(dx, dy) or 1.0
@@ -148,7 +148,7 @@ class Arrow(Item):
 
     def _spot(self, back: float, aside: float = 0.0) -> Spot:
         """So many mm back from the tip, and to the left."""
-        ux, uy = self.along
+        ux, uy = self.direction
         return self.end[0] - back * ux - aside * uy, self.end[1] - back * uy + aside * ux
 
     @property
@@ -179,7 +179,7 @@ class Text(Item):
     """Lettering on its base line; `anchor` is start, middle or end; `label` names the marks it stands for, if any."""
 
     at: Spot
-    runs: tuple[Run, ...]
+    runs: tuple[TextRun, ...]
     size: float
     anchor: str = "start"
     bold: bool = False
@@ -202,25 +202,25 @@ class Photograph(Item):
     pixels: tuple[int, int]
 
 
-def moved(item: Item, dx: float, dy: float, times: float = 1.0) -> Item:
+def move_item(item: Item, dx: float, dy: float, times: float = 1.0) -> Item:
     """The item elsewhere on the paper, and so many times as large, but for pens and heads of vectors."""
 
-    def there(spot: Spot) -> Spot:
+    def move_spot(spot: Spot) -> Spot:
         return times * spot[0] + dx, times * spot[1] + dy
 
     match item:
         case Polyline() | Polygon():
-            return replace(item, spots=tuple(map(there, item.spots)))
+            return replace(item, spots=tuple(map(move_spot, item.spots)))
         case Circle() | Arc():
-            return replace(item, centre=there(item.centre), radius=times * item.radius)
+            return replace(item, centre=move_spot(item.centre), radius=times * item.radius)
         case Arrow():
-            return replace(item, start=there(item.start), end=there(item.end))
+            return replace(item, start=move_spot(item.start), end=move_spot(item.end))
         case Text():
-            return replace(item, at=there(item.at), size=times * item.size)
+            return replace(item, at=move_spot(item.at), size=times * item.size)
     raise TypeError(f"no {type(item).__name__} can be moved")
 
 
-def within(item: Item, rects: Iterable[Rect]) -> bool:
+def lies_in(item: Item, rects: Iterable[Rect]) -> bool:
     """Whether an item lies in one of the rectangles: its corners or ends, its middle, or where its lettering begins."""
     match item:
         case Polyline() | Polygon():

@@ -9,10 +9,10 @@ from functools import cached_property
 
 from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Scene, Slide
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.lettering import Run, sentence_runs
+from graphplan.sheet.lettering.lettering import TextRun, sentence_runs
 from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Item, Spot
-from graphplan.sheet.plates.symbols import LONG, NEAR, Vector, off, places, turn, unit_vector
+from graphplan.sheet.plates.symbols import LONG, NEAR, Vector, distinct_spots, offset, turn, unit_vector
 from graphplan.sheet.plates.view import View, interpolate
 from graphplan.sheet.tolerances import LEAN_TOL
 
@@ -34,7 +34,7 @@ class Figure:
 
 
 @dataclass(frozen=True)
-class Guide:
+class FixedGuide:
     """The fixed guide of a block that stands at the point `seat`, or its ground: hatched on one side."""
 
     slide: Slide
@@ -67,7 +67,7 @@ class DrawnMechanism:
         return {name: self.view((float(x), float(y))) for name, (x, y) in self.scene.points.items()}
 
     @cached_property
-    def shown(self) -> dict[str, Spot]:
+    def visible_points(self) -> dict[str, Spot]:
         """The points that are shown."""
         if self.links is None:
             return self.spots
@@ -91,11 +91,11 @@ class DrawnMechanism:
 
     def items(self) -> Iterator[Item]:
         """Everything, from the ground up."""
-        for part in self.parts():
+        for part in self.figures():
             yield from part.items
         yield from self._pairs()
 
-    def parts(self) -> Iterator[Figure | Guide | Rail]:
+    def figures(self) -> Iterator[Figure | FixedGuide | Rail]:
         """Everything but the turning pairs, each with what it moves with."""
         for name in self._pivots:
             yield Figure(tuple(symbols.pivot(self.spots[name], self._ground(name))), (name,))
@@ -108,21 +108,21 @@ class DrawnMechanism:
         for contact in self.scene.contacts:
             yield from self._profiles(contact)
         for slide in self._slides:
-            block = symbols.PAIRS[slide.symbol](self.seat(slide), self.along(slide))
+            block = symbols.PAIRS[slide.symbol](self.seat(slide), self.direction(slide))
             yield Figure((block,), (self._seat(slide),), slide=slide)
         for drive in self.scene.drives:
             if not drive.slides and drive.rate and drive.link in self._moving:
-                yield Figure(tuple(self.driven(drive)), self.scene.links[drive.link], drive.link)
+                yield Figure(tuple(self.drive_symbol(drive)), self.scene.links[drive.link], drive.link)
 
     @property
     def pairs(self) -> list[str]:
         """The points with a circle: joints and driven points."""
-        return [name for name in (*self.scene.joints, *self.scene.motions) if name in self.shown]
+        return [name for name in (*self.scene.joints, *self.scene.motions) if name in self.visible_points]
 
     def _pairs(self) -> Iterator[Item]:
         """A circle for each joint and each driven point; a dot for a point that only traces."""
-        pairs = [self.shown[name] for name in self.pairs]
-        for spot in places([*pairs, *self.shown.values()]):
+        pairs = [self.visible_points[name] for name in self.pairs]
+        for spot in distinct_spots([*pairs, *self.visible_points.values()]):
             yield symbols.revolute(spot) if spot in pairs else symbols.tracer(spot)
 
     # ---- ground ----------------------------------------------------------------------------------------------------
@@ -130,7 +130,8 @@ class DrawnMechanism:
     @property
     def _pivots(self) -> list[str]:
         """The turning pairs with the frame."""
-        return [name for name in self.scene.joints if name in self.shown and FRAME in self.scene.links_of[name]]
+        return [name for name in self.scene.joints if name in self.visible_points
+                and FRAME in self.scene.links_of[name]]
 
     def neighbours(self, name: str) -> list[Spot]:
         """The other ends of the moving links at a point."""
@@ -139,12 +140,12 @@ class DrawnMechanism:
         others = [self.spots[p] for link in links for p in self.scene.links[link]]
         return [spot for spot in others if math.dist(spot, here) > NEAR]
 
-    def _around(self, at: Spot) -> list[Spot]:
+    def _link_ends_around(self, at: Spot) -> list[Spot]:
         """The other ends of the moving links at all the points of a place."""
         here = [name for name, spot in self.spots.items() if math.dist(spot, at) < NEAR]
         return [other for name in here for other in self.neighbours(name)]
 
-    def _joined(self, at: Spot) -> bool:
+    def _is_shared(self, at: Spot) -> bool:
         """Whether several links have points at a place."""
         here = [name for name, spot in self.spots.items() if math.dist(spot, at) < NEAR]
         return len({link for name in here for link in self.scene.links_of[name]}) > 1
@@ -161,15 +162,15 @@ class DrawnMechanism:
 
         return min(enumerate((DOWN, LEFT, RIGHT, UP)), key=cost)[1]
 
-    def _guide(self, slide: Slide) -> Guide:
+    def _guide(self, slide: Slide) -> FixedGuide:
         """The fixed guide of a slide on the frame, or the ground of a fixed block; hatched away from the mechanism."""
-        at, along = self.seat(slide), self.along(slide)
-        side = self._outer(slide, at, along)
-        return Guide(slide, self._seat(slide), side, tuple(symbols.guideway(at, along, side)))
+        at, along = self.seat(slide), self.direction(slide)
+        side = self._free_guide_side(slide, at, along)
+        return FixedGuide(slide, self._seat(slide), side, tuple(symbols.guideway(at, along, side)))
 
-    def _outer(self, slide: Slide, at: Spot, along: Vector) -> float:
+    def _free_guide_side(self, slide: Slide, at: Spot, along: Vector) -> float:
         """The side of a guide that the mechanism leaves free."""
-        lean = sum(turn(at, off(at, along, 1.0), other) for other in self._around(at))
+        lean = sum(turn(at, offset(at, along, 1.0), other) for other in self._link_ends_around(at))
         if abs(lean) > LEAN_TOL:
             return -1.0 if lean > 0 else 1.0
         return -1.0 if along[0] > 0 or (along[0] == 0 and along[1] < 0) else 1.0
@@ -201,7 +202,7 @@ class DrawnMechanism:
         if gear.direction is not None:
             x, y = gear.pitch_point(points)
             at, link = self.view((float(x), float(y))), gear.links[1]
-            items = symbols.rack(at, self.along(gear), self._nearest(link, at))
+            items = symbols.rack(at, self.direction(gear), self._nearest_point(link, at))
             yield Figure(tuple(items), self.scene.links[link] or gear.centres, "" if link == FRAME else link)
         elif gear.belt and (radii := gear.pitch_radii(points)):
             one, other = (self.spots[centre] for centre in gear.centres)
@@ -210,11 +211,11 @@ class DrawnMechanism:
 
     def _profiles(self, contact: Contact) -> Iterator[Figure]:
         """Both profiles of a contact, each with its link."""
-        at, along = self.spots[contact.at], self.along(contact)
+        at, along = self.spots[contact.at], self.direction(contact)
         for link, centre in zip(contact.links, contact.centres, strict=True):
             if link not in self._shown_links:
                 continue
-            names, rides, seat = self.scene.links[link], "" if link == FRAME else link, self._nearest(link, at)
+            names, rides, seat = self.scene.links[link], "" if link == FRAME else link, self._nearest_point(link, at)
             if centre:
                 disc = bool(symbols.disc(self.scene, contact, centre))
                 items = symbols.profile(at, self.spots[centre], disc and centre in self.scene.joints, disc)
@@ -222,12 +223,12 @@ class DrawnMechanism:
             elif seat is not None:
                 yield Figure(tuple(symbols.face(at, along, seat)), names, rides)
             else:
-                side = -1.0 if turn(at, off(at, along, 1.0), self.spots[contact.curved[2]]) > 0 else 1.0
+                side = -1.0 if turn(at, offset(at, along, 1.0), self.spots[contact.curved[2]]) > 0 else 1.0
                 yield Figure(tuple(symbols.rail(at, along, side)), names or (contact.at,))
         if contact.beyond:
-            yield from self._beyond(contact.beyond, set(contact.centres))
+            yield from self._following_arcs(contact.beyond, set(contact.centres))
 
-    def _beyond(self, contact: Contact, known: set[str | None]) -> Iterator[Figure]:
+    def _following_arcs(self, contact: Contact, known: set[str | None]) -> Iterator[Figure]:
         """The thin circle of an arc that follows where two arcs of a profile meet."""
         for link, centre in zip(contact.links, contact.centres, strict=True):
             if centre and centre not in known and link in self._shown_links:
@@ -235,14 +236,14 @@ class DrawnMechanism:
                 items = symbols.circle(pens.PRODUCED, self.spots[centre], radius) if radius else ()
                 yield Figure(tuple(items), (centre,), "" if link == FRAME else link)
 
-    def _nearest(self, link: str, at: Spot) -> Spot | None:
+    def _nearest_point(self, link: str, at: Spot) -> Spot | None:
         """The place of a link's point that is nearest to a spot; none of the frame's."""
         spots = [] if link == FRAME else self._distinct(link)
         return min(spots, key=lambda spot: (math.dist(spot, at), spot), default=None)
 
     # ---- links -----------------------------------------------------------------------------------------------------
 
-    def along(self, pair: Slide | Gear | Contact) -> Vector:
+    def direction(self, pair: Slide | Gear | Contact) -> Vector:
         """The direction of a slide's guide, of a rack's pitch line or of a straight profile."""
         x, y = (float(part) for part in pair.direction or (1, 0))
         return unit_vector((0.0, 0.0), (x, y))
@@ -256,13 +257,13 @@ class DrawnMechanism:
         at = self.spots[slide.at]
         guide = self._distinct(slide.along) if slide.along != FRAME else []
         rod = len(self._distinct(slide.link)) > 1 or slide.link == FRAME
-        if rod and len(guide) == 1 and abs(turn(at, off(at, self.along(slide), 1.0), guide[0])) < NEAR:
+        if rod and len(guide) == 1 and abs(turn(at, offset(at, self.direction(slide), 1.0), guide[0])) < NEAR:
             return self.scene.links[slide.along][0]
         return slide.at
 
     def _distinct(self, link: str) -> list[Spot]:
         """The places of a link's points, coincident ones once."""
-        return places(self.spots[name] for name in self.scene.links[link])
+        return distinct_spots(self.spots[name] for name in self.scene.links[link])
 
     def middle(self, link: str) -> Spot:
         """The middle of a link's points."""
@@ -278,36 +279,36 @@ class DrawnMechanism:
                 yield from self._rail(slide, names)
         if len(spots) < 2:
             return
-        if not symbols.straight(spots):
+        if not symbols.are_collinear(spots):
             yield Figure(tuple(symbols.plate(spots)), names, link)
             return
         along = unit_vector(spots[0], max(spots, key=lambda s: (math.dist(s, spots[0]), s)))
         spots.sort(key=lambda s: s[0] * along[0] + s[1] * along[1])
-        inner = filter(self._joined, spots[1:-1])
+        inner = filter(self._is_shared, spots[1:-1])
         elbows = (symbols.elbow(spot, along, self._free_side(spot, along)) for spot in inner)
         yield Figure((*symbols.bar(spots), *elbows), names, link)
 
     def _rail(self, slide: Slide, names: tuple[str, ...]) -> Iterator[Rail]:
         """The part of a moving link that guides: through the block and a little beyond, tied to the link's points."""
-        seat, along = self.seat(slide), self.along(slide)
-        reach = [off(seat, along, -RAIL), off(seat, along, RAIL)]
+        seat, along = self.seat(slide), self.direction(slide)
+        reach = [offset(seat, along, -RAIL), offset(seat, along, RAIL)]
         if not names:
             return
         end = min(names, key=lambda name: (math.dist(self.spots[name], seat), self.spots[name]))
         nearest = self.spots[end]
         t = (nearest[0] - seat[0]) * along[0] + (nearest[1] - seat[1]) * along[1]
-        foot = off(seat, along, t)
+        foot = offset(seat, along, t)
         line = sorted([*reach, foot], key=lambda s: s[0] * along[0] + s[1] * along[1])
         tie = symbols.bar((foot, nearest)) if math.dist(foot, nearest) > NEAR else ()
         yield Rail(slide, self._seat(slide), end, (*symbols.bar((line[0], line[-1])), *tie))
 
     def _free_side(self, inner: Spot, along: Vector) -> float:
         """The side of a bar that the other links at an inner joint leave free."""
-        ahead = off(inner, along, 1.0)
-        lean = sum(turn(inner, ahead, other) / math.dist(inner, other) for other in self._around(inner))
+        ahead = offset(inner, along, 1.0)
+        lean = sum(turn(inner, ahead, other) / math.dist(inner, other) for other in self._link_ends_around(inner))
         return -1.0 if lean > 0 else 1.0
 
-    def driven(self, drive: Drive) -> Iterator[Item]:
+    def drive_symbol(self, drive: Drive) -> Iterator[Item]:
         """The sense of turning, about the pair of the driving link."""
         pairs = [p for p in self.scene.links[drive.link] if p in self.scene.links.get(drive.on, ())]
         others = [p for p in self.scene.links[drive.link] if p not in pairs]
@@ -326,7 +327,7 @@ class DrawnMechanism:
             runs = sentence_runs(link)
             if len(spots) == 1:
                 yield Wish(runs, (spots[0],), LONG, label=f"link {link}", balloon=True)
-            elif symbols.straight(spots):
+            elif symbols.are_collinear(spots):
                 ends = max(((p, q) for p in spots for q in spots), key=lambda pair: math.dist(*pair))
                 middles = tuple(interpolate(*ends, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
                 yield Wish(runs, middles, 0.8, label=f"link {link}", balloon=True, free=True)
@@ -335,10 +336,10 @@ class DrawnMechanism:
                 inside = [interpolate(centre, spot, t) for t in (0.0, 0.25, 0.45) for spot in spots]
                 yield Wish(runs, tuple(dict.fromkeys(inside)), -2.0, label=f"link {link}", balloon=True, free=True)
 
-    def letters(self) -> dict[Spot, tuple[tuple[Run, ...], str]]:
+    def letters(self) -> dict[Spot, tuple[tuple[TextRun, ...], str]]:
         """What stands at each joint: one name, or all the names of coincident points."""
         found: dict[Spot, list[str]] = {}
-        for name, spot in self.shown.items():
+        for name, spot in self.visible_points.items():
             key = next((other for other in found if math.dist(other, spot) < NEAR), spot)
             found.setdefault(key, []).append(name)
         runs = {spot: sentence_runs(" ≡ ".join(names), tuple(names)) for spot, names in found.items()}

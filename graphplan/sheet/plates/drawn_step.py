@@ -52,7 +52,7 @@ class DrawnStep:
         return self.step.op.gives
 
     @cached_property
-    def at(self) -> Spot:
+    def spot(self) -> Spot:
         """Where a point lies, or a circle's centre."""
         return self.view((self.value[0], self.value[1]))
 
@@ -68,7 +68,7 @@ class DrawnStep:
         return a, b, c * self.view.scale - a * self.view.origin[0] - b * self.view.origin[1]
 
     @property
-    def along(self) -> Spot:
+    def direction(self) -> Spot:
         """One mm the way a line runs."""
         a, b, _ = self.value
         size = math.hypot(a, b) or 1.0
@@ -80,9 +80,9 @@ class DrawnStep:
         if self.kind == OPENING:
             return (self.radius,)
         if self.kind == LINE:
-            (a, b, c), (u, v) = self.line, self.along
+            (a, b, c), (u, v) = self.line, self.direction
             return v + 0.0, u + 0.0, -(c + b * height) / math.hypot(a, b)  # and no -0
-        x, y = self.at
+        x, y = self.spot
         return (x, height - y) if self.kind == POINT else (x, height - y, self.radius)
 
     @property
@@ -121,8 +121,8 @@ class Stroke:
     @property
     def ends(self) -> tuple[Spot, Spot]:
         """Where it begins and ends."""
-        (x, y), (u, v) = self.start.at, self.end.at
-        dx, dy = self.of.along if self.in_mm else (u - x, v - y)
+        (x, y), (u, v) = self.start.spot, self.end.spot
+        dx, dy = self.of.direction if self.in_mm else (u - x, v - y)
         return (x + self.low * dx, y + self.low * dy), (x + self.high * dx, y + self.high * dy)
 
     @property
@@ -144,7 +144,7 @@ class Stroke:
     def length(self) -> float:
         return math.dist(*self.ends)
 
-    def part(self, low: float, high: float) -> Stroke:
+    def sub_stroke(self, low: float, high: float) -> Stroke:
         """A part of it, by fractions of its length."""
         long = self.high - self.low
         return replace(self, low=self.low + low * long, high=self.low + high * long)
@@ -175,7 +175,7 @@ class StruckArc:
     @property
     def item(self) -> Arc:
         """The arc as it lies."""
-        (x, y), (u, v) = self.of.at, self.mark.at
+        (x, y), (u, v) = self.of.spot, self.mark.spot
         middle = math.degrees(math.atan2(v - y, u - x))
-        return Arc(self.pen, LAYER, self.of.index, self.of.at, self.of.radius, middle - self.before,
+        return Arc(self.pen, LAYER, self.of.index, self.of.spot, self.of.radius, middle - self.before,
                    middle + self.after)  # fmt: skip

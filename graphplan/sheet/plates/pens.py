@@ -26,7 +26,7 @@ class Pen:
     fill: str = "none"
     tip: str = FILLED
 
-    def filled(self, fill: str) -> Pen:
+    def with_fill(self, fill: str) -> Pen:
         """The same pen with a filling."""
         return replace(self, fill=fill)
 

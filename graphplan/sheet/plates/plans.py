@@ -17,7 +17,7 @@ from graphplan.methods.construction import Construction, DrawnVector
 from graphplan.methods.panels import MECHANISM, ForcePlan, LeverPlan
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import FORCES
-from graphplan.sheet.plates.symbols import off, reach, turn
+from graphplan.sheet.plates.symbols import offset, reach, turn
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.tolerances import EXTENT_TOL
 from graphplan.words.tongue import ENGLISH, Tongue
@@ -85,7 +85,7 @@ class Plans:
         return {panel: panel.twin for panel in self.panels}
 
     @cached_property
-    def carried(self) -> list[tuple[Panel, Panel]]:
+    def carry_overs(self) -> list[tuple[Panel, Panel]]:
         """The plans from which lengths are carried over to others, with those, in drawing order."""
         plan, found = self.plan_of_step, dict[tuple[Panel, Panel], None]()
         for step in self.drawing.drawn.steps:
@@ -165,14 +165,14 @@ class Plans:
         marks = [self.spot(i) for i in self.points(panel)]
         scene = self.drawing.scene
         core = [*ends, *map(self.place, scene.points), *reach(scene)] if panel == MECHANISM else ends or marks
-        box = around([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
+        box = bounding_box([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
         nice, tiny = list(self.apexes(panel).values()), EXTENT_TOL * float(self.drawing.scene.extent)
         if max(box.width, box.height) < tiny:
-            box = around([(box.left, box.bottom)])
+            box = bounding_box([(box.left, box.bottom)])
         if self.motion and panel == MECHANISM:
             box = self._with_paths(box, self.motion)
             nice += [*self.motion.path_ends, *self.motion.position_ends, *self.motion.centrode_ends]
-        extra = sorted((_beyond(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
+        extra = sorted((_distance_outside(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
         return Extent(box, tuple(spot for far, spot in extra if far > tiny), tuple(nice), self._longest(panel))
 
     def _longest(self, panel: str) -> float:
@@ -188,7 +188,7 @@ class Plans:
 
     def _with_paths(self, box: Rect, motion: TracedMotion) -> Rect:
         """The box with the paths of points, where that makes it but a bit larger and no scale is given."""
-        sheet, larger = self.drawing.scene.sheet, reduce(grown, motion.path_ends, box)
+        sheet, larger = self.drawing.scene.sheet, reduce(extend_box, motion.path_ends, box)
         given = sheet.k_s or sheet.k_v or sheet.k_a or sheet.k_F
         return box if given or larger.width + larger.height > A_BIT * (box.width + box.height) else larger
 
@@ -206,22 +206,23 @@ class Plans:
 
 def _apex(centre: Spot, end: Spot, crossing: Spot) -> Spot:
     """Where a half circle is farthest from its diameter, on the side of the crossing."""
-    return off(centre, (end[0] - centre[0], end[1] - centre[1]), 0.0, 1.0 if turn(centre, end, crossing) >= 0 else -1.0)
+    return offset(centre, (end[0] - centre[0], end[1] - centre[1]), 0.0, 1.0 if turn(centre, end, crossing) >= 0
+                  else -1.0)
 
 
-def around(spots: Sequence[Spot]) -> Rect:
+def bounding_box(spots: Sequence[Spot]) -> Rect:
     """The box around some spots."""
     xs, ys = [x for x, _ in spots], [y for _, y in spots]
     return Rect(min(xs), min(ys), max(xs), max(ys))
 
 
-def _beyond(box: Rect, spot: Spot) -> float:
+def _distance_outside(box: Rect, spot: Spot) -> float:
     """How far a spot lies outside a box."""
     x, y = spot
     return max(box.left - x, x - box.right, box.bottom - y, y - box.top, 0.0)
 
 
-def grown(box: Rect, spot: Spot) -> Rect:
+def extend_box(box: Rect, spot: Spot) -> Rect:
     """The box made large enough to hold a spot."""
     x, y = spot
     return Rect(min(box.left, x), min(box.bottom, y), max(box.right, x), max(box.top, y))

@@ -23,7 +23,7 @@ from graphplan.sheet.plates.display import Circle, Item, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import Plans, around, corner
+from graphplan.sheet.plates.plans import Plans, bounding_box, corner
 from graphplan.sheet.plates.symbols import turn
 from graphplan.sheet.plates.view import View, clip_item, clip_off_boxes, clip_segment
 from graphplan.sheet.tolerances import RADIUS_TOL, SHORT_STROKE
@@ -72,7 +72,7 @@ class Plates:
         return found
 
     @property
-    def drawn(self) -> list[DrawnStep]:
+    def all_marks(self) -> list[DrawnStep]:
         """All marks, each after those that it depends on: the pose, then the steps."""
         given = (drawn for drawn in self.pose.values() if not drawn.number)
         return [*given, *(drawn for drawn in self.steps if drawn.number)]
@@ -86,7 +86,7 @@ class Plates:
     @property
     def box(self) -> Rect:
         """The paper that the plans take up."""
-        return around([spot for view in self.views.values() for spot in view.rect.corners])
+        return bounding_box([spot for view in self.views.values() for spot in view.rect.corners])
 
     def __iter__(self) -> Iterator[Plate]:
         """The plans in drawing order, the mechanism's first."""
@@ -130,9 +130,9 @@ class Plate:
         """The marks that are chosen freely: where the plan begins."""
         return [drawn for drawn in self.steps if drawn.free and drawn.number]
 
-    def shown(self, mark: DrawnStep) -> bool:
+    def is_on_panel(self, mark: DrawnStep) -> bool:
         """Whether a point lies on the panel."""
-        return mark.kind == POINT and mark.panel == self.panel and self.view.rect.holds(mark.at)
+        return mark.kind == POINT and mark.panel == self.panel and self.view.rect.holds(mark.spot)
 
     def marks(self, curve: DrawnStep) -> list[DrawnStep]:
         """The marks of this plan that lie on a line or an arc."""
@@ -167,18 +167,18 @@ class Plate:
             for arc in self.arcs(drawn):
                 yield from clip_item(arc.item, self.view.rect)
             if pen := self.dot(drawn):
-                yield Circle(pen, LAYER, drawn.index, drawn.at, self.size(drawn))
+                yield Circle(pen, LAYER, drawn.index, drawn.spot, self.dot_radius(drawn))
         yield from (stroke.item for stroke in self.vectors)
 
     def dot(self, drawn: DrawnStep) -> Pen | None:
         """What dots a mark that a step makes, but for corners of force polygons and where forces end."""
-        return self.dotting(drawn) if self.shown(drawn) else None
+        return self.dotting(drawn) if self.is_on_panel(drawn) else None
 
     def dotting(self, drawn: DrawnStep) -> Pen | None:
         """What dots it where it lies on the panel."""
         if not drawn.number or drawn.kind != POINT or corner(drawn.step):
             return None
-        if any(stroke.end is drawn and stroke.kind in pens.FORCES for stroke in self.asked):
+        if any(stroke.end is drawn and stroke.kind in pens.FORCES for stroke in self.wanted_vectors):
             return None
         return pens.ORIGIN if drawn.free else pens.DOT
 
@@ -186,7 +186,7 @@ class Plate:
         """Whether a mark bears the number of its step in any case."""
         return self.plans.numbered
 
-    def size(self, drawn: DrawnStep) -> float:
+    def dot_radius(self, drawn: DrawnStep) -> float:
         """The radius of its dot."""
         return 0.5 if drawn.name else 0.4
 
@@ -195,34 +195,35 @@ class Plate:
     @cached_property
     def vectors(self) -> list[Stroke]:
         """The vectors that are asked for and long enough to be drawn."""
-        return [stroke for stroke in self.asked if stroke.length >= self.shortest(stroke.kind)]
+        return [stroke for stroke in self.wanted_vectors if stroke.length >= self.shortest(stroke.kind)]
 
     def shortest(self, kind: str) -> float:
         """The mm below which a vector of a kind is not drawn."""
         return HIDDEN if kind in pens.FORCES and self.panel == MECHANISM else SHORT
 
     @property
-    def hidden(self) -> Iterator[DrawnStep]:
+    def hidden_marks(self) -> Iterator[DrawnStep]:
         """What the sheet does not show: where forces end that are too short to be drawn, points beyond the panel, and
         lines and arcs of which nothing is needed but their way."""
-        yield from (force.end for force in self.asked if force.kind in pens.FORCES and force not in self.vectors)
+        yield from (force.end for force in self.wanted_vectors if force.kind in pens.FORCES
+                    and force not in self.vectors)
         for drawn in self.steps:
-            seen = {POINT: self.shown, CIRCLE: self.arcs, LINE: self._ruled}.get(drawn.kind)
+            seen = {POINT: self.is_on_panel, CIRCLE: self.arcs, LINE: self._is_drawn}.get(drawn.kind)
             if seen and not seen(drawn):
                 yield drawn
 
-    def _ruled(self, line: DrawnStep) -> bool:
+    def _is_drawn(self, line: DrawnStep) -> bool:
         """Whether a line is drawn somewhere, or lies along what is."""
         return any(stroke.length > SHORT_STROKE for stroke in self.strokes(line))
 
     @cached_property
-    def asked(self) -> list[Stroke]:
+    def wanted_vectors(self) -> list[Stroke]:
         """All vectors that are asked for on this plan; each is there when both its ends are."""
         found = []
         for vector in self.plans.vectors(self.panel):
             start, end = (self.plates.steps[mark] for mark in (vector.start, vector.end))
             last = max(start, end, key=lambda mark: mark.index)
-            head = min(pens.HEADS[vector.kind], 0.6 * math.dist(start.at, end.at))
+            head = min(pens.HEADS[vector.kind], 0.6 * math.dist(start.spot, end.spot))
             found.append(Stroke(last, start, end, 0.0, 1.0, pens.VECTORS[vector.kind], False, head, "vectors", vector))
         return found
 
@@ -233,19 +234,19 @@ class Plate:
         root = drawn.root
         if drawn.index in self.stretches:
             stretch = self.stretches[drawn.index]
-            yield from self._bare(stretch, self._links_along(stretch))
+            yield from self._uncovered_parts(stretch, self._links_along(stretch))
             yield from (stroke for stroke, _ in self.breaks(stretch))
-        elif root and not self._vector_between(root.at, drawn.at):
+        elif root and not self._vector_between(root.spot, drawn.spot):
             yield from self._laid_off(drawn, root)
         elif drawn.step.op.movement in (Movement.TRACED, Movement.TRACES_MET):
-            yield from self._traced(drawn)
+            yield from self._traced_curves(drawn)
 
-    def _traced(self, drawn: DrawnStep) -> Iterator[Stroke]:
+    def _traced_curves(self, drawn: DrawnStep) -> Iterator[Stroke]:
         """The curves that cross in a point, each through four others, two on either side."""
         points = [mark for mark in drawn.args if mark.kind == POINT]
         for k in range(0, len(points), 4):
             for ends in pairwise([*points[k:k + 2], drawn, *points[k + 2:k + 4]]):
-                if inside := self._inside(Stroke(drawn, *ends)):
+                if inside := self._clip_to_panel(Stroke(drawn, *ends)):
                     yield inside
 
     def _laid_off(self, drawn: DrawnStep, root: DrawnStep) -> Iterator[Stroke]:
@@ -253,8 +254,8 @@ class Plate:
         stroke, given = Stroke(drawn, root, drawn), self.given_pen(drawn)
         if given and stroke.length > SHORT:
             yield replace(stroke, pen=given, head=min(GIVEN_HEAD, 0.6 * stroke.length), layer="vectors")
-        elif inside := self._inside(replace(stroke, pen=self.laid_pen(drawn))):
-            yield from self._bare(inside)
+        elif inside := self._clip_to_panel(replace(stroke, pen=self.laid_pen(drawn))):
+            yield from self._uncovered_parts(inside)
 
     def given_pen(self, drawn: DrawnStep) -> Pen | None:
         """The pen of a vector that is given."""
@@ -269,7 +270,7 @@ class Plate:
 
     def _vector_between(self, one: Spot, other: Spot) -> bool:
         """Whether a vector takes the place of a stroke."""
-        ends = [(stroke.start.at, stroke.end.at) for stroke in self.asked]
+        ends = [(stroke.start.spot, stroke.end.spot) for stroke in self.wanted_vectors]
         return any(sorted(map(math.dist, (one, other), pair))[-1] < 0.05
                    for start, end in ends for pair in ((start, end), (end, start)))  # fmt: skip
 
@@ -281,16 +282,16 @@ class Plate:
 
     def _stretch(self, line: DrawnStep) -> Stroke | None:
         """From the first mark on a line to the last and a little beyond, as far as the panel goes."""
-        ux, uy = line.along
-        marks = sorted(self.marks(line), key=lambda mark: (mark.at[0] * ux + mark.at[1] * uy, mark.index))
+        ux, uy = line.direction
+        marks = sorted(self.marks(line), key=lambda mark: (mark.spot[0] * ux + mark.spot[1] * uy, mark.index))
         if not marks:
             return None
         first, last = marks[0], marks[-1]
-        long = math.dist(first.at, last.at)
+        long = math.dist(first.spot, last.spot)
         close = long < CLOSE
         beyond, pen = self.line_pen(line)
         beyond, unit = (ALONE if beyond else 0.0, 1.0) if close else (beyond, long)
-        return self._inside(Stroke(line, first, last, -beyond / unit, (long + beyond) / unit, pen, close))
+        return self._clip_to_panel(Stroke(line, first, last, -beyond / unit, (long + beyond) / unit, pen, close))
 
     def line_pen(self, line: DrawnStep) -> tuple[float, Pen]:
         """How far a line goes on beyond its outermost marks, in mm, and its pen."""
@@ -304,33 +305,33 @@ class Plate:
         """Whether a line only serves as a direction: from one mark to another."""
         return line.step.op.movement is Movement.RULED and len(self.marks(line)) == 2
 
-    def _inside(self, stroke: Stroke) -> Stroke | None:
+    def _clip_to_panel(self, stroke: Stroke) -> Stroke | None:
         """What of a stroke lies in the panel."""
         inside = clip_segment(self.view.rect, *stroke.ends) if stroke.length > 0 else None
-        return stroke.part(*inside) if inside else None
+        return stroke.sub_stroke(*inside) if inside else None
 
     def breaks(self, stretch: Stroke) -> Iterator[tuple[Stroke, DrawnStep]]:
         """The arrows at the ends where a line breaks off, each with the mark outside the panel that it points to."""
         part = BREAK / stretch.length
         for mark, low, high in ((stretch.start, part, 0.0), (stretch.end, 1.0 - part, 1.0)):
-            if not self.shown(mark):
-                pen = pens.THIN.filled(pens.GREY)
-                yield replace(stretch.part(low, high), pen=pen, head=BREAK_HEAD), mark
+            if not self.is_on_panel(mark):
+                pen = pens.THIN.with_fill(pens.GREY)
+                yield replace(stretch.sub_stroke(low, high), pen=pen, head=BREAK_HEAD), mark
 
-    def _bare(self, stroke: Stroke, links: Iterable[tuple[float, float]] = ()) -> Iterator[Stroke]:
+    def _uncovered_parts(self, stroke: Stroke, links: Iterable[tuple[float, float]] = ()) -> Iterator[Stroke]:
         """What is left of a stroke where no link and no force lies along it."""
         long, done = stroke.length, 0.0
         for low, high in (*sorted([*links, *self._forces_along(stroke)]), (1.0, 1.0)):
             if (low - done) * long > SHORT_STROKE:
-                yield stroke.part(done, low)
+                yield stroke.sub_stroke(done, low)
             done = max(done, high)
 
     def _links_along(self, stroke: Stroke) -> Iterator[tuple[float, float]]:
         """Where links lie along a stroke, as fractions of its length: there the link is the line."""
         scene = self.plates.scene
         for link in scene.moving if self.panel == MECHANISM else ():
-            spots = [self.plates.pose[name].at for name in scene.links[link]]
-            hit = _along(stroke, spots)
+            spots = [self.plates.pose[name].spot for name in scene.links[link]]
+            hit = _fractions_along(stroke, spots)
             if len(hit) > 1 and (len(hit) == len(spots) or len(spots) == 3):
                 yield min(hit), max(hit)
 
@@ -338,7 +339,7 @@ class Plate:
         """Where forces that are drawn before a step lie along its stroke: it does not cross their arrows out."""
         for force in self.vectors if stroke.length > SHORT_STROKE else ():
             if force.kind in pens.FORCES and force.end.index < stroke.of.index:
-                hit = _along(stroke, force.ends)
+                hit = _fractions_along(stroke, force.ends)
                 if len(hit) == 2 and max(hit) > 0 and min(hit) < 1:
                     yield max(min(hit), 0.0), min(max(hit), 1.0)
 
@@ -353,7 +354,7 @@ class Plate:
         marks = self.marks(drawn) if drawn.kind == CIRCLE and drawn.radius > RADIUS_TOL else []
         end = self.plans.diameter(drawn.step) if marks else None
         if end is not None and self.plates.steps[end].panel == self.panel:
-            left = turn(drawn.at, self.plates.steps[end].at, marks[0].at) >= 0
+            left = turn(drawn.spot, self.plates.steps[end].spot, marks[0].spot) >= 0
             half = StruckArc(drawn, self.plates.steps[end], *((0.0, 180.0) if left else (180.0, 0.0)))
             if all(map(self.view.rect.holds, half.item.spots())):
                 return [half]
@@ -361,7 +362,7 @@ class Plate:
         return [StruckArc(drawn, mark, wide, wide) for mark in marks]
 
 
-def _along(stroke: Stroke, spots: Iterable[Spot]) -> list[float]:
+def _fractions_along(stroke: Stroke, spots: Iterable[Spot]) -> list[float]:
     """How far along a stroke, in its lengths, those of the spots are that lie on its line."""
     (start, end), long = stroke.ends, stroke.length
     ux, uy = (end[0] - start[0]) / long, (end[1] - start[1]) / long

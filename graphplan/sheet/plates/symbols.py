@@ -28,7 +28,7 @@ GROUNDED = 0.35  # the cosine of the angle within which it would run into the gr
 Vector = tuple[float, float]
 
 
-def off(spot: Spot, along: Vector, t: float, u: float = 0.0) -> Spot:
+def offset(spot: Spot, along: Vector, t: float, u: float = 0.0) -> Spot:
     """t along a direction and u to its left."""
     return spot[0] + t * along[0] - u * along[1], spot[1] + t * along[1] + u * along[0]
 
@@ -54,14 +54,14 @@ def hatching(start: Spot, end: Spot, side: float) -> Iterator[Item]:
     along, long = unit_vector(start, end), math.dist(start, end)
     count = max(1, int(long / PITCH))
     for i in range(count):
-        root = off(start, along, (i + 0.75) * long / count)
-        yield Polyline(pens.HATCH, "ground", None, (root, off(root, along, -0.6 * HATCH, side * 0.8 * HATCH)))
+        root = offset(start, along, (i + 0.75) * long / count)
+        yield Polyline(pens.HATCH, "ground", None, (root, offset(root, along, -0.6 * HATCH, side * 0.8 * HATCH)))
 
 
 def pivot(at: Spot, down: Vector) -> Iterator[Item]:
     """A fixed pivot without its circle: a triangle on hatched ground; `down` is the direction to the ground."""
-    left, right = off(at, down, STAND, -FOOT), off(at, down, STAND, FOOT)
-    start, end = off(at, down, STAND, -GROUND), off(at, down, STAND, GROUND)
+    left, right = offset(at, down, STAND, -FOOT), offset(at, down, STAND, FOOT)
+    start, end = offset(at, down, STAND, -GROUND), offset(at, down, STAND, GROUND)
     yield Polygon(pens.GROUND_FILL, "ground", None, (at, left, right))
     yield Polyline(pens.GROUND, "ground", None, (start, end))
     yield from hatching(start, end, -1.0)
@@ -70,15 +70,15 @@ def pivot(at: Spot, down: Vector) -> Iterator[Item]:
 def guideway(at: Spot, along: Vector, side: float, way: tuple[float, float] = (0.0, 0.0)) -> Iterator[Item]:
     """A fixed guide under a block that goes so far back and on along it: its line, hatched on the outer side."""
     low, high = way[0] - GUIDE, way[1] + GUIDE
-    start, end = off(at, along, low, side * HIGH), off(at, along, high, side * HIGH)
+    start, end = offset(at, along, low, side * HIGH), offset(at, along, high, side * HIGH)
     yield Polyline(pens.GROUND, "ground", None, (start, end))
     yield from hatching(start, end, side)
-    yield Polyline(pens.PRODUCED, "ground", None, (off(at, along, low), off(at, along, high)))
+    yield Polyline(pens.PRODUCED, "ground", None, (offset(at, along, low), offset(at, along, high)))
 
 
 def block(at: Spot, along: Vector) -> Item:
     """A sliding block, turned to its guide."""
-    corners = tuple(off(at, along, t * LONG, u * HIGH) for t, u in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    corners = tuple(offset(at, along, t * LONG, u * HIGH) for t, u in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
     return Polygon(pens.BLOCK, "blocks", None, corners)
 
 
@@ -119,7 +119,7 @@ def rigid(corners: Sequence[Spot]) -> Iterator[Item]:
 
     i = min(range(len(corners)), key=opening)
     corner, sides = corners[i], (corners[i - 1], corners[i + 1 - len(corners)])
-    ends = [off(corner, unit_vector(corner, side), min(SHADED, math.dist(corner, side) / 3)) for side in sides]
+    ends = [offset(corner, unit_vector(corner, side), min(SHADED, math.dist(corner, side) / 3)) for side in sides]
     yield from _shading((corner, *ends))
 
 
@@ -150,7 +150,7 @@ def turn(a: Spot, b: Spot, c: Spot) -> float:
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
-def places(spots: Iterable[Spot]) -> list[Spot]:
+def distinct_spots(spots: Iterable[Spot]) -> list[Spot]:
     """The spots in order, coincident ones once."""
     found: list[Spot] = []
     for spot in spots:
@@ -159,7 +159,7 @@ def places(spots: Iterable[Spot]) -> list[Spot]:
     return found
 
 
-def straight(spots: Sequence[Spot]) -> bool:
+def are_collinear(spots: Sequence[Spot]) -> bool:
     """Whether spots lie on one line, to a quarter of a pen's width."""
     far = max(((math.dist(p, q), p, q) for p in spots for q in spots), default=(0.0, (0.0, 0.0), (0.0, 0.0)))
     long, p, q = far
@@ -176,10 +176,10 @@ def drive(at: Spot, towards: Vector, sign: float, ground: Vector | None = None) 
     start, end = centre - SWEEP / 2, centre + SWEEP / 2
     arc = Arc(pens.DRIVE, "drive", None, at, AROUND, start, end)
     yield arc
-    tip = arc.at(end if sign > 0 else start)
-    back = off(tip, unit_vector(at, tip), 0.0, -sign * 2.2)
+    tip = arc.spot_at(end if sign > 0 else start)
+    back = offset(tip, unit_vector(at, tip), 0.0, -sign * 2.2)
     across = unit_vector(at, tip)
-    yield Polygon(pens.SOLID, "drive", None, (tip, off(back, across, 0.75), off(back, across, -0.35)))
+    yield Polygon(pens.SOLID, "drive", None, (tip, offset(back, across, 0.75), offset(back, across, -0.35)))
 
 
 # ---- higher pairs ----------------------------------------------------------------------------------------------------
@@ -204,8 +204,8 @@ def fringe(centre: Spot, radius: float, towards: Spot, outwards: float) -> Itera
     for k in range(-count, count + 1):
         angle = math.radians(middle + k * step)
         ray = math.cos(angle), math.sin(angle)
-        root = off(centre, ray, radius)
-        yield Polyline(pens.HATCH, "ground", None, (root, off(root, ray, outwards * 0.8 * HATCH, 0.6 * HATCH)))
+        root = offset(centre, ray, radius)
+        yield Polyline(pens.HATCH, "ground", None, (root, offset(root, ray, outwards * 0.8 * HATCH, 0.6 * HATCH)))
 
 
 def rack(at: Spot, along: Vector, seat: Spot | None) -> Iterator[Item]:
@@ -214,22 +214,23 @@ def rack(at: Spot, along: Vector, seat: Spot | None) -> Iterator[Item]:
     if seat is None:
         yield from rail(at, along, -1.0)
         return
-    start, end, tie = _tied(at, along, HALF_RACK, seat)
+    start, end, tie = _tied_line(at, along, HALF_RACK, seat)
     yield from tie
-    yield Polygon(pens.BLOCK, LAYER, None, (start, end, off(end, along, 0.0, -DEEP), off(start, along, 0.0, -DEEP)))
+    yield Polygon(pens.BLOCK, LAYER, None,
+                  (start, end, offset(end, along, 0.0, -DEEP), offset(start, along, 0.0, -DEEP)))
 
 
 def rail(at: Spot, along: Vector, side: float) -> Iterator[Item]:
     """A straight pitch line or profile of the frame, hatched on its left (+1) or right (-1)."""
-    start, end = off(at, along, -HALF_RACK), off(at, along, HALF_RACK)
+    start, end = offset(at, along, -HALF_RACK), offset(at, along, HALF_RACK)
     yield Polyline(pens.GROUND, "ground", None, (start, end))
     yield from hatching(start, end, side)
 
 
-def _tied(at: Spot, along: Vector, half: float, seat: Spot) -> tuple[Spot, Spot, tuple[Item, ...]]:
+def _tied_line(at: Spot, along: Vector, half: float, seat: Spot) -> tuple[Spot, Spot, tuple[Item, ...]]:
     """The ends of a line through a spot that goes on beside a seat, and the bar to the seat."""
-    foot = off(at, along, (seat[0] - at[0]) * along[0] + (seat[1] - at[1]) * along[1])
-    line = off(at, along, -half), off(at, along, half), foot
+    foot = offset(at, along, (seat[0] - at[0]) * along[0] + (seat[1] - at[1]) * along[1])
+    line = offset(at, along, -half), offset(at, along, half), foot
     start, _, end = sorted(line, key=lambda spot: spot[0] * along[0] + spot[1] * along[1])
     return start, end, tuple(bar((foot, seat))) if math.dist(foot, seat) > NEAR else ()
 
@@ -243,7 +244,7 @@ def belt(one: Spot, r: float, two: Spot, s: float, crossed: bool) -> Iterator[It
     for side in (1.0, -1.0):
         normal = (lean * way[0] - side * math.sqrt(1 - lean * lean) * way[1],
                   lean * way[1] + side * math.sqrt(1 - lean * lean) * way[0])  # fmt: skip
-        ends = off(one, normal, r), off(two, normal, -s if crossed else s)
+        ends = offset(one, normal, r), offset(two, normal, -s if crossed else s)
         yield Polyline(pens.LINK, LAYER, None, ends)
 
 
@@ -263,7 +264,7 @@ def profile(at: Spot, centre: Spot, whole: bool, disc: bool) -> Iterator[Item]:
 
 def face(at: Spot, along: Vector, seat: Spot) -> Iterator[Item]:
     """A straight profile on both sides of where it touches, tied to a point of its link."""
-    start, end, tie = _tied(at, along, FACE, seat)
+    start, end, tie = _tied_line(at, along, FACE, seat)
     yield from tie
     yield Polyline(pens.LINK, LAYER, None, (start, end))
 

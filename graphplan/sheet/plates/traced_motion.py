@@ -11,7 +11,7 @@ from graphplan.mechanism.model import FRAME, Scene
 from graphplan.phrases import Said, said
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Spot
-from graphplan.sheet.plates.symbols import hull, off, places, straight, unit_vector
+from graphplan.sheet.plates.symbols import are_collinear, distinct_spots, hull, offset, unit_vector
 from graphplan.sheet.tolerances import EXTENT_TOL
 
 View = Callable[[Spot], Spot]
@@ -31,7 +31,7 @@ class PointPath:
 
     def chain(self, view: View) -> tuple[Spot, ...]:
         """The path on paper."""
-        return once([view(spot) for spot in self.spots])
+        return simplify_chain([view(spot) for spot in self.spots])
 
 
 @dataclass(frozen=True)
@@ -64,15 +64,15 @@ class Centrode:
 
     def items(self, view: View, scene: Scene) -> Iterator[Item]:
         """Its branches in the pose of a scene; the moving one has dashes."""
-        carried = self._carried(scene)
+        carried = self._carry(scene)
         for branch in self.branches:
             spots = [view(carried(spot)) for spot in branch]
             if len(spots) > 1:
-                yield Polyline(self.pen, LAYER, None, once(spots))
+                yield Polyline(self.pen, LAYER, None, simplify_chain(spots))
             else:
                 yield Circle(pens.PATH_DOT, LAYER, None, spots[0], 2 * DOT)
 
-    def _carried(self, scene: Scene) -> Callable[[Spot], Spot]:
+    def _carry(self, scene: Scene) -> Callable[[Spot], Spot]:
         """Where its link takes its spots."""
         if not self.given:
             return lambda spot: spot
@@ -166,15 +166,15 @@ def _corners(spots: Sequence[Spot]) -> tuple[Spot, ...]:
 
 def outline(spots: Sequence[Spot]) -> Iterator[tuple[Spot, ...]]:
     """The lines of a link: one through all its points, or its hull; none of a link with points at one place alone."""
-    apart = places(spots)
-    if len(apart) > 1 and straight(apart):
+    apart = distinct_spots(spots)
+    if len(apart) > 1 and are_collinear(apart):
         yield max(((p, q) for p in apart for q in apart), key=lambda ends: math.dist(*ends))
     elif len(apart) > 1:
         corners = hull(apart)
         yield (*corners, corners[0])
 
 
-def once(spots: Sequence[Spot]) -> tuple[Spot, ...]:
+def simplify_chain(spots: Sequence[Spot]) -> tuple[Spot, ...]:
     """A chain with no more spots than it takes; of one that goes back on its own way, that way alone."""
     import shapely  # where nothing is drawn, as for a list of steps, it is not needed
 
@@ -197,4 +197,4 @@ def _turns_back(before: Spot, here: Spot, after: Spot) -> bool:
 def _stop(spots: Sequence[Spot]) -> Item:
     """The stroke across the first end of a chain."""
     way = next((unit_vector(p, q) for p, q in pairwise(spots) if math.dist(p, q) > FINE), (1.0, 0.0))
-    return Polyline(pens.PATH_END, LAYER, None, (off(spots[0], way, 0.0, STOP), off(spots[0], way, 0.0, -STOP)))
+    return Polyline(pens.PATH_END, LAYER, None, (offset(spots[0], way, 0.0, STOP), offset(spots[0], way, 0.0, -STOP)))

@@ -10,7 +10,7 @@ from fractions import Fraction
 from graphplan.mechanism.model import Number
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Rect, Spot
-from graphplan.sheet.plates.plans import Extent, grown
+from graphplan.sheet.plates.plans import Extent, extend_box
 from graphplan.sheet.tolerances import ZERO_SCALE
 
 COARSER, MUCH_COARSER = 2.05, 4.1  # how much smaller the mechanism, and any other plan, may be for auxiliary marks
@@ -27,12 +27,12 @@ class View:
     def __call__(self, spot: Spot) -> Spot:
         return self.origin[0] + self.scale * spot[0], self.origin[1] + self.scale * spot[1]
 
-    def back(self, spot: Spot) -> Spot:
+    def to_plan(self, spot: Spot) -> Spot:
         """The place on the plan of a spot on paper."""
         return (spot[0] - self.origin[0]) / self.scale, (spot[1] - self.origin[1]) / self.scale
 
 
-def least(box: Rect, room: Rect) -> float:
+def fit_scale(box: Rect, room: Rect) -> float:
     """Units per mm that make a box just fit."""
     return max(box.width / room.width, box.height / room.height)
 
@@ -41,29 +41,29 @@ def _box(extent: Extent, room: Rect, most: float, nice: bool = False) -> Rect:
     """The core's box, made larger mark by mark as long as it does not need more than `most` units per mm."""
     box = extent.core
     for spot in (*extent.extra, *(extent.nice if nice else ())):
-        larger = grown(box, spot)
-        if least(larger, room) <= most:
+        larger = extend_box(box, spot)
+        if fit_scale(larger, room) <= most:
             box = larger
     return box
 
 
-def wanted(extent: Extent, coarser: float) -> Rect:
+def wanted_box(extent: Extent, coarser: float) -> Rect:
     """The box of what a plan shows if its shape is not told: auxiliary marks that make it not too much larger."""
     most = coarser * max(extent.core.width, extent.core.height) or math.inf
     return _box(extent, Rect(0.0, 0.0, 1.0, 1.0), most)
 
 
-def whole(extent: Extent, room: Rect) -> float:
+def whole_plan_scale(extent: Extent, room: Rect) -> float:
     """The mm per unit at which all the marks of a plan just fit."""
-    return 1 / (least(_box(extent, room, math.inf), room) or ZERO_SCALE)
+    return 1 / (fit_scale(_box(extent, room, math.inf), room) or ZERO_SCALE)
 
 
 def plan_scale(extent: Extent, room: Rect, coarser: float, lengths: Sequence[Number] = (1,)) -> Fraction:
     """The lengths per mm of a plan in this room, `coarser` for its auxiliary marks at most; round are the scales of the
     quantities that are so many `lengths` long."""
-    core = round_up(least(extent.core, room), lengths)
+    core = round_up(fit_scale(extent.core, room), lengths)
     box = _box(extent, room, float(core) * coarser if extent.core.width or extent.core.height else math.inf)
-    return round_up(least(box, room), lengths)
+    return round_up(fit_scale(box, room), lengths)
 
 
 def plan_box(extent: Extent, room: Rect, units_per_mm: float) -> Rect:
@@ -131,7 +131,7 @@ def _cut(item: Polyline | Polygon, rect: Rect) -> Iterator[Item]:
     spots = item.spots if isinstance(item, Polyline) else (*item.spots, item.spots[0])
     inside = shapely.clip_by_rect(shapely.LineString(spots), rect.left, rect.bottom, rect.right, rect.top)
     for run in shapely.get_parts(inside):
-        yield Polyline(item.pen.filled("none"), item.layer, item.step, tuple(run.coords))
+        yield Polyline(item.pen.with_fill("none"), item.layer, item.step, tuple(run.coords))
 
 
 def clip_off_boxes(line: Polyline, rect: Rect, boxes: Iterable[Rect]) -> Iterator[Item]:

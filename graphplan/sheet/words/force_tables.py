@@ -14,8 +14,8 @@ from graphplan.methods.forces.groups import pairs
 from graphplan.methods.panels import JointForce, slide_named
 from graphplan.phrases import Phrase, Said, arranged, coordinates, digits, joined, phrase, said, unit
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
-from graphplan.sheet.words.lengths import size
-from graphplan.sheet.words.rows import Deviations, Table, figure, largest_size, with_deviations
+from graphplan.sheet.words.lengths import magnitude
+from graphplan.sheet.words.rows import Deviations, Table, largest_size, number_runs, with_deviations
 from graphplan.words.tongue import ENGLISH, Tongue
 
 Pair = tuple[float, float]
@@ -56,31 +56,31 @@ class ForceTables:
             letter, sign = letters[name]
             moment = self.values.get(kinds.SLIDE_MOMENT, {}).get(name)
             told = () if moment is None else self._figure(sign * moment, largest)
-            sizes = sign * force[0], sign * force[1], size(*force)
+            sizes = sign * force[0], sign * force[1], magnitude(*force)
             table.append([letter, *(self._figure(part, largest) for part in sizes)])
-            column.append((*told, *self._off(kinds.SLIDE_MOMENT, name)))
-        table = with_deviations(self.tongue, table, list(forces), self.pencil.of(*kinds.REACTIONS))
+            column.append((*told, *self._deviation_runs(kinds.SLIDE_MOMENT, name)))
+        table = with_deviations(self.tongue, table, list(forces), self.pencil.of_kinds(*kinds.REACTIONS))
         if slides:
             table = [[*row, cell] for row, cell in zip(table, column, strict=True)]
         return table if forces else []
 
     def _figure(self, value: float, largest: float) -> Runs:
-        return figure(self.tongue, value, largest)
+        return number_runs(self.tongue, value, largest)
 
-    def _off(self, kind: str, name: str) -> Runs:
+    def _deviation_runs(self, kind: str, name: str) -> Runs:
         """How far off a number is drawn, to stand behind it."""
-        deviation = self.pencil.of(kind).get(name)
-        return () if deviation is None else sentence_runs(f" ±{self.tongue(deviation.told)}")
+        deviation = self.pencil.of_kinds(kind).get(name)
+        return () if deviation is None else sentence_runs(f" ±{self.tongue(deviation.text)}")
 
     def _letters(self) -> dict[str, tuple[Runs, int]]:
         """The letter of every reaction, by its name in results, and its sign."""
         scene = self.drawing.scene
-        joints = {JointForce(point, link).name: self._lettered(pin, link, point) for point, link, pin in pairs(scene)}
-        slides = {slide.name: self._lettered(slide.along, slide.link, slide.at) for slide in scene.slides}
-        contacts = {pair.name: self._lettered(*pair.links[::-1], pair.at) for pair in scene.contacts}
-        return joints | slides | contacts | {gear.name: self._lettered(*gear.links[::-1]) for gear in scene.gears}
+        joints = {JointForce(point, link).name: self._letter_at(pin, link, point) for point, link, pin in pairs(scene)}
+        slides = {slide.name: self._letter_at(slide.along, slide.link, slide.at) for slide in scene.slides}
+        contacts = {pair.name: self._letter_at(*pair.links[::-1], pair.at) for pair in scene.contacts}
+        return joints | slides | contacts | {gear.name: self._letter_at(*gear.links[::-1]) for gear in scene.gears}
 
-    def _lettered(self, one: str, other: str, point: str = "") -> tuple[Runs, int]:
+    def _letter_at(self, one: str, other: str, point: str = "") -> tuple[Runs, int]:
         """The letter of the force of one link on another, at a point or between teeth; its answer, with the sign -1, if
         that is drawn."""
         drawn = {vector.label for vector in self.drawing.arrows}
@@ -94,8 +94,8 @@ class ForceTables:
         for name, (x, y) in self.values.get(kinds.SLIDE_ARM, {}).items():
             slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
             at = [float(part) for part in self.drawing.scene.points[slide.at]]
-            spot, off = coordinates((at[0] + x, at[1] + y)), self.pencil.of(kinds.SLIDE_ARM).get(name)
-            told = [spot, unit(self.drawing.scene.units.length), *([arranged("±{0}", off.told)] if off else [])]
+            spot, off = coordinates((at[0] + x, at[1] + y)), self.pencil.of_kinds(kinds.SLIDE_ARM).get(name)
+            told = [spot, unit(self.drawing.scene.units.length), *([arranged("±{0}", off.text)] if off else [])]
             yield said("The reaction of the slide {0} acts at {1}.", slide_named(slide), joined(told, " "))
 
     # ---- balance ---------------------------------------------------------------------------------------------------
@@ -108,7 +108,7 @@ class ForceTables:
             told = {words: kinds.balance_kind(way, balance) for words, way in WAYS.items()}
             found = {words: self.values.get(kind, {}).get(name) for words, kind in told.items()}
             ways = {words: value for words, value in found.items() if value is not None}
-            off = [self._off(told[words], name) for words in ways]
+            off = [self._deviation_runs(told[words], name) for words in ways]
             heads = (said("balance"), *(words() for words in ways))
             table = table or [[sentence_runs(self.tongue(head)) for head in heads]]
             table += self._force(balance, ways, off) if balance.at else self._moment(balance, ways, off)
@@ -124,5 +124,5 @@ class ForceTables:
         parts = [[(*name_runs(f"{letter}{axis}"), *units), *(self._figure(v[i], largest) for v in ways.values())]
                  for i, axis in enumerate("xy")]  # fmt: skip
         found = zip(ways.values(), off, strict=True)
-        sizes = [(*self._figure(size(*v), largest), *within) for v, within in found]
+        sizes = [(*self._figure(magnitude(*v), largest), *within) for v, within in found]
         return [*parts, [(*sentence_runs(f"|{letter}|"), *units), *sizes]]

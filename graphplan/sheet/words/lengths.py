@@ -25,7 +25,7 @@ LENGTH = Quantity("", "length")
 COMPONENTS = Movement.LAID_BY_COMPONENTS, Movement.LAID_ALONG
 
 
-class Measure(NamedTuple):
+class PaperDistance(NamedTuple):
     """So many mm between two marks, by step, of one more than once if it has a radius; or the arm about the first of
     four marks of a force at the second, as from the third to the fourth."""
 
@@ -33,7 +33,7 @@ class Measure(NamedTuple):
     marks: tuple[int, ...]
 
     @property
-    def told(self) -> Said:
+    def text(self) -> Said:
         return in_mm(tenths(self.mm))
 
 
@@ -45,15 +45,15 @@ def in_mm(written: Said) -> Said:
 class Length(NamedTuple):
     """How a length is spoken, and all that its words measure, what is laid off last."""
 
-    told: Said
-    measures: tuple[Measure, ...]
+    text: Said
+    measures: tuple[PaperDistance, ...]
 
     @property
     def mm(self) -> float:
         return self.measures[-1].mm
 
 
-def size(x: Any, y: Any) -> float:
+def magnitude(x: Any, y: Any) -> float:
     """How long a vector is; its numbers may be unknown."""
     if isinstance(x, Unknown) or isinstance(y, Unknown):
         found: float = x.hypot(y) if isinstance(x, Unknown) else y.hypot(x)
@@ -70,15 +70,15 @@ class Lengths:
     plan: Callable[[int], Panel]
     scales: Scales
 
-    def of(self, step: Step) -> tuple[Length, ...]:
+    def for_step(self, step: Step) -> tuple[Length, ...]:
         """What a step lays off or opens, of marks of the program; nothing where it has no size of its own."""
-        return tuple(length for length in self._found(step) if length.mm >= MIN_LENGTH)
+        return tuple(length for length in self._step_lengths(step) if length.mm >= MIN_LENGTH)
 
-    def before(self, compound: Compound) -> tuple[Length, ...]:
+    def for_earlier_part(self, compound: Compound) -> tuple[Length, ...]:
         """What of a compound is laid off later, as its part on another plan has found it."""
         match compound.step.op.sizing, compound.step.args, dict(compound.inner):
             case Sizing.SQUARE, (K, A, m, w, _), {"E": E}:
-                speed, arm, found = self.between(m, w), self.between(K, A), self.between(E, A)
+                speed, arm, found = self.distance(m, w), self.distance(K, A), self.distance(E, A)
                 times = self.times(w, A)
                 if times is None:
                     total = Sum("Mdm", (speed.mm, arm.mm, found.mm))
@@ -89,15 +89,15 @@ class Lengths:
                 told = arranged("v²/{0} = {1}² : {2} = {3}", self.side(K, A), v, total[-2], in_mm(total[-1]))
                 return (Length(told, (speed, arm, found)),)
             case Sizing.DOUBLE, (_, B, *_), {"K": K}:
-                half = self.between(K, B)
-                return (Length(half.told, (half,)),)
+                half = self.distance(K, B)
+                return (Length(half.text, (half,)),)
         return ()
 
     # ---- mm -----------------------------------------------------------------------------------------------------
 
     def per_mm(self, index: int) -> float:
         """Lengths of the scene for a mm where a step is drawn."""
-        return self.scales.of(self.plan(index))
+        return self.scales.lengths_per_mm(self.plan(index))
 
     def times(self, source: int, own: int) -> float | None:
         """How much larger what lies where one mark does is where another does; nothing where it is as large."""
@@ -108,19 +108,19 @@ class Lengths:
 
     def mm(self, P: int, Q: int) -> float:
         """How far apart two marks of one plan are."""
-        return size(*self.vector(P, Q)) / self.per_mm(Q)
+        return magnitude(*self.vector(P, Q)) / self.per_mm(Q)
 
-    def between(self, P: int, Q: int) -> Measure:
-        return Measure(self.mm(P, Q), (P, Q))
+    def distance(self, P: int, Q: int) -> PaperDistance:
+        return PaperDistance(self.mm(P, Q), (P, Q))
 
-    def arm(self, Y: int, C: int, p: int, q: int) -> Measure:
+    def arm(self, Y: int, C: int, p: int, q: int) -> PaperDistance:
         """The arm about Y of a force at C, as from p to q, which may be marks of another plan."""
-        return Measure(abs(self.lever(Y, C, p, q)), (Y, C, p, q))
+        return PaperDistance(abs(self.lever(Y, C, p, q)), (Y, C, p, q))
 
     def lever(self, Y: int, C: int, p: int, q: int) -> float:
         """The same in mm, with the sign of the moment."""
         force, (u, v) = self.vector(p, q), self.vector(Y, C)
-        return (u * force[1] - v * force[0]) / (size(*force) or 1.0) / self.per_mm(C)
+        return (u * force[1] - v * force[0]) / (magnitude(*force) or 1.0) / self.per_mm(C)
 
     def vector(self, P: int, Q: int) -> tuple[float, float]:
         (x, y), (u, v) = self.values[P][:2], self.values[Q][:2]
@@ -128,52 +128,52 @@ class Lengths:
 
     # ---- what a movement lays off or opens ------------------------------------------------------------------------
 
-    def _found(self, step: Step) -> Iterator[Length]:
+    def _step_lengths(self, step: Step) -> Iterator[Length]:
         op, args, out = step.op, step.args, step.index
         if op.sizing:
             yield WORKED_OUT[op.sizing](self, step)
         elif op.movement is Movement.OPENED:
-            yield Length((wide := self.between(*args)).told, (wide,))
+            yield Length((wide := self.distance(*args)).text, (wide,))
         elif op.gives == OPENING:
-            wide = Measure(self.values[out][0] ** 0.5 / self.per_mm(out), (out, out))
-            yield Length(self._given(step.quantity or LENGTH, wide, out), (wide,))
+            wide = PaperDistance(self.values[out][0] ** 0.5 / self.per_mm(out), (out, out))
+            yield Length(self._given_quantity(step.quantity or LENGTH, wide, out), (wide,))
         elif op.movement is Movement.STRUCK:
-            wide = Measure(self.values[out][2] ** 0.5 / self.per_mm(out), (out, out))
-            taken = Measure(self.values[args[1]][0] ** 0.5 / self.per_mm(args[1]), (args[1], args[1]))
-            yield from () if self._alike(taken, wide) else (self._carried(taken, wide),)
+            wide = PaperDistance(self.values[out][2] ** 0.5 / self.per_mm(out), (out, out))
+            taken = PaperDistance(self.values[args[1]][0] ** 0.5 / self.per_mm(args[1]), (args[1], args[1]))
+            yield from () if self._as_long(taken, wide) else (self._carry_over(taken, wide),)
         elif op.movement is Movement.PICKED:
-            away = self.between(args[1], out)
-            yield Length(said("Here {0} from {1}", away.told, self.program.text(args[1])), (away,))
+            away = self.distance(args[1], out)
+            yield Length(said("Here {0} from {1}", away.text, self.program.text(args[1])), (away,))
         elif op.root is not None and op.movement in LAID and op.movement is not Movement.DROPPED:
-            yield self._laid(step, self.between(args[op.root], out))
+            yield self._laid_vector(step, self.distance(args[op.root], out))
 
-    def _laid(self, step: Step, laid: Measure) -> Length:
+    def _laid_vector(self, step: Step, laid: PaperDistance) -> Length:
         """A vector: a given one with its components, or one that is drawn on this plan or another, and how often."""
         if step.op.movement in COMPONENTS:
-            told = self._given(step.quantity or LENGTH, laid, step.index)
+            told = self._given_quantity(step.quantity or LENGTH, laid, step.index)
             parts = (tenths(part / self.per_mm(step.index)) for part in self.vector(*laid.marks))
             return Length(said("{0} (x {1}, y {2})", told, *parts), (laid,))
         if step.quantity:
-            found = Length(self._given(step.quantity, laid, step.index), (laid,))
+            found = Length(self._given_quantity(step.quantity, laid, step.index), (laid,))
         else:
-            found = self._carried(self.between(*step.args[:2]), laid)
+            found = self._carry_over(self.distance(*step.args[:2]), laid)
         against = step.params.get("ratio", 1) < 0
-        return found._replace(told=said("{0}, against that vector", found.told)) if against else found
+        return found._replace(text=said("{0}, against that vector", found.text)) if against else found
 
-    def _carried(self, source: Measure, laid: Measure) -> Length:
+    def _carry_over(self, source: PaperDistance, laid: PaperDistance) -> Length:
         """A length, and where it is another where it is taken from, how it follows from that one."""
-        if source.mm < MIN_LENGTH or self._alike(source, laid):
-            return Length(laid.told, (laid,))
+        if source.mm < MIN_LENGTH or self._as_long(source, laid):
+            return Length(laid.text, (laid,))
         factors = _factors(laid.mm / source.mm)
         product = Sum(f"m{'f' * len(factors)}m", (source.mm, *factors, laid.mm))
         times = joined((product[k + 1] for k in range(len(factors))), " · ")
         told = arranged("{0} · {1} = {2}", in_mm(product[0]), times, in_mm(product[-1]))
         return Length(told, (source, laid))
 
-    def _alike(self, one: Measure, other: Measure) -> bool:
+    def _as_long(self, one: PaperDistance, other: PaperDistance) -> bool:
         return abs(one.mm - other.mm) <= LENGTH_TOL * (one.mm + other.mm) / 2
 
-    def _given(self, quantity: Quantity, laid: Measure, where: int) -> Said:
+    def _given_quantity(self, quantity: Quantity, laid: PaperDistance, where: int) -> Said:
         """A quantity with its value, over the scale of its plan."""
         per, symbol = self.scale(quantity.kind, where)
         drawn = self.scales.convention == "drawn"
@@ -187,7 +187,7 @@ class Lengths:
         scales, plan = self.scales, self.plan(where)
         return {"velocity": (scales.speed(plan), f"{scales.length}/s"),
                 "acceleration": (scales.acceleration(plan), f"{scales.length}/s²"),
-                "force": (scales.force(plan), scales.unit)}.get(kind, (scales.of(plan), scales.length))
+                "force": (scales.force(plan), scales.unit)}.get(kind, (scales.lengths_per_mm(plan), scales.length))
 
     def side(self, P: int, Q: int) -> Said:
         """The distance of two points by their letters."""
@@ -199,8 +199,8 @@ class Lengths:
     def _moments(self, step: Step) -> Length:
         """A force from the moment of another about a point."""
         Y, X, C, p, q, m = step.args
-        force, lever, arm = self.between(p, q), self.arm(Y, C, p, q), self.between(Y, X)
-        found = self.between(m, step.index)
+        force, lever, arm = self.distance(p, q), self.arm(Y, C, p, q), self.distance(Y, X)
+        found = self.distance(m, step.index)
         per, symbol = self.scale("force", step.index)
         times = self.times(q, m)
         if times is None:
@@ -216,35 +216,35 @@ class Lengths:
     def _couple(self, step: Step) -> Length:
         """A force whose pair is a given couple."""
         P, R, m = step.args
-        found = self._paired(step, P, R, m)
+        found = self._couple_force(step, P, R, m)
         clockwise = step.params["moment"] < 0
-        return found._replace(told=said("{0}, clockwise", found.told) if clockwise else
-                              said("{0}, counter-clockwise", found.told))
+        return found._replace(text=said("{0}, clockwise", found.text) if clockwise else
+                              said("{0}, counter-clockwise", found.text))
 
     def _inertia(self, step: Step) -> Length:
         """A force whose pair is the couple of inertia."""
         P, R, a, b, m = step.args
         u, v = self.vector(P, R), self.vector(a, b)
-        part = Measure(abs(u[0] * v[1] - u[1] * v[0]) / (size(*u) or 1.0) / self.per_mm(b), (a, P, R, a, b))
-        found = self._paired(step, P, R, m)
-        return Length(said("Tangential part {0}, {1}", part.told, found.told), (part, *found.measures))
+        part = PaperDistance(abs(u[0] * v[1] - u[1] * v[0]) / (magnitude(*u) or 1.0) / self.per_mm(b), (a, P, R, a, b))
+        found = self._couple_force(step, P, R, m)
+        return Length(said("Tangential part {0}, {1}", part.text, found.text), (part, *found.measures))
 
-    def _paired(self, step: Step, P: int, R: int, m: int) -> Length:
+    def _couple_force(self, step: Step, P: int, R: int, m: int) -> Length:
         """The force of a couple's pair, by the distance of its points."""
-        arm, found, names = self.between(P, R), self.between(m, step.index), self.side(P, R)
-        force = found.told if step.quantity is None else self._given(
+        arm, found, names = self.distance(P, R), self.distance(m, step.index), self.side(P, R)
+        force = found.text if step.quantity is None else self._given_quantity(
             Quantity(arranged("{0}/{1}", step.quantity.written, names), "force"), found, step.index)
-        return Length(arranged("{0} = {1}, {2}", names, arm.told, force), (arm, found))
+        return Length(arranged("{0} = {1}, {2}", names, arm.text, force), (arm, found))
 
     def _friction(self, step: Step) -> Length:
         """The radius of a friction circle."""
-        radius = self.between(step.args[0], step.index)
-        return Length(self._given(Quantity("r", "length"), radius, step.index), (radius,))
+        radius = self.distance(step.args[0], step.index)
+        return Length(self._given_quantity(Quantity("r", "length"), radius, step.index), (radius,))
 
-    def _shifted(self, step: Step) -> Length:
+    def _force_shift(self, step: Step) -> Length:
         """How far a couple shifts a force."""
         C, p, q, P, R, a, b = step.args
-        measures = self.between(a, b), self.arm(P, R, a, b), self.between(p, q), self.between(C, step.index)
+        measures = self.distance(a, b), self.arm(P, R, a, b), self.distance(p, q), self.distance(C, step.index)
         times = self.times(b, q)
         if times is None:
             total = Sum("mmdm", tuple(one.mm for one in measures))
@@ -255,10 +255,10 @@ class Lengths:
         told = arranged("{0} · {1} : {2} = {3}", taken, total[-3], total[-2], in_mm(total[-1]))
         return Length(told, measures)
 
-    def _whole(self, step: Step) -> Length:
+    def _known_length(self, step: Step) -> Length:
         """What was found beforehand, as it is laid off here."""
-        whole = self.between(step.args[4], step.index)
-        return Length(whole.told, (whole,))
+        whole = self.distance(step.args[4], step.index)
+        return Length(whole.text, (whole,))
 
 
 def _factors(times: float, parts: int = 3) -> tuple[float, ...]:
@@ -270,6 +270,6 @@ def _factors(times: float, parts: int = 3) -> tuple[float, ...]:
 
 WORKED_OUT: dict[Sizing, Callable[[Lengths, Step], Length]] = {
     Sizing.MOMENTS: Lengths._moments, Sizing.COUPLE: Lengths._couple, Sizing.INERTIA: Lengths._inertia,
-    Sizing.FRICTION: Lengths._friction, Sizing.SHIFT: Lengths._shifted, Sizing.SQUARE: Lengths._whole,
-    Sizing.DOUBLE: Lengths._whole,
+    Sizing.FRICTION: Lengths._friction, Sizing.SHIFT: Lengths._force_shift, Sizing.SQUARE: Lengths._known_length,
+    Sizing.DOUBLE: Lengths._known_length,
 }  # fmt: skip

@@ -69,7 +69,7 @@ class Entry:
         return self.measuring()
 
     @property
-    def folded(self) -> bool:
+    def is_compound(self) -> bool:
         """Whether it is several movements."""
         return len(self.movements) > 1
 
@@ -77,12 +77,12 @@ class Entry:
     def number(self) -> str:
         """The number of its step, or those of its first and last."""
         first, last = self.movements[0].number, self.movements[-1].number
-        return f"{first}–{last}" if self.folded else str(first)
+        return f"{first}–{last}" if self.is_compound else str(first)
 
     @property
-    def told(self) -> Said:
+    def text(self) -> Said:
         """Its sentence, with its reason where it has one."""
-        return reasoned(self.sentence, self.why)
+        return with_reason(self.sentence, self.why)
 
 
 @dataclass(frozen=True)
@@ -117,25 +117,25 @@ class Protocol:
     scales: Scales | None = None
 
     @property
-    def _drawn(self) -> Program:
+    def _program(self) -> Program:
         return self.plans.drawing.drawn
 
     @cached_property
     def steps(self) -> tuple[SpokenStep, ...]:
         """Every step, in drawing order."""
-        drawn, found = self._drawn, list[SpokenStep]()
+        drawn, found = self._program, list[SpokenStep]()
         for step in drawn.steps[drawn.givens :]:
-            measuring = partial(self.lengths.of, step) if self.lengths else tuple
-            told = measured(drawn.sentence(step.index), measuring)
+            measuring = partial(self.lengths.for_step, step) if self.lengths else tuple
+            told = with_lengths(drawn.sentence(step.index), measuring)
             found.append(SpokenStep(step, drawn.number(step.index), told, step.why, measuring))
         return tuple(found)
 
     @property
     def sentences(self) -> Iterator[Said]:
         """Every step of the program in a sentence, with its reason; those that are given first."""
-        drawn = self._drawn
+        drawn = self._program
         yield from (drawn.told(index) for index in range(drawn.givens))
-        yield from (reasoned(one.sentence, one.why) for one in self.steps)
+        yield from (with_reason(one.sentence, one.why) for one in self.steps)
 
     @cached_property
     def lengths(self) -> Lengths | None:
@@ -146,7 +146,7 @@ class Protocol:
     def stages(self) -> tuple[tuple[Stage, ...], Mapping[int, int]]:
         """The stages, each once, and by step which of them it is a part of."""
         told: dict[Stage, int] = {}
-        of = {step.index: told.setdefault(stage, len(told)) for stage, steps in self._drawn.stages for step in steps}
+        of = {step.index: told.setdefault(stage, len(told)) for stage, steps in self._program.stages for step in steps}
         return tuple(told), of
 
     @cached_property
@@ -159,17 +159,18 @@ class Protocol:
             stage = None if number is None else stages[number]
             law = stage.law if stage and stage.law not in laws else ""
             entries = tuple(self._entries([*steps], stage))
-            controls = tuple(told for entry in entries for one in entry.movements for told in self._closed(one.index))
+            controls = tuple(told for entry in entries for one in entry.movements
+                             for told in self._controls_at(one.index))
             found.append(Passage(home, stage, number, number in seen, law, entries, controls))
             laws.add(law)
             seen.update([] if number is None else [number])
         return tuple(found)
 
-    def _closed(self, step: int) -> Iterator[Said]:
+    def _controls_at(self, step: int) -> Iterator[Said]:
         """The controls of which this step draws the last mark."""
         for control in self.plans.drawing.controls:
             if step == max(map(max, control.marks)):
-                lines = (joined(map(self._drawn.text, line), " ") for line in control.marks)
+                lines = (joined(map(self._program.text, line), " ") for line in control.marks)
                 yield said("Control: {0} and {1} meet in the pole of link {2}, through which {3} must pass.",
                            next(lines), next(lines), control.link, next(lines))
 
@@ -182,17 +183,17 @@ class Protocol:
         """Steps of one stage, those of a compound as one entry where it has words for them."""
         for compound, run in groupby(steps, lambda one: self._compounds.get(one.index)):
             movements = tuple(run)
-            folded = self._folded(compound, movements) if compound and len(movements) > 1 else None
+            folded = self._compound_text(compound, movements) if compound and len(movements) > 1 else None
             if folded:
-                yield Entry(measured(*folded), _why(movements[-1], stage), movements, folded[1])
+                yield Entry(with_lengths(*folded), _reason(movements[-1], stage), movements, folded[1])
             else:
-                yield from (Entry(one.sentence, _why(one, stage), (one,), one.measuring) for one in movements)
+                yield from (Entry(one.sentence, _reason(one, stage), (one,), one.measuring) for one in movements)
 
-    def _folded(self, compound: Compound, movements: Sequence[SpokenStep]) -> tuple[Said, Measuring] | None:
+    def _compound_text(self, compound: Compound, movements: Sequence[SpokenStep]) -> tuple[Said, Measuring] | None:
         """What some movements of a compound are as one step: its end, or what of it is drawn beforehand."""
         if movements[-1].index == compound.step.index:
-            return compound.sentence, partial(self.lengths.of, compound.step) if self.lengths else tuple
-        measuring = partial(self.lengths.before, compound) if self.lengths else tuple
+            return compound.sentence, partial(self.lengths.for_step, compound.step) if self.lengths else tuple
+        measuring = partial(self.lengths.for_earlier_part, compound) if self.lengths else tuple
         return (compound.before, measuring) if compound.before else None
 
 
@@ -201,21 +202,21 @@ def lengths_of(plans: Plans, scales: Scales) -> Lengths:
     return Lengths(plans.drawing.drawn, plans.drawing.values, plans.plan_of_step.__getitem__, scales)
 
 
-def reasoned(sentence: Said, why: str) -> Said:
+def with_reason(sentence: Said, why: str) -> Said:
     """A sentence with its reason where it has one."""
     return arranged("{0} ({1:capital}.)", sentence, why) if why else sentence
 
 
-def measured(sentence: Said, measuring: Measuring) -> Said:
+def with_lengths(sentence: Said, measuring: Measuring) -> Said:
     """A sentence with its lengths behind it."""
     def told() -> Said:
         lengths = measuring()
-        return arranged("{0} {1}.", sentence, joined(length.told for length in lengths)) if lengths else sentence
+        return arranged("{0} {1}.", sentence, joined(length.text for length in lengths)) if lengths else sentence
 
     return in_any_case(told)
 
 
-def _why(step: SpokenStep, stage: Stage | None) -> str:
+def _reason(step: SpokenStep, stage: Stage | None) -> str:
     """Why a step is drawn, where its stage does not say it."""
     said = f"{stage.title} {stage.law}".lower() if stage else ""
     return "" if step.why.lower() in said else step.why

@@ -17,7 +17,7 @@ from graphplan.methods.recorded import Reading
 from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, arranged, digits, in_any_case, joined, phrase, said, unit
 from graphplan.sheet.tolerances import MIN_LENGTH
-from graphplan.sheet.words.lengths import Length, Lengths, Measure, in_mm, size
+from graphplan.sheet.words.lengths import Length, Lengths, PaperDistance, in_mm, magnitude
 from graphplan.sheet.words.sums import Sum
 
 # Places that are told by how far they are from another mark, and what that length is called.
@@ -39,9 +39,9 @@ class Measured(NamedTuple):
     computed: float
 
     @property
-    def told(self) -> Said:
+    def text(self) -> Said:
         """All of it in a sentence."""
-        return self.length.told
+        return self.length.text
 
 
 @dataclass(frozen=True)
@@ -54,27 +54,27 @@ class Readings:
 
     def __iter__(self) -> Iterator[Measured]:
         """Every result that is drawn, in the order of the construction; none that is given or nothing."""
-        return filter(None, map(self.measured, self.drawn))
+        return filter(None, map(self.measure, self.drawn_readings))
 
     @property
-    def drawn(self) -> Iterator[Reading]:
+    def drawn_readings(self) -> Iterator[Reading]:
         """The readings of what is drawn and not given."""
         return (reading for reading in self.drawing.readings if reading.given is None and reading.marks
                 and (not reading.kind.place or reading.kind in FROM))
 
-    def measured(self, reading: Reading) -> Measured | None:
+    def measure(self, reading: Reading) -> Measured | None:
         """What is read off, unless it is nothing."""
         if reading.kind.place:
-            return self._way(reading)
+            return self._distance_reading(reading)
         kind, dimension, value = reading.kind, reading.kind.dimension, self.values[reading.kind][reading.of]
         marks = [self.drawing.drawn.wanted[position] for position in reading.marks]
-        computed = size(*value) if isinstance(value, tuple) else value
+        computed = magnitude(*value) if isinstance(value, tuple) else value
         if dimension in VECTORS:
             start, end = marks[-2:]
             steps = self.lengths.program.steps
             if steps[start].op.gives == LINE or (long := self.lengths.mm(start, end)) < MIN_LENGTH:
                 return None
-            read = self._vector(dimension, Measure(long, (start, end)), kind.group)
+            read = self._vector(dimension, PaperDistance(long, (start, end)), kind.group)
         elif dimension == units.MOMENT:
             if len(marks) == 1:
                 return self._no_moment(reading, computed)
@@ -86,19 +86,19 @@ class Readings:
         symbol = unit(dimension.unit(self.drawing.scene.units).replace("^2", "²").replace("*", "·"))
         return self._read(reading, self._name(kind, reading.of), read, symbol, computed)
 
-    def _way(self, reading: Reading) -> Measured | None:
+    def _distance_reading(self, reading: Reading) -> Measured | None:
         """A radius or a diameter, from where a place is measured."""
         start, end = (self.drawing.drawn.wanted[position] for position in reading.marks)
         if (long := self.lengths.mm(start, end)) < MIN_LENGTH:
             return None
-        read = self._vector(units.LENGTH, Measure(long, (start, end)), reading.kind.group)
+        read = self._vector(units.LENGTH, PaperDistance(long, (start, end)), reading.kind.group)
         (x, y), (u, v) = self.values[reading.kind][reading.of], self.drawing.values[start][:2]
         symbol = unit(units.LENGTH.unit(self.drawing.scene.units))
-        return self._read(reading, FROM[reading.kind](reading.of), read, symbol, size(x - u, y - v))
+        return self._read(reading, FROM[reading.kind](reading.of), read, symbol, magnitude(x - u, y - v))
 
-    def _read(self, reading: Reading, name: Said, read: Read, symbol: Said, computed: float) -> Measured:
+    def _read(self, reading: Reading, name: Said, read: ReadSum, symbol: Said, computed: float) -> Measured:
         """What is read, beside what is computed."""
-        told = said("{0}: {1} = {2}; computed {3}", name, read.told, joined((read.total[-1], symbol), " "),
+        told = said("{0}: {1} = {2}; computed {3}", name, read.text, joined((read.total[-1], symbol), " "),
                     digits(computed))
         return Measured(reading.kind, reading.of, Length(told, read.measures), read.total.value, computed)
 
@@ -114,27 +114,27 @@ class Readings:
             return said("{0} of {1}", kind.words, thing_named(self.drawing.scene, kind, of))
         return arranged("{0}_{1}", kind.dimension.letter, of)
 
-    def _vector(self, dimension: Dimension, length: Measure, group: str) -> Read:
+    def _vector(self, dimension: Dimension, length: PaperDistance, group: str) -> ReadSum:
         """A vector, by the scale of its plan."""
         start, end = length.marks
         group = group if dimension != units.LENGTH else "length"
         per, _ = self.lengths.scale(group, end)
         total, text = Sum("mff", (length.mm, per, length.mm * per)), self.lengths.program.text
         told = said("from {0} to {1}: {2}", text(start), text(end), in_mm(total[0]))
-        return Read(arranged("{0} · {1}", told, total[1]), (length,), total)
+        return ReadSum(arranged("{0} · {1}", told, total[1]), (length,), total)
 
-    def _turning(self, reading: Reading, marks: Sequence[int]) -> Read:
+    def _turning(self, reading: Reading, marks: Sequence[int]) -> ReadSum:
         """How a link turns, by the difference of two points' vectors over their distance.
 
         Where orthogonal velocities begin at their points, it is the part by which the image is shorter than the link.
         """
         P, R, p0, p1, r0, r1 = marks
         drawing, lengths = self.drawing, self.lengths
-        u, side, excess = lengths.vector(P, R), lengths.between(P, R), float(reading.excess)
+        u, side, excess = lengths.vector(P, R), lengths.distance(P, R), float(reading.excess)
         tempo, names, more = float(drawing.tempo.unit), lengths.side(P, R), (excess,) if excess else ()
         tail = "af" if excess else "f"
         if drawing.turned and reading.kind == kinds.OMEGA and (p0, r0) == (P, R):
-            image = lengths.between(p1, r1)
+            image = lengths.distance(p1, r1)
             x, y = lengths.vector(p1, r1)
             sign = 1 if x * u[0] + y * u[1] >= 0 else -1
             rate = (1 - sign * image.mm / side.mm) * tempo + excess
@@ -142,26 +142,26 @@ class Readings:
             ratio = arranged("(1 − {0}/{1})" if sign > 0 else "(1 + {0}/{1})", total[0], total[1])
             told = said("from {0} to {1}: {2}, {3} = {4}: {5}", lengths.program.text(p1), lengths.program.text(r1),
                         in_mm(total[0]), names, in_mm(total[1]), arranged("{0} · {1}", ratio, total[2]))
-            return Read(_more(told, excess, total), (image, side), total)
+            return ReadSum(_add_excess(told, excess, total), (image, side), total)
         one, two = lengths.vector(p0, p1), lengths.vector(r0, r1)
         w = two[0] - one[0], two[1] - one[1]
         across = u[0] * w[1] - u[1] * w[0]
         across = across if not (drawing.turned and reading.kind == kinds.OMEGA) else -(u[0] * w[0] + u[1] * w[1])
-        mm = across / size(*u) / lengths.per_mm(r1)
-        part = Measure(abs(mm), (P, R, p0, p1, r0, r1))
+        mm = across / magnitude(*u) / lengths.per_mm(r1)
+        part = PaperDistance(abs(mm), (P, R, p0, p1, r0, r1))
         (per, _), link = lengths.scale(reading.kind.group, r1), lengths.per_mm(R)
         total = Sum("mfdg" + tail, (mm, per, side.mm, link, *more, mm * per / (side.mm * link) + excess))
         told = said("tangential part over {0}: {1}", names, arranged(
             "{0} · {1} : ({2} · {3})", in_mm(total[0]), total[1], in_mm(total[2]), total[3]))
-        return Read(_more(told, excess, total), (part, side), total)
+        return ReadSum(_add_excess(told, excess, total), (part, side), total)
 
-    def _moment(self, marks: Sequence[int]) -> Read:
+    def _moment(self, marks: Sequence[int]) -> ReadSum:
         """The moment of forces about a point, each in mm times its arm."""
         pole, *rest = marks
         lengths, metre = self.lengths, float(units.metre(self.drawing.scene.units))
-        measures, numbers = list[Measure](), list[float]()
+        measures, numbers = list[PaperDistance](), list[float]()
         for C, tail, head in zip(*[iter(rest)] * 3, strict=True):
-            force, lever = lengths.between(tail, head), lengths.lever(pole, C, tail, head)
+            force, lever = lengths.distance(tail, head), lengths.lever(pole, C, tail, head)
             measures += [force, lengths.arm(pole, C, tail, head)]
             numbers += [force.mm, lever]
         per = lengths.scale(kinds.FORCES, rest[-1])[0] * lengths.per_mm(rest[-3]) / metre
@@ -169,23 +169,23 @@ class Readings:
         total = Sum("Σ" + "m" * len(numbers) + "ff", (*numbers, per, whole))
         terms = [in_any_case(partial(_term, total, k)) for k in range(0, len(numbers), 2)]
         told = said("forces times arms ({0}) mm² · {1}", joined(terms, " "), total[-2])
-        return Read(told, tuple(measures), total)
+        return ReadSum(told, tuple(measures), total)
 
 
-class Read(NamedTuple):
+class ReadSum(NamedTuple):
     """How something is read: in words up to its value, from what it measures, by which sum."""
 
-    told: Said
-    measures: tuple[Measure, ...]
+    text: Said
+    measures: tuple[PaperDistance, ...]
     total: Sum
 
 
 def _term(total: Sum, place: int) -> Said:
     """A moment, in mm times mm, with its sign."""
     sign = "−" if total.numbers[place + 1] < 0 else "+" if place else ""
-    return arranged(f"{sign}{{0}} · {{1}}", total[place], total.size(place + 1))
+    return arranged(f"{sign}{{0}} · {{1}}", total[place], total.unsigned_text(place + 1))
 
 
-def _more(told: Said, excess: float, total: Sum) -> Said:
+def _add_excess(told: Said, excess: float, total: Sum) -> Said:
     """A turning and what a drive adds to it."""
     return arranged("{0} + {1}", told, total[-2]) if excess else told

@@ -23,10 +23,10 @@ from graphplan.sheet.lettering.lettering import (
     width,
     wrap,
 )
-from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Text, moved
+from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Text, move_item
 from graphplan.sheet.plates.pens import BORDER, LETTERS, THIN
 from graphplan.sheet.tolerances import ZERO_TOL
-from graphplan.sheet.words.lengths import size
+from graphplan.sheet.words.lengths import magnitude
 from graphplan.words.tongue import Tongue
 
 LEADING = 1.42  # of the letter size, base line to base line
@@ -64,14 +64,14 @@ class TextRow:
     boxes: tuple[Rect, ...] = ()
     figure: tuple[Item, ...] = ()
 
-    def enlarged(self, times: float) -> TextRow:
+    def enlarge(self, times: float) -> TextRow:
         """The row in letters so many times as large; those of headings are no larger than headings should be."""
         if times == 1.0:
             return self
         cells = tuple(replace(cell, x=times * cell.x) for cell in self.cells)
         boxes = tuple(box.times(times) for box in self.boxes)
         size = max(min(times * self.size, HEADING), self.size)
-        figure = tuple(moved(item, 0.0, 0.0, times) for item in self.figure)
+        figure = tuple(move_item(item, 0.0, 0.0, times) for item in self.figure)
         return replace(self, cells=cells, size=size, gap=times * self.gap, tall=times * self.tall, boxes=boxes,
                        figure=figure)
 
@@ -86,7 +86,8 @@ class TextRow:
         return max((*ends, *(box.right for box in self.boxes), self.tall if self.figure else 0.0), default=0.0)
 
 
-def hung(runs: Runs, wide: float, indent: float, number: str = "", step: int | None = None) -> Iterator[TextRow]:
+def paragraph_rows(runs: Runs, wide: float, indent: float, number: str = "",
+                   step: int | None = None) -> Iterator[TextRow]:
     """A paragraph in a column of a width: as it is, or with a number from which its lines hang, so far indented."""
     hangs = indent if number else 0.0
     lines = wrap(runs, SIZE, wide - hangs)
@@ -105,7 +106,7 @@ def fill(rows: Sequence[TextRow], columns: Sequence[Rect]) -> list[Placed] | Non
     column = next(places, None)
     y = column.top if column else 0.0
     for i, row in enumerate(rows):
-        block = row.height + sum(follower.gap + follower.height for follower in rows[i + 1 : _kept(rows, i)])
+        block = row.height + sum(follower.gap + follower.height for follower in rows[i + 1 : _block_end(rows, i)])
         while column is not None and y - _gap(row, y, column) - block < column.bottom:
             column = next(places, None)
             y = column.top if column else 0.0
@@ -116,7 +117,7 @@ def fill(rows: Sequence[TextRow], columns: Sequence[Rect]) -> list[Placed] | Non
     return placed
 
 
-def _kept(rows: Sequence[TextRow], first: int) -> int:
+def _block_end(rows: Sequence[TextRow], first: int) -> int:
     """Where the rows end that must stand in one column with a row, as they or others of them say."""
     end = i = first
     while i <= end and i < len(rows):
@@ -129,11 +130,11 @@ def _gap(row: TextRow, y: float, column: Rect) -> float:
     return row.gap if y < column.top else 0.0
 
 
-def lettered(placed: Sequence[Placed]) -> Iterator[Item]:
+def row_items(placed: Sequence[Placed]) -> Iterator[Item]:
     """The rows as items; the lettering of a tall one stands half-way up."""
     for row, x, y in placed:
         foot = y - row.size * (LEADING - 1)
-        yield from (moved(item, x, foot) for item in row.figure)
+        yield from (move_item(item, x, foot) for item in row.figure)
         for box in row.boxes:
             there = Rect(x + box.left, foot + box.bottom, x + box.right, foot + box.top)
             yield Polygon(BORDER, "blanks", row.step, there.corners)
@@ -156,7 +157,7 @@ class Deviation:
     mm: float | None = None
 
     @property
-    def told(self) -> Said:
+    def text(self) -> Said:
         """In figures; a dash where it has no bound."""
         if math.isinf(self.value):
             return figures("–")
@@ -168,9 +169,9 @@ class Deviations:
     """The deviation of every result by kind and name, and what is said of the drawing model and the worst step."""
 
     results: Mapping[str, Mapping[str, Deviation]] = field(default_factory=dict)
-    told: str = ""
+    text: str = ""
 
-    def of(self, *kinds: str) -> dict[str, Deviation]:
+    def of_kinds(self, *kinds: str) -> dict[str, Deviation]:
         """The deviations of some kinds, by name."""
         return {name: deviation for kind in kinds for name, deviation in self.results.get(kind, {}).items()}
 
@@ -181,24 +182,25 @@ Table = list[list[Runs]]
 Off = Mapping[str, Deviation]  # how far off results are drawn, by name; empty where that is not told
 
 
-def vectors(say: Tongue, what: str, letter: str, unit: str, values: Mapping[str, Any], order: Iterable[str], off: Off,
+def vector_table(say: Tongue, what: str, letter: str, unit: str, values: Mapping[str, Any], order: Iterable[str],
+                 off: Off,
             beside: Mapping[str, Any], spoken: Callable[[str], str] = str) -> Table:
     """Components, magnitudes and deviations, each row with its name first; nothing if there are none.
 
     The head tells what has them, their letter and their unit; names may be `spoken` in another way.
     """
     head = [sentence_runs(text) for text in (what, f"{letter}_x", f"{letter}_y", f"|{letter}| {unit}")]
-    found = {name: (*values[name], size(*values[name])) for name in order if name in values}
+    found = {name: (*values[name], magnitude(*values[name])) for name in order if name in values}
     return _table(say, head, found, _larger(largest_size(values), largest_size(beside)), off, spoken)
 
 
-def places(say: Tongue, head: Sequence[str], values: Mapping[str, Any], off: Off,
+def coordinate_table(say: Tongue, head: Sequence[str], values: Mapping[str, Any], off: Off,
            spoken: Callable[[str], str]) -> Table:
     """Coordinates with their deviations, or components of headings; nothing if there are none."""
     return _table(say, [*map(sentence_runs, head)], values, largest_size(values), off, spoken)
 
 
-def scalars(say: Tongue, what: str, name: str, unit: str, values: Mapping[str, Any], order: Iterable[str],
+def scalar_table(say: Tongue, what: str, name: str, unit: str, values: Mapping[str, Any], order: Iterable[str],
             off: Off) -> Table:
     """Single numbers with their deviations, each row with its name first; nothing if there are none."""
     head = [sentence_runs(what), (*name_runs(name), *sentence_runs(f" {unit}"))]
@@ -206,7 +208,7 @@ def scalars(say: Tongue, what: str, name: str, unit: str, values: Mapping[str, A
     return _table(say, head, found, reduce(_larger, map(abs, values.values()), 0.0), off)
 
 
-def settled(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict[str, dict[str, Any]]:
+def zero_rounding(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict[str, dict[str, Any]]:
     """The results, with turnings as nothing that are but rounding beside what others of their kind are made of.
 
     What is unknown is not weighed.
@@ -223,7 +225,7 @@ def settled(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict[str, 
 def _table(say: Tongue, head: list[Runs], values: Mapping[str, tuple[float, ...]], largest: float, off: Off,
            spoken: Callable[[str], str] = str) -> Table:
     """Numbers, of which the largest of their kind is told, under their head."""
-    rows = [[name_runs(spoken(name)), *(figure(say, x, largest) for x in found)] for name, found in values.items()]
+    rows = [[name_runs(spoken(name)), *(number_runs(say, x, largest) for x in found)] for name, found in values.items()]
     return with_deviations(say, [head, *rows], list(values), off) if rows else []
 
 
@@ -234,13 +236,13 @@ def with_deviations(say: Tongue, table: Table, names: Sequence[str], off: Off) -
         return table
     on_paper = any(deviation is not None and deviation.mm is not None for deviation in told)
     head = say(arranged("± ({0})", unit("mm"))) if on_paper else "±"
-    column = [head, *("" if deviation is None else say(deviation.told) for deviation in told)]
+    column = [head, *("" if deviation is None else say(deviation.text) for deviation in told)]
     return [[*row, sentence_runs(cell)] for row, cell in zip(table, column, strict=True)]
 
 
 def largest_size(values: Mapping[Any, Any]) -> float:
     """The size of the largest vector."""
-    return reduce(_larger, (size(*value) for value in values.values()), 0.0)
+    return reduce(_larger, (magnitude(*value) for value in values.values()), 0.0)
 
 
 def _larger(a: float, b: float) -> float:
@@ -248,12 +250,12 @@ def _larger(a: float, b: float) -> float:
     return (a + b + abs(a - b)) / 2
 
 
-def figure(say: Tongue, value: float, largest: float) -> Runs:
+def number_runs(say: Tongue, value: float, largest: float) -> Runs:
     """A number of a table; what is only rounding beside its largest is zero."""
     return sentence_runs(say(in_any_case(lambda: digits(value if abs(value) > ZERO_TOL * largest else 0.0))))
 
 
-def joined_tables(one: Table, two: Table, fits: Callable[[Table], bool]) -> list[Table]:
+def join_tables(one: Table, two: Table, fits: Callable[[Table], bool]) -> list[Table]:
     """Two tables as one where the names are the same and it fits, else those of the two that say anything."""
     if one and two and [row[0] for row in one] == [row[0] for row in two]:
         both = [[*left, *right[1:]] for left, right in zip(one, two, strict=True)]
@@ -262,7 +264,7 @@ def joined_tables(one: Table, two: Table, fits: Callable[[Table], bool]) -> list
     return [table for table in (one, two) if table]
 
 
-def narrow(table: Table, wide: float) -> bool:
+def is_narrow(table: Table, wide: float) -> bool:
     """Whether a table is no wider than this."""
     return sum(_widths(table)) <= wide
 
@@ -271,7 +273,7 @@ def _widths(table: Table) -> list[float]:
     return [max(width(row[i], SIZE) for row in table) + APART for i in range(len(table[0]))]
 
 
-def rows(table: Table) -> Iterator[TextRow]:
+def table_rows(table: Table) -> Iterator[TextRow]:
     """Names to the left, numbers to the right of their columns."""
     edges = [0.0]
     for wide in _widths(table) if table else ():
@@ -302,18 +304,18 @@ def answer_rows(table: Table, wide: float) -> Iterator[TextRow]:
         yield TextRow((Cell(0.0, row[0]),), tall=TALL, boxes=tuple(boxes))
 
 
-def fits(table: Table, wide: float) -> bool:
+def boxes_fit(table: Table, wide: float) -> bool:
     """Whether all the boxes of a table have room for a number by hand."""
     return max(width(row[0], SIZE) for row in table) + APART + (len(table[0]) - 1) * NARROW <= wide
 
 
-def ticked(row: TextRow) -> TextRow:
+def with_tick_box(row: TextRow) -> TextRow:
     """A row with a box to tick before it."""
     low = (row.height - TICK) / 2
     return replace(row, gap=0.5, tall=row.height, boxes=(Rect(0.0, low, TICK, low + TICK),))
 
 
-def tightened(row: TextRow) -> TextRow:
+def tighten(row: TextRow) -> TextRow:
     """The row where space is short: nearer to the one above, its boxes for numbers lower."""
     if row.boxes and row.tall > TIGHT:
         row = replace(row, tall=TIGHT, boxes=tuple(replace(box, top=TIGHT) for box in row.boxes))

@@ -48,13 +48,13 @@ class Sum:
     def __getitem__(self, place: int) -> Said:
         """A number as it is printed; -1 is the result."""
         last = place % len(self.numbers) == len(self.numbers) - 1
-        return self._written(place, self.result if last else self.numbers[place])
+        return self._number_text(place, self.result if last else self.numbers[place])
 
-    def size(self, place: int) -> Said:
+    def unsigned_text(self, place: int) -> Said:
         """The same without its sign."""
-        return self._written(place, abs(self.numbers[place]))
+        return self._number_text(place, abs(self.numbers[place]))
 
-    def _written(self, place: int, number: float) -> Said:
+    def _number_text(self, place: int, number: float) -> Said:
         kind, result = self.kinds.lstrip(FORMS)[place], place % len(self.numbers) == len(self.numbers) - 1
         if isinstance(self.level, Unknown):
             return self.level.printed(number, ("r" if kind in LENGTHS else "v") if result else kind)
@@ -75,7 +75,8 @@ class Sum:
     def value(self) -> float:
         """What the result is as printed; unknown as it is, where it is not known yet."""
         number = self.result
-        return number if isinstance(self.level, Unknown) else rounded(number, self.kinds[-1], self.level, result=True)
+        return number if isinstance(self.level, Unknown) else round_as_printed(number, self.kinds[-1], self.level,
+                                                                               result=True)
 
 
 def result_at(level: int, kinds: str, numbers: Sequence[float]) -> float:
@@ -83,7 +84,8 @@ def result_at(level: int, kinds: str, numbers: Sequence[float]) -> float:
     if level < PRINTED:
         return numbers[-1]
     form, own = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
-    value = _value(form, own, [rounded(number, kind, level) for number, kind in zip(numbers[:-1], own, strict=False)])
+    value = _value(form, own,
+                   [round_as_printed(number, kind, level) for number, kind in zip(numbers[:-1], own, strict=False)])
     return value if math.isfinite(value) else numbers[-1]
 
 
@@ -93,8 +95,8 @@ def holding(kinds: str, numbers: Sequence[float]) -> int:
         return READ
     form, kinds = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
     for level in range(PRINTED):
-        told = [rounded(number, kind, level) for number, kind in zip(numbers[:-1], kinds[:-1], strict=True)]
-        result = rounded(numbers[-1], kinds[-1], level, result=True)
+        told = [round_as_printed(number, kind, level) for number, kind in zip(numbers[:-1], kinds[:-1], strict=True)]
+        result = round_as_printed(numbers[-1], kinds[-1], level, result=True)
         found = _value(form, kinds, told)
         if abs(found - result) <= HALF * 10.0 ** -LEVELS[level][1]:
             return level
@@ -109,21 +111,21 @@ def _value(form: str, kinds: str, numbers: Sequence[float]) -> float:
         value = sum(lengths[k][0] * lengths[k + 1][0] for k in range(0, len(lengths), 2))
     else:
         for number, kind in lengths:
-            value = _with(value, number, {"m": "f", "M": "F", "d": "g"}[kind])
+            value = _apply(value, number, {"m": "f", "M": "F", "d": "g"}[kind])
     value = {"-": 1.0 - value, "+": 1.0 + value}.get(form, value)
     for number, kind in zip(numbers, kinds, strict=False):
-        value = value if kind in LENGTHS else _with(value, number, kind)
+        value = value if kind in LENGTHS else _apply(value, number, kind)
     return value
 
 
-def _with(value: float, number: float, kind: str) -> float:
+def _apply(value: float, number: float, kind: str) -> float:
     """A value multiplied or divided by a number, or with it added."""
     if kind == "g":
         return value / number if number else math.nan
     return value + number if kind == "a" else value * number if kind == "f" else value * number * number
 
 
-def rounded(number: float, kind: str, level: int, *, result: bool = False) -> float:
+def round_as_printed(number: float, kind: str, level: int, *, result: bool = False) -> float:
     """A number as it is printed at a level."""
     _, of_result, _, figures = LEVELS[level]
     if kind in LENGTHS:

@@ -37,12 +37,12 @@ from graphplan.sheet.words.rows import (
     Table,
     TextRow,
     answer_rows,
-    fits,
-    joined_tables,
-    rows,
-    ticked,
+    boxes_fit,
+    join_tables,
+    table_rows,
+    with_tick_box,
 )
-from graphplan.sheet.words.texts import Words
+from graphplan.sheet.words.texts import SheetWords
 
 INSTRUMENTS = {
     SET_SQUARES: phrase("set squares"), STRAIGHTEDGE: phrase("straightedge"), COMPASSES: phrase("compasses"),
@@ -51,7 +51,7 @@ INSTRUMENTS = {
 
 
 @dataclass(frozen=True, eq=False)
-class Task(Words):
+class TaskWords(SheetWords):
     """All that is said on a task sheet, or where it is `guided`, on the sheet of a student who is told the steps."""
 
     composition: Composition = field(kw_only=True)
@@ -61,16 +61,16 @@ class Task(Words):
     def lines(self, wide: float, guided: bool) -> list[TextRow]:
         """Everything, for a column of this width."""
         head, steps = (GUIDED, self._steps(wide, self.composition.scales)) if guided else (TASK, iter(()))
-        return [self._heading(head, gap=0.0), *self._given(wide), *self._plans(wide), *steps, *self._answers(wide),
+        return [self._heading(head, gap=0.0), *self._given_rows(wide), *self._plans(wide), *steps, *self._answers(wide),
                 *(() if guided else self._hints(wide))]
 
-    def _given(self, wide: float) -> Iterator[TextRow]:
+    def _given_rows(self, wide: float) -> Iterator[TextRow]:
         scene = self.drawing.scene
         yield from self.paragraph(scene.source, wide) if scene.source else ()
         yield self._heading(said("Given"))
         for sentence in data(scene):
-            yield from self._hung(sentence_runs(self.plans.tongue(sentence)), wide)  # alpha_1 is no locus alpha
-        yield from rows(self._masses())
+            yield from self._hanging_rows(sentence_runs(self.plans.tongue(sentence)), wide)  # alpha_1 is no locus alpha
+        yield from table_rows(self._masses())
         asked = list(question(scene, self.values))
         yield from [self._heading(said("To find"))] if asked else []
         for sentence in asked:
@@ -93,13 +93,13 @@ class Task(Words):
         """The scale of each plan, and where it begins."""
         yield self._heading(said("Scales"))
         for plate in self.composition.plates:
-            told = self.composition.scales.said(plate.panel, self.plans.kinds(plate.panel))
+            told = self.composition.scales.scale_texts(plate.panel, self.plans.kinds(plate.panel))
             told += [said("origin {0}", drawn.name) for drawn in plate.beginnings if drawn.name]
             yield from self.paragraph(arranged("{0:capital}: {1}.", plate.panel.words, joined(told)), wide)
 
-    def _numbered(self, row: TextRow) -> TextRow:
+    def _row_with_number(self, row: TextRow) -> TextRow:
         """The row with a box to tick before its number."""
-        return ticked(row)
+        return with_tick_box(row)
 
     def _hints(self, wide: float) -> Iterator[TextRow]:
         """What is needed: instruments, and how many steps."""
@@ -118,7 +118,7 @@ class Task(Words):
         pairs = [pair for pair in self._pairs() if any(pair)]
         yield from [self._heading(said("Results"))] if pairs else []
         for one, two in pairs:
-            for table in joined_tables(one, two, partial(fits, wide=wide)):
+            for table in join_tables(one, two, partial(boxes_fit, wide=wide)):
                 yield from answer_rows(table, wide)
 
     def _pairs(self) -> Iterator[tuple[Table, Table]]:
@@ -160,7 +160,7 @@ def data(scene: Scene) -> Iterator[Said]:
         yield kind.sentence(joined(joined((slide_named(slide), said("at {0}", slide.at)), " ")
                                    for slide in scene.slides if type(slide) is kind))
     if scene.gears:
-        yield Gear.sentence(joined(map(_geared, scene.gears), "; "))
+        yield Gear.sentence(joined(map(_gear_text, scene.gears), "; "))
     if scene.contacts:
         yield Contact.sentence(joined(map(_touching, scene.contacts), "; "))
     yield from _motion(scene)
@@ -176,7 +176,7 @@ def data(scene: Scene) -> Iterator[Said]:
         yield from _loads(scene, scene.loads)
 
 
-def _geared(gear: Gear) -> Said:
+def _gear_text(gear: Gear) -> Said:
     """Two links that roll on each other: about which centres, and by what sizes."""
     if gear.direction is not None:
         return said("{0} about {1} on {2} as a rack, r = {3}", link_named(gear.links[0]), gear.centres[0],
@@ -227,10 +227,10 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
         yield said("Gravity: {0}.", joined(("g =", _pair(loads.gravity), unit("m/s²")), " "))
     for letter, force in named_forces(loads).items():
         value = joined((f"{letter} =", _pair(force.value), unit(units.force), said("at {0}", force.at)), " ")
-        yield said("Force on {0}: {1}.", link_named(force.on), _here(value, force))
+        yield said("Force on {0}: {1}.", link_named(force.on), _value_text(value, force))
     for letter, moment in named_moments(loads).items():
         value = _with_unit(letter, moment.value, f"{units.force}·m")
-        yield said("Moment on {0}: {1}.", link_named(moment.on), _here(value, moment))
+        yield said("Moment on {0}: {1}.", link_named(moment.on), _value_text(value, moment))
     slides = {(slide.link, slide.along): slide for slide in scene.slides}
     for friction in loads.frictions:
         where = (slide_named(slides[friction.slide]) if friction.slide
@@ -239,7 +239,7 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
         yield said("Friction {0}: {1}.", where, joined((arranged("mu = {0}", _figure(friction.coefficient)), *radius)))
 
 
-def _here(value: Said, load: Force | Moment) -> Said:
+def _value_text(value: Said, load: Force | Moment) -> Said:
     """The value of a load; of one that changes it is said that it does."""
     return said("{0} in this pose; it changes over the cycle", value) if load.table else value
 

@@ -40,14 +40,14 @@ from graphplan.sheet.words.rows import (
     Deviations,
     Table,
     TextRow,
-    hung,
-    joined_tables,
-    narrow,
-    places,
-    rows,
-    scalars,
-    settled,
-    vectors,
+    coordinate_table,
+    is_narrow,
+    join_tables,
+    paragraph_rows,
+    scalar_table,
+    table_rows,
+    vector_table,
+    zero_rounding,
 )
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ RESULTS = "results"  # the layer of what is read when all is drawn
 
 
 @dataclass(frozen=True, eq=False)
-class Words:
+class SheetWords:
     """All that is said beside the plans; `check` is the difference from the analytic solver, by kind.
 
     The words of a sheet are set more than once, with other drawing errors or of other poses: what is the same in all of
@@ -85,7 +85,7 @@ class Words:
     @cached_property
     def values(self) -> Mapping[str, Mapping[str, Any]]:
         """What the construction reads off, by kind and name."""
-        return settled(self.drawing.computed, self.drawing.scene.extent)
+        return zero_rounding(self.drawing.computed, self.drawing.scene.extent)
 
     def rows(self, wide: float, scales: Scales, pencil: Deviations) -> list[TextRow]:
         """Everything, for a column of this width; `pencil` are the expected drawing errors where they are told."""
@@ -94,7 +94,7 @@ class Words:
             self._set[wide] = (scales, steps, [*self._readings(wide, scales)],
                                [*self._check(wide), *self._forms(wide)])
         _, before, read, after = self._set[wide]
-        found = [*read, *self._results(wide, pencil), *self._errors(wide, pencil.told), *after]
+        found = [*read, *self._results(wide, pencil), *self._errors(wide, pencil.text), *after]
         return [*before, *(replace(row, layer=RESULTS) for row in found)]
 
     def _runs(self, text: str) -> Runs:
@@ -103,13 +103,13 @@ class Words:
 
     def paragraph(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[TextRow]:
         """A paragraph, hanging from its number."""
-        return self._hung(self._runs(text), wide, step, number)
+        return self._hanging_rows(self._runs(text), wide, step, number)
 
-    def _hung(self, runs: Runs, wide: float, step: int | None = None, number: str = "") -> Iterator[TextRow]:
-        for i, row in enumerate(hung(runs, wide, self.indent, number, step)):
-            yield self._numbered(row) if number and i == 0 else row
+    def _hanging_rows(self, runs: Runs, wide: float, step: int | None = None, number: str = "") -> Iterator[TextRow]:
+        for i, row in enumerate(paragraph_rows(runs, wide, self.indent, number, step)):
+            yield self._row_with_number(row) if number and i == 0 else row
 
-    def _numbered(self, row: TextRow) -> TextRow:
+    def _row_with_number(self, row: TextRow) -> TextRow:
         """The row in which a number stands."""
         return row
 
@@ -159,7 +159,7 @@ class Words:
         for equation in () if passage.again else passage.stage.equations:
             yield from self.equation(equation, wide - self.indent, step)
         if passage.law:
-            law = self._hung(self._runs(arranged("{0:capital}.", passage.law)), wide, step)
+            law = self._hanging_rows(self._runs(arranged("{0:capital}.", passage.law)), wide, step)
             yield from (replace(row, keep=row.keep + 1) for row in law)
 
     def _title(self, text: Said, wide: float, step: int, size: float = SIZE, gap: float = 1.2) -> Iterator[TextRow]:
@@ -179,23 +179,24 @@ class Words:
 
     def entry(self, entry: Entry, wide: float) -> Iterator[TextRow]:
         """One step as the textbook tells it, unfolded with its movements below it."""
-        apart = self.unfolded and entry.folded
-        yield from self._hung(self._runs(entry.told), wide, entry.movements[0].index, "" if apart else entry.number)
+        apart = self.unfolded and entry.is_compound
+        yield from self._hanging_rows(self._runs(entry.text), wide, entry.movements[0].index, "" if apart
+                                      else entry.number)
         for one in entry.movements if apart else ():
-            yield from self._hung(self._runs(one.sentence), wide, one.index, str(one.number))
+            yield from self._hanging_rows(self._runs(one.sentence), wide, one.index, str(one.number))
 
     def _readings(self, wide: float, scales: Scales) -> Iterator[TextRow]:
         """What is measured on the finished sheet, and what it means."""
         found = list(Readings(self.drawing, lengths_of(self.plans, scales), self.values))
         yield from [self._heading(said("Measured on the sheet"))] if found else []
         for reading in found:
-            yield from self.paragraph(reading.told, wide)
+            yield from self.paragraph(reading.text, wide)
 
     def _results(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
         yield self._heading(said("Results"))
         for one, two in self._motion(pencil):
-            for table in joined_tables(one, two, partial(narrow, wide=wide)):
-                yield from rows(table)
+            for table in join_tables(one, two, partial(is_narrow, wide=wide)):
+                yield from table_rows(table)
         if self.drawing.scene.loads:
             yield from self._forces(wide, pencil)
 
@@ -211,8 +212,9 @@ class Words:
         values, scene, say = self.values, self.drawing.scene, self.plans.tongue
         point, link, slide, rate = say(said("point")), say(said("link")), say(said("slide")), say(unit("1/s"))
         yield self._vectors(point, ("velocity", "acceleration"), scene.points, pencil)
-        yield (scalars(say, link, "omega", rate, values.get("omega", {}), scene.links, pencil.of("omega")),
-               scalars(say, link, "alpha", f"{rate}²", values.get("alpha", {}), scene.links, pencil.of("alpha")))
+        yield (scalar_table(say, link, "omega", rate, values.get("omega", {}), scene.links, pencil.of_kinds("omega")),
+               scalar_table(say, link, "alpha", f"{rate}²", values.get("alpha", {}), scene.links,
+                            pencil.of_kinds("alpha")))
         slides = {slide.name: say(slide_named(slide)) for slide in scene.slides}
         yield self._vectors(slide, ("slide velocity", "slide acceleration"), slides, pencil, slides.__getitem__)
         yield self._poles(pencil)
@@ -223,7 +225,7 @@ class Words:
         say, scene = self.plans.tongue, self.drawing.scene
         long = say(unit(scene.units.length))
         heads = {POLE: (say(said("pole")), "x", f"y {long}"), POLE_HEADING: (say(said("pole at infinity")), "dx", "dy")}
-        one, two = (places(say, head, self.values.get(kind, {}), pencil.of(kind),
+        one, two = (coordinate_table(say, head, self.values.get(kind, {}), pencil.of_kinds(kind),
                            lambda name: pole_letter(scene.link_pair(name))) for kind, head in heads.items())
         return one, two
 
@@ -232,7 +234,8 @@ class Words:
         say, long = self.plans.tongue, self.plans.tongue(unit(self.drawing.scene.units.length))
         heads = {CENTRE: say(said("centre of curvature")), MOTION_POLE: say(said("pole of link")),
                  INFLECTION: say(said("inflection pole of link"))}
-        centres, one, two = (places(say, (head, "x", f"y {long}"), self.values.get(kind, {}), pencil.of(kind), str)
+        centres, one, two = (coordinate_table(say, (head, "x", f"y {long}"), self.values.get(kind, {}),
+                                              pencil.of_kinds(kind), str)
                              for kind, head in heads.items())
         yield centres, []
         yield one, two
@@ -243,17 +246,18 @@ class Words:
         """
         speed = self.plans.tongue(unit(f"{self.drawing.scene.units.length}/s"))
         heads = ("v", speed, "velocity"), ("a", f"{speed}²", "acceleration")
-        one, two = (vectors(self.plans.tongue, what, letter, symbol, self.values.get(kind, {}), order, pencil.of(kind),
+        one, two = (vector_table(self.plans.tongue, what, letter, symbol, self.values.get(kind, {}), order,
+                                 pencil.of_kinds(kind),
                             self.values.get(beside, {}), spoken)
                     for kind, (letter, symbol, beside) in zip(kinds, heads, strict=True))
         return one, two
 
     def _forces(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
         tables = self._force_tables(pencil)
-        yield from rows(tables.reactions())
+        yield from table_rows(tables.reactions())
         for sentence in tables.seats():
             yield from self.paragraph(sentence, wide)
-        yield from rows(tables.balance())
+        yield from table_rows(tables.balance())
 
     def _force_tables(self, pencil: Deviations) -> ForceTables:
         from graphplan.sheet.words.force_tables import ForceTables  # most scenes have no loads
@@ -268,7 +272,7 @@ class Words:
     def _check(self, wide: float) -> Iterator[TextRow]:
         if self.check:
             yield self._heading(said("Check"))
-            parts = joined(joined((WORDS[kind], _within(float(gap))), " ") for kind, gap in self.check.items())
+            parts = joined(joined((WORDS[kind], _gap_text(float(gap))), " ") for kind, gap in self.check.items())
             yield from self.paragraph(said("Largest difference from the analytic solver, relative to the number's own "
                                        "size: {0}.", parts), wide)
 
@@ -280,7 +284,7 @@ class Words:
             yield from self.paragraph(form, wide)
 
 
-def _within(gap: float) -> str:
+def _gap_text(gap: float) -> str:
     """A difference as it is said on a sheet: rounding is not told in figures, which differ from machine to machine."""
     return said("below 10⁻¹²") if gap <= ZERO_TOL else digits(gap, 2)
 

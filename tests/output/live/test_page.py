@@ -22,7 +22,7 @@ from graphplan.cycle import follow
 from graphplan.mechanism.scene import packaged
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.words.protocol import Protocol
-from graphplan.sheet.words.texts import Words
+from graphplan.sheet.words.texts import SheetWords
 
 NAME = "slider-crank"
 USED = "handout", NAME, "--choices", "plans,de"
@@ -72,7 +72,7 @@ def test_every_step_stage_and_result_stands_in_the_page_without_a_script(name: s
     assert listed.count("<h4>") == sum(passage.title is not None for passage in passages)
     assert listed.count('class="equation"') == sum(
         len(passage.stage.equations) for passage in passages if passage.stage and not passage.again)
-    assert listed.count("<tr>") == sum(map(len, Words(composition.plans).result_tables())) > 0
+    assert listed.count("<tr>") == sum(map(len, SheetWords(composition.plans).result_tables())) > 0
     steps = set(re.findall(r'<g class="step" data-step="(\d+)"', listed))
     assert steps
     assert steps <= {"0", *places}

@@ -25,7 +25,7 @@ from graphplan.output.svg import inked, svg
 from graphplan.sheet.cycle_frames import posed
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
-from graphplan.sheet.lettering.letters import pictured
+from graphplan.sheet.lettering.letters import letter_plate
 from graphplan.sheet.lettering.prices import strokes as thin
 from graphplan.sheet.plates.display import Circle, Item, Rect
 from graphplan.sheet.plates.drawn_step import LAYER
@@ -120,12 +120,12 @@ class Stage:
         found: dict[str, list[Item]] = {}
         for plate in self.plates(drawing):
             for drawn in plate.steps:
-                if drawn.index in plate.stretches and any(math.hypot(*mark.at) > FAR for mark in plate.marks(drawn)):
+                if drawn.index in plate.stretches and any(math.hypot(*mark.spot) > FAR for mark in plate.marks(drawn)):
                     continue
                 items: list[Item] = [stroke.item for stroke in plate.strokes(drawn)]
                 items += [arc.item for arc in plate.arcs(drawn)]
                 if pen := plate.dot(drawn):
-                    items.append(Circle(pen, LAYER, drawn.index, drawn.at, plate.size(drawn)))
+                    items.append(Circle(pen, LAYER, drawn.index, drawn.spot, plate.dot_radius(drawn)))
                 found.setdefault(str(drawn.number), []).extend(items)
             for vector in plate.vectors:
                 found.setdefault(str(vector.of.number), []).append(vector.item)
@@ -224,7 +224,7 @@ def test_letters_stand_as_on_a_sheet_of_the_pose(stage: Stage) -> None:
         stage.draw(drawing, *places)
         stage.page.evaluate("drawn.settle()")
         for plate, letters in zip(stage.plates(drawing), stage.letters(), strict=True):
-            own = pictured(plate)
+            own = letter_plate(plate)
             written = {f"{plate.panel}|{'' if wish.step is None else wish.step}|{wish.label}": Rect(*place.boxes)
                        for wish, place in own.letters.places}
             assert letters.keys() == written.keys()

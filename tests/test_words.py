@@ -18,9 +18,9 @@ from matplotlib.ft2font import LoadFlags
 from sources import FILES, parsed
 
 import graphplan as gp
-from graphplan.accuracy.drafted import drafted
+from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
-from graphplan.accuracy.preference import Form, weighed
+from graphplan.accuracy.preference import Form, choose_form
 from graphplan.commands import main
 from graphplan.cycle import follow
 from graphplan.errors import ConstructionError, Refused
@@ -231,8 +231,8 @@ def test_a_preference_is_told_in_the_language(code: str) -> None:
     """What speaks for the forms, and why one cannot be drawn, has no English word left."""
     refused = [ConstructionError("lines-parallel", 3, "q", "why", "do"),
                Refused(said("point {0}", "A"), said("no construction known here reaches it"), "do")]
-    told = weighed([Form(("", "auxiliary", "poles"), drafted(drawing_of("four-bar"), Pencil())),
-                    *(Form(("trial",), None, refusal) for refusal in refused)], "balanced").told
+    told = choose_form([Form(("", "auxiliary", "poles"), draft(drawing_of("four-bar"), Pencil())),
+                        *(Form(("trial",), None, refusal) for refusal in refused)], "balanced").told
     english = {"pose", "own", "auxiliary", "trial", "poles", "preferred", "drawn", "step", "lines", "point", "balanced"}
     assert english.isdisjoint(re.findall(r"\w+", " ".join(map(tongue(code), told)).lower()))
 

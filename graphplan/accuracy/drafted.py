@@ -10,7 +10,7 @@ from typing import Any
 
 from graphplan.accuracy.first_order import Result, control_errors, first_order
 from graphplan.accuracy.hand import Hand, Pencil, hand
-from graphplan.cycle.motion_curves import traced
+from graphplan.cycle.motion_curves import traced_motion
 from graphplan.errors import Refused
 from graphplan.kernel.coincidence import crossing
 from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
@@ -22,7 +22,7 @@ from graphplan.sheet.layout.composition import Composer, Composition
 from graphplan.sheet.words.rows import Deviation, Deviations
 from graphplan.words.tongue import ENGLISH, Tongue
 
-ATTEMPTS = 5  # the words may make the sheet larger, which changes the errors, which change the words
+MAX_ATTEMPTS = 5  # the words may make the sheet larger, which changes the errors, which change the words
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ class Errors:
         """The worst result's error beside the largest value of its kind."""
         return (self.worst.relative or 0.0) if self.worst else 0.0
 
-    def named(self, index: int) -> Said:
+    def step_name(self, index: int) -> Said:
         """A step by its number, a point of the pose by its name."""
         drawn = self.drawing.drawn
         if index >= drawn.givens:
@@ -121,20 +121,21 @@ class Errors:
         results: dict[str, dict[str, Deviation]] = {}
         for result in self.results:
             results.setdefault(result.kind, {})[result.of] = result.deviation
-        return Deviations(results, self.told)
+        return Deviations(results, self.description)
 
     @property
-    def told(self) -> Said:
+    def description(self) -> Said:
         """The drawing model and the worst step, in a sentence or two."""
-        model = said("± is the standard deviation of a drawing with {0}; in brackets mm of paper.", self.pencil.told)
+        model = said("± is the standard deviation of a drawing with {0}; in brackets mm of paper.",
+                     self.pencil.description)
         if self.worst is None or not self.error:
             return model
         if math.isinf(self.error):
             flat = said("No pencil follows what – is told of: curves cross too flat, most of all at {0}.",
-                        self.named(self.worst.worst_step))
+                        self.step_name(self.worst.worst_step))
             return joined((model, flat), " ")
-        worst = said("Worst: {0}, {1} of the largest; most of it comes from {2}.", self.worst.named,
-                     percent(self.error), self.named(self.worst.worst_step))
+        worst = said("Worst: {0}, {1} of the largest; most of it comes from {2}.", self.worst.label,
+                     percent(self.error), self.step_name(self.worst.worst_step))
         return joined((model, worst), " ")
 
 
@@ -172,7 +173,7 @@ class Drafted(Errors):
         told = [joined((kind.words, joined(found)), ": ") for kind, found in off.items()]
         controls = control_errors(self.drawing, self.hand, self.composition.scales)
         told += [said("control of link {0}: ±{1} mm", control.link, Deviation(mm).text) for control, mm in controls]
-        return [*self.cost.lines(), said("Drawing errors on {0}: {1}", self.paper, self.told), *told]
+        return [*self.cost.lines(), said("Drawing errors on {0}: {1}", self.paper, self.description), *told]
 
     @property
     def data(self) -> dict[str, Any]:
@@ -180,19 +181,19 @@ class Drafted(Errors):
         results: dict[str, dict[str, Any]] = {}
         for result in self.results:
             results.setdefault(result.kind, {})[result.of] = {
-                "mm": _known(result.deviation.mm), "value": _known(result.deviation.value),
-                "relative": _known(result.relative), "worst step": self._step(result.worst_step),
+                "mm": _finite_or_none(result.deviation.mm), "value": _finite_or_none(result.deviation.value),
+                "relative": _finite_or_none(result.relative), "worst step": self._step(result.worst_step),
             }
         step = self._step(self.worst.worst_step) if self.worst else None
         return {"model": self.pencil.model, "paper": self.paper, "results": results,
-                "worst result": self._shared(self.worst) if self.worst else None, "worst step": step}
+                "worst result": self._worst_result_data(self.worst) if self.worst else None, "worst step": step}
 
-    def _shared(self, worst: Result) -> dict[str, Any]:
+    def _worst_result_data(self, worst: Result) -> dict[str, Any]:
         """The worst result, and what each step has contributed to its variance, the most first."""
         whole = sum(worst.shares) or 1.0
         order = sorted(range(len(worst.shares)), key=lambda index: -worst.shares[index])
         shares = [{**self._step(index), "share": worst.shares[index] / whole} for index in order if worst.shares[index]]
-        return {"kind": worst.kind, "of": worst.of, "relative": _known(worst.relative), "shares": shares}
+        return {"kind": worst.kind, "of": worst.of, "relative": _finite_or_none(worst.relative), "shares": shares}
 
     def _step(self, index: int) -> dict[str, Any]:
         drawn, say = self.drawing.drawn, self.composition.plans.tongue
@@ -205,14 +206,14 @@ def percent(part: float) -> Said:
     return arranged("{0} %", Deviation(100 * part).text)
 
 
-def _known(error: float | None) -> float | None:
+def _finite_or_none(error: float | None) -> float | None:
     """An error as data; None where it has no bound."""
     return None if error is None or math.isinf(error) else error
 
 
-def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,
-            check: Mapping[str, Any] | None = None, tongue: Tongue = ENGLISH, protocol: str = "auto",
-            lettered: bool = True) -> Drafted:
+def draft(drawing: Construction, pencil: Pencil, paper: str | None = None,
+          check: Mapping[str, Any] | None = None, tongue: Tongue = ENGLISH, protocol: str = "auto",
+          lettered: bool = True) -> Drafted:
     """A construction on the sheet that it gets with its errors told on it; `protocol` says where the words stand.
 
     Where it is not to be `lettered`, as where it is weighed alone, its letters are not looked at.
@@ -221,10 +222,10 @@ def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,
     words, errors in one figure, the sheet is composed until its scales stay. Fails with `Refused` where they do not, or
     the words do not fit the paper named.
     """
-    composer = Composer(drawing, paper, check, tongue, protocol, traced(drawing.scene), lettered)
+    composer = Composer(drawing, paper, check, tongue, protocol, traced_motion(drawing.scene), lettered)
     usual = first_order(drawing, hand(drawing, composer.usual.lengths_per_mm, pencil), composer.usual)
-    composition = composer.compose(Errors(drawing, pencil, tuple(map(_brief, usual))).deviations, worded=False)
-    for _ in range(ATTEMPTS):
+    composition = composer.compose(Errors(drawing, pencil, tuple(map(_in_one_figure, usual))).deviations, worded=False)
+    for _ in range(MAX_ATTEMPTS):
         scales = composition.scales
         results = first_order(drawing, hand(drawing, scales.lengths_per_mm, pencil), scales)
         composition = composer.compose(Errors(drawing, pencil, results).deviations)
@@ -233,7 +234,7 @@ def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,
     raise Refused("pencil errors", "the sheet finds no scale at which they hold", "name a sheet with --paper")
 
 
-def _brief(result: Result) -> Result:
+def _in_one_figure(result: Result) -> Result:
     """A result whose error is told in one figure, or in two of which one is in mm."""
     known = 1.0 if math.isfinite(result.deviation.value) else math.inf
     return replace(result, deviation=Deviation(known, None if result.deviation.mm is None else known))

@@ -22,7 +22,7 @@ import numpy as np
 
 from graphplan.accuracy.hand import Hand
 from graphplan.accuracy.tolerances import ZERO_TOL
-from graphplan.check.compared import each
+from graphplan.check.compared import components
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.gradients import Gradients
@@ -57,7 +57,7 @@ class Result:
     shares: tuple[float, ...]
 
     @property
-    def named(self) -> Said:
+    def label(self) -> Said:
         """The reading in words."""
         if self.kind.turning:
             return said("{0} of link {1}", self.kind.words, self.of)
@@ -81,14 +81,14 @@ UNBOUNDED = np.errstate(all="ignore")  # errors without bound are infinite, and 
 @UNBOUNDED
 def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Result, ...]:
     """The expected error of every result, as the hand draws the construction at these scales."""
-    domain, values = _slipped(hand)
+    domain, values = _draw_with_slips(hand)
     owner = np.repeat(np.arange(len(hand.slips)), [len(slips) for slips in hand.slips])
     plan_of_step, largest = Plans(drawing).plan_of_step, largest_values(drawing, hand.values)
     found = []
     for reading, _, value in readings(drawing, values, domain):
         if not reading.marks:
             continue  # it is given, not drawn
-        squares = _squares(domain, value)
+        squares = _variances(domain, value)
         off = math.sqrt(float(np.sum(squares)))
         if math.isinf(off):
             squares = np.isinf(squares)
@@ -96,7 +96,7 @@ def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Resu
         of_mm = _of_mm(reading.kind, [hand.values[index] for index in wanted], scales, plan_of_step[wanted[-1]])
         shares = np.bincount(owner, squares, len(hand.slips))
         thing = thing_named(drawing.scene, reading.kind, reading.of)
-        group, arm = _group(drawing.scene, reading.kind)
+        group, arm = _group_and_arm(drawing.scene, reading.kind)
         beside = math.inf if math.isinf(off) else None
         if largest[group] > ZERO_TOL * arm * off:
             beside = arm * off / largest[group]
@@ -105,7 +105,7 @@ def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Resu
     return tuple(found)
 
 
-def _slipped(hand: Hand) -> tuple[Gradients, list[Any]]:
+def _draw_with_slips(hand: Hand) -> tuple[Gradients, list[Any]]:
     """What the hand draws, with its derivatives by each slip."""
     starts = [0, *accumulate(map(len, hand.slips))]
     domain = Gradients(starts[-1])
@@ -113,32 +113,32 @@ def _slipped(hand: Hand) -> tuple[Gradients, list[Any]]:
     def errors(step: int) -> list[Any]:
         return [domain.error(starts[step] + i, size) for i, size in enumerate(hand.slips[step])]
 
-    def beyond(step: int) -> list[Any]:
+    def unsteady_mark(step: int) -> list[Any]:
         return [domain.unsteady(part, range(starts[step], starts[step + 1])) for part in hand.values[step]]
 
-    return domain, hand.draw(domain, errors, beyond)
+    return domain, hand.draw(domain, errors, unsteady_mark)
 
 
-def _squares(domain: Gradients, value: Any) -> Any:
+def _variances(domain: Gradients, value: Any) -> Any:
     """The variance of a number or a vector by each slip: infinite where it has no bound, or no derivative."""
-    squares = np.sum([domain.partials(part) ** 2 for part in each(value)], axis=0)
+    squares = np.sum([domain.partials(part) ** 2 for part in components(value)], axis=0)
     return np.where(np.isfinite(squares), squares, np.inf)
 
 
 @UNBOUNDED
 def deviation(hand: Hand, reading: Callable[[Sequence[Any]], Any]) -> float:
     """The standard deviation of what is read off a program as the hand draws it; `reading` is linear in its values."""
-    domain, values = _slipped(hand)
-    return math.sqrt(float(np.sum(_squares(domain, reading(values)))))
+    domain, values = _draw_with_slips(hand)
+    return math.sqrt(float(np.sum(_variances(domain, reading(values)))))
 
 
 @UNBOUNDED
 def control_errors(drawing: Construction, hand: Hand, scales: Scales) -> list[tuple[Control, float]]:
     """By how many mm each control's pole misses the third line, by standard deviation."""
-    domain, values = _slipped(hand) if drawing.controls else (Gradients(0), [])
+    domain, values = _draw_with_slips(hand) if drawing.controls else (Gradients(0), [])
     found = []
     for control in drawing.controls:
-        off = math.sqrt(float(np.sum(_squares(domain, control.off(values)))))
+        off = math.sqrt(float(np.sum(_variances(domain, control.off(values)))))
         start, end = (hand.values[mark] for mark in control.marks[-1])
         found.append((control, off / math.dist(start, end) / scales.lengths_per_mm(MECHANISM)))
     return found
@@ -168,12 +168,12 @@ def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, fl
     """The largest value of each group of kinds; the places of slides' reactions are seen beside the mechanism."""
     largest = {"place": drawing.scene.extent}
     for reading, _, value in readings(drawing, values, Gradients(0)):
-        group, arm = _group(drawing.scene, reading.kind)
-        largest[group] = max(largest.get(group, 0.0), arm * math.hypot(*each(value)))
+        group, arm = _group_and_arm(drawing.scene, reading.kind)
+        largest[group] = max(largest.get(group, 0.0), arm * math.hypot(*components(value)))
     return largest
 
 
-def _group(scene: Scene, kind: ResultKind) -> tuple[str, float]:
+def _group_and_arm(scene: Scene, kind: ResultKind) -> tuple[str, float]:
     """What a kind is seen beside, and at what arm."""
     return "place" if kind.dimension in (LENGTH, PLACE) else kind.group, float(kind.arm(scene.extent, scene.units))
 
@@ -194,7 +194,7 @@ class Scatter:
     missed: float
 
 
-def sampled(drawing: Construction, hand: Hand, hands: int = HANDS) -> Scatter:
+def sample_hands(drawing: Construction, hand: Hand, hands: int = HANDS) -> Scatter:
     """How far the results of many hands scatter."""
     normal = np.random.default_rng(SEED).normal
     results: dict[str, dict[str, Spread]] = {}
@@ -206,7 +206,7 @@ def sampled(drawing: Construction, hand: Hand, hands: int = HANDS) -> Scatter:
         for reading, _, value in readings(drawing, values, domain):
             if not reading.marks:
                 continue  # it is given, not drawn
-            parts = np.broadcast_arrays(*each(value), missed)[:-1]
+            parts = np.broadcast_arrays(*components(value), missed)[:-1]
             missed = missed | np.isnan(parts).any(axis=0)
             mean, variance = np.nanmean(parts, axis=1), np.nanvar(parts, axis=1)
             spread = Spread(tuple(mean.tolist()), float(variance.sum() ** 0.5))

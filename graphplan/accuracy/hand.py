@@ -57,18 +57,18 @@ class Hand:
         drawn: list[Any] = []
         for step in self.program.steps:
             try:
-                drawn.append(self.made(step, domain, drawn, errors))
+                drawn.append(self.draw_step(step, domain, drawn, errors))
             except Undrawable:
                 drawn.append(beyond(step.index))
         return drawn
 
-    def made(self, step: Step, domain: Domain, drawn: Sequence[Any], errors: Errors) -> Any:
+    def draw_step(self, step: Step, domain: Domain, drawn: Sequence[Any], errors: Errors) -> Any:
         """One step, from what it reads as it is drawn; it fails as its rule does."""
         hole = self._holes.get(step.index, step.index)
         if hole < step.index:
             return drawn[hole]
         exact = step.op.rule(domain, *[drawn[arg] for arg in step.args], **step.params)
-        return self.slipped(step, domain.whole(exact), errors(step.index))
+        return self.add_slips(step, domain.whole(exact), errors(step.index))
 
     @cached_property
     def _holes(self) -> dict[int, int]:
@@ -77,7 +77,7 @@ class Hand:
         return {step.index: first.setdefault(self.values[step.index], step.index)
                 for step in self.program.steps[:self.program.givens]}
 
-    def slipped(self, step: Step, exact: Any, errors: Sequence[Any]) -> Any:
+    def add_slips(self, step: Step, exact: Any, errors: Sequence[Any]) -> Any:
         """What a step makes, off by its errors."""
         steady = self.values[step.index]
         match step.op.gives, step.op.movement:
@@ -87,12 +87,12 @@ class Hand:
                 a, b = _unit(self.values[step.args[0]])
                 return exact[0] + a * errors[0], exact[1] + b * errors[0]
             case kinds.LINE, _:
-                return self._swung(step, exact, *errors)
+                return self._shift_and_turn(step, exact, *errors)
             case kinds.OPENING, _:
                 return (exact[0] + 2 * math.sqrt(steady[0]) * errors[0] + errors[0] * errors[0],)
         return exact[0] + errors[0], exact[1] + errors[1], *exact[2:]
 
-    def _swung(self, step: Step, exact: Any, offset: Any, other: Any) -> Any:
+    def _shift_and_turn(self, step: Step, exact: Any, offset: Any, other: Any) -> Any:
         """A line moved across by an offset at its first point, and turned by its second error.
 
         With (a, b) turned to (a - t b, b + t a) about (x, y), c grows by t (b x - a y).
@@ -100,8 +100,8 @@ class Hand:
         a, b, c = exact
         (x, y), *rest = places(self.program, self.values, step)
         line = self.values[step.index]
-        turn = (other - offset) / _along(line, (x, y), rest[0]) if rest else other
-        return a - turn * b, b + turn * a, c + turn * (b * x - a * y) - _size(exact) * offset
+        turn = (other - offset) / _distance_along(line, (x, y), rest[0]) if rest else other
+        return a - turn * b, b + turn * a, c + turn * (b * x - a * y) - _normal_length(exact) * offset
 
 
 def hand(drawing: Construction, unit: Callable[[str], float], pencil: Pencil) -> Hand:
@@ -153,13 +153,13 @@ def _unit(line: Any) -> tuple[float, float]:
     return line[0] / size, line[1] / size
 
 
-def _size(line: Any) -> Any:
+def _normal_length(line: Any) -> Any:
     """The length of a line's normal, without errors of first order."""
     a, b = (getattr(part, "value", part) for part in line[:2])
     return (a * a + b * b) ** 0.5
 
 
-def _along(line: Any, P: Any, Q: Any) -> float:
+def _distance_along(line: Any, P: Any, Q: Any) -> float:
     """How far Q lies beyond P the way a line runs."""
     a, b = _unit(line)
     return float(b * (Q[0] - P[0]) - a * (Q[1] - P[1]))
@@ -196,7 +196,7 @@ class Pencil:
         return asdict(self)
 
     @property
-    def told(self) -> Said:
+    def description(self) -> Said:
         """The model in words."""
         sizes = (self.point, self.edge, self.angle, self.opening)
         return said("points ±{0} mm, edges ±{1} mm, set squares ±{2}°, openings ±{3} mm", *map(digits, sizes))
@@ -220,7 +220,7 @@ class SeenPencil:
         return self.stated.times(self.scale)
 
     @property
-    def told(self) -> Said:
+    def description(self) -> Said:
         """In words."""
         point, reading = digits(self.pencil.point, 2), digits(self.reading, 2)
         return said("{0} mm, marks measured to {1} mm", point, reading) if self.reading else said("{0} mm", point)
@@ -231,27 +231,27 @@ class SeenPencil:
         return {**self.pencil.model, "reading": self.reading, "marks": self.marks}
 
 
-SHEET = 1000.0  # mm: no hand is so far off on any sheet
+MAX_DEVIATION_MM = 1000.0  # mm: no hand is so far off on any sheet
 UNITS = {"point": "mm", "edge": "mm", "angle": "degrees", "opening": "mm"}
 
 
 def pencil(text: str) -> Pencil:
     """The pencil that a text such as `point=0.2,angle=0.1` speaks of; what it leaves out stays as it is by default."""
     known = [field.name for field in fields(Pencil)]
-    return Pencil(**settings("--pencil", text, known, "a pencil has no such error", read_deviation))
+    return Pencil(**read_settings("--pencil", text, known, "a pencil has no such error", read_deviation))
 
 
 def read_deviation(name: str, text: str) -> float:
     """A standard deviation: a number of millimetres or degrees, below those of a sheet or of a right angle's half."""
-    size, most = decimal(text), 45.0 if name == "angle" else SHEET
+    size, most = decimal(text), 45.0 if name == "angle" else MAX_DEVIATION_MM
     if not 0 <= size < most:
         right = f"a standard deviation in {UNITS[name]}, from 0 to below {most:g}"
         raise Refused(f"--pencil {name}={text}", "this is no size of an error", right)
     return size
 
 
-def settings(option: str, text: str, known: Collection[str], unknown: str,
-             size: Callable[[str, str], float]) -> dict[str, float]:
+def read_settings(option: str, text: str, known: Collection[str], unknown: str,
+                  size: Callable[[str, str], float]) -> dict[str, float]:
     """What a text says of the `known` settings; `size` reads each from its name and what is given for it.
 
     Fails with `Refused`, in the words `unknown`, where it names another one, and where it names one twice.

@@ -11,8 +11,8 @@ from functools import partial
 from typing import Any
 
 from graphplan.accuracy import PREFERENCES
-from graphplan.accuracy.drafted import Drafted, drafted, percent
-from graphplan.accuracy.first_order import sampled
+from graphplan.accuracy.drafted import Drafted, draft, percent
+from graphplan.accuracy.first_order import sample_hands
 from graphplan.accuracy.hand import Pencil
 from graphplan.errors import ConstructionError, GraphplanError, Refused
 from graphplan.kernel.kinds import DIVIDERS, FAILURES, SET_SQUARES, plain
@@ -34,10 +34,10 @@ NAMES = {"": phrase("pose's own"), "auxiliary": phrase("auxiliary"), "trial": ph
 
 def plans_alone(drawing: Construction, pencil: Pencil, paper: str | None = None) -> Drafted:
     """A construction on its paper without words or letters: forms are weighed by their plans."""
-    return drafted(drawing, pencil, paper, protocol="none", lettered=False)
+    return draft(drawing, pencil, paper, protocol="none", lettered=False)
 
 
-def called(methods: Sequence[str]) -> Said:
+def form_name(methods: Sequence[str]) -> Said:
     """What the form is called to which these methods lead."""
     return said("every method") if tuple(methods) == FORMS else joined(NAMES[method]() for method in methods)
 
@@ -63,16 +63,16 @@ class Form:
     @property
     def name(self) -> Said:
         """What it is called."""
-        return called(self.methods)
+        return form_name(self.methods)
 
     @property
-    def told(self) -> Said:
+    def verdict(self) -> Said:
         """What speaks for it, or against it, in words."""
         if self.drafted is None:
             assert self.refusal is not None
             return said("{0}: cannot be drawn: {1}", self.name, reason(self.refusal))
         told = said("{0}: {1} operations, error {2}", self.name, self.drafted.operations, percent(self.drafted.error))
-        return arranged("{0} ({1})", told, self.drafted.worst.named) if self.drafted.worst else told
+        return arranged("{0} ({1})", told, self.drafted.worst.label) if self.drafted.worst else told
 
 
 @dataclass(frozen=True)
@@ -86,9 +86,9 @@ class Preference:
 def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False, inertia: str = "couple",
           paper: str | None = None, construct: Constructing = unchecked, sheets: Sheets | None = None) -> list[Form]:
     """Every form of a scene's construction, each on its sheet; those that cannot be drawn with their reason."""
-    on_sheet = sheets or drafted
+    on_sheet = sheets or draft
 
-    def made(methods: list[str], one: Construction | GraphplanError) -> list[Form]:
+    def draft_forms(methods: list[str], one: Construction | GraphplanError) -> list[Form]:
         try:
             if isinstance(one, GraphplanError):
                 raise one
@@ -97,7 +97,7 @@ def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False,
             return [Form((method,), None, refusal) for method in methods]
 
     ways = constructions(scene, plan=plan, strict=strict, inertia=inertia, construct=construct)
-    return sorted([form for way in ways for form in made(*way)], key=lambda form: FORMS.index(form.methods[0]))
+    return sorted([form for way in ways for form in draft_forms(*way)], key=lambda form: FORMS.index(form.methods[0]))
 
 
 def constructions(scene: Scene, *, construct: Constructing = unchecked,
@@ -135,9 +135,9 @@ def led_to(draw: Constructing,
     return list(found.values())
 
 
-def preferred(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "", plan: str = "",
-              strict: bool = False, inertia: str = "couple", paper: str | None = None,
-              construct: Constructing = unchecked) -> Preference:
+def preferred_form(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "", plan: str = "",
+                   strict: bool = False, inertia: str = "couple", paper: str | None = None,
+                   construct: Constructing = unchecked) -> Preference:
     """The form that is quickest, most accurate or, by the product of both beside the best of each, balanced.
 
     Fails with `Refused` where a method is named as well, and as the pose's own form does where none can be drawn.
@@ -150,26 +150,26 @@ def preferred(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "", pl
                                 construct=construct, sheets=plans_alone))
     if found[0].refusal is not None and all(form.refusal for form in found):
         raise found[0].refusal
-    return weighed(found, prefer)
+    return choose_form(found, prefer)
 
 
-def weighed(found: Sequence[Form], prefer: str) -> Preference:
+def choose_form(found: Sequence[Form], prefer: str) -> Preference:
     """The best of some forms, of which one at least is drawn; of equals the first."""
     drawn = [(form, form.drafted) for form in found if form.drafted is not None]
     word, weigh = WEIGHED[prefer]
     best, on = min(drawn, key=lambda pair: weigh(pair[1]))
     head = said("{0} form preferred: {1}; compared on {2}:", word(), best.name, on.paper)
-    return Preference(best.methods[0], (head, *(form.told for form in found)))
+    return Preference(best.methods[0], (head, *(form.verdict for form in found)))
 
 
 def _on_one_paper(found: list[Form]) -> list[Form]:
     """The same forms, all on the largest of their sheets: a larger one would make any form more accurate."""
     papers = [form.drafted.paper for form in found if form.drafted is not None]
     largest = max(papers, key=lambda paper: sheet_size(paper)[0] * sheet_size(paper)[1], default="")
-    return [_moved(form, form.drafted, largest) if form.drafted is not None else form for form in found]
+    return [_redraft_on(form, form.drafted, largest) if form.drafted is not None else form for form in found]
 
 
-def _moved(form: Form, one: Drafted, paper: str) -> Form:
+def _redraft_on(form: Form, one: Drafted, paper: str) -> Form:
     """A form drawn on another sheet, or why it cannot be."""
     if one.paper == paper:
         return form
@@ -189,7 +189,7 @@ WEIGHED: dict[str, tuple[Phrase, Callable[[Drafted], tuple[float, ...]]]] = dict
 # ---- the forms in parallel: what each costs, and how far off it is drawn ---------------------------------------------
 
 
-WIDTH = 118
+TABLE_WIDTH = 118
 COUNTED = "form", "sheet", "steps", "operations", "lines", "arcs"
 BY_SQUARES, STRICTLY = ("squares", "dividers"), ("S", "E")
 DRAWN = "changes", "flattest", "off"
@@ -207,7 +207,7 @@ class Comparison:
     hands: int = 0
 
     @property
-    def drawn(self) -> list[tuple[str, Drafted]]:
+    def drawn_forms(self) -> list[tuple[str, Drafted]]:
         """The forms that can be drawn, with their names."""
         return [(form.name, form.drafted) for form in self.forms if form.drafted is not None]
 
@@ -215,28 +215,29 @@ class Comparison:
         """Costs and errors as two tables, and the forms that cannot be drawn with their reasons."""
         tools = "compasses and straightedge" if self.strict else "set squares, compasses and dividers"
         head = (*COUNTED, *(STRICTLY if self.strict else BY_SQUARES), *DRAWN)
-        costs = [head, *(self._cost(name, one) for name, one in self.drawn)]
+        costs = [head, *(self._cost_row(name, one) for name, one in self.drawn_forms)]
         errors = [(*OFF, *(("hands", "missed") if self.hands else ())),
-                  *(self._errors(name, one) for name, one in self.drawn)]
-        refused = [form.told for form in self.forms if form.drafted is None]
-        return ["", f"{self.plan.capitalize()} plans, with {tools}:", *(aligned(costs) if self.drawn else ()),
-                *(["", *aligned(errors)] if self.drawn else ()),
-                *(line for reason in refused for line in textwrap.wrap(reason, WIDTH, subsequent_indent="  "))]
+                  *(self._error_row(name, one) for name, one in self.drawn_forms)]
+        refused = [form.verdict for form in self.forms if form.drafted is None]
+        return ["", f"{self.plan.capitalize()} plans, with {tools}:",
+                *(align_columns(costs) if self.drawn_forms else ()),
+                *(["", *align_columns(errors)] if self.drawn_forms else ()),
+                *(line for reason in refused for line in textwrap.wrap(reason, TABLE_WIDTH, subsequent_indent="  "))]
 
     def data(self) -> list[dict[str, Any]]:
         """The same as data: one entry a form."""
-        return [{"form": form.name, "plan": self.plan, "strict": self.strict, **self._found(form)}
+        return [{"form": form.name, "plan": self.plan, "strict": self.strict, **self._form_data(form)}
                 for form in self.forms]
 
-    def _found(self, form: Form) -> dict[str, Any]:
+    def _form_data(self, form: Form) -> dict[str, Any]:
         """Cost and errors of a form, or why it cannot be drawn."""
         one = form.drafted
         if one is None:
             return {"refused": str(form.refusal)}
-        hands = {"hands": asdict(sampled(one.drawing, one.hand, self.hands))} if self.hands else {}
+        hands = {"hands": asdict(sample_hands(one.drawing, one.hand, self.hands))} if self.hands else {}
         return {"cost": one.cost.data, "pencil": one.data, **hands}
 
-    def _cost(self, name: str, one: Drafted) -> tuple[str, ...]:
+    def _cost_row(self, name: str, one: Drafted) -> tuple[str, ...]:
         """One form's row of counts."""
         cost, found = one.cost, one.cost.counts
         pair = ((found.simplicity, found.exactitude) if self.strict
@@ -245,17 +246,17 @@ class Comparison:
         numbers = cost.steps, found.operations, found.R2, found.C3, *pair, found.changes
         return name, one.paper, *map(str, numbers), flattest, str(len(cost.off_sheet))
 
-    def _errors(self, name: str, one: Drafted) -> tuple[str, ...]:
+    def _error_row(self, name: str, one: Drafted) -> tuple[str, ...]:
         """One form's row of errors: those of its worst result, and how it scatters beside what is expected."""
         worst = one.worst
         if worst is None:
             return name, *[""] * (len(OFF) - 1 + 2 * bool(self.hands))
         own, mm = worst.deviation.value, worst.deviation.mm
-        row = (name, worst.named, percent(one.error), f"{Deviation(own).text} {worst.unit(self.scene)}",
-               "" if mm is None else Deviation(mm).text, one.named(worst.worst_step))
+        row = (name, worst.label, percent(one.error), f"{Deviation(own).text} {worst.unit(self.scene)}",
+               "" if mm is None else Deviation(mm).text, one.step_name(worst.worst_step))
         if not self.hands:
             return row
-        scatter = sampled(one.drawing, one.hand, self.hands)
+        scatter = sample_hands(one.drawing, one.hand, self.hands)
         off = scatter.results[worst.kind][worst.of].deviation
         ratio = f"×{digits(off / own, 3)}" if 0 < own < math.inf else ""
         return *row, ratio, percent(scatter.missed)
@@ -270,10 +271,10 @@ LEGEND = (
 
 def legend(hands: int) -> list[str]:
     """What the columns of the tables mean."""
-    return ["", *(line for told in LEGEND[: 2 if hands else 1] for line in textwrap.wrap(told, WIDTH))]
+    return ["", *(line for told in LEGEND[: 2 if hands else 1] for line in textwrap.wrap(told, TABLE_WIDTH))]
 
 
-def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
+def align_columns(rows: Sequence[Sequence[str]]) -> list[str]:
     """Rows as lines, their columns as wide as they need be: the first to the left, the others to the right."""
     wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = ([cell.rjust(w) if i else cell.ljust(w) for i, (cell, w) in enumerate(zip(row, wide, strict=True))]

@@ -60,7 +60,7 @@ def reached(drawing: Construction) -> Reached | None:
     found = relations(drawing.scene, ALONE)
     if found is None:
         return None
-    poses = [pose for pins, travels in _drags(found) if (pose := found.posed(pins, travels)) is not None]
+    poses = [pose for pins, travels in _drags(found) if (pose := found.pose(pins, travels)) is not None]
     if not poses:
         return None
     points, guides = ({name: np.array([complex(*pose[part][name]) for pose in poses]) for name in poses[0][part]}

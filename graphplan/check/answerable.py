@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from typing import Any, Generic, TypeVar
 
-from graphplan.check.arithmetics import FLOATS, bounded_rates, enclosed, enclosures
+from graphplan.check.arithmetics import FLOATS, bounded_rates, enclose_scene, enclosures
 from graphplan.check.report import NOTHING_MOVES, Report
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.mechanism.equations import System, stages
@@ -38,7 +38,7 @@ Reasons = dict[str, dict[str, str]]
 Answer = TypeVar("Answer")
 
 
-def answered(scene: Scene, attempt: Callable[[Scene], Answer]) -> tuple[Answer, Reasons]:
+def answer_what_exists(scene: Scene, attempt: Callable[[Scene], Answer]) -> tuple[Answer, Reasons]:
     """What `attempt` gives of a scene, and why any of its extras are left out, by kind and name.
 
     Fails as `attempt` does of the scene without extras, or where these are all that is asked for and none is left.
@@ -49,15 +49,15 @@ def answered(scene: Scene, attempt: Callable[[Scene], Answer]) -> tuple[Answer, 
         every = extras(scene)
         if not every:
             raise
-        if resting := at_rest(scene):
-            moving = without(scene, resting)
+        if resting := reasons_at_rest(scene):
+            moving = drop_extras(scene, resting)
             if not (extras(moving) or asks_more(scene)):
                 raise
-            answer, reasons = answered(moving, attempt)
-            return answer, joined(resting, reasons)
+            answer, reasons = answer_what_exists(moving, attempt)
+            return answer, join_reasons(resting, reasons)
         search = _Search(scene, attempt)
         if asks_more(scene):
-            search.answer = attempt(asking(scene, ()))
+            search.answer = attempt(with_extras(scene, ()))
         search.add(every, fault)
         if search.answer is None:
             raise
@@ -69,17 +69,17 @@ def extras(scene: Scene) -> list[Item]:
     return [(kind, name) for kind in EXTRAS for name in getattr(scene.find, kind)]
 
 
-def without(scene: Scene, reasons: Mapping[str, Mapping[str, str]]) -> Scene:
+def drop_extras(scene: Scene, reasons: Mapping[str, Mapping[str, str]]) -> Scene:
     """The scene without the extras that these reasons are of."""
-    return asking(scene, [(kind, name) for kind, name in extras(scene) if name not in reasons.get(kind, ())])
+    return with_extras(scene, [(kind, name) for kind, name in extras(scene) if name not in reasons.get(kind, ())])
 
 
-def joined(one: Reasons, other: Reasons) -> Reasons:
+def join_reasons(one: Reasons, other: Reasons) -> Reasons:
     """Both reasons, by kind and name."""
     return {kind: one.get(kind, {}) | other.get(kind, {}) for kind in (*one, *other)}
 
 
-def at_rest(scene: Scene) -> Reasons:
+def reasons_at_rest(scene: Scene) -> Reasons:
     """Why poles of links that do not move relative to each other, and circles of links at rest, do not exist."""
     reasons: Reasons = {}
     if scene.irrational:
@@ -97,7 +97,7 @@ def at_rest(scene: Scene) -> Reasons:
     return reasons
 
 
-def asking(scene: Scene, items: Sequence[Item]) -> Scene:
+def with_extras(scene: Scene, items: Sequence[Item]) -> Scene:
     """The scene with no extras but these."""
     kept: dict[str, Any] = {kind: tuple(name for own, name in items if own == kind) for kind in EXTRAS}
     return replace(scene, find=replace(scene.find, **kept))
@@ -126,7 +126,7 @@ class _Search(Generic[Answer]):
             return
         for half in (items[:len(items) // 2], items[len(items) // 2:]):
             try:
-                self.answer = self.attempt(asking(self.scene, [*self.kept, *half]))
+                self.answer = self.attempt(with_extras(self.scene, [*self.kept, *half]))
                 self.kept += half
             except (ConstructionError, Refused, SingularPose) as smaller:
                 self.add(half, smaller)
@@ -147,10 +147,10 @@ def reason(fault: GraphplanError) -> str:
 
 ROOTS = "fractions do not hold friction in journals: the size of a reaction is a root; leave out --exact"
 REPEATING = "statically indeterminate: friction depends on forces that equilibrium does not tell"
-DIGITS = 120  # of the enclosures in which what overlaps nothing stands still
+ENCLOSURE_DIGITS = 120  # of the enclosures in which what overlaps nothing stands still
 
 
-def decided(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
+def decide_friction(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
     """The scene with the names of its pairs that stand still, where some could rub. Where its forces with friction
     cannot be had, the scene without its friction, and the reason."""
     loads = scene.loads
@@ -164,7 +164,7 @@ def decided(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
     if scene.repeating:
         return smooth, REPEATING
     with suppress(GraphplanError, ArithmeticError):
-        scene = replace(scene, loads=replace(loads, resting=_resting(scene)))
+        scene = replace(scene, loads=replace(loads, resting=_resting_pairs(scene)))
     try:
         with_friction(scene, loads.rounds, exact)
     except SingularPose as singular:
@@ -183,15 +183,15 @@ def _journals_bear(smooth: Scene, journals: set[str]) -> bool:
     return any(any(force) for (point, _), force in borne.joints.items() if point in journals)
 
 
-def _resting(scene: Scene) -> frozenset[str]:
+def _resting_pairs(scene: Scene) -> frozenset[str]:
     """The names of the pairs that stand still."""
     from graphplan.solver.friction import resting
 
     if not scene.irrational:
         return resting(solve(scene, exact=True), lambda speed: not speed)
-    by = enclosures(DIGITS * 10 // 3) if find_spec("flint") else FLOATS
+    by = enclosures(ENCLOSURE_DIGITS * 10 // 3) if find_spec("flint") else FLOATS
     with by.working():
-        return resting(bounded_rates(enclosed(scene, by), by), lambda speed: by.lift(speed).overlaps(by.lift(0)))
+        return resting(bounded_rates(enclose_scene(scene, by), by), lambda speed: by.lift(speed).overlaps(by.lift(0)))
 
 
 # ---- a pose that is singular in part ---------------------------------------------------------------------------------
@@ -210,7 +210,7 @@ class RegularPart:
     missing: Missing
 
 
-def in_part(scene: Scene, reported: Callable[[Scene], R]) -> R:
+def report_regular_part(scene: Scene, reported: Callable[[Scene], R]) -> R:
     """The report of a scene, or of the part of it that is regular; fails with `SingularPose` where nothing is."""
     try:
         return reported(scene)
@@ -219,7 +219,7 @@ def in_part(scene: Scene, reported: Callable[[Scene], R]) -> R:
         if part is None:
             raise
         found = reported(part.scene)
-        return replace(found, whole=scene, missing=joined(part.missing, found.missing))
+        return replace(found, whole=scene, missing=join_reasons(part.missing, found.missing))
 
 
 def regular_part(scene: Scene) -> RegularPart | None:
@@ -228,9 +228,9 @@ def regular_part(scene: Scene) -> RegularPart | None:
         return None
     dead = _singular_links(scene)
     kept = [link for link in scene.moving if link not in dead]
-    loads, untold = _loads(scene, kept, dead)
-    bare = _of_links(scene, kept)
-    known, missing = _asked(scene, dead)
+    loads, untold = _regular_loads(scene, kept, dead)
+    bare = _scene_of_links(scene, kept)
+    known, missing = _regular_questions(scene, dead)
     part = replace(bare, find=known, loads=loads)
     missing |= untold
     return RegularPart(part, missing) if kept and _answers(scene, known, kept, loads) else None
@@ -251,43 +251,43 @@ def _singular_links(scene: Scene) -> dict[str, str]:
     dead: dict[str, str] = {}
     for stage in stages(System(scene)):
         team = [name for sort, name in stage if sort == "link"]
-        part = _of_links(scene, [*kept, *team])
+        part = _scene_of_links(scene, [*kept, *team])
         try:
             if team and not bracing(part).sound:
-                dead |= dict.fromkeys(team, f"it hangs on what is singular: {_listed(dead)}")
+                dead |= dict.fromkeys(team, f"it hangs on what is singular: {_links_text(dead)}")
                 continue
             if team:
                 solve(part, exact=not scene.irrational)
             kept += team
         except SingularPose as singular:
-            dead |= dict.fromkeys(team, f"singular pose of {_listed(team)}: {singular.why}")
+            dead |= dict.fromkeys(team, f"singular pose of {_links_text(team)}: {singular.why}")
     return dead
 
 
-def _of_links(scene: Scene, links: Collection[str]) -> Scene:
+def _scene_of_links(scene: Scene, links: Collection[str]) -> Scene:
     """The scene with these moving links alone, and nothing asked."""
     own = {FRAME, *links}
     kept = {link: points for link, points in scene.links.items() if link in own}
     on = {point for points in kept.values() for point in points}
     return replace(scene, links=kept, written=tuple(pair for pair in scene.written if own.issuperset(pair.links)),
                    motions={point: motion for point, motion in scene.motions.items() if point in on}, loads=None,
-                   find=Find((), (), (), (), ()), redundant=_named(scene.redundant, own),
-                   repeating=_named(scene.repeating, own))
+                   find=Find((), (), (), (), ()), redundant=_conditions_on(scene.redundant, own),
+                   repeating=_conditions_on(scene.repeating, own))
 
 
-def _named(conditions: tuple[Condition, ...], own: Collection[str]) -> tuple[Condition, ...]:
+def _conditions_on(conditions: tuple[Condition, ...], own: Collection[str]) -> tuple[Condition, ...]:
     """The conditions on links of a part."""
     return tuple(condition for condition in conditions if condition.link in own)
 
 
-def _listed(links: Collection[str]) -> str:
+def _links_text(links: Collection[str]) -> str:
     return f"link{'s' if len(links) > 1 else ''} {' '.join(links)}"
 
 
 # ---- what is asked ---------------------------------------------------------------------------------------------------
 
 
-def _asked(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Missing]:
+def _regular_questions(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Missing]:
     """What is asked of the links that are known, and why nothing is told of the others."""
     find = asked_by_name(scene)
     at = {point: next((dead[link] for link in links if link in dead), "") for point, links in scene.links_of.items()
@@ -300,21 +300,21 @@ def _asked(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Missing]:
         "curvature": {name: (link,) for name, (_, link) in find.traced.items()},
         "inflection": {link: (link,) for link in find.inflection},
     }
-    missing = {key: {name: why for name, links in named.items() if (why := _why(links, dead))}
+    missing = {key: {name: why for name, links in named.items() if (why := _first_reason(links, dead))}
                for key, named in of.items()}
     missing["points"] = {point: at[point] for point in (*find.velocity, *find.acceleration) if point in at}
     velocity, acceleration = (tuple(point for point in points if point not in at)
                               for points in (find.velocity, find.acceleration))
     pairs = None if find.reactions is None else tuple(
         name for name in find.reactions if sum(link not in dead for link in scene.links_of.get(name, ())) > 1
-        or any(pair.name == name and not _why(pair.links, dead) for pair in scene.guided))
+        or any(pair.name == name and not _first_reason(pair.links, dead) for pair in scene.guided))
     links, slides, poles, curvature, inflection = (
         tuple(name for name in of[key] if name not in missing[key]) for key in of)
     known = Find(velocity, acceleration, pairs, links, slides, poles, curvature, inflection)
     return known, {key: named for key, named in missing.items() if named}
 
 
-def _why(links: Collection[str], dead: Mapping[str, str]) -> str:
+def _first_reason(links: Collection[str], dead: Mapping[str, str]) -> str:
     """Why one of these links is not known; nothing where all are."""
     return next((dead[link] for link in links if link in dead), "")
 
@@ -333,12 +333,12 @@ def asked_by_name(scene: Scene) -> Find:
 # ---- forces ----------------------------------------------------------------------------------------------------------
 
 
-def _loads(scene: Scene, kept: Collection[str], dead: Mapping[str, str]) -> tuple[Loads | None, Missing]:
+def _regular_loads(scene: Scene, kept: Collection[str], dead: Mapping[str, str]) -> tuple[Loads | None, Missing]:
     """The loads of the links that are known, where their forces can be had, and why others cannot."""
     loads = scene.loads
     if loads is None:
         return None, {}
-    loaded = _loaded(scene, dead)
+    loaded = _loaded_links(scene, dead)
     own = {FRAME, *kept}
     found = replace(loads, masses={link: mass for link, mass in loads.masses.items() if link in own},
                     forces=tuple(force for force in loads.forces if force.on in own),
@@ -346,7 +346,7 @@ def _loads(scene: Scene, kept: Collection[str], dead: Mapping[str, str]) -> tupl
                     frictions=tuple(one for one in loads.frictions if own.issuperset(
                         one.links or scene.links_of[one.at])))
     why = next(iter(dead.values()), "")
-    part = replace(_of_links(scene, kept), loads=found)
+    part = replace(_scene_of_links(scene, kept), loads=found)
     try:
         if any(balance.link in dead for balance in loads.balances) or not bracing(part, balanced=True).sound:
             raise SingularPose(why)
@@ -359,17 +359,17 @@ def _loads(scene: Scene, kept: Collection[str], dead: Mapping[str, str]) -> tupl
                       "reactions": {name: reason for name, _ in _reactions(scene)}}
     untold = {"balance": {name: why for name, one in loads.named_balances.items() if one.link in loaded},
               "reactions": {name: why for name, links in _reactions(scene)
-                            if not loaded.isdisjoint(links) and _passed(links, loaded, dead)}}
+                            if not loaded.isdisjoint(links) and _bears_lost_load(links, loaded, dead)}}
     return found, {key: named for key, named in untold.items() if named}
 
 
-def _passed(links: Collection[str], loaded: Collection[str], dead: Mapping[str, str]) -> bool:
+def _bears_lost_load(links: Collection[str], loaded: Collection[str], dead: Mapping[str, str]) -> bool:
     """Whether a pair of these links bears what a link that is left out does to them."""
     moving = [link for link in links if link != FRAME]
     return any(link in dead for link in moving) or all(link in loaded for link in moving)
 
 
-def _loaded(scene: Scene, dead: Collection[str]) -> set[str]:
+def _loaded_links(scene: Scene, dead: Collection[str]) -> set[str]:
     """The links that what is left out loads, against the order of the motion: itself, and all on which it hangs."""
     order = {link: k for k, stage in enumerate(stages(System(scene, balanced=True))) for sort, link in stage
              if sort == "link"}

@@ -98,21 +98,21 @@ def enclosures(bits: int, name: str = "enclosures") -> Bounds:
 Arithmetic = Exact | Bounds
 
 
-def enclosed(scene: Scene, by: Bounds) -> Scene:
+def enclose_scene(scene: Scene, by: Bounds) -> Scene:
     """The scene in numbers with bounds: placements, angles and rpm as written, any other float as it is.
 
     Points that the scene's floats hold for one, and that cannot be told apart, are one. Fails with `Refused` where
     arcs miss each other that touch to a float's digits.
     """
     if scene.assembly is not None:
-        scene = assembled(scene, enclosed(scene.assembly.given, by), by)
+        scene = enclose_assembly(scene, enclose_scene(scene.assembly.given, by), by)
 
     def direction(one: Slide | Balance) -> Any:
         if scene.assembly is not None or one.written is None:
             return one.direction
         return vector(one.written, points.__getitem__, by.reckoning)[:2]
 
-    def driven(one: Drive) -> Drive:
+    def enclose_drive(one: Drive) -> Drive:
         return one.driven_at(by.pi() * one.rpm / 30, one.change) if one.rpm else one
 
     try:
@@ -122,7 +122,7 @@ def enclosed(scene: Scene, by: Bounds) -> Scene:
         raise Refused(f"{scene.name}: points", misfit.what, misfit.instead) from None
     except by.doubt:
         raise by.doubt("whether the arcs of its points meet cannot be told") from None
-    found = found.with_drives(map(driven, found.drives))
+    found = found.with_drives(map(enclose_drive, found.drives))
     parts = {part: getattr(found, part) for part in ("points", "written", "loads", "motions")}
     return replace(found, **mapped(parts, lambda number: by.lift(number) if isinstance(number, float) else number))
 
@@ -168,7 +168,7 @@ class Proofs(Domain):
         return self._by.middle(value)
 
 
-def assembled(scene: Scene, given: Scene, by: Bounds) -> Scene:
+def enclose_assembly(scene: Scene, given: Scene, by: Bounds) -> Scene:
     """A pose that is constructed, in numbers with bounds: where its steps lead from the given scene in such numbers."""
     assert scene.assembly is not None
     assembly = replace(scene.assembly, given=given, moves=moved_on(given, scene.assembly.shifts, by.reckoning))
@@ -186,7 +186,7 @@ def assembled(scene: Scene, given: Scene, by: Bounds) -> Scene:
 def placing_error(scene: Scene) -> float:
     """How far a constructed point is off at most, by rounding alone, as floats prove it; infinite where they cannot."""
     try:
-        known = enclosed(scene, FLOATS)
+        known = enclose_scene(scene, FLOATS)
     except Unproven:
         return math.inf
     return max(math.hypot(*(FLOATS.lift(part).error for part in at)) for at in known.points.values())

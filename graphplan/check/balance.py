@@ -16,8 +16,8 @@ import numpy as np
 from graphplan.check.cycle import cycle
 from graphplan.check.tolerances import SUM_TOL
 from graphplan.check.trusted import construct
-from graphplan.cycle.positions import Moved
-from graphplan.cycle.turn import followed, whole_motion
+from graphplan.cycle.positions import MovingLink
+from graphplan.cycle.turn import motion_and_travel, whole_motion
 from graphplan.errors import Disagreement, Refused
 from graphplan.machine.linkages.added_dyads import Dyads, added_dyads
 from graphplan.machine.linkages.counterweights import Counterweight, along_guide, balanced, full
@@ -59,9 +59,9 @@ class MassMotion:
         return self.links.travel
 
     @property
-    def closed(self) -> bool:
+    def closes(self) -> bool:
         """Whether the motion closes."""
-        return self.links.closed
+        return self.links.closes
 
     @property
     def faults(self) -> Mapping[int, str]:
@@ -77,11 +77,11 @@ def mass_motion(scene: Scene, positions: int, links: LinkMotion | None = None) -
     """
     centre = mass_centre(scene)
     links = links or link_motion(scene, positions)
-    places, *rates = links.of(scene, centre.points)
+    places, *rates = links.points_motion(scene, centre.points)
     path, velocity, acceleration = (centre.at(vectors) for vectors in (places, *rates))
     motion = MassMotion(centre, links, {**links.points, **places}, path, velocity, acceleration,
                         shaking(centre, places, rates[1], links.alpha), {})
-    check = _compared(motion)
+    check = _solver_gaps(motion)
     for what, gap in check.items():
         if not gap <= SUM_TOL:
             raise Disagreement(scene.name, what, "otherwise", "by the solver", gap)
@@ -115,7 +115,7 @@ def balancing(scene: Scene, positions: int, way: str = "", keep: Sequence[str] =
     if keep or radii:
         way = way or FULL
     try:
-        weights = _weights(scene, way or FULL, keep, radii or {}, share, found)
+        weights = _counterweights(scene, way or FULL, keep, radii or {}, share, found)
     except Refused as refused:
         if way:
             raise
@@ -123,15 +123,16 @@ def balancing(scene: Scene, positions: int, way: str = "", keep: Sequence[str] =
     way = way or (NONE if note else FULL)
     after = mass_motion(balanced(scene, weights), positions, before.links) if weights else None
     driven = found if found and found.omega else None
-    check = {**before.check, **_held(after or before, way), **(_by_orders(before, driven) if driven else {})}
+    check = {**before.check, **_counterweight_gap(after or before, way),
+             **(_orders_gap(before, driven) if driven else {})}
     for what, gap in check.items():
         if not gap <= SUM_TOL:
             raise Disagreement(scene.name, what, "otherwise", "by the solver", gap)
     return Balancing(before, way, weights, after, driven, check, note)
 
 
-def _weights(scene: Scene, way: str, keep: Sequence[str], radii: Mapping[str, float], share: float,
-             found: Engine | None) -> tuple[Counterweight, ...]:
+def _counterweights(scene: Scene, way: str, keep: Sequence[str], radii: Mapping[str, float], share: float,
+                    found: Engine | None) -> tuple[Counterweight, ...]:
     """The counterweights of one way."""
     if way == FULL:
         return full(scene, keep, radii)
@@ -145,7 +146,7 @@ def _weights(scene: Scene, way: str, keep: Sequence[str], radii: Mapping[str, fl
     return ()
 
 
-def _held(motion: MassMotion, way: str) -> dict[str, float]:
+def _counterweight_gap(motion: MassMotion, way: str) -> dict[str, float]:
     """How far the mass centre moves that counterweights hold, or across the guide, beside the reach of the links."""
     if way not in (FULL, GUIDED):
         return {}
@@ -157,7 +158,7 @@ def _held(motion: MassMotion, way: str) -> dict[str, float]:
     return {"counterweights": float(abs(path - path[0]).max()) / scene.extent}
 
 
-def _by_orders(motion: MassMotion, found: Engine) -> dict[str, float]:
+def _orders_gap(motion: MassMotion, found: Engine) -> dict[str, float]:
     """By how much all orders together differ from the shaking force, where the crank turns evenly and is short enough
     for its orders to come to an end."""
     scene, there = motion.centre.scene, np.isfinite(motion.path)
@@ -168,25 +169,25 @@ def _by_orders(motion: MassMotion, found: Engine) -> dict[str, float]:
     return {"orders": _gap(force, [*motion.shaking.parts.values()])}
 
 
-def _compared(motion: MassMotion) -> dict[str, float]:
+def _solver_gaps(motion: MassMotion) -> dict[str, float]:
     """By how much the opinions differ, each beside the largest of what it adds up."""
     centre, scene = motion.centre, motion.centre.scene
     there = np.flatnonzero(np.isfinite(motion.path))
     points, ways = ({name: z[there] for name, z in arrays.items()} for arrays in (motion.points, motion.links.guides))
-    alone = _alone(scene)
+    alone = _with_inertia_loads_only(scene)
     posed = poses.posed(alone, points, ways)
     rates = poses.solve(posed, there.size)
     parts = {link: float(mass.mass / centre.mass) for link, mass in centre.masses.items()}
     reach = max(abs(z - points[centre.base]).max() for z in points.values())
     found = {"path": _gap(motion.path[there], [parts[link] * points[mass.centre] for link, mass
                                                in centre.masses.items()], reach)}
-    rate = _fastest(motion, there)
+    rate = _largest_rate(motion, there)
     speed, sharp = reach * rate, reach * rate**2
     for kind, ours, theirs, size in (("velocity", motion.velocity, rates.velocity, speed),
                                      ("acceleration", motion.acceleration, rates.acceleration, sharp)):
         terms = [parts[link] * _complex(theirs[mass.centre], there.size) for link, mass in centre.masses.items()]
         found[kind] = _gap(ours[there], terms, size)
-    borne = _borne(alone, poses.reactions(posed, rates, there.size), points, motion.shaking.about, there.size)
+    borne = _frame_reactions(alone, poses.reactions(posed, rates, there.size), points, motion.shaking.about, there.size)
     if borne is not None:
         metre, weight = float(METRES[scene.units.length]), float(KILOGRAMS[scene.units.mass] * centre.mass)
         size = weight * metre * sharp
@@ -196,7 +197,7 @@ def _compared(motion: MassMotion) -> dict[str, float]:
     return found
 
 
-def _fastest(motion: MassMotion, there: Any) -> float:
+def _largest_rate(motion: MassMotion, there: Any) -> float:
     """The largest rate of turning in these poses, in rad/s, or what a link's acceleration comes to from rest; one where
     the drives stand still: beside it rates are compared."""
     if not any(drive.rate or drive.change for drive in motion.centre.scene.drives):
@@ -213,19 +214,19 @@ def _gap(ours: Any, terms: list[Any], size: float = 0.0) -> float:
     return apart / beside if beside else apart
 
 
-def _alone(scene: Scene) -> Scene:
+def _with_inertia_loads_only(scene: Scene) -> Scene:
     """The scene with its masses as the only loads, held by its drives: other balances hold it in some poses alone."""
     masses = scene.loads.masses if scene.loads else {}
     return replace(scene, loads=Loads((0, 0), masses, (), (), tuple(map(scene.balance_of, scene.drives))))
 
 
-def _borne(scene: Scene, found: statics.Reactions, points: Mapping[str, Any], about: complex,
-           count: int) -> list[tuple[Any, Any]] | None:
+def _frame_reactions(scene: Scene, found: statics.Reactions, points: Mapping[str, Any], about: complex,
+                     count: int) -> list[tuple[Any, Any]] | None:
     """What the frame bears by the reactions of its pairs and the balances: the forces in N, each with its moment in
     N m; none where reactions are statically indeterminate."""
     newton, metre = float(NEWTONS[scene.units.force]), float(METRES[scene.units.length])
 
-    def borne(vector: Any, at: str, couple: Any = 0.0) -> tuple[Any, Any]:
+    def reaction(vector: Any, at: str, couple: Any = 0.0) -> tuple[Any, Any]:
         force = newton * _complex(vector, count)
         return force, metre * ((points[at] - about).conjugate() * force).imag + newton * couple
 
@@ -235,19 +236,19 @@ def _borne(scene: Scene, found: statics.Reactions, points: Mapping[str, Any], ab
             if (joint.at, link) not in found.joints:
                 return None
             if FRAME in (link, joint.links[0]):
-                bearing.append(borne(times(1 if link == FRAME else -1, found.joints[joint.at, link]), joint.at))
+                bearing.append(reaction(times(1 if link == FRAME else -1, found.joints[joint.at, link]), joint.at))
     for slide in (slide for slide in scene.slides if FRAME in slide.links):
         if slide.name not in found.slides:
             return None
         force, couple = found.slides[slide.name]
         sign = 1 if slide.link == FRAME else -1
-        bearing.append(borne(times(sign, force), slide.at, sign * couple))
+        bearing.append(reaction(times(sign, force), slide.at, sign * couple))
     if any(FRAME in pair.links for pair in (*scene.gears, *scene.contacts)):
         return None
     for balance, value in zip(statics.asked(scene).balances, found.balances, strict=True):
         if balance.on != FRAME:
             continue
-        bearing.append(borne(times(-1, value), balance.at) if isinstance(value, tuple)
+        bearing.append(reaction(times(-1, value), balance.at) if isinstance(value, tuple)
                        else (np.zeros(count, dtype=complex), -newton * value))
     return bearing
 
@@ -260,7 +261,7 @@ def _complex(vector: Any, count: int) -> Any:
 # ---- added dyads -----------------------------------------------------------------------------------------------------
 
 
-def checked_dyads(scene: Scene) -> tuple[Dyads, dict[str, float]]:
+def check_added_dyads(scene: Scene) -> tuple[Dyads, dict[str, float]]:
     """The scene with the dyads that carry its mass centre, and by how much the plans of that differ from the solver's
     velocity and acceleration of the mass centre of the scene without them.
 
@@ -292,18 +293,19 @@ class LinkMotion:
     """
 
     travel: Any
-    closed: bool
+    closes: bool
     points: Mapping[str, Any]
     guides: Mapping[str, Any]
     faults: Mapping[int, str]
-    moved: Mapping[str, Moved]
+    moved: Mapping[str, MovingLink]
     at: Mapping[str, str]
     velocity: Mapping[str, Any]
     acceleration: Mapping[str, Any]
     omega: Mapping[str, Any]
     alpha: Mapping[str, Any]
 
-    def of(self, scene: Scene, names: Iterable[str]) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
+    def points_motion(self, scene: Scene,
+                      names: Iterable[str]) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
         """Places, velocities and accelerations of points of the links, also of such as were added to the scene."""
         places, velocities, accelerations = dict[str, Any](), dict[str, Any](), dict[str, Any]()
         still = np.zeros(self.travel.shape, dtype=complex)
@@ -335,9 +337,9 @@ def link_motion(scene: Scene, positions: int) -> LinkMotion:
         raise Refused(f"{scene.name}: the cycle", next(iter(found.faults.values())), "another pose")
     if found.wrong:
         raise Disagreement(scene.name, "motion", f"otherwise in pose {found.wrong[0]}", "by the solver", math.nan)
-    motion, travel = followed(bare, positions, span)
+    motion, travel = motion_and_travel(bare, positions, span)
     lost = np.isnan(found.gaps["velocity"])
-    moved = {link: one._replace(base=np.where(lost, np.nan, one.base)) for link, one in motion.moved(travel).items()}
+    moved = {link: one._replace(base=np.where(lost, np.nan, one.base)) for link, one in motion.links_at(travel).items()}
     still, results = np.zeros(positions, dtype=complex), found.results
     velocity, acceleration = ({name: results[kind].get(name, still) for name in pins}
                               for kind in ("velocity", "acceleration"))
@@ -355,5 +357,5 @@ def _span(scene: Scene, positions: int) -> tuple[tuple[float, float], bool]:
     if not scene.drives[0].slides:
         low, high = (round(math.degrees(end), 12) for end in (low, high))
     step = (high - low) / positions
-    ends = (low, high - step) if motion.whole else (low + step / 2, high - step / 2)
-    return ends, motion.whole
+    ends = (low, high - step) if motion.goes_round else (low + step / 2, high - step / 2)
+    return ends, motion.goes_round

@@ -19,11 +19,11 @@ from graphplan.kernel.claims import broken
 from graphplan.mechanism.scene import parse
 from graphplan.solver import solve
 
-SPACED = 400  # of them at least in a piece of the law
+MIN_PIECE_STEPS = 400  # of them at least in a piece of the law
 STENCIL = np.array([1, -8, 0, 8, -1]) / 12  # of five neighbours
 
 
-def checked(drawing: CamDrawing) -> dict[str, float]:
+def check_cam(drawing: CamDrawing) -> dict[str, float]:
     """By how much the opinions differ, relative to what each is compared with.
 
     Fails with `BrokenClaim` where a drawn step breaks a claim, and with `Disagreement` where opinions differ by more
@@ -34,15 +34,15 @@ def checked(drawing: CamDrawing) -> dict[str, float]:
         raise BrokenClaim(cam.task.name, fault)
     angles = np.array([one.angle for one in drawing.divisions])
     found = {"points": float(max(abs(np.array(drawing.at("K")) - cam.on_cam(angles)))) / cam.pair.base,
-             "motion": max(_moved(cam, float(angle)) for angle in angles),
-             "curvature": _curvature(cam), "law": _law(cam)}
+             "motion": max(_motion_gap(cam, float(angle)) for angle in angles),
+             "curvature": _curvature_gap(cam), "law": _law_gap(cam)}
     for what, size in found.items():
         if not size <= CAM_TOL[what]:
             raise Disagreement(cam.task.name, what, "otherwise", "by the second opinion", size)
     return found
 
 
-def _moved(cam: Cam, angle: float) -> float:
+def _motion_gap(cam: Cam, angle: float) -> float:
     """By how much the solver's velocity and acceleration of the follower differ from the law's, beside those of a point
     of the cam as far out as the base circle, or the cam's turning, or beside the largest where that is larger."""
     rates, wanted, omega = solve(parse(scene_text(cam, angle), cam.task.name)), motion(cam, angle), cam.task.cam.omega
@@ -55,20 +55,20 @@ def _moved(cam: Cam, angle: float) -> float:
     return max(gap / size for gap, size in zip(gaps, sizes, strict=True))
 
 
-def _near(one: Stretch) -> tuple[Any, float]:
+def _stencil_angles(one: Stretch) -> tuple[Any, float]:
     """Angles inside a piece of the law in rows of five neighbours, in degrees, and their distance in radians."""
     low, high = float(one.start), float(one.end)
-    step = min(CAM_STEP, np.radians(high - low) / SPACED)
+    step = min(CAM_STEP, np.radians(high - low) / MIN_PIECE_STEPS)
     edge = 3 * np.degrees(step)
     return np.linspace(low + edge, high - edge, 7)[:, None] + np.degrees(step) * np.arange(-2, 3), step
 
 
-def _curvature(cam: Cam) -> float:
+def _curvature_gap(cam: Cam) -> float:
     """The curvature of the profile against the turning of its normal over the way of its points, times the radius of
     the base circle; and how far that way is from being square to the normal."""
     worst = 0.0
     for one in cam.law.stretches:
-        angles, step = _near(one)
+        angles, step = _stencil_angles(one)
         touch = cam.touched(one, angles)
         spots, normals = (cam.pair.turned(vectors, angles) for vectors in (touch.point, touch.normal))
         way, turning = spots @ STENCIL / step, normals @ STENCIL / step
@@ -80,11 +80,11 @@ def _curvature(cam: Cam) -> float:
     return worst
 
 
-def _law(cam: Cam) -> float:
+def _law_gap(cam: Cam) -> float:
     """Each derivative of the law against the one before it, differentiated, beside the largest."""
     worst = 0.0
     for order in range(1, ORDERS):
-        rows = [(one, *_near(one)) for one in cam.law.stretches]
+        rows = [(one, *_stencil_angles(one)) for one in cam.law.stretches]
         size = max(float(abs(one.at(angles, order)).max()) for one, angles, _ in rows) or 1.0
         for one, angles, step in rows:
             sloped = one.at(angles, order - 1) @ STENCIL / step

@@ -15,12 +15,12 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from graphplan.check.answerable import Reasons, answered, decided, extras, joined, without
+from graphplan.check.answerable import Reasons, answer_what_exists, decide_friction, drop_extras, extras, join_reasons
 from graphplan.check.arithmetics import enclosures
-from graphplan.check.compared import drawn_sizes, each, weight
-from graphplan.check.json_results import data
-from graphplan.check.report import Opinion, Report, opinion
-from graphplan.check.trusted import first_sound, report, solver_alone
+from graphplan.check.compared import components, drawn_sizes, weight
+from graphplan.check.json_results import result_data
+from graphplan.check.report import ReferenceSolution, Report, reference_solution
+from graphplan.check.trusted import first_sound, report, solver_results
 from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, GraphplanError, Refused, SingularPose
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, precision
 from graphplan.mechanism.load_values import IRRATIONAL
@@ -30,12 +30,12 @@ from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.solver import solve
 
-MOST = 10_000  # digits
-FLOAT = 15  # digits that a float has in any case
-ENOUGH = 1 << 14  # bits, to which the precision is doubled at most; for many digits it is doubled once in any case
-PATIENCE = 4  # times the least precision, up to which a way to draw it may need more bits than the solver
-OPEN = "the bounds of a number do not close, as where a pair with friction may stand still"
-SPARE = 12  # digits beyond the last that are known before it is rounded: it is off by half a unit and 10^-12 at most
+MAX_DIGITS = 10_000  # digits
+FLOAT_DIGITS = 15  # digits that a float has in any case
+MAX_BITS = 1 << 14  # bits, to which the precision is doubled at most; for many digits it is doubled once in any case
+PATIENT_FACTOR = 4  # times the least precision, up to which a way to draw it may need more bits than the solver
+OPEN_BOUNDS = "the bounds of a number do not close, as where a pair with friction may stand still"
+SPARE_DIGITS = 12  # known beyond the last before it is rounded: it is off by half a unit and 10^-12 at most
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,22 +53,22 @@ class Certified(Report):
     @cached_property
     def check(self) -> dict[str, Enclosure]:
         """The most that construction and solver may differ by, beside the largest value of each kind."""
-        return {kind: Enclosure(max(map(_most, self._gaps(kind)), default=Fraction(0)) / self._sizes[kind])
-                for kind in self._parts}
+        return {kind: Enclosure(max(map(_upper_bound, self._gaps(kind)), default=Fraction(0)) / self._sizes[kind])
+                for kind in self._kinds_by_group}
 
     @property
     def agrees(self) -> bool:
         """Whether the enclosures of construction and solver overlap everywhere."""
-        same = all(gap.overlaps(Enclosure(0)) for kind in self._parts for gap in self._gaps(kind))
+        same = all(gap.overlaps(Enclosure(0)) for kind in self._kinds_by_group for gap in self._gaps(kind))
         return same and not self.drawing.broken
 
     @property
     def disagreement(self) -> Disagreement:
         """The error that names the first number in which the two certainly differ, else the step that breaks a claim.
         """
-        for part in (part for parts in self._parts.values() for part in parts):
+        for part in (part for parts in self._kinds_by_group.values() for part in parts):
             for name, ours in self.results[part].items():
-                for one, two in zip(each(ours), each(self.truths[part][name]), strict=True):
+                for one, two in zip(components(ours), components(self.truths[part][name]), strict=True):
                     if not Enclosure(one - two).overlaps(Enclosure(0)):
                         gap = abs(float(one - two)) / max(abs(float(one)), abs(float(two)))
                         return Disagreement(self.scene.name, f"{part} of {name}", f"{float(one)}", f"{float(two)}", gap)
@@ -77,26 +77,27 @@ class Certified(Report):
     @cached_property
     def errors(self) -> dict[str, Fraction]:
         """The most that a number of each kind may be off, before its last digit is rounded."""
-        return {kind: max((value.error for part in parts for value in self._weighed(part, self.results[part])),
-                          default=Fraction(0)) for kind, parts in self._parts.items()}
+        return {kind: max((value.error for part in parts
+                           for value in self._weighted_components(part, self.results[part])),
+                          default=Fraction(0)) for kind, parts in self._kinds_by_group.items()}
 
     @cached_property
     def data(self) -> dict[str, Any]:
         """What `graphplan solve --digits` prints; fails with `Undecided` where there are too few digits yet."""
         with precision(self.bits):
-            check = {kind: upwards(_most(gap)) for kind, gap in self.check.items()}
-            bounds = {kind: upwards(error) for kind, error in self.errors.items()}
-            table: dict[str, Any] = self._texts(data(self) | {"check": check})
+            check = {kind: bound_text(_upper_bound(gap)) for kind, gap in self.check.items()}
+            bounds = {kind: bound_text(error) for kind, error in self.errors.items()}
+            table: dict[str, Any] = self._texts(result_data(self) | {"check": check})
         return table | {"digits": self.digits, "bounds": bounds}
 
     @property
-    def settled(self) -> bool:
+    def has_digits(self) -> bool:
         """Whether there are digits enough, and construction and solver agree in them or certainly do not."""
         close = Fraction(10) ** -self.digits
-        return bool(self.data) and (not self.agrees or all(_most(gap) <= close for gap in self.check.values()))
+        return bool(self.data) and (not self.agrees or all(_upper_bound(gap) <= close for gap in self.check.values()))
 
     @cached_property
-    def _parts(self) -> dict[str, list[str]]:
+    def _kinds_by_group(self) -> dict[str, list[str]]:
         """The readings that there are, by the kind that they count for."""
         known: dict[str, list[str]] = {}
         for part in sorted(self.results, key=lambda part: kinds.ORDER.get(kinds.kind_of(part), len(kinds.ORDER))):
@@ -108,24 +109,26 @@ class Certified(Report):
     def _sizes(self) -> dict[str, Fraction]:
         """The largest value of each kind, or where all are nothing what is drawn as large as the mechanism."""
         sizes = {}
-        for kind, parts in self._parts.items():
-            values = [value for part in parts for value in self._weighed(part, self.results[part])]
+        for kind, parts in self._kinds_by_group.items():
+            values = [value for part in parts for value in self._weighted_components(part, self.results[part])]
             least = max((abs(value.middle) - value.error for value in values), default=Fraction(0))
             sizes[kind] = least if least > 0 else Fraction(drawn_sizes(self.drawing)[kind])
         return sizes
 
-    def _weighed(self, part: str, values: dict[str, Any]) -> Iterator[Enclosure]:
+    def _weighted_components(self, part: str, values: dict[str, Any]) -> Iterator[Enclosure]:
         """The components of all readings of one kind."""
         heavy = Fraction(weight(self.drawing, part))
-        return (Enclosure(number) * heavy for value in values.values() for number in each(value))
+        return (Enclosure(number) * heavy for value in values.values() for number in components(value))
 
     def _gaps(self, kind: str) -> Iterator[Enclosure]:
         """What the construction exceeds the solver by."""
-        for part in self._parts[kind]:
+        for part in self._kinds_by_group[kind]:
             ours, truth = self.results[part], self.truths[part]
-            yield from self._weighed(part, {name: tuple([p - q for p, q in zip(each(value), each(truth[name]),
-                                                                               strict=True)])
-                                            for name, value in ours.items()})
+            yield from self._weighted_components(part,
+                                                 {name: tuple([p - q for p, q in zip(components(value),
+                                                                                     components(truth[name]),
+                                                                                     strict=True)])
+                                                  for name, value in ours.items()})
 
     def _texts(self, entry: Any, key: str = "") -> Any:
         """Printed data with every enclosure as a decimal, beside the largest value of what its key names."""
@@ -135,9 +138,9 @@ class Certified(Report):
             return [self._texts(part, key) for part in entry]
         if not isinstance(entry, Enclosure):
             return entry
-        return decimal(entry, self.digits, self._beside(key))
+        return decimal(entry, self.digits, self._reference_size(key))
 
-    def _beside(self, key: str) -> Fraction:
+    def _reference_size(self, key: str) -> Fraction:
         """The largest value of what a key of the printed data names."""
         size = Fraction(self.scene.extent)
         lengths = "acts_at", "at", "centre", "radius", "pole", "inflection_pole", "diameter"
@@ -147,53 +150,54 @@ class Certified(Report):
         return self._sizes[kind.group] / Fraction(weight(self.drawing, kind)) if kind else self._sizes[key]
 
 
-def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "", inertia: str = "couple") -> Certified:
+def certify(scene: Scene, digits: int, *, method: str = "", plan: str = "", inertia: str = "couple") -> Certified:
     """Construct, read, solve and compare between proven bounds, until every result has its digits.
 
     Where no way to draw it has numbers there, the solver's alone, as plain `solve` has them. Fails with `SingularPose`
     where the pose is singular as far as the digits can tell, with `Refused` as `report` does and where the digits asked
     for are not among 1 to 10000.
     """
-    if not 1 <= digits <= MOST:
-        raise Refused(f"--digits {digits}", "there are no such digits", f"a number from 1 to {MOST}")
+    if not 1 <= digits <= MAX_DIGITS:
+        raise Refused(f"--digits {digits}", "there are no such digits", f"a number from 1 to {MAX_DIGITS}")
     for load in changing_loads(scene.loads).values():
         where = load.table.where if load.table else ""
-        if digits > FLOAT and IRRATIONAL.format(where) in scene.irrational:
+        if digits > FLOAT_DIGITS and IRRATIONAL.format(where) in scene.irrational:
             raise Refused(f"--digits {digits}", f"{where} has its value in this pose to the digits of a float",
-                          f"at most {FLOAT}, or a load that is a fraction in this pose")
-    scene, locks = decided(scene)
+                          f"at most {FLOAT_DIGITS}, or a load that is a fraction in this pose")
+    scene, locks = decide_friction(scene)
     how: dict[str, Any] = {"method": method, "plan": plan, "inertia": inertia}
     missing: Reasons = report(scene, refuse=False, alone=True, **how).missing if extras(scene) else {}
-    found, reasons = answered(without(scene, missing), lambda asked: _to_digits(asked, digits, how, locks))
-    every = joined(missing, reasons)
+    found, reasons = answer_what_exists(drop_extras(scene, missing),
+                                        lambda asked: _to_digits(asked, digits, how, locks))
+    every = join_reasons(missing, reasons)
     if not every:
         return found
     with precision(found.bits):
         explained = replace(found, whole=scene, missing=every)
-        assert explained.settled
+        assert explained.has_digits
     return explained
 
 
 def _to_digits(scene: Scene, digits: int, how: dict[str, str], locks: str) -> Certified:
     """The numbers of a scene at the first precision that gives them so many digits."""
-    least = bits = math.ceil((digits + SPARE) * math.log2(10)) + 64
-    doubt: Exception = Undecided(OPEN)
-    while bits <= max(ENOUGH, 2 * least):
+    least = bits = math.ceil((digits + SPARE_DIGITS) * math.log2(10)) + 64
+    doubt: Exception = Undecided(OPEN_BOUNDS)
+    while bits <= max(MAX_BITS, 2 * least):
         with precision(bits):
             try:
-                solved = opinion(scene, enclosures(bits))
-                found = _attempt(solved, digits, bits, how, locks, patient=bits < PATIENCE * least)
-                if found.settled:
+                solved = reference_solution(scene, enclosures(bits))
+                found = _attempt(solved, digits, bits, how, locks, patient=bits < PATIENT_FACTOR * least)
+                if found.has_digits:
                     return found
             except Undecided as undecided:
                 doubt = undecided
         if bits == least and _certainly_singular(scene):
-            raise _named(scene, doubt, "", how)
-        if bits >= PATIENCE * least and (exact := _of_fractions(scene, digits, bits, how)) is not None:
+            raise _explain_failure(scene, doubt, "", how)
+        if bits >= PATIENT_FACTOR * least and (exact := _of_fractions(scene, digits, bits, how)) is not None:
             return exact
         bits *= 2
     far = f", as far as {bits // 2} bits can tell"
-    raise _named(scene, doubt.__cause__ or doubt, far, how)
+    raise _explain_failure(scene, doubt.__cause__ or doubt, far, how)
 
 
 def _certainly_singular(scene: Scene) -> bool:
@@ -214,37 +218,39 @@ def _of_fractions(scene: Scene, digits: int, bits: int, how: dict[str, str]) -> 
     except GraphplanError:
         return None
     with precision(bits):
-        results = _enclosed(exact.results)
-        truths = _enclosed({kind: exact.truth(kind) for kind in exact.results})
+        results = _enclose(exact.results)
+        truths = _enclose({kind: exact.truth(kind) for kind in exact.results})
         forces = exact.forces and replace(exact.forces, results=results, exact=False, bounded=True)
         found = Certified(exact.drawing, exact.rates, results, False, forces, digits=digits, bits=bits, truths=truths,
                           fault=exact.fault)
-        return found if found.settled else None
+        return found if found.has_digits else None
 
 
-def _enclosed(value: Any) -> Any:
+def _enclose(value: Any) -> Any:
     """Fractions between bounds: one, a vector of them, or a table."""
     if isinstance(value, dict):
-        return {name: _enclosed(part) for name, part in value.items()}
+        return {name: _enclose(part) for name, part in value.items()}
     return tuple(map(Enclosure, value)) if isinstance(value, tuple) else Enclosure(value)
 
 
-def _attempt(solved: Opinion, digits: int, bits: int, how: dict[str, str], locks: str, patient: bool) -> Certified:
+def _attempt(solved: ReferenceSolution, digits: int, bits: int, how: dict[str, str], locks: str,
+             patient: bool) -> Certified:
     """Both opinions at one precision, by the first way on which they agree, else the solver's alone.
 
     `Undecided` where the precision is too low for a way, as long as we are `patient`.
     """
     doubts: list[ConstructionError] = []
-    found = first_sound(solved.scene, how, lambda drawing: _beside(drawing, solved, digits, bits, locks, doubts))
+    found = first_sound(solved.scene, how, lambda drawing: _certify_drawing(drawing, solved, digits, bits, locks,
+                                                                            doubts))
     if isinstance(found, Certified) and (found.agrees or not doubts):
         return found
     if doubts and patient:
         raise Undecided(doubts[0].why) from doubts[0]
-    return found if isinstance(found, Certified) else _alone(solved, digits, bits, locks, *found)
+    return found if isinstance(found, Certified) else _certify_solver(solved, digits, bits, locks, *found)
 
 
-def _beside(drawing: Construction, solved: Opinion, digits: int, bits: int, locks: str,
-            doubts: list[ConstructionError]) -> Certified:
+def _certify_drawing(drawing: Construction, solved: ReferenceSolution, digits: int, bits: int, locks: str,
+                     doubts: list[ConstructionError]) -> Certified:
     """One construction beside the solver; why it has no numbers joins the `doubts` where more bits may give some."""
     domain = Enclosures()
     try:
@@ -252,26 +258,26 @@ def _beside(drawing: Construction, solved: Opinion, digits: int, bits: int, lock
     except ConstructionError as error:
         doubts += [error] if domain.undecided else []
         raise
-    return _certified(drawing, solved, results, digits, bits, locks)
+    return _certify_results(drawing, solved, results, digits, bits, locks)
 
 
-def _alone(solved: Opinion, digits: int, bits: int, locks: str, drawing: Construction,
-           fault: ConstructionError) -> Certified:
+def _certify_solver(solved: ReferenceSolution, digits: int, bits: int, locks: str, drawing: Construction,
+                    fault: ConstructionError) -> Certified:
     """What the solver says of all that a construction would give, which has no numbers in this pose."""
-    return replace(_certified(drawing, solved, solver_alone(drawing, solved), digits, bits, locks), fault=fault)
+    return replace(_certify_results(drawing, solved, solver_results(drawing, solved), digits, bits, locks), fault=fault)
 
 
-def _certified(drawing: Construction, solved: Opinion, results: dict[str, dict[str, Any]], digits: int,
-               bits: int, locks: str) -> Certified:
+def _certify_results(drawing: Construction, solved: ReferenceSolution, results: dict[str, dict[str, Any]], digits: int,
+                     bits: int, locks: str) -> Certified:
     """Results at a precision beside the solver's, and the solver's of what is not drawn."""
     truths = solved.truth(results, drawing.rounds)
-    for kind, named in solved.undrawn(drawing, results, truths).items():
+    for kind, named in solved.undrawn_forces(drawing, results, truths).items():
         results = results | {kind: results.get(kind, {}) | named}
-    forces = solved.beside(drawing, results, locks, bounded=True)
+    forces = solved.drawn_forces(drawing, results, locks, bounded=True)
     return Certified(drawing, solved.rates, results, False, forces, digits=digits, bits=bits, truths=truths)
 
 
-def _named(scene: Scene, fault: BaseException, far: str, how: dict[str, str]) -> GraphplanError:
+def _explain_failure(scene: Scene, fault: BaseException, far: str, how: dict[str, str]) -> GraphplanError:
     """The error that says what cannot be had and how `far` that is known; the floats name links, and lines that miss.
 
     Where they see nothing singular, it is the step of the construction that is named, or what could not be decided.
@@ -285,7 +291,7 @@ def _named(scene: Scene, fault: BaseException, far: str, how: dict[str, str]) ->
     return Refused(f"{scene.name}: --digits", f"{fault}{far}", "ask for floats, without --digits")
 
 
-def _most(value: Enclosure) -> Fraction:
+def _upper_bound(value: Enclosure) -> Fraction:
     """What a number's size is at most."""
     return abs(value.middle) + value.error
 
@@ -298,20 +304,20 @@ def decimal(value: Enclosure, digits: int, size: Fraction) -> str:
 
     Fails with `Undecided` where the enclosure is too wide.
     """
-    error, middle = value.error * 10**SPARE, value.middle
+    error, middle = value.error * 10**SPARE_DIGITS, value.middle
     least = _exponent(size) + 1 - digits
     place = _exponent(abs(middle)) + 1 - digits if middle else least
     if error > _ten(place):
         place = least
         if error > _ten(place) or abs(middle) > _ten(place):
-            raise Undecided(OPEN)
+            raise Undecided(OPEN_BOUNDS)
     number = round(middle / _ten(place))
     if abs(number) == 10**digits:
         number, place = number // 10, place + 1
     return _numeral(number, place)
 
 
-def upwards(bound: Fraction) -> str:
+def bound_text(bound: Fraction) -> str:
     """An upper bound to two digits, rounded up."""
     place = _exponent(bound) - 1 if bound else 0
     return _numeral(math.ceil(bound / _ten(place)), place)

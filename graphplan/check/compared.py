@@ -23,7 +23,7 @@ Results = Mapping[str, Mapping[str, Any]]
 UNBOUNDED = (kinds.SLIDE_ARM, kinds.POWER, kinds.POWER_MOMENT)
 
 
-class Compared(NamedTuple):
+class ComparedNumber(NamedTuple):
     """A printed number and the `truth` that the solver says; `gap` is their difference, `bound` how far the number may
     be off, `size` what both count beside. `apart` says that the two are proven to differ, `close` that they differ by
     no more than rounding, `near` that they differ by no more than the rounding of what is drawn as large as the
@@ -43,17 +43,17 @@ class Compared(NamedTuple):
         """Whether nine digits are proven, and the difference is rounding."""
         return self.close and bool(self.bound <= PROVEN_TOL * self.size)
 
-    def beside(self, part: str) -> Any:
+    def relative(self, part: str) -> Any:
         """The gap or the bound beside the number's size."""
         number = getattr(self, part)
         return number / self.size if number else 0
 
 
-Numbers = dict[str, dict[str, tuple[Compared, ...]]]
+Numbers = dict[str, dict[str, tuple[ComparedNumber, ...]]]
 
 
-def compared(drawing: Construction, ours: Results, theirs: Results,
-             floor: Callable[[str, str], float] = lambda part, name: 0.0) -> Numbers:
+def compare(drawing: Construction, ours: Results, theirs: Results,
+            floor: Callable[[str, str], float] = lambda part, name: 0.0) -> Numbers:
     """All readings that the solver knows, beside what it says of them; none counts beside less than its `floor`."""
     largest = scales(drawing, theirs)
     found: Numbers = {}
@@ -63,23 +63,24 @@ def compared(drawing: Construction, ours: Results, theirs: Results,
                      else largest[kinds.kind_of(part).group] / weight(drawing, part))
             least = scale if part in UNBOUNDED else PROVEN_ZERO * scale
             found[part] = {
-                name: tuple(_vector(each(ours[part][name]), each(theirs[part][name]),
-                                    max(least, floor(part, name), sliding(drawing.scene, theirs, part, name)), scale))
+                name: tuple(_compare_vector(components(ours[part][name]), components(theirs[part][name]),
+                                            max(least, floor(part, name),
+                                                sliding_size(drawing.scene, theirs, part, name)), scale))
                 for name in named}
     return found
 
 
-def sliding(scene: Scene, theirs: Results, part: str, name: str) -> Any:
+def sliding_size(scene: Scene, theirs: Results, part: str, name: str) -> Any:
     """The size of the vectors whose difference a sliding is, whichever way they point; of any other reading nothing."""
     kind = kinds.kind_of(part)
     if not kind.pair or kind.group == kinds.FORCES:
         return 0.0
     at = next(slide.at for slide in scene.slides if slide.name == name)
-    sizes = [abs(plain(number)) for number in theirs[kind.group][at]]
+    sizes = [abs(plain_number(number)) for number in theirs[kind.group][at]]
     return (sizes[0]**2 + sizes[1]**2) ** 0.5
 
 
-def plain(number: Any) -> Any:
+def plain_number(number: Any) -> Any:
     """A number with bounds or sizes as a float, or an array of them; a fraction as it is."""
     if hasattr(number, "middle"):
         return float(number.middle)
@@ -91,7 +92,8 @@ def scales(drawing: Construction, theirs: Results) -> dict[str, float]:
     found = drawn_sizes(drawing)
     for part, named in theirs.items():
         if part != kinds.SLIDE_ARM:
-            sizes = (abs(float(number)) * weight(drawing, part) for value in named.values() for number in each(value))
+            sizes = (abs(float(number)) * weight(drawing, part) for value in named.values()
+                     for number in components(value))
             group = kinds.kind_of(part).group
             found[group] = max([found[group], *sizes])
     return found
@@ -109,62 +111,65 @@ def weight(drawing: Construction, part: str) -> float:
     return float(kinds.kind_of(part).arm(drawing.scene.extent, drawing.scene.units))
 
 
-def each(value: Any) -> tuple[Any, ...]:
+def components(value: Any) -> tuple[Any, ...]:
     """The numbers of a vector, or a number alone."""
     return value if isinstance(value, tuple) else (value,)
 
 
-def _vector(ours: tuple[Any, ...], theirs: tuple[Any, ...], least: float, scale: float) -> Iterator[Compared]:
+def _compare_vector(ours: tuple[Any, ...], theirs: tuple[Any, ...], least: float,
+                    scale: float) -> Iterator[ComparedNumber]:
     """The components of a vector beside the size of the whole."""
-    numbers = [_number(*pair, scale) for pair in zip(ours, theirs, strict=True)]
+    numbers = [_compare_number(*pair, scale) for pair in zip(ours, theirs, strict=True)]
     size = max([least, *(number.size for number in numbers)])
     for number in numbers:
         close = number.close or number.gap <= ROUNDING_TOL * size
         yield number._replace(size=size, close=close, near=bool(number.gap <= ROUNDING_TOL * scale))
 
 
-def _number(ours: Any, theirs: Any, scale: float) -> Compared:
+def _compare_number(ours: Any, theirs: Any, scale: float) -> ComparedNumber:
     """One number, whatever it is made of."""
     if isinstance(theirs, Bounded):
         most = abs(theirs.value) + theirs.error
         if most <= PROVEN_ZERO * scale and abs(ours) <= ROUNDING_TOL * scale:  # proven to be zero, and drawn so
-            return Compared(0.0, 0.0, 0.0, MARGIN * most, theirs.size)
+            return ComparedNumber(0.0, 0.0, 0.0, MARGIN * most, theirs.size)
         gap = abs(ours - theirs.value)
         if max(abs(theirs.value), gap) <= theirs.error and abs(ours) <= ROUNDING_TOL * theirs.size:
             gap, ours = abs(theirs.value), 0.0  # no digit of it is known: it may be nothing, and so it is printed
-        return Compared(ours, theirs.value, gap, MARGIN * (gap + theirs.error), max(theirs.size, abs(ours)),
-                        close=gap <= theirs.error)
+        return ComparedNumber(ours, theirs.value, gap, MARGIN * (gap + theirs.error), max(theirs.size, abs(ours)),
+                              close=gap <= theirs.error)
     if isinstance(ours, Fraction | int):
         gap = abs(ours - theirs)
-        return Compared(ours, theirs, gap, gap, max(abs(ours), abs(theirs)), bool(gap), not gap)
-    return _enclosed(ours, theirs)
+        return ComparedNumber(ours, theirs, gap, gap, max(abs(ours), abs(theirs)), bool(gap), not gap)
+    return _compare_enclosures(ours, theirs)
 
 
-def _enclosed(ours: Any, theirs: Any) -> Compared:
+def _compare_enclosures(ours: Any, theirs: Any) -> ComparedNumber:
     """One enclosure beside another: the float that is printed of it, and how far that is off."""
     printed = 0.0 if abs(ours.middle) <= ours.error else float(ours.middle)
-    bound = upwards(max(abs(ours.middle - Fraction(printed)), theirs.error) + ours.error)
+    bound = upper_float(max(abs(ours.middle - Fraction(printed)), theirs.error) + ours.error)
     truth = float(theirs.middle)
     size, gap = max(abs(printed), abs(truth)), float(abs(ours.middle - theirs.middle))
-    return Compared(printed, truth, gap, bound, size, apart=not ours.overlaps(theirs))
+    return ComparedNumber(printed, truth, gap, bound, size, apart=not ours.overlaps(theirs))
 
 
-def upwards(bound: Fraction) -> float:
+def upper_float(bound: Fraction) -> float:
     """A bound as a float that is no smaller."""
     return math.nextafter(float(bound), math.inf) if bound else 0.0
 
 
-def rounded(numbers: Numbers) -> Numbers:
+def round_fractions(numbers: Numbers) -> Numbers:
     """Fractions as the floats that are printed of them, with what rounding makes them be off."""
-    def one(number: Compared) -> Compared:
+    def round_number(number: ComparedNumber) -> ComparedNumber:
         value = float(number.value)
-        bound = upwards(number.gap + abs(number.value - Fraction(value)))
-        return Compared(value, float(number.truth), upwards(number.gap), bound, float(number.size), number.apart)
+        bound = upper_float(number.gap + abs(number.value - Fraction(value)))
+        return ComparedNumber(value, float(number.truth), upper_float(number.gap), bound, float(number.size),
+                              number.apart)
 
-    return {part: {name: tuple(map(one, vector)) for name, vector in named.items()} for part, named in numbers.items()}
+    return {part: {name: tuple(map(round_number, vector)) for name, vector in named.items()}
+            for part, named in numbers.items()}
 
 
-def printed(results: Results, numbers: Numbers, plain: Callable[[Any], Any]) -> dict[str, dict[str, Any]]:
+def printed_results(results: Results, numbers: Numbers, plain: Callable[[Any], Any]) -> dict[str, dict[str, Any]]:
     """The results as they are printed: numbers that are compared as they were, others made `plain`."""
     def value(part: str, name: str, one: Any) -> Any:
         if part not in numbers:

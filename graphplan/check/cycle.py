@@ -13,12 +13,12 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.check.poses import Round, gaps, groups, sound
+from graphplan.check.poses import PoseBatch, compared_groups, pose_gaps, sound_poses
 from graphplan.check.trusted import construct
-from graphplan.cycle.curves import Curve, passed
-from graphplan.cycle.motion_curves import Centrodes, rolling
+from graphplan.cycle.curves import KinematicCurve, curve_over_travel
+from graphplan.cycle.motion_curves import Centrodes, sheet_centrodes
 from graphplan.cycle.pose import in_pose
-from graphplan.cycle.turn import Turn, followed
+from graphplan.cycle.turn import Turn, motion_and_travel
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.methods.construct import construct as unchecked
@@ -28,8 +28,8 @@ from graphplan.methods.styles import METHODS
 from graphplan.phrases import Said, said
 
 TURN = 2 * np.pi
-MOST = 4  # diagrams that stand side by side
-ELSEWHERE = 3  # poses in which steps are recorded where those of the given pose do not serve
+MAX_DIAGRAMS = 4  # diagrams that stand side by side
+MAX_OTHER_POSES = 3  # poses in which steps are recorded where those of the given pose do not serve
 Progress = Callable[[str, int, int], None]
 
 
@@ -54,7 +54,7 @@ class Cycle:
     centrodes: dict[str, Centrodes] = field(default_factory=dict)
 
     @property
-    def asked(self) -> dict[str, Any]:
+    def requested_points(self) -> dict[str, Any]:
         """Where the points are of which velocities, accelerations or paths are asked for; then the centrodes."""
         find, paths = self.scene.find, self.scene.sheet.curves
         points = {p: self.turn.points[p] for p in self.scene.points
@@ -76,34 +76,35 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
     Reads a scene with a drive; `workers` and `machine` are `workers` and `compiled` of :meth:`Construction.evaluate`;
     `progress` is told what is being done, how many poses are done, of how many. Fails as `follow` and `construct` do.
     """
-    def told(what: str) -> Callable[[int, int], None]:
+    def report_progress(what: str) -> Callable[[int, int], None]:
         return lambda done, of: progress(what, done, of) if progress else None
 
     drawing = _construct(scene, method=method, plan=plan, inertia=inertia)
-    motion, travel = followed(scene, positions, span,
-                              lambda part: told("positions")(round(part * positions), positions))
+    motion, travel = motion_and_travel(scene, positions, span,
+                                       lambda part: report_progress("positions")(round(part * positions), positions))
     turn = motion.turn(travel, machine)
-    left = Round.reached(scene, turn.points, turn.guides, turn.loads)
+    left = PoseBatch.of_reached(scene, turn.points, turn.guides, turn.loads)
     found = Cycle(scene, drawing, turn, drawing.blank(positions), dict(turn.faults),
-                  {kind: np.full(positions, np.nan) for kind in groups(drawing)}, centrodes=rolling(motion, travel))
+                  {kind: np.full(positions, np.nan) for kind in compared_groups(drawing)},
+                  centrodes=sheet_centrodes(motion, travel))
 
     def elsewhere() -> Iterator[tuple[str, Scene]]:
         """Poses in which nothing was drawn yet: their steps rely on nothing that coincides in the given pose alone."""
-        for _ in range(ELSEWHERE if found.faults.keys() & {*left.places.tolist()} else 0):
+        for _ in range(MAX_OTHER_POSES if found.faults.keys() & {*left.places.tolist()} else 0):
             pose = int(left.places[left.places.size // 2])
             yield f"the steps of pose {pose}", in_pose(scene, turn, pose)
 
     for name, other in _forms(drawing, elsewhere(), method, plan, inertia):
         drawn = other.evaluate(left.points, left.guides, loads=left.loads, workers=workers, compiled=machine,
-                               progress=told("plans"))
-        apart = gaps(left, other, drawn.results, told("check"))
-        kept = sound(left, other, drawn.results, apart)
+                               progress=report_progress("plans"))
+        apart = pose_gaps(left, other, drawn.results, report_progress("check"))
+        kept = sound_poses(left, other, drawn.results, apart)
         if other is drawing:
             found.faults.update((int(left.places[k]), why) for k, why in drawn.faults.items())
         else:
             found.otherwise.update((int(place), name) for place in left.places[kept])
-        _enter(found, left, drawn.results, apart, kept | (other is drawing))
-        left = left.some(~kept)
+        _enter_results(found, left, drawn.results, apart, kept | (other is drawing))
+        left = left.select(~kept)
         if not left.places.size:
             break
     faults = {k: why for k, why in sorted(found.faults.items()) if k not in found.otherwise}
@@ -126,15 +127,15 @@ def _forms(drawing: Construction, elsewhere: Iterator[tuple[str, Scene]], method
     that are recorded elsewhere."""
     yield "", drawing
     for name in () if method else METHODS:
-        other = _recorded(drawing.scene, name, plan, inertia)
+        other = _construct_or_none(drawing.scene, name, plan, inertia)
         if other and other.ways != drawing.ways:
             yield ", ".join(other.ways), other
     for name, scene in elsewhere:
-        if other := _recorded(scene, method, plan, inertia):
+        if other := _construct_or_none(scene, method, plan, inertia):
             yield name, other
 
 
-def _recorded(scene: Scene, method: str, plan: str, inertia: str) -> Construction | None:
+def _construct_or_none(scene: Scene, method: str, plan: str, inertia: str) -> Construction | None:
     """The construction in a scene's own pose, if there is one."""
     try:
         return unchecked(scene, method=method, plan=plan, inertia=inertia)
@@ -142,8 +143,8 @@ def _recorded(scene: Scene, method: str, plan: str, inertia: str) -> Constructio
         return None
 
 
-def _enter(found: Cycle, part: Round, results: Mapping[str, Mapping[str, Any]], apart: Mapping[str, Any],
-           kept: Any) -> None:
+def _enter_results(found: Cycle, part: PoseBatch, results: Mapping[str, Mapping[str, Any]], apart: Mapping[str, Any],
+                   kept: Any) -> None:
     """Enter the results of some poses among all."""
     places = part.places[kept]
     for kind, named in results.items():
@@ -157,7 +158,7 @@ def _enter(found: Cycle, part: Round, results: Mapping[str, Mapping[str, Any]], 
 
 
 @dataclass(frozen=True)
-class Quantity:
+class PlotQuantity:
     """What is to be plotted: how it is called, its unit, and the points whose rates tell it."""
 
     name: str
@@ -167,7 +168,7 @@ class Quantity:
     slide: Slide | None = None
 
 
-def quantities(scene: Scene, names: Sequence[str]) -> tuple[Quantity, ...]:
+def quantities(scene: Scene, names: Sequence[str]) -> tuple[PlotQuantity, ...]:
     """What these names mean: links, slides, coordinates such as `B.x`; without names what the mechanism drives.
 
     Fails with `Refused` where a name means nothing, where there are too many, or where the first drive has no constant
@@ -177,13 +178,13 @@ def quantities(scene: Scene, names: Sequence[str]) -> tuple[Quantity, ...]:
     if drive is None or not drive.rate or drive.change:
         raise Refused("diagrams", "the first drive has no constant rate: nothing can be told over time",
                       "a [[drive]] with a rate and without acceleration")
-    names = names or _driven(scene)
-    if len(names) > MOST:
-        raise Refused("diagrams", f"{len(names)} are too many for one sheet", f"at most {MOST}")
-    return tuple(_quantity(scene, name) for name in names)
+    names = names or _output_names(scene)
+    if len(names) > MAX_DIAGRAMS:
+        raise Refused("diagrams", f"{len(names)} are too many for one sheet", f"at most {MAX_DIAGRAMS}")
+    return tuple(_plot_quantity(scene, name) for name in names)
 
 
-def asking(scene: Scene, wanted: Sequence[Quantity]) -> Scene:
+def scene_asking_for(scene: Scene, wanted: Sequence[PlotQuantity]) -> Scene:
     """The scene, asking also for what these quantities are told by."""
     find = scene.find
     points = [point for quantity in wanted for point in quantity.points]
@@ -195,34 +196,36 @@ def asking(scene: Scene, wanted: Sequence[Quantity]) -> Scene:
     return replace(scene, find=replace(find, velocity=velocity, acceleration=acceleration, links=links, slides=slides))
 
 
-def curves(found: Cycle, wanted: Sequence[Quantity]) -> list[Curve]:
+def curves(found: Cycle, wanted: Sequence[PlotQuantity]) -> list[KinematicCurve]:
     """The curves of these quantities over the cycle, which was asked for them."""
     drive = found.scene.drives[0]
     period = TURN if found.turn.closed and not found.faults else None
     unit = found.scene.units.length if drive.slides else "rad"
-    return [passed(quantity.label, quantity.unit, found.turn.travel, float(drive.rate), *_ordinates(found, quantity),
-                     period=period, travel_unit=unit) for quantity in wanted]
+    return [curve_over_travel(quantity.label, quantity.unit, found.turn.travel, float(drive.rate),
+                              *_ordinates(found, quantity),
+                              period=period, travel_unit=unit) for quantity in wanted]
 
 
-def _driven(scene: Scene) -> list[str]:
+def _output_names(scene: Scene) -> list[str]:
     """The slides on the frame, and the links that turn on it, that no drive moves."""
     driven = {drive.links[0] for drive in scene.drives}
     outputs = [s.name for s in scene.slides if FRAME in (s.along, s.link) and s.link not in driven]
     fixed = set(scene.links.get(FRAME, ()))
     outputs += [link for link in scene.moving if link not in driven and fixed & set(scene.links[link])]
-    return outputs[:MOST] or [link for link in scene.moving if link not in driven and len(scene.links[link]) > 1][:1]
+    return outputs[:MAX_DIAGRAMS] or [link for link in scene.moving if link not in driven
+                                      and len(scene.links[link]) > 1][:1]
 
 
-def _quantity(scene: Scene, name: str) -> Quantity:
+def _plot_quantity(scene: Scene, name: str) -> PlotQuantity:
     length = scene.units.length
     slide = next((s for s in scene.slides if s.name == name), None)
     point, _, axis = name.rpartition(".")
     if slide is not None:
-        return Quantity(name, said("slide {0}", slide_named(slide)), length, (slide.at,), slide)
+        return PlotQuantity(name, said("slide {0}", slide_named(slide)), length, (slide.at,), slide)
     if len(scene.links.get(name, ())) > 1 and name != FRAME:
-        return Quantity(name, said("angle of link {0}", name), "rad", _side(scene, name))
+        return PlotQuantity(name, said("angle of link {0}", name), "rad", _side(scene, name))
     if point in scene.points and axis in ("x", "y"):
-        return Quantity(name, said("{0} of {1}", axis, point), length, (point,))
+        return PlotQuantity(name, said("{0} of {1}", axis, point), length, (point,))
     links = [link for link in scene.moving if len(scene.links[link]) > 1]
     known = [*links, *(s.name for s in scene.slides), *(f"{p}.x" for p in scene.points)]
     raise Refused(f"diagram of {name}", "the scene has no such thing", f"one of {', '.join(known)}")
@@ -234,11 +237,11 @@ def _side(scene: Scene, link: str) -> tuple[str, str]:
     return max(combinations(places, 2), key=lambda pair: abs(places[pair[0]] - places[pair[1]]))
 
 
-def _ordinates(found: Cycle, quantity: Quantity) -> tuple[Any, Any, Any]:
+def _ordinates(found: Cycle, quantity: PlotQuantity) -> tuple[Any, Any, Any]:
     """The quantity, its rate, and the rate's rate in each pose."""
     points, results = found.turn.points, found.results
     if quantity.slide is not None:
-        return _slid(found, quantity.slide)
+        return _slide_ordinates(found, quantity.slide)
     if quantity.unit == "rad":
         P, R = quantity.points
         return np.angle(points[R] - points[P]), results["omega"][quantity.name], results["alpha"][quantity.name]
@@ -248,7 +251,7 @@ def _ordinates(found: Cycle, quantity: Quantity) -> tuple[Any, Any, Any]:
     return s, v, a
 
 
-def _slid(found: Cycle, slide: Slide) -> tuple[Any, Any, Any]:
+def _slide_ordinates(found: Cycle, slide: Slide) -> tuple[Any, Any, Any]:
     """How far a slide's point has slid along its guide from the given pose, with its rates there."""
     points, guides, results = found.turn.points, found.turn.guides, found.results
     if slide.through:

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.check.reduction import Opinion
-from graphplan.check.reduction import checked as reduction_checked
+from graphplan.check.reduction import ReferenceReduction
+from graphplan.check.reduction import check_reduction as reduction_checked
 from graphplan.check.tolerances import HALVING_TOL, SPEED_TOL
 from graphplan.errors import BrokenClaim, Disagreement
 from graphplan.kernel.claims import broken
@@ -24,7 +24,7 @@ FINER = 16  # steps in that with an extreme speed
 POSES = 12  # in which the reduction is compared
 
 
-def checked(result: FlywheelResult) -> dict[str, float]:
+def check_flywheel(result: FlywheelResult) -> dict[str, float]:
     """By how much the second opinions differ, relative to what is compared.
 
     Fails with `BrokenClaim` where a drawn step breaks a claim, and with `Disagreement` where the integrated motion is
@@ -126,7 +126,7 @@ class _Motion:
         found = np.empty((3, *places.shape))
         for own, side in ((np.s_[:, :-1], 1), (np.s_[:, -1:], -1)):
             travel = places[own].ravel()
-            opinion = Opinion(self.reduction, travel, side)
+            opinion = ReferenceReduction(self.reduction, travel, side)
             truth = opinion.truth
             moment = truth["moment"].value + opinion.friction + self._over_speed(travel, side)
             rows = (truth["inertia"].value + self.result.wheel.inertia, truth["slope"].value,

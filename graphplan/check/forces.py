@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.check.arithmetics import Bounds, independent_facts
-from graphplan.check.compared import Results, plain
+from graphplan.check.compared import Results, plain_number
 from graphplan.mechanism.equations import transpose
 from graphplan.mechanism.model import FRAME, Contact, Force, Gear, Number, Pair, Scene, Slide
 from graphplan.mechanism.numbers import dot
@@ -64,15 +64,15 @@ def _scale(equations: Equations, fact: Statement) -> float:
     return max(math.hypot(x, y), abs(turn) / equations.reach)
 
 
-def rubbed(smooth: Reactions, rounds: int, by: Bounds) -> Reactions:
+def friction_rounds(smooth: Reactions, rounds: int, by: Bounds) -> Reactions:
     """The reactions and balances after so many rounds of friction from those without."""
     last = smooth
     for _ in range(rounds):
-        last = _equilibrium(replace(smooth.equations, facts=tuple(_leaning(last, by))), smooth.rates, by)
+        last = _equilibrium(replace(smooth.equations, facts=tuple(_leaning_facts(last, by))), smooth.rates, by)
     return last
 
 
-def _leaning(last: Reactions, by: Bounds) -> Iterator[Statement]:
+def _leaning_facts(last: Reactions, by: Bounds) -> Iterator[Statement]:
     """What holds the links, each pair's force against its turning or sliding as its last force says."""
     scene, rates = last.equations.scene, last.rates
     omega: dict[str, Any] = rates.omega | {FRAME: by.lift(0)}
@@ -160,7 +160,7 @@ def _arm(slide: Slide, scene: Scene, found: Reactions) -> Any:
     return y * reach, -x * reach
 
 
-def undrawn(scene: Scene, results: Results, truth: Results) -> dict[str, dict[str, Any]]:
+def undrawn_forces(scene: Scene, results: Results, truth: Results) -> dict[str, dict[str, Any]]:
     """What is asked for and not among the results of a construction, as the solver says it, by kind and name."""
     asked_for, missing = scene.find.reactions, dict[str, dict[str, Any]]()
     pair_of = {JointForce(point, link).name: point for point in scene.joints for link in scene.links_of[point]}
@@ -197,7 +197,7 @@ class Forces:
     locks: str = ""
     alone: tuple[str, ...] = ()
 
-    def named(self, values: Iterable[Any]) -> dict[str, Any]:
+    def by_balance(self, values: Iterable[Any]) -> dict[str, Any]:
         """What is said of each balance in the scene's order, by its name."""
         return dict(zip(asked(self.scene).named_balances, values, strict=True))
 
@@ -207,7 +207,7 @@ class Forces:
         return [*asked(self.scene).named_balances]
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """Whether results with friction are asked for."""
         return self.rough is not None or bool(self.locks) or self.rounds > 0
 
@@ -215,8 +215,8 @@ class Forces:
         """The reactions and the balances among the results, with friction or without it, by `labels`."""
         own = {kind: kinds.WITH_FRICTION[kind] if rubs else kind for kind in kinds.WITH_FRICTION}
         ways = (kinds.RUBBED,) if rubs else (kinds.BY_PLANS, kinds.BY_LEVER)
-        return labels({kind: self.results.get(name, {}) for kind, name in own.items()},
-                      balances(self.scene, self.results, ways))
+        return labelled_forces({kind: self.results.get(name, {}) for kind, name in own.items()},
+                               balances(self.scene, self.results, ways))
 
     def arm(self, slide: Slide, force: Any, moment: Any) -> Any:
         """From a slide's point along its guide to where a force with a moment about the point acts."""
@@ -228,7 +228,7 @@ class Forces:
         return dx * reach, dy * reach
 
     @property
-    def rubbed(self) -> dict[str, Any]:
+    def friction_balances(self) -> dict[str, Any]:
         """The balances with friction, in the scene's order."""
         return balances(self.scene, self.results, (kinds.RUBBED,))
 
@@ -240,14 +240,14 @@ class Forces:
     @property
     def efficiency(self) -> Any:
         """The instantaneous efficiency of what is drawn: of the balances' powers without friction and with it."""
-        if not self.rubbed:
+        if not self.friction_balances:
             return None
         smooth, rough = (delivered(replace(self.reactions, balances=tuple(found.values())))
-                         for found in (balances(self.scene, self.results), self.rubbed))
-        return efficiency(smooth, rough) if self.bounded else efficiency(plain(smooth), plain(rough))
+                         for found in (balances(self.scene, self.results), self.friction_balances))
+        return efficiency(smooth, rough) if self.bounded else efficiency(plain_number(smooth), plain_number(rough))
 
 
-def labels(reactions: Results, named: Mapping[str, Any]) -> dict[str, Any]:
+def labelled_forces(reactions: Results, named: Mapping[str, Any]) -> dict[str, Any]:
     """Reactions by the names of their pairs, and with moments and balances called that in front of their names."""
     told = {name: value for kind in kinds.REACTIONS for name, value in reactions[kind].items()}
     told |= {f"moment {name}": value for name, value in reactions[kinds.SLIDE_MOMENT].items()}

@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from graphplan.check.compared import Compared, Results
+from graphplan.check.compared import ComparedNumber, Results
 from graphplan.check.report import Report
 from graphplan.errors import ConstructionError
 from graphplan.mechanism.model import Scene, Slide
@@ -25,17 +25,18 @@ TRANSLATES = "the link does not turn: its pole is at infinity"
 OPPOSITE = "pole", "inflection_pole"  # of an inflection circle
 
 
-def data(found: Report, each: bool = False) -> dict[str, Any]:
+def result_data(found: Report, each: bool = False) -> dict[str, Any]:
     """What `graphplan solve` prints, with the bound of each number where that is asked for."""
-    scene = found.asked
+    scene = found.given_scene
     return {
         "title": scene.title,
         "units": {"length": scene.units.length, "force": scene.units.force, "mass": scene.units.mass},
         **_pose(found),
-        "points": _merged(found, "points", scene.points, velocity=kinds.VELOCITY, acceleration=kinds.ACCELERATION),
-        "links": _merged(found, "links", scene.moving, omega=kinds.OMEGA, alpha=kinds.ALPHA),
-        "slides": _merged(found, "slides", (s.name for s in scene.slides), velocity=kinds.SLIDE_VELOCITY,
-                          acceleration=kinds.SLIDE_ACCELERATION),
+        "points": _merge_readings(found, "points", scene.points, velocity=kinds.VELOCITY,
+                                  acceleration=kinds.ACCELERATION),
+        "links": _merge_readings(found, "links", scene.moving, omega=kinds.OMEGA, alpha=kinds.ALPHA),
+        "slides": _merge_readings(found, "slides", (s.name for s in scene.slides), velocity=kinds.SLIDE_VELOCITY,
+                                  acceleration=kinds.SLIDE_ACCELERATION),
         **_poles(found),
         **_paths(found),
         **({"redundant": scene.redundant_pairs} if scene.redundant else {}),
@@ -62,8 +63,8 @@ def reasons(found: Report) -> Reasons:
 def _poles(found: Report) -> dict[str, Any]:
     """The instant centres, if any are asked for: each where it is, or which way it lies at infinity; none of links that
     do not move relative to each other."""
-    asked = found.asked.find.poles
-    poles = _merged(found, "", asked, at=kinds.POLE, direction=kinds.POLE_HEADING)
+    asked = found.given_scene.find.poles
+    poles = _merge_readings(found, "", asked, at=kinds.POLE, direction=kinds.POLE_HEADING)
     return {"poles": {name: poles.get(name, {"at": None}) for name in asked}} if asked else {}
 
 
@@ -72,7 +73,7 @@ def _pose(found: Report) -> dict[str, Any]:
     if found.scene.assembly is None:
         return {}
     travels = [float(travel) for travel in found.scene.assembly.travels]
-    points = {name: [number(part) for part in map(float, at)] for name, at in found.scene.points.items()}
+    points = {name: [json_number(part) for part in map(float, at)] for name, at in found.scene.points.items()}
     extreme = found.scene.assembly.extreme
     told = {} if extreme is None else {"extreme": extreme.way, "link": extreme.link, "time_ratio": extreme.time_ratio}
     return {"pose": {"travel": travels[0] if len(travels) == 1 else travels, **told, "points": points}}
@@ -80,7 +81,7 @@ def _pose(found: Report) -> dict[str, Any]:
 
 def _paths(found: Report) -> dict[str, Any]:
     """Centres of curvature and inflection circles, where they are asked for."""
-    find, results, missing = found.asked.find, found.results, found.missing
+    find, results, missing = found.given_scene.find, found.results, found.missing
     told = {
         "curvature": {name: None if name in missing.get("curvature", {})
                       else _curvature(found, name, found.scene.points[point])
@@ -103,7 +104,7 @@ def _curvature(found: Report, name: str, point: Any) -> dict[str, Any]:
         if all(abs(number.value) <= number.bound for number in numbers):
             return {"centre": None, "radius": None}
         centre = at[0] + x / square, at[1] + y / square
-    return {"centre": number(centre), **_lengths("radius", centre, at, found.exact)}
+    return {"centre": json_number(centre), **_lengths("radius", centre, at, found.exact)}
 
 
 def _inflection(results: Results, link: str, exact: bool) -> dict[str, Any]:
@@ -111,7 +112,7 @@ def _inflection(results: Results, link: str, exact: bool) -> dict[str, Any]:
     if link in results.get(kinds.TRANSLATION, {}):
         return dict.fromkeys((*OPPOSITE, "diameter"))
     two = results[kinds.MOTION_POLE][link], results[kinds.INFLECTION][link]
-    return dict(zip(OPPOSITE, map(number, two), strict=True)) | _lengths("diameter", *two, exact)
+    return dict(zip(OPPOSITE, map(json_number, two), strict=True)) | _lengths("diameter", *two, exact)
 
 
 def _lengths(key: str, one: Any, two: Any, exact: bool) -> dict[str, Any]:
@@ -121,12 +122,12 @@ def _lengths(key: str, one: Any, two: Any, exact: bool) -> dict[str, Any]:
         root = getattr(square, "root", None)  # of enclosures a number, of symbols what makes it
         return {key: math.sqrt(square) if root is None else root() if callable(root) else root}
     root, rational = exact_root(square)
-    return {**({key: number(root)} if rational else {}), f"{key}_squared": number(square)}
+    return {**({key: json_number(root)} if rational else {}), f"{key}_squared": json_number(square)}
 
 
 def _protocol(found: Report, each: bool) -> dict[str, Any]:
     """How it is drawn, how well that agrees, and in how many steps; only how well where no pencil could draw it."""
-    bounds = _plain(found.bounds) | ({"each": _each(found)} if each else {})
+    bounds = _plain(found.bounds) | ({"each": _number_bounds(found)} if each else {})
     proof = {"check": _plain(found.check), "bounds": bounds, "arithmetic": found.arithmetic}
     if found.fault is not None:
         why = f"analytic solver alone, as nothing can be drawn in this pose: {found.fault.why}"
@@ -142,24 +143,24 @@ def _protocol(found: Report, each: bool) -> dict[str, Any]:
 
 
 def _plain(values: dict[Any, Any]) -> dict[Any, Any]:
-    return {kind: number(value) if value else 0 for kind, value in values.items()}
+    return {kind: json_number(value) if value else 0 for kind, value in values.items()}
 
 
-def _each(found: Report) -> dict[str, Any]:
+def _number_bounds(found: Report) -> dict[str, Any]:
     """The bounds of all printed numbers, by kind and name; those of a vector's components as a list."""
-    def bounds(value: Any, vector: tuple[Compared, ...]) -> Any:
-        told = list(_plain(dict(enumerate(number.beside("bound") for number in vector))).values())
+    def bounds(value: Any, vector: tuple[ComparedNumber, ...]) -> Any:
+        told = list(_plain(dict(enumerate(number.relative("bound") for number in vector))).values())
         return told if isinstance(value, tuple) else told[0]
 
     return {part: {name: bounds(value, found.numbers[part][name]) for name, value in named.items()}
             for part, named in found.results.items() if part in found.numbers}
 
 
-def _merged(found: Report, key: str, names: Iterable[str], **kinds: str) -> dict[str, Any]:
+def _merge_readings(found: Report, key: str, names: Iterable[str], **kinds: str) -> dict[str, Any]:
     """Readings of several kinds by name, as JSON takes them; null what is asked for and missing under this key."""
-    table, missing, find = {}, found.missing.get(key, {}), found.asked.find
+    table, missing, find = {}, found.missing.get(key, {}), found.given_scene.find
     for name in names:
-        entry = {k: number(found.results[kind][name]) for k, kind in kinds.items()
+        entry = {k: json_number(found.results[kind][name]) for k, kind in kinds.items()
                  if name in found.results.get(kind, {})}
         if name in missing:
             entry = dict.fromkeys(k for k in kinds if key != "points" or name in getattr(find, k))
@@ -171,10 +172,10 @@ def _merged(found: Report, key: str, names: Iterable[str], **kinds: str) -> dict
 # ---- numbers as JSON takes them --------------------------------------------------------------------------------------
 
 
-def number(value: Any) -> Any:
+def json_number(value: Any) -> Any:
     """A number or a vector: floats as they are, fractions as a string p/q, none as null."""
     if isinstance(value, tuple):
-        return [number(part) for part in value]
+        return [json_number(part) for part in value]
     return str(value) if isinstance(value, Fraction) else None if value is None else value + 0.0
 
 
@@ -188,12 +189,12 @@ INDETERMINATE = "statically indeterminate: more holds these links than their equ
 
 def force_data(found: Report) -> dict[str, Any]:
     """Balances and reactions, and where something rubs those without friction; nothing where there are no loads."""
-    if found.asked.loads is None:
+    if found.given_scene.loads is None:
         return {}
-    smooth, indeterminate = _Printed(found, found.forces, False), _indeterminate(found.asked)
-    if found.forces is None or not found.forces.rubs:
+    smooth, indeterminate = _ForceTable(found, found.forces, False), _indeterminate(found.given_scene)
+    if found.forces is None or not found.forces.has_friction:
         return {**smooth.data, **indeterminate}
-    rough = _Printed(found, found.forces, True)
+    rough = _ForceTable(found, found.forces, True)
     return {**rough.data, **indeterminate, "without_friction": smooth.data, **_friction(found, found.forces)}
 
 
@@ -201,7 +202,7 @@ def force_reasons(found: Report) -> Reasons:
     """Why balances and reactions are null, by their names."""
     if found.forces is None:
         return {}
-    printed = _Printed(found, found.forces, found.forces.rubs)
+    printed = _ForceTable(found, found.forces, found.forces.has_friction)
     balances = dict(printed.missing_balances)
     reactions = dict(printed.missing_reactions)
     return {key: named for key, named in (("balance", balances), ("reactions", reactions)) if named}
@@ -216,7 +217,7 @@ def solver_only_notes(found: Report) -> list[str]:
 
 
 @dataclass(frozen=True)
-class _Printed:
+class _ForceTable:
     """The forces of a report with friction or without it."""
 
     found: Report
@@ -240,12 +241,12 @@ class _Printed:
     def missing_reactions(self) -> Iterator[tuple[str, str]]:
         """The same of reactions."""
         why = (self.forces.locks if self.forces else "") or INDETERMINATE
-        return ((name, why) for name, _ in self._asked if self._values.get(name) is None)
+        return ((name, why) for name, _ in self._requested_reactions if self._values.get(name) is None)
 
     @property
     def _balances(self) -> list[str]:
         """The names of the balances."""
-        loads = self.found.asked.loads
+        loads = self.found.given_scene.loads
         return [*loads.named_balances] if loads else []
 
     @cached_property
@@ -259,28 +260,28 @@ class _Printed:
 
     def balance(self, name: str, value: Any) -> dict[str, Any]:
         """A balance: a moment on a link, or a force at a point of it."""
-        assert self.found.asked.loads is not None
-        balance = self.found.asked.loads.named_balances[name]
+        assert self.found.given_scene.loads is not None
+        balance = self.found.given_scene.loads.named_balances[name]
         key = "force" if balance.at else "moment"
-        return {key: number(value), "link": balance.link, **({"at": balance.at} if balance.at else {})}
+        return {key: json_number(value), "link": balance.link, **({"at": balance.at} if balance.at else {})}
 
     def _reactions(self) -> Iterator[dict[str, Any]]:
-        for name, entry in self._asked:
-            yield {**entry, "force": number(self._value(name)), **self._more(name)}
+        for name, entry in self._requested_reactions:
+            yield {**entry, "force": json_number(self._value(name)), **self._slide_details(name)}
 
     @cached_property
-    def _asked(self) -> list[tuple[str, dict[str, str]]]:
+    def _requested_reactions(self) -> list[tuple[str, dict[str, str]]]:
         """The reactions that are asked for: their names, and between which links they act."""
-        scene, asked = self.found.asked, self.found.asked.find.reactions
+        scene, asked = self.found.given_scene, self.found.given_scene.find.reactions
         return [(name, entry) for pair, name, entry in _entries(scene) if asked is None or pair in asked]
 
-    def _more(self, name: str) -> dict[str, Any]:
+    def _slide_details(self, name: str) -> dict[str, Any]:
         """Of a slide's reaction its moment, and a point of its line where that lies near."""
-        slide = next((slide for slide in self.found.asked.slides if slide.name == name), None)
+        slide = next((slide for slide in self.found.given_scene.slides if slide.name == name), None)
         if slide is None:
             return {}
         moment = None if self._value(name) is None else self._value(f"moment {name}")
-        return {"moment": number(moment), **self._acts_at(slide, self._value(name), moment)}
+        return {"moment": json_number(moment), **self._acts_at(slide, self._value(name), moment)}
 
     def _acts_at(self, slide: Slide, force: Any, moment: Any) -> dict[str, Any]:
         """Where a slide's reaction crosses its guide."""
@@ -292,7 +293,7 @@ class _Printed:
         if self.rubs:
             arm = self.forces.arm(slide, force, moment)
         x, y = self.found.scene.points[slide.at]
-        return {"acts_at": number((x + arm[0], y + arm[1]))} if arm is not None else {}
+        return {"acts_at": json_number((x + arm[0], y + arm[1]))} if arm is not None else {}
 
 
 def _entries(scene: Scene) -> Iterator[tuple[str, str, dict[str, str]]]:
@@ -321,9 +322,9 @@ def _friction(found: Report, forces: Forces) -> dict[str, Any]:
     """The efficiency with friction, in how many rounds it is drawn, and where further rounds stand."""
     if forces.locks:
         return {}
-    told = {"efficiency": number(forces.efficiency), "rounds": forces.rounds}
+    told = {"efficiency": json_number(forces.efficiency), "rounds": forces.rounds}
     if not forces.bounded:
-        printed, standing = _Printed(found, forces, True), forces.named(forces.standing.balances)
+        printed, standing = _ForceTable(found, forces, True), forces.by_balance(forces.standing.balances)
         balances = [printed.balance(name, value) for name, value in standing.items()]
-        told["stands"] = {"balance": balances, "efficiency": number(forces.standing.efficiency)}
+        told["stands"] = {"balance": balances, "efficiency": json_number(forces.standing.efficiency)}
     return {"friction": told}

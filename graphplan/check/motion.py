@@ -37,19 +37,19 @@ from graphplan.mechanism.loads import SPEED, LoadTable
 from graphplan.mechanism.model import FRAME, Force
 from graphplan.mechanism.units import NEWTONS
 
-POINTS, MOST = 24, 192  # of Chebyshev, between two breaks
-STEPS = 20_000  # that an opinion may take
-SPREAD = 13  # travels at which speeds and times are compared
-TURNS = 2.0  # cycles that are integrated anew
+CHEBYSHEV_POINTS, MAX_CHEBYSHEV_POINTS = 24, 192  # of Chebyshev, between two breaks
+MAX_STEPS = 20_000  # that an opinion may take
+COMPARED_TRAVELS = 13  # travels at which speeds and times are compared
+COMPARED_CYCLES = 2.0  # cycles that are integrated anew
 
-STAGES = ((1 / 5,), (3 / 40, 9 / 40), (44 / 45, -56 / 15, 32 / 9),
-          (19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729),
-          (9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656),
-          (35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84))
-FOURTH = np.array((71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40))
+RUNGE_KUTTA_STAGES = ((1 / 5,), (3 / 40, 9 / 40), (44 / 45, -56 / 15, 32 / 9),
+                      (19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729),
+                      (9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656),
+                      (35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84))
+ERROR_WEIGHTS = np.array((71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40))
 
 
-def checked(found: Run, drawing: MotionDrawing | None = None) -> dict[str, float]:
+def check_motion(found: Run, drawing: MotionDrawing | None = None) -> dict[str, float]:
     """The largest differences from the second opinion, relative: of the reduction, and of speed, time and energy.
 
     Fails with `Disagreement` where the motion differs by more than `MOTION_TOL`, or the reduction by more than
@@ -58,14 +58,14 @@ def checked(found: Run, drawing: MotionDrawing | None = None) -> dict[str, float
     if drawing is not None and (fault := next(broken(drawing.program, drawing.values), "")):
         raise BrokenClaim(found.scene.name, fault)
     motion, machine = found.motion, found.machine
-    last = min(motion.last, motion.start + TURNS * machine.period)
-    places = np.linspace(motion.start, last, SPREAD)
+    last = min(motion.last, motion.start + COMPARED_CYCLES * machine.period)
+    places = np.linspace(motion.start, last, COMPARED_TRAVELS)
     inside = places[1:-1] / found.reduction.unit
-    gaps = solved.checked(found.reduction, _home(found.reduction, inside))
-    opinion = _Opinion(found)
+    gaps = solved.check_reduction(found.reduction, _wrap_to_cycle(found.reduction, inside))
+    opinion = ReferenceMotion(found)
     state = motion.at(places)
     compared = places[1:] if motion.stop is None or last < motion.last else places[1:-1]
-    omegas, times, works = opinion.integrated(motion.start, float(state.omega[0]), compared)
+    omegas, times, works = opinion.integrate(motion.start, float(state.omega[0]), compared)
     count = len(compared) + 1
     own, speed, time = state.energy[1:count], float(state.omega.max()), float(state.time[count - 1])
     gaps["omega"] = float(abs(omegas - state.omega[1:count]).max()) / speed
@@ -78,7 +78,7 @@ def checked(found: Run, drawing: MotionDrawing | None = None) -> dict[str, float
     return gaps
 
 
-def _home(found: Reduction, travel: Reals) -> Reals:
+def _wrap_to_cycle(found: Reduction, travel: Reals) -> Reals:
     """Travels in the first cycle."""
     first, last = found.ends
     return first + np.mod(travel - first, last - first) if found.closed else travel
@@ -100,7 +100,7 @@ class _Piece:
     points: Reals
     values: Reals
 
-    def at(self, travel: float) -> Reals:
+    def values_at(self, travel: float) -> Reals:
         """The values; beyond an end those there, as a step may try how far it comes."""
         travel = min(max(travel, self.low), self.high)
         away = (2 * travel - self.low - self.high) / (self.high - self.low) - self.points
@@ -113,7 +113,7 @@ class _Piece:
         return summed
 
 
-class _Opinion:
+class ReferenceMotion:
     """The machine as the solver has it."""
 
     def __init__(self, found: Run):
@@ -136,9 +136,9 @@ class _Opinion:
 
     # ---- what the solver says --------------------------------------------------------------------------------------
 
-    def _solved(self, travel: Reals) -> Reals:
+    def _solve_at(self, travel: Reals) -> Reals:
         """Inertia, slope and moment, and of each load over a speed its arm and that speed, as rows."""
-        opinion = solved.Opinion(self.found.reduction, travel, 1)
+        opinion = solved.ReferenceReduction(self.found.reduction, travel, 1)
         truth = opinion.truth
         rows = [truth[what].value + 0 * travel for what in ("inertia", "slope", "moment")]
         rows[2] += opinion.friction
@@ -146,7 +146,7 @@ class _Opinion:
             rows += [self._arm(opinion, load) + 0 * travel, self._speed(opinion, table) + 0 * travel]
         return np.array(rows)
 
-    def _arm(self, opinion: solved.Opinion, load: Any) -> Any:
+    def _arm(self, opinion: solved.ReferenceReduction, load: Any) -> Any:
         """The power of a unit of a load at a unit rate."""
         newton = float(NEWTONS[self.found.scene.units.force])
         if not isinstance(load, Force):
@@ -159,7 +159,7 @@ class _Opinion:
         vx, vy = (part.value for part in opinion.rates.velocity[load.at])
         return (vx * x + vy * y) / length * newton * opinion.metres / opinion.unit
 
-    def _speed(self, opinion: solved.Opinion, table: LoadTable) -> Any:
+    def _speed(self, opinion: solved.ReferenceReduction, table: LoadTable) -> Any:
         """The speed that a table is over, at a unit rate."""
         if table.over == SPEED:
             return 1.0 / opinion.unit
@@ -171,26 +171,26 @@ class _Opinion:
         """The values between two edges, at as many points as it takes."""
         if k not in self.pieces:
             low, high = self.edges[k:k + 2]
-            count = POINTS
+            count = CHEBYSHEV_POINTS
             while True:
                 points = np.cos(np.pi * (np.arange(count) + 0.5) / count)
-                values = self._solved((low + high) / 2 + (high - low) / 2 * points)
+                values = self._solve_at((low + high) / 2 + (high - low) / 2 * points)
                 terms = abs(np.cos(np.outer(np.arange(count), np.arccos(points))) @ values.T) * 2 / count
                 sizes = abs(values).max(axis=1)
                 sizes[1] = max(sizes[:2])  # a slope that is nothing beside the inertia is noise
-                if (terms[-3:].max(axis=0) <= INTERPOLATION_TOL * sizes).all() or count >= MOST:
+                if (terms[-3:].max(axis=0) <= INTERPOLATION_TOL * sizes).all() or count >= MAX_CHEBYSHEV_POINTS:
                     break
                 count *= 2
             self.pieces[k] = _Piece(low, high, points, values)
         return self.pieces[k]
 
-    def moves(self, piece: _Piece, shift: float) -> Callable[[Reals], Reals]:
+    def equation_of_motion(self, piece: _Piece, shift: float) -> Callable[[Reals], Reals]:
         """How travel, speed and work change with time, between two edges."""
         unit = self.found.reduction.unit
 
         def rates(state: Reals) -> Reals:
             travel, omega, _ = state
-            inertia, slope, moment, *_ = values = piece.at((travel - shift) / unit)
+            inertia, slope, moment, *_ = values = piece.values_at((travel - shift) / unit)
             moment = moment + self.machine.closing
             for law in self.laws:
                 moment += values[law.row] * float(law.table.at(np.array([values[law.row + 1] * omega]))[0])
@@ -200,7 +200,7 @@ class _Opinion:
 
     # ---- integrated ------------------------------------------------------------------------------------------------
 
-    def integrated(self, start: float, omega: float, places: Reals) -> tuple[Reals, Reals, Reals]:
+    def integrate(self, start: float, omega: float, places: Reals) -> tuple[Reals, Reals, Reals]:
         """Speed, time and work at places, from one travel on."""
         unit, period = self.found.reduction.unit, (self.last - self.first) * self.found.reduction.unit
         stops = np.union1d(places, [edge * unit + turn * period for edge in self.edges
@@ -211,7 +211,8 @@ class _Opinion:
             middle = (state[0] + there) / 2
             turn = math.floor((middle / unit - self.first) / (self.last - self.first)) if self.machine.closed else 0
             k = int(np.searchsorted(self.edges, (middle - turn * period) / unit)) - 1
-            state, spent, size = _onwards(self.moves(self._piece(k), turn * period), state, float(there), size)
+            state, spent, size = _integrate_to(self.equation_of_motion(self._piece(k), turn * period), state,
+                                               float(there), size)
             time += spent
             if there in places:
                 rows.append((state[1], time, state[2]))
@@ -219,30 +220,30 @@ class _Opinion:
         return omegas, times, works
 
 
-def _onwards(rates: Callable[[Reals], Reals], state: Reals, end: float, size: Reals) -> tuple[Reals, float, Reals]:
+def _integrate_to(rates: Callable[[Reals], Reals], state: Reals, end: float, size: Reals) -> tuple[Reals, float, Reals]:
     """The state at a travel, the time until then, and how large states have been."""
     time, first = 0.0, rates(state)
     step = 0.1 * (end - state[0]) / max(state[1], math.sqrt(abs(first[1]) * (end - state[0])))
-    for _ in range(STEPS):
+    for _ in range(MAX_STEPS):
         size, left = np.maximum(size, abs(state)), end - state[0]
         step = min(step, 1.1 * left / max(state[1], math.sqrt(abs(first[1]) * left)))  # no farther than is known
-        after, apart, last = _step(rates, state, first, step)
+        after, apart, last = _runge_kutta_step(rates, state, first, step)
         error = float((apart / size).max()) / STEP_TOL
         if not error <= 1:
             step *= max(0.2, 0.9 * error**-0.2) if 1 < error < math.inf else 0.5
             continue
         if after[0] >= end:
-            step = _until(rates, state, first, step, end)
-            return _step(rates, state, first, step)[0], time + step, size
+            step = _step_to_angle(rates, state, first, step, end)
+            return _runge_kutta_step(rates, state, first, step)[0], time + step, size
         state, first, time = after, last, time + step
         step *= min(5.0, 0.9 * max(error, LEAST_ERROR) ** -0.2)
-    raise Disagreement("motion", "time", "that of the energy", f"more than {STEPS} steps", math.inf)
+    raise Disagreement("motion", "time", "that of the energy", f"more than {MAX_STEPS} steps", math.inf)
 
 
-def _until(rates: Callable[[Reals], Reals], state: Reals, first: Reals, step: float, end: float) -> float:
+def _step_to_angle(rates: Callable[[Reals], Reals], state: Reals, first: Reals, step: float, end: float) -> float:
     """The step that ends at a travel, by Newton's method."""
     for _ in range(20):
-        after = _step(rates, state, first, step)[0]
+        after = _runge_kutta_step(rates, state, first, step)[0]
         change = (after[0] - end) / after[1]
         step -= change
         if abs(change) <= END_TOL * step:
@@ -250,10 +251,11 @@ def _until(rates: Callable[[Reals], Reals], state: Reals, first: Reals, step: fl
     return step
 
 
-def _step(rates: Callable[[Reals], Reals], state: Reals, first: Reals, step: float) -> tuple[Reals, Reals, Reals]:
+def _runge_kutta_step(rates: Callable[[Reals], Reals], state: Reals, first: Reals,
+                      step: float) -> tuple[Reals, Reals, Reals]:
     """The state a step on, the step's error, and the rates there."""
     slopes = [first]
-    for row in STAGES:
+    for row in RUNGE_KUTTA_STAGES:
         slopes.append(rates(state + step * sum(a * k for a, k in zip(row, slopes, strict=True))))
-    after = state + step * sum(a * k for a, k in zip(STAGES[-1], slopes, strict=False))
-    return after, abs(step * (FOURTH @ np.array(slopes))), slopes[-1]
+    after = state + step * sum(a * k for a, k in zip(RUNGE_KUTTA_STAGES[-1], slopes, strict=False))
+    return after, abs(step * (ERROR_WEIGHTS @ np.array(slopes))), slopes[-1]

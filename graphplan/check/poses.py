@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.arithmetics import FLOATS
-from graphplan.check.compared import compared, drawn_sizes, each, plain, scales, sliding, weight
-from graphplan.check.report import by_part, opinion
+from graphplan.check.compared import compare, components, drawn_sizes, plain_number, scales, sliding_size, weight
+from graphplan.check.report import rates_by_kind, reference_solution
 from graphplan.check.tolerances import EPSILON, PROVEN_ZERO, ROUNDING_TOL
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
@@ -32,13 +32,13 @@ from graphplan.methods.kinds import (
 from graphplan.solver import poses, solve
 from graphplan.solver.bounds import Unproven
 
-BLOCK = 4096  # poses whose systems are solved at once
-SAFETY = 100  # times the solver's own bound, or its condition's roundings, that a difference may be
+BLOCK_POSES = 4096  # poses whose systems are solved at once
+SAFETY_FACTOR = 100  # times the solver's own bound, or its condition's roundings, that a difference may be
 Results = dict[str, dict[str, Any]]
 
 
 @dataclass(frozen=True)
-class Round:
+class PoseBatch:
     """Some poses of a scene: their places among all, where points and guides are in them, and the loads that change."""
 
     scene: Scene
@@ -48,69 +48,69 @@ class Round:
     loads: Mapping[str, Any] = field(default_factory=dict)
 
     @classmethod
-    def reached(cls, scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any],
-                loads: Mapping[str, Any] | None = None) -> Round:
+    def of_reached(cls, scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any],
+                   loads: Mapping[str, Any] | None = None) -> PoseBatch:
         """The poses in which every point has its place."""
         there = np.all([np.isfinite(z) for z in points.values()], axis=0)
-        return cls(scene, np.arange(there.size), points, guides, loads or {}).some(there)
+        return cls(scene, np.arange(there.size), points, guides, loads or {}).select(there)
 
-    def some(self, kept: Any) -> Round:
+    def select(self, kept: Any) -> PoseBatch:
         """Those of the poses that a mask or a slice keeps."""
         arrays = ({name: z[kept] for name, z in named.items()} for named in (self.points, self.guides, self.loads))
-        return Round(self.scene, self.places[kept], *arrays)
+        return PoseBatch(self.scene, self.places[kept], *arrays)
 
     @property
-    def posed(self) -> Scene:
+    def posed_scene(self) -> Scene:
         """The scene in these poses."""
         return poses.posed(self.scene, self.points, self.guides, self.loads)
 
 
-def checked(drawing: Construction, points: Mapping[str, Any], guides: Mapping[str, Any],
-            loads: Mapping[str, Any] | None = None) -> dict[str, Any]:
+def points_where_sound(drawing: Construction, points: Mapping[str, Any], guides: Mapping[str, Any],
+                       loads: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Where points are in the poses in which the construction agrees with the solver; nan in others."""
-    part = Round.reached(drawing.scene, points, guides, loads)
+    part = PoseBatch.of_reached(drawing.scene, points, guides, loads)
     results = drawing.evaluate(part.points, part.guides, loads=part.loads).results
     there = np.zeros(len(next(iter(points.values()))), dtype=bool)
-    there[part.places] = sound(part, drawing, results, gaps(part, drawing, results))
+    there[part.places] = sound_poses(part, drawing, results, pose_gaps(part, drawing, results))
     return {name: np.where(there, z, np.nan) for name, z in points.items()}
 
 
-def gaps(part: Round, drawing: Construction, results: Results,
-         progress: Callable[[int, int], None] = lambda done, of: None) -> dict[str, Any]:
+def pose_gaps(part: PoseBatch, drawing: Construction, results: Results,
+              progress: Callable[[int, int], None] = lambda done, of: None) -> dict[str, Any]:
     """For each kind of result the largest difference from the solver beside the number's own size, in each pose."""
     n, found = part.places.size, list[dict[str, Any]]()
-    for start in range(0, n, BLOCK):
-        block = slice(start, min(start + BLOCK, n))
+    for start in range(0, n, BLOCK_POSES):
+        block = slice(start, min(start + BLOCK_POSES, n))
         ours = {kind: {name: z[block] for name, z in named.items()} for kind, named in results.items()}
-        found.append(_against(part.some(block), drawing, ours))
+        found.append(_block_gaps(part.select(block), drawing, ours))
         progress(block.stop, n)
     return {kind: np.concatenate([apart[kind] for apart in found]) for kind in found[0]}
 
 
-def groups(drawing: Construction) -> list[str]:
+def compared_groups(drawing: Construction) -> list[str]:
     """What results are compared by: velocity and acceleration, kinds of places that are asked for, forces."""
     own = [group for group, kinds in MOTION.items() if not kinds[0].place or {*kinds} & {*drawing.kinds}]
     return [*own, *([FORCES] if drawing.scene.loads else [])]
 
 
-def _against(part: Round, drawing: Construction, ours: Results) -> dict[str, Any]:
+def _block_gaps(part: PoseBatch, drawing: Construction, ours: Results) -> dict[str, Any]:
     """The differences in one block of poses."""
-    n, scene = part.places.size, part.posed
+    n, scene = part.places.size, part.posed_scene
     motion = poses.solve(scene, n, sizes=True)
-    truth = by_part(motion, ours)
+    truth = rates_by_kind(motion, ours)
     if scene.loads is not None:
         from graphplan.check.forces import force_truth
 
         truth |= force_truth(scene, ours, poses.reactions(scene, motion, n, sizes=True))
-    apart: dict[str, Any] = {kind: np.zeros(n) for kind in groups(drawing)}
+    apart: dict[str, Any] = {kind: np.zeros(n) for kind in compared_groups(drawing)}
     least = {kind: PROVEN_ZERO * size for kind, size in drawn_sizes(drawing).items()}
     for kind, named in ours.items():
         for name, value in named.items() if kind in truth else ():
-            group, numbers = kind_of(kind).group, each(truth[kind][name])
+            group, numbers = kind_of(kind).group, components(truth[kind][name])
             true = numbers[0].value if len(numbers) == 1 else numbers[0].value + 1j * numbers[1].value
-            besides = _read_from(scene, truth, kind, name), sliding(scene, truth, kind, name)
+            besides = _relative_vectors_size(scene, truth, kind, name), sliding_size(scene, truth, kind, name)
             sizes = (np.full(n, least[group] / weight(drawing, kind)), *(number.size for number in numbers), *besides,
-                     _rolling(scene, motion, kind), _touching(scene, truth, kind, name))
+                     _rolling_size(scene, motion, kind), _contact_size(scene, truth, kind, name))
             size = np.max(np.broadcast_arrays(*sizes), axis=0)
             gap = np.abs(value - true) / size
             if kind == SLIDE_ARM:  # where no force acts at a slide it has no line of action
@@ -119,18 +119,18 @@ def _against(part: Round, drawing: Construction, ours: Results) -> dict[str, Any
     return apart
 
 
-def _read_from(scene: Scene, truth: Results, kind: str, name: str) -> Any:
+def _relative_vectors_size(scene: Scene, truth: Results, kind: str, name: str) -> Any:
     """The size of the vectors that a link's rate is read from, beside its longest side; of any other result nothing."""
     if not kind_of(kind).turning:
         return 0.0
     vectors, points = truth[kind_of(kind).group], scene.links[name]
     ends: Any = combinations([scene.points[point] for point in points], 2)
     longest = max((float(np.max(np.hypot(a[0] - b[0], a[1] - b[1]))) for a, b in ends), default=0.0)
-    sizes = [np.abs(plain(part)) for point in points for part in vectors[point]]
+    sizes = [np.abs(plain_number(part)) for point in points for part in vectors[point]]
     return np.max(np.broadcast_arrays(*sizes), axis=0) / longest if longest else 0.0
 
 
-def _rolling(scene: Scene, motion: Any, kind: str) -> Any:
+def _rolling_size(scene: Scene, motion: Any, kind: str) -> Any:
     """The size of what is turned about centres where links roll on each other: it may cancel in the motion of others.
 
     The pitch point has the velocity omega r about either centre, and the acceleration omega^2 r; nothing where no links
@@ -144,29 +144,29 @@ def _rolling(scene: Scene, motion: Any, kind: str) -> Any:
     for pair, at in pitch:
         for link, centre in zip(pair.links, pair.centres, strict=False):
             if link != FRAME and centre and at:
-                rate = np.abs(plain(motion.omega[link])) ** (1 if kind_of(kind).group == VELOCITY else 2)
+                rate = np.abs(plain_number(motion.omega[link])) ** (1 if kind_of(kind).group == VELOCITY else 2)
                 (x, y), (u, v) = at, scene.points[centre]
                 sizes.append(rate if kind_of(kind).turning else rate * np.hypot(x - u, y - v))
     return np.max(np.broadcast_arrays(*sizes), axis=0)
 
 
-def _touching(scene: Scene, truth: Results, kind: str, name: str) -> Any:
+def _contact_size(scene: Scene, truth: Results, kind: str, name: str) -> Any:
     """The size of the moments that contacts' forces have about a slide's point, which cancel where they pass it, or of
     the slide's arm by them; of other results nothing."""
     sizes: list[Any] = [0.0]
     if kind in (SLIDE_MOMENT, SLIDE_ARM):
-        whole = np.hypot(*(plain(part) for part in truth[SLIDE_REACTION][name]))
+        whole = np.hypot(*(plain_number(part) for part in truth[SLIDE_REACTION][name]))
         of = whole if kind == SLIDE_ARM else float(metre(scene.units))
         slide = next(slide for slide in scene.slides if slide.name == name)
         for contact in (one for one in scene.contacts if one.name in truth[CONTACT_REACTION]):
             if not {*contact.links}.isdisjoint(slide.links):
                 (x, y), (u, v) = (np.asarray(scene.points[point], float) for point in (contact.at, slide.at))
-                force = np.hypot(*(plain(part) for part in truth[CONTACT_REACTION][contact.name]))
+                force = np.hypot(*(plain_number(part) for part in truth[CONTACT_REACTION][contact.name]))
                 sizes.append(force * np.hypot(x - u, y - v) / of)
     return np.max(np.broadcast_arrays(*sizes), axis=0)
 
 
-def sound(part: Round, drawing: Construction, results: Results, apart: Mapping[str, Any]) -> Any:
+def sound_poses(part: PoseBatch, drawing: Construction, results: Results, apart: Mapping[str, Any]) -> Any:
     """In which poses the results are there, and differ from the solver's by no more than rounding.
 
     Where that is proven of a pose, `apart` has the differences beside what is proven to cancel there.
@@ -175,46 +175,46 @@ def sound(part: Round, drawing: Construction, results: Results, apart: Mapping[s
     worst[np.isnan(worst)] = np.inf
     kept = worst <= ROUNDING_TOL
     for k in np.flatnonzero(~kept & np.isfinite(worst)):
-        ours = {kind: {name: _plain(z[k]) for name, z in named.items()} for kind, named in results.items()}
-        if proven := _sound(part.some(k), drawing, ours, worst[k]):
+        ours = {kind: {name: _as_vector(z[k]) for name, z in named.items()} for kind, named in results.items()}
+        if proven := _prove_pose(part.select(k), drawing, ours, worst[k]):
             kept[k] = True
             for group, gap in proven.items():
                 apart[group][k] = gap
     return kept
 
 
-def _sound(pose: Round, drawing: Construction, ours: Results, worst: float) -> dict[str, float]:
+def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Results, worst: float) -> dict[str, float]:
     """The differences of one pose that is sound, by group: beside the bounds that are proven there, or where none are,
     beside the condition; nothing of one that is not.
 
     A pose of a cycle is known to rounding of the mechanism, and so are its numbers: those that are nothing beside the
     largest of their kind count beside that one.
     """
-    scene = alone(pose.posed)
+    scene = single_pose(pose.posed_scene)
     try:
-        told = opinion(scene, FLOATS)
+        told = reference_solution(scene, FLOATS)
         truth = told.truth(ours)
     except Unproven:
         try:
-            holds = worst <= SAFETY * EPSILON * solve(scene).condition
+            holds = worst <= SAFETY_FACTOR * EPSILON * solve(scene).condition
         except GraphplanError:
             holds = False
         return {kind_of(kind).group: float(worst) for kind in ours} if holds else {}
-    numbers = compared(drawing, ours, truth, lambda part, name: max(
-        float(_read_from(scene, truth, part, name)), float(_rolling(scene, told.rates, part))))
-    found, largest = dict.fromkeys(groups(drawing), 0.0), scales(drawing, truth)
+    numbers = compare(drawing, ours, truth, lambda part, name: max(
+        float(_relative_vectors_size(scene, truth, part, name)), float(_rolling_size(scene, told.rates, part))))
+    found, largest = dict.fromkeys(compared_groups(drawing), 0.0), scales(drawing, truth)
     for kind, named in numbers.items():
         scale = largest[kind_of(kind).group] / weight(drawing, kind)
         for number in (number for vector in named.values() for number in vector):
             nothing = number.near and abs(number.value) <= ROUNDING_TOL * scale
-            if not (number.close or nothing or number.gap <= SAFETY * (number.bound - number.gap)):
+            if not (number.close or nothing or number.gap <= SAFETY_FACTOR * (number.bound - number.gap)):
                 return {}
-            gap = number.gap / scale if nothing else number.beside("gap")
+            gap = number.gap / scale if nothing else number.relative("gap")
             found[kind_of(kind).group] = max(found[kind_of(kind).group], float(gap))
     return found
 
 
-def alone(scene: Scene) -> Scene:
+def single_pose(scene: Scene) -> Scene:
     """A scene in one pose, its floats taken as they are."""
     def plain(pair: KinematicPair) -> KinematicPair:
         if isinstance(pair, Drive):
@@ -224,5 +224,5 @@ def alone(scene: Scene) -> Scene:
     return replace(scene, irrational=(), placements={}, written=tuple(map(plain, scene.written)))
 
 
-def _plain(number: Any) -> Any:
+def _as_vector(number: Any) -> Any:
     return (number.real, number.imag) if isinstance(number, complex | np.complexfloating) else float(number)

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.check.poses import BLOCK, SAFETY, Round, alone
+from graphplan.check.poses import BLOCK_POSES, SAFETY_FACTOR, PoseBatch, single_pose
 from graphplan.check.tolerances import DEAD_POINT_TOL, EPSILON, FRICTION_TOL, ROUNDING_TOL
 from graphplan.errors import Disagreement, GraphplanError
 from graphplan.machine.reduced.friction import M_F
@@ -33,39 +33,39 @@ from graphplan.solver.poses import Sized, sized
 Gaps = dict[str, Any]
 
 
-def gaps(reduction: Reduction, travel: Any, side: int = 1) -> Gaps:
+def reduction_gaps(reduction: Reduction, travel: Any, side: int = 1) -> Gaps:
     """For inertia, moment and slope the difference from the solver beside the number's own size, in each pose."""
     travel = np.atleast_1d(np.asarray(travel, dtype=float))
     found: dict[str, list[Any]] = {}
-    for start in range(0, max(1, travel.size), BLOCK):
-        own = travel[start : start + BLOCK]
-        opinion = Opinion(reduction, own, side)
+    for start in range(0, max(1, travel.size), BLOCK_POSES):
+        own = travel[start : start + BLOCK_POSES]
+        opinion = ReferenceReduction(reduction, own, side)
         for what, gap in opinion.gaps(reduction.at(own, side)).items():
             found.setdefault(what, []).append(gap)
     return {what: np.concatenate(parts) for what, parts in found.items()}
 
 
-def smooth(found: Reduced, what: str) -> Any:
+def frictionless(found: Reduced, what: str) -> Any:
     """Inertia, moment or slope as it is without friction, which is compared by itself."""
     value = getattr(found, what)
     return value - found.by[M_F] if what == "moment" and M_F in found.by else value
 
 
-def checked(reduction: Reduction, travel: Any, side: int = 1) -> dict[str, float]:
+def check_reduction(reduction: Reduction, travel: Any, side: int = 1) -> dict[str, float]:
     """The largest difference from the solver in any of these poses, by what differs; with friction where it rubs.
 
     Fails with `Disagreement` where one is more than rounding, beside the condition of the solver's rates.
     """
     travel = np.atleast_1d(np.asarray(travel, dtype=float))
-    found = gaps(reduction, travel, side)
+    found = reduction_gaps(reduction, travel, side)
     for what, gap in found.items():
         for k in np.flatnonzero(~(gap <= ROUNDING_TOL)):
-            opinion = Opinion(reduction, travel[k : k + 1], side)
-            ours = smooth(reduction.at(travel[k : k + 1], side), what)[0]
+            opinion = ReferenceReduction(reduction, travel[k : k + 1], side)
+            ours = frictionless(reduction.at(travel[k : k + 1], side), what)[0]
             truth = opinion.truth[what].value[0]
             if abs(ours - truth) <= ROUNDING_TOL * getattr(reduction.size, what):
                 gap[k] = 0.0  # beside what these masses and loads do elsewhere both are nothing
-            elif not gap[k] <= SAFETY * EPSILON * opinion.condition:
+            elif not gap[k] <= SAFETY_FACTOR * EPSILON * opinion.condition:
                 where = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
                 raise Disagreement(where, f"reduced {what}", f"{ours:.15g}", f"{truth:.15g}", float(gap[k]))
     others = {} if reduction.friction is None else {"friction": friction_gap(reduction, travel)}
@@ -89,7 +89,7 @@ def weights_gap(reduction: Reduction, travel: Any) -> float:
     return gap
 
 
-def lever(reduction: Reduction, travel: float = 0.0) -> tuple[Construction, float]:
+def check_lever(reduction: Reduction, travel: float = 0.0) -> tuple[Construction, float]:
     """The lever drawn in one pose, and how far it is from the reduced moment beside the largest of the loads' own.
 
     Fails with `Disagreement` where that is more than rounding, beside the condition of the solver's rates.
@@ -101,10 +101,11 @@ def lever(reduction: Reduction, travel: float = 0.0) -> tuple[Construction, floa
         x, y = map(float, drawing.scene.driven_slide(drive).direction)
         balance = (complex(balance) * complex(x, -y)).real / abs(complex(x, y))
     drawn = -reduction.sense * balance * float(NEWTONS[reduction.scene.units.force])
-    told = float(smooth(found, "moment")[0])
+    told = float(frictionless(found, "moment")[0])
     size = max([MACHINE_SHARE * reduction.size.moment, *(abs(float(part[0])) for part in found.by.values())])
     gap = abs(drawn - told) / size if drawn != told else 0.0
-    if gap > ROUNDING_TOL and not gap <= SAFETY * EPSILON * Opinion(reduction, np.array([travel]), 1).condition:
+    if gap > ROUNDING_TOL and not gap <= SAFETY_FACTOR * EPSILON * ReferenceReduction(reduction, np.array([travel]),
+                                                                                      1).condition:
         raise Disagreement(reduction.scene.name, "lever", f"{drawn:.15g}", f"{told:.15g}", gap)
     return drawing, float(gap)
 
@@ -126,12 +127,12 @@ def friction_gap(reduction: Reduction, travel: Any) -> float:
         assert rubbing.scene.loads is not None
         acting = loads_with(rubbing.scene.loads, {name: complex(z[k]) for name, z in values.items()})
         given = replace(rubbing.scene, loads=acting)
-        own = Round(given, np.arange(travel.size), turn.points, turn.guides).some(k)
-        told = with_friction(alone(own.posed))
+        own = PoseBatch(given, np.arange(travel.size), turn.points, turn.guides).select(k)
+        told = with_friction(single_pose(own.posed_scene))
         work = float(delivered(told)) * rubbing.power
         size = max(abs(float(found.balance[k])), abs(work), -sum(float(loss[k]) for loss in found.losses.values()))
         gap = abs(work - float(found.balance[k] - found.moment[k])) / size if size > ROUNDING_TOL * usual else 0.0
-        if gap > max(FRICTION_TOL, SAFETY * EPSILON * told.condition):
+        if gap > max(FRICTION_TOL, SAFETY_FACTOR * EPSILON * told.condition):
             where = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
             drawn = f"{float(found.balance[k] - found.moment[k]):.15g}"
             raise Disagreement(where, "balance with friction", drawn, f"{work:.15g}", gap)
@@ -139,14 +140,14 @@ def friction_gap(reduction: Reduction, travel: Any) -> float:
     return worst
 
 
-class Opinion:
+class ReferenceReduction:
     """What the solver says of a reduction at some travels: its `truth`, as numbers that know what cancels in them."""
 
     def __init__(self, reduction: Reduction, travel: Any, side: int):
         self.scene, self.motion, self.side = reduction.scene, reduction.motion, side
         self.travel, self.turn = travel, self.motion.turn(travel)
-        self.part = Round(at_unit_rate(self.scene), np.arange(travel.size), self.turn.points, self.turn.guides)
-        self.posed = self.part.posed
+        self.part = PoseBatch(at_unit_rate(self.scene), np.arange(travel.size), self.turn.points, self.turn.guides)
+        self.posed = self.part.posed_scene
         self.rates: Any = poses.solve(self.posed, travel.size, sizes=True)
         self.rubbing = reduction.friction
         self.metres, self.unit = float(METRES[self.scene.units.length]), self.motion.unit
@@ -167,7 +168,7 @@ class Opinion:
     def condition(self) -> float:
         """The condition of the solver's rates in the first pose."""
         try:
-            return solve(alone(self.part.some(0).posed)).condition
+            return solve(single_pose(self.part.select(0).posed_scene)).condition
         except GraphplanError:
             return np.inf
 
@@ -182,7 +183,7 @@ class Opinion:
         """The differences of what was found."""
         told: Gaps = {}
         for what, truth in self.truth.items():
-            apart, size = np.abs(smooth(found, what) - truth.value), truth.size
+            apart, size = np.abs(frictionless(found, what) - truth.value), truth.size
             told[what] = np.divide(apart, size, out=np.where(apart > 0, np.inf, 0.0), where=size > 0)
         return told
 
@@ -205,18 +206,19 @@ class Opinion:
         total, newton = self._none, float(NEWTONS[self.scene.units.force])
         for force in loads.forces:
             if force.on != FRAME and not (force.table and force.table.over_speed):
-                total = total + self._along(force.at, self._vector(force)) * newton
+                total = total + self._point_power(force.at, self._vector(force)) * newton
         for moment in loads.moments:
             if moment.on != FRAME and not (moment.table and moment.table.over_speed):
-                value = self._read(moment.table) if moment.table else float(moment.value)
+                value = self._table_values(moment.table) if moment.table else float(moment.value)
                 total = total + sized(self.rates.omega[moment.on]) * value * (newton / self.unit)
         for link, mass in loads.masses.items():
             if link != FRAME:
                 weight = float(mass.mass) * float(KILOGRAMS[self.scene.units.mass])
-                total = total + self._along(mass.centre, (float(loads.gravity[0]), float(loads.gravity[1]))) * weight
+                total = total + self._point_power(mass.centre,
+                                                  (float(loads.gravity[0]), float(loads.gravity[1]))) * weight
         return total
 
-    def _along(self, point: str, vector: tuple[Any, Any]) -> Sized:
+    def _point_power(self, point: str, vector: tuple[Any, Any]) -> Sized:
         """A vector times the velocity of a point."""
         x, y = self.rates.velocity[point]
         power: Sized = sized(x) * vector[0] + sized(y) * vector[1]
@@ -232,10 +234,10 @@ class Opinion:
         else:
             assert force.direction is not None
             x, y = np.asarray(force.direction, float)
-        value = self._read(force.table) / np.hypot(x, y)
+        value = self._table_values(force.table) / np.hypot(x, y)
         return x * value, y * value
 
-    def _read(self, table: LoadTable) -> Any:
+    def _table_values(self, table: LoadTable) -> Any:
         """What a table says in every pose."""
         if not table.slide:
             return table.at(self.motion.told(self.travel), 1, self.side > 0)
@@ -245,11 +247,11 @@ class Opinion:
             x, y = x - self.posed.points[origin][0], y - self.posed.points[origin][1]
         length = np.hypot(np.asarray(dx, float), np.asarray(dy, float))
 
-        def along(vectors: Any) -> Any:
+        def component(vectors: Any) -> Any:
             return (vectors[slide.name][0].value * dx + vectors[slide.name][1].value * dy) / length
 
-        speed, reach = along(self.rates.slide_velocity), self.scene.extent if self.motion.turns else 1.0
+        speed, reach = component(self.rates.slide_velocity), self.scene.extent if self.motion.turns else 1.0
         moves = np.abs(speed) > DEAD_POINT_TOL * reach
-        speed = np.where(moves, speed, self.side * along(self.rates.slide_acceleration))
+        speed = np.where(moves, speed, self.side * component(self.rates.slide_acceleration))
         zero = np.zeros(self.travel.shape)
         return table.at((x * dx + y * dy) / length + zero, np.where(speed < 0, -1.0, 1.0) + zero, self.side > 0)

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, bounded_rates, enclosed, placing_error
-from graphplan.check.compared import Compared, Numbers, Results
+from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, bounded_rates, enclose_scene, placing_error
+from graphplan.check.compared import ComparedNumber, Numbers, Results
 from graphplan.check.tolerances import ROUNDING_TOL, UNPROVEN_TOL
 from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, SingularPose
 from graphplan.mechanism.model import FRAME, Scene
@@ -26,15 +26,15 @@ if TYPE_CHECKING:
     from graphplan.check.forces import Forces
     from graphplan.solver.statics import Reactions
 
-SAFETY = 100  # times the bound of a constructed place that the cycle may have it elsewhere
-ENOUGH_ROUNDS = 20  # of friction: where none is drawn, the forces stand after so many
+SAFETY_FACTOR = 100  # times the bound of a constructed place that the cycle may have it elsewhere
+STANDING_ROUNDS = 20  # of friction: where none is drawn, the forces stand after so many
 
 
 # ---- what the solver says in one arithmetic, by the kinds and names of a construction's results ---------------------
 
 
 @dataclass(frozen=True)
-class Opinion:
+class ReferenceSolution:
     """The solver's rates of a scene, where there are loads its reactions, too, and those after so many `rounds` of
     friction; `power` is the third opinion on the balances, where it is known."""
 
@@ -47,13 +47,14 @@ class Opinion:
     def truth(self, results: Results, rounds: int = 0) -> dict[str, dict[str, Any]]:
         """What a construction's results should be that draws so many rounds of friction."""
         if self.reactions is None or self.rounds is None:
-            return by_part(self.rates, results)
+            return rates_by_kind(self.rates, results)
         from graphplan.check.forces import force_truth
 
-        return by_part(self.rates, results) | force_truth(self.scene, results, self.reactions, self.rough(rounds))
+        return rates_by_kind(self.rates, results) | force_truth(self.scene, results, self.reactions,
+                                                                self.with_friction(rounds))
 
     @property
-    def third(self) -> dict[str, dict[str, Any]]:
+    def power_readings(self) -> dict[str, dict[str, Any]]:
         """The power balance, which is compared as what is drawn is."""
         if not self.power:
             return {}
@@ -61,8 +62,9 @@ class Opinion:
 
         return powers(self.power)
 
-    def beside(self, drawing: Construction, results: dict[str, dict[str, Any]], locks: str = "", exact: bool = False,
-               bounded: bool = False) -> Forces | None:
+    def drawn_forces(self, drawing: Construction, results: dict[str, dict[str, Any]], locks: str = "",
+                     exact: bool = False,
+                     bounded: bool = False) -> Forces | None:
         """The forces among the results, of which some are drawn, beside this; none where there are no loads."""
         if self.reactions is None:
             return None
@@ -71,46 +73,46 @@ class Opinion:
         drawn = {(reading.kind, reading.of) for reading in drawing.readings}
         alone = dict.fromkeys(name for kind, named in results.items() for name in named if (kind, name) not in drawn)
         return Forces(drawing.scene, results, self.reactions, self.power, drawing.rounds, exact, bounded,
-                      self.rough(drawing.rounds), locks, tuple(alone))
+                      self.with_friction(drawing.rounds), locks, tuple(alone))
 
-    def undrawn(self, drawing: Construction, results: Results, truth: Results) -> dict[str, dict[str, Any]]:
+    def undrawn_forces(self, drawing: Construction, results: Results, truth: Results) -> dict[str, dict[str, Any]]:
         """The forces that are asked for and not drawn, as this has them."""
         if self.reactions is None or drawing.scene.loads is None:
             return {}
-        from graphplan.check.forces import undrawn
+        from graphplan.check.forces import undrawn_forces
 
-        return undrawn(drawing.scene, results, truth)
+        return undrawn_forces(drawing.scene, results, truth)
 
-    def rough(self, rounds: int) -> Reactions | None:
+    def with_friction(self, rounds: int) -> Reactions | None:
         """The reactions with friction, after so many rounds where some are drawn; None where nothing rubs."""
         loads = self.scene.loads
         if self.rounds is None or loads is None or not (loads.frictions and any(one.rate for one in self.scene.drives)):
             return None
-        return self.rounds(rounds or loads.rounds or ENOUGH_ROUNDS)
+        return self.rounds(rounds or loads.rounds or STANDING_ROUNDS)
 
 
-def opinion(scene: Scene, by: Arithmetic) -> Opinion:
+def reference_solution(scene: Scene, by: Arithmetic) -> ReferenceSolution:
     """What the solver says; fails with the arithmetic's doubt where its bounds are too wide to tell."""
-    known = scene if isinstance(by, Exact) else enclosed(scene, by)
+    known = scene if isinstance(by, Exact) else enclose_scene(scene, by)
     rates = solve(scene, exact=True) if isinstance(by, Exact) else bounded_rates(known, by)
     if scene.loads is None:
-        return Opinion(known, rates)
-    from graphplan.check.forces import bounded_reactions, rubbed
+        return ReferenceSolution(known, rates)
+    from graphplan.check.forces import bounded_reactions, friction_rounds
     from graphplan.solver.friction import with_friction
     from graphplan.solver.statics import power, reactions
 
     if isinstance(by, Exact):
-        return Opinion(known, rates, reactions(scene, exact=True),
-                       lambda rounds: with_friction(scene, rounds, exact=True), power(scene, exact=True))
+        return ReferenceSolution(known, rates, reactions(scene, exact=True),
+                                 lambda rounds: with_friction(scene, rounds, exact=True), power(scene, exact=True))
     smooth, certain = bounded_reactions(known, rates, by), by
     try:
         third = power(scene) if by is FLOATS else ()
     except SingularPose:  # for bare floats alone: better arithmetic will tell
         raise by.doubt from None
-    return Opinion(known, rates, smooth, lambda rounds: rubbed(smooth, rounds, certain), third)
+    return ReferenceSolution(known, rates, smooth, lambda rounds: friction_rounds(smooth, rounds, certain), third)
 
 
-def by_part(rates: Rates, results: Results) -> dict[str, Any]:
+def rates_by_kind(rates: Rates, results: Results) -> dict[str, Any]:
     """The solver's rates, by the kinds of readings; its places as they are asked for by results."""
     found: dict[str, Any] = {part: getattr(rates, part.replace(" ", "_")) for part in ORDER if not part.place}
     for part, named in results.items():
@@ -152,7 +154,7 @@ class Report:
     missing: dict[str, dict[str, str]] = field(default_factory=dict)
 
     @property
-    def asked(self) -> Scene:
+    def given_scene(self) -> Scene:
         """The scene as it was given."""
         return self.whole or self.scene
 
@@ -163,10 +165,10 @@ class Report:
     @cached_property
     def check(self) -> dict[str, Any]:
         """For each kind the largest difference of a number from the solver's, beside what cancels in the number."""
-        return self._largest("gap") | ({"position": self.displaced} if self.scene.assembly else {})
+        return self._largest("gap") | ({"position": self.displacement} if self.scene.assembly else {})
 
     @cached_property
-    def displaced(self) -> float:
+    def displacement(self) -> float:
         """How far a constructed point is at most from where the cycle has it, beside the mechanism's extent."""
         drawing = self.drawing
         found = ((step.index, self.scene.points[step.name]) for step in drawing.program.steps
@@ -182,14 +184,15 @@ class Report:
     def _largest(self, part: str) -> dict[str, Any]:
         found: dict[str, Any] = {}
         for kind in (*MOTION, FORCES):
-            values = [number.beside(part) for reading, _, number in self._all if kind_of(reading).group == kind]
+            values = [number.relative(part) for reading, _, number in self._all_numbers
+                      if kind_of(reading).group == kind]
             if values or (kind == FORCES and self.forces is not None):
                 found[kind] = max(values, default=0)
         return found
 
     def truth(self, part: str) -> dict[str, Any]:
         """The solver's values for one kind of reading."""
-        def value(name: str, numbers: tuple[Compared, ...]) -> Any:
+        def value(name: str, numbers: tuple[ComparedNumber, ...]) -> Any:
             told = tuple([number.truth for number in numbers])
             return told if isinstance(self.results[part][name], tuple) else told[0]
 
@@ -203,28 +206,28 @@ class Report:
     @property
     def proven(self) -> bool:
         """Whether nine digits of each number are proven, and the difference from the solver is rounding."""
-        return all(number.holds and not number.apart for _, _, number in self._all)
+        return all(number.holds and not number.apart for _, _, number in self._all_numbers)
 
     @property
     def wrong(self) -> bool:
         """Whether the construction and the solver are proven to differ."""
-        return any(number.apart for _, _, number in self._all)
+        return any(number.apart for _, _, number in self._all_numbers)
 
     @property
     def agrees(self) -> bool:
         """Whether construction and solver say the same, no drawn step breaks a claim, no exact number a control."""
-        return self.same and not self.broken
+        return self.numbers_agree and not self.broken_claim
 
     @cached_property
-    def broken(self) -> str:
+    def broken_claim(self) -> str:
         """The first claim that a drawn step breaks, or control that does not hold, in words; nothing where all do."""
-        missed = next((control for control in self.drawing.controls if self._missed(control)), None)
+        missed = next((control for control in self.drawing.controls if self._fails(control)), None)
         control = missed and (f"link {missed.link}: the lines from {', '.join(missed.points)} to the ends of their "
                               "orthogonal velocities do not meet in its pole")
-        return self.drawing.broken or control or self._moving
+        return self.drawing.broken or control or self._moving_links_without_pole
 
     @property
-    def _moving(self) -> str:
+    def _moving_links_without_pole(self) -> str:
         """Links of which no pole is told, as if they rested on each other, and that move as the solver has them."""
         told = {name for kind in (POLE, POLE_HEADING) for name in self.results.get(kind, ())}
         for name in self.scene.find.poles if self.fault is None else ():
@@ -233,25 +236,26 @@ class Report:
                     return f"links {name}: they move relative to each other, and have a pole"
         return ""
 
-    def _missed(self, control: Control) -> bool:
+    def _fails(self, control: Control) -> bool:
         """Whether a control does not hold in fractions; beside rounding nobody can tell."""
         return self.exact and control.apart(self.scene.points, self.results["velocity"]) != 0
 
     @property
-    def same(self) -> bool:
+    def numbers_agree(self) -> bool:
         """Whether the numbers of construction and solver are the same, as far as can be told."""
         return not self.wrong and self._in_place and all(
-            number.gap <= UNPROVEN_TOL * number.size or number.holds or number.near for _, _, number in self._all)
+            number.gap <= UNPROVEN_TOL * number.size or number.holds or number.near
+                                                         for _, _, number in self._all_numbers)
 
     @property
     def _in_place(self) -> bool:
         """Whether constructed points are where the cycle has them, as far as the lengths tell."""
-        if self.scene.assembly is None or self.fault is not None or self.displaced <= ROUNDING_TOL:
+        if self.scene.assembly is None or self.fault is not None or self.displacement <= ROUNDING_TOL:
             return True
-        return self.displaced <= min(UNPROVEN_TOL, SAFETY * placing_error(self.scene) / self.scene.extent)
+        return self.displacement <= min(UNPROVEN_TOL, SAFETY_FACTOR * placing_error(self.scene) / self.scene.extent)
 
     @property
-    def _all(self) -> list[tuple[str, str, Compared]]:
+    def _all_numbers(self) -> list[tuple[str, str, ComparedNumber]]:
         """Every number with its kind and name."""
         return [(part, name, number) for part, named in self.numbers.items() for name, vector in named.items()
                 for number in vector]
@@ -260,16 +264,16 @@ class Report:
     def disagreement(self) -> Disagreement:
         """The error that names the number in which the two differ most; where none does, the step that breaks a claim.
         """
-        if self.same:
-            return BrokenClaim(self.scene.name, self.broken)
+        if self.numbers_agree:
+            return BrokenClaim(self.scene.name, self.broken_claim)
         if not self._in_place:
-            return Disagreement(self.scene.name, "position", "constructed", "followed", self.displaced)
-        part, name, number = max(self._all, key=lambda one: (one[2].apart, one[2].beside("gap")))
-        return Disagreement(self.scene.name, f"{part} of {name}", told(number.value), told(number.truth),
-                            float(number.beside("gap")))
+            return Disagreement(self.scene.name, "position", "constructed", "followed", self.displacement)
+        part, name, number = max(self._all_numbers, key=lambda one: (one[2].apart, one[2].relative("gap")))
+        return Disagreement(self.scene.name, f"{part} of {name}", number_text(number.value), number_text(number.truth),
+                            float(number.relative("gap")))
 
 
-def told(value: Any) -> str:
+def number_text(value: Any) -> str:
     """A number as an error line has it."""
     return f"{float(value):.10g}"
 

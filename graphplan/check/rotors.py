@@ -25,7 +25,7 @@ from graphplan.machine.rotors.trial_runs import Effect, angle_of
 Pair = tuple[tuple[Eccentric, ...], Answer]  # unbalances, and what balances them
 
 
-def checked(found: Balanced) -> dict[str, float]:
+def check_rotor(found: Balanced) -> dict[str, float]:
     """By how much the opinions differ, relative to the sizes of what they are made of.
 
     Fails with `BrokenClaim` where a drawn step breaks a claim, and with `Disagreement` where opinions differ.
@@ -33,12 +33,12 @@ def checked(found: Balanced) -> dict[str, float]:
     if fault := next(broken(found.drawing.program, found.drawing.values), ""):
         raise BrokenClaim(found.task.name, fault)
     pairs = [*zip(found.unbalances, found.answers, strict=True)]
-    gaps = {"corrections": max(_apart(found.task.rotor, *pair) for pair in pairs),
-            "residual_force": max(map(_force, pairs))}
+    gaps = {"corrections": max(_correction_gap(found.task.rotor, *pair) for pair in pairs),
+            "residual_force": max(map(_residual_force, pairs))}
     if found.task.rotor.dynamic:
-        gaps["residual_moment"] = max(map(_moment, pairs))
+        gaps["residual_moment"] = max(map(_residual_moment, pairs))
     if found.effects:
-        gaps["trials"] = max(_trial(one, -vector(mass)) for masses, _ in pairs
+        gaps["trials"] = max(_trial_gap(one, -vector(mass)) for masses, _ in pairs
                              for one, mass in zip(found.effects, masses, strict=True))
     for what, size in gaps.items():
         if not size <= SUM_TOL:
@@ -52,51 +52,52 @@ def vector(one: Eccentric | Correction) -> complex:
     return cmath.rect(size, math.radians(one.angle))
 
 
-def place(one: Eccentric | Correction) -> float:
+def axial_place(one: Eccentric | Correction) -> float:
     """Where along the axis it is."""
     return float(one.at or 0)
 
 
-def _force(pair: Pair) -> float:
+def _residual_force(pair: Pair) -> float:
     """The force that is left with the corrections, beside the sum of its parts."""
-    return _left([vector(one) for part in pair for one in part])
+    return _relative_sum([vector(one) for part in pair for one in part])
 
 
-def _moment(pair: Pair) -> float:
+def _residual_moment(pair: Pair) -> float:
     """The moment about the middle of all places that is left, beside the sum of its parts."""
     everything = [one for part in pair for one in part]
-    middle = sum(map(place, everything)) / len(everything)
-    return _left([(place(one) - middle) * vector(one) for one in everything])
+    middle = sum(map(axial_place, everything)) / len(everything)
+    return _relative_sum([(axial_place(one) - middle) * vector(one) for one in everything])
 
 
-def _left(parts: list[complex]) -> float:
+def _relative_sum(parts: list[complex]) -> float:
     """What is left of a sum, beside the sizes of its parts."""
     return abs(sum(parts)) / (sum(map(abs, parts)) or 1.0)
 
 
 def equilibrium(rotor: Rotor, masses: Sequence[Eccentric]) -> list[complex]:
     """The corrections, as vectors, that two equations of equilibrium give, or one of a rotor with one plane."""
-    forces, places = [*map(vector, masses)], _from(rotor, masses)
+    forces, places = [*map(vector, masses)], _plane_distances(rotor, masses)
     if not rotor.dynamic:
         return [-sum(forces, 0j)]
     rows = np.array([[1.0, 1.0], [0.0, float(rotor.planes[1] - rotor.planes[0])]])
     return [*map(complex, np.linalg.solve(rows, [-sum(forces, 0j), -np.dot(places, forces)]))]
 
 
-def _from(rotor: Rotor, masses: Sequence[Eccentric]) -> list[float]:
+def _plane_distances(rotor: Rotor, masses: Sequence[Eccentric]) -> list[float]:
     """How far masses are from the first plane."""
     return [float((mass.at or 0) - rotor.planes[0]) for mass in masses]
 
 
-def _apart(rotor: Rotor, masses: Sequence[Eccentric], answer: Answer) -> float:
+def _correction_gap(rotor: Rotor, masses: Sequence[Eccentric], answer: Answer) -> float:
     """How far the corrections are from equilibrium's, beside what masses would need that did not help each other."""
     wide = abs(float(rotor.planes[-1] - rotor.planes[0])) or math.inf
-    size = sum(mass.size * (1 + abs(arm) / wide) for mass, arm in zip(masses, _from(rotor, masses), strict=True))
+    size = sum(mass.size * (1 + abs(arm) / wide) for mass, arm in zip(masses, _plane_distances(rotor, masses),
+                                                                      strict=True))
     wanted = equilibrium(rotor, masses)
     return max(abs(vector(one) - other) for one, other in zip(answer, wanted, strict=True)) / (size or 1.0)
 
 
-def _trial(one: Effect, side: complex) -> float:
+def _trial_gap(one: Effect, side: complex) -> float:
     """By how much the trial would have given other numbers, beside the largest, if this is the correction."""
     trial, size = one.trial, float(one.trial.mass_radius)
     at = cmath.rect(size, math.radians(float(trial.angle)))
@@ -117,11 +118,11 @@ def _trial(one: Effect, side: complex) -> float:
     return abs(complex(x, y) * size - side) / (size * float(max(trial.weights)) or 1.0)
 
 
-def reactions(found: Balanced, answer: Answer = ()) -> list[complex]:
+def bearing_reactions(found: Balanced, answer: Answer = ()) -> list[complex]:
     """What the bearings bear of the centrifugal forces, in N, turning with the rotor, with these corrections."""
     rotor = found.task.rotor
     parts: list[Eccentric | Correction] = [*found.masses, *answer]
-    forces, places = [vector(one) for one in parts], [place(one) for one in parts]
+    forces, places = [vector(one) for one in parts], [axial_place(one) for one in parts]
     rows = np.array([[1.0, 1.0], [*map(float, rotor.bearings)]])
     borne = np.linalg.solve(rows, [sum(forces, 0j), np.dot(places, forces)])
     return [complex(one) * float(found.task.kg_m) * rotor.omega**2 for one in borne]

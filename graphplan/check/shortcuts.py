@@ -50,10 +50,10 @@ class Shortcuts:
 def shortcuts(drawing: Construction) -> list[Shortcuts]:
     """The shortcuts wherever a drawing has a link with three loci on the N-plan, one of them of its middle."""
     return [found for step in drawing.program.steps if step.op.claimed("locus") and step.panel.whole == N_PLAN
-            for found in _at(drawing, step)]
+            for found in _shortcuts_at(drawing, step)]
 
 
-def _at(drawing: Construction, carry: Step) -> Iterator[Shortcuts]:
+def _shortcuts_at(drawing: Construction, carry: Step) -> Iterator[Shortcuts]:
     """The link whose loci this step carries together, if one of its three points halves the other two, whose loci meet.
     """
     steps, values = drawing.program.steps, drawing.truth
@@ -80,13 +80,13 @@ def _cost(drawing: Construction, name: str, alpha: Line, beta: Line, gamma: Line
     median = end - corner
     one, two = (complex(line[1], -line[0]) / math.hypot(*line[:2]) for line in (beta, gamma))
     bisector = min((one + two, one - two), key=lambda way: _angle(way, median))
-    drawn = _meet(_through(corner, bisector), alpha)
-    short = _meet(_through(corner, median), _through(a, complex(alpha[1], -alpha[0])))
+    drawn = _meet(_line_through(corner, bisector), alpha)
+    short = _meet(_line_through(corner, median), _line_through(a, complex(alpha[1], -alpha[0])))
     length = abs(end - a)
     return Shortcuts(name, math.degrees(_angle(bisector, median)), abs(drawn - end) / length, abs(short - end) / length)
 
 
-def _through(point: complex, way: complex) -> Line:
+def _line_through(point: complex, way: complex) -> Line:
     return -way.imag, way.real, way.imag * point.real - way.real * point.imag
 
 

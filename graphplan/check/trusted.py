@@ -15,10 +15,10 @@ from importlib.util import find_spec
 from itertools import islice
 from typing import Any, TypeVar
 
-from graphplan.check.answerable import answered, decided
+from graphplan.check.answerable import answer_what_exists, decide_friction
 from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, enclosures
-from graphplan.check.compared import compared, printed, rounded
-from graphplan.check.report import Opinion, Report, opinion
+from graphplan.check.compared import compare, printed_results, round_fractions
+from graphplan.check.report import ReferenceSolution, Report, reference_solution
 from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
 from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.numbers import Domain
@@ -29,8 +29,8 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import PATHS, TRANSLATION
 from graphplan.solver import solve
 
-ENOUGH = 40, 80, 160, 320, 640  # digits of enclosures, one after the other
-WAYS = 24  # constructions that are tried at most
+DIGIT_LADDER = 40, 80, 160, 320, 640  # digits of enclosures, one after the other
+MAX_CONSTRUCTIONS = 24  # constructions that are tried at most
 
 
 class Bench:
@@ -38,7 +38,7 @@ class Bench:
 
     def __init__(self, scene: Scene, how: dict[str, Any], exact: bool, locks: str = ""):
         self.scene, self.how, self.exact, self.locks = scene, how, exact, locks
-        self._opinions: dict[str, Opinion] = {}
+        self._opinions: dict[str, ReferenceSolution] = {}
 
     def refuse_singular_forces(self) -> None:
         """Fail where fractions say that the forces are singular here: then no way to draw them is sought."""
@@ -51,10 +51,10 @@ class Bench:
         except SingularPose as singular:
             lines = ""
             with suppress(Refused):
-                lines = miss(plain_construction(self.scene, **self.how), Exact().domain())
+                lines = missed_crossing(plain_construction(self.scene, **self.how), Exact().domain())
             raise SingularPose(singular.why, singular.links, lines) from None
 
-    def judged(self, drawing: Construction) -> Report:
+    def judge(self, drawing: Construction) -> Report:
         """A construction beside the solver, in the first arithmetic that proves the digits or a difference.
 
         Where none does, the last word is that of floats, with bounds as large as they are.
@@ -64,7 +64,7 @@ class Bench:
         for by in self._ladder():
             try:
                 with by.working():
-                    found = self._judged(drawing, by)
+                    found = self._judge_in(drawing, by)
             except ConstructionError as error:
                 fault = error
                 continue
@@ -81,14 +81,14 @@ class Bench:
         assert last is not None
         return last
 
-    def alone(self, drawing: Construction, fault: ConstructionError) -> Report:
+    def solver_report(self, drawing: Construction, fault: ConstructionError) -> Report:
         """What the solver says of all that a construction would give, which has no numbers in this pose."""
         found: Report | None = None
         for by in self._ladder():
             with suppress(by.doubt), by.working():
                 if isinstance(by, Exact) or (found is not None and found.proven):
                     break
-                ours = solver_alone(drawing, self._opinion(by, drawing))
+                ours = solver_results(drawing, self._reference(by, drawing))
                 if by is FLOATS:
                     ours = {kind: {name: _middle(value) for name, value in named.items()}
                             for kind, named in ours.items()}
@@ -104,15 +104,15 @@ class Bench:
         if not self.exact:
             yield FLOATS
             if find_spec("flint") and not (rational and self._singular):
-                for digits in ENOUGH:
+                for digits in DIGIT_LADDER:
                     yield enclosures(digits * 10 // 3 + 4, f"enclosures of {digits} digits")
         if self.exact or rational:
             yield Exact()
 
-    def _judged(self, drawing: Construction, by: Arithmetic) -> Report:
+    def _judge_in(self, drawing: Construction, by: Arithmetic) -> Report:
         """A construction beside the solver in one arithmetic; fails with its doubt where that cannot tell."""
-        known, domain = self._opinion(by, drawing).scene, by.domain()
-        sharp = self._same(known, drawing) if self.scene.irrational and by is not FLOATS else drawing
+        known, domain = self._reference(by, drawing).scene, by.domain()
+        sharp = self._same_construction(known, drawing) if self.scene.irrational and by is not FLOATS else drawing
         if sharp is None:
             raise by.doubt
         try:
@@ -122,14 +122,14 @@ class Bench:
                 raise by.doubt from None
             raise
 
-    def _opinion(self, by: Arithmetic, drawing: Construction) -> Opinion:
+    def _reference(self, by: Arithmetic, drawing: Construction) -> ReferenceSolution:
         """What the solver says in one arithmetic, found once; of a singular pose what fractions say is so."""
         try:
             if by.name not in self._opinions:
-                self._opinions[by.name] = opinion(self.scene, by)
+                self._opinions[by.name] = reference_solution(self.scene, by)
         except SingularPose as singular:
             if isinstance(by, Exact):
-                raise SingularPose(singular.why, singular.links, miss(drawing, by.domain())) from None
+                raise SingularPose(singular.why, singular.links, missed_crossing(drawing, by.domain())) from None
             raise
         return self._opinions[by.name]
 
@@ -151,34 +151,34 @@ class Bench:
     def _unproven(self, drawing: Construction) -> SingularPose | Refused:
         """The error where no arithmetic at hand tells anything: what floats say of it."""
         if self._singular is not None:
-            return SingularPose(self._singular.why, self._singular.links, miss(drawing, Floats()))
+            return SingularPose(self._singular.why, self._singular.links, missed_crossing(drawing, Floats()))
         return Refused(f"{self.scene.name}: the pose", "it is too near to a singular one for floats",
                        "install graphplan[certified], or give its points as coordinates")
 
-    def _same(self, known: Scene, drawing: Construction) -> Construction | None:
+    def _same_construction(self, known: Scene, drawing: Construction) -> Construction | None:
         """The same construction of the scene in enclosures: by the same steps."""
         def steps(one: Construction) -> list[tuple[Primitive, tuple[int, ...]]]:
             return [(step.op, step.args) for step in one.program.steps]
 
-        every = islice(constructions(known, **self.how), WAYS)
+        every = islice(constructions(known, **self.how), MAX_CONSTRUCTIONS)
         return next((one for one in every if steps(one) == steps(drawing)), None)
 
     def _report(self, drawing: Construction, by: Arithmetic, ours: dict[str, dict[str, Any]]) -> Report:
         """The comparison in one arithmetic; fractions that are not asked for are printed as floats."""
         told = self._opinions[by.name]
         truth = told.truth(ours, drawing.rounds)
-        for kind, named in told.undrawn(drawing, ours, truth).items():
+        for kind, named in told.undrawn_forces(drawing, ours, truth).items():
             ours = ours | {kind: ours.get(kind, {}) | {
                 name: _middle(value) if by is FLOATS else value for name, value in named.items()}}
-        numbers = compared(drawing, ours | told.third, truth)
+        numbers = compare(drawing, ours | told.power_readings, truth)
         if isinstance(by, Exact) and not self.exact:
-            numbers = rounded(numbers)
-        results = printed(ours, numbers, (lambda number: number) if self.exact else float)
-        forces = told.beside(drawing, results, self.locks, self.exact)
+            numbers = round_fractions(numbers)
+        results = printed_results(ours, numbers, (lambda number: number) if self.exact else float)
+        forces = told.drawn_forces(drawing, results, self.locks, self.exact)
         return Report(drawing, told.rates, results, self.exact, forces, by.name, numbers)
 
 
-def solver_alone(drawing: Construction, solved: Opinion) -> dict[str, dict[str, Any]]:
+def solver_results(drawing: Construction, solved: ReferenceSolution) -> dict[str, dict[str, Any]]:
     """What the solver says of all that a construction would give, by kind and name."""
     paths: dict[str, Any] = {kind: {r.of: None for r in drawing.readings if r.kind == kind}
                              for kind in (*PATHS, TRANSLATION)}
@@ -192,7 +192,7 @@ def _middle(value: Any) -> Any:
     return tuple(map(float, value)) if isinstance(value, tuple) else float(value)
 
 
-def miss(drawing: Construction, domain: Domain) -> str:
+def missed_crossing(drawing: Construction, domain: Domain) -> str:
     """The lines that should meet and do not: where the construction stops, or where its lines cross flattest."""
     try:
         drawing.read(domain)
@@ -263,9 +263,9 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
     if exact and scene.irrational:
         irrational = ", ".join(sorted(scene.irrational, key=by_name))
         raise Refused(f"{scene.name}: {irrational}", "fractions cannot hold this", "leave out --exact")
-    scene, locks = decided(scene, exact)
+    scene, locks = decide_friction(scene, exact)
     how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia}
-    found, reasons = answered(scene, lambda asked: _first_trusted(asked, how, exact, alone, locks))
+    found, reasons = answer_what_exists(scene, lambda asked: _first_trusted(asked, how, exact, alone, locks))
     if refuse and not found.agrees:
         raise found.disagreement
     return replace(found, whole=scene, missing=reasons) if reasons else found
@@ -276,14 +276,14 @@ def _first_trusted(scene: Scene, how: dict[str, Any], exact: bool, alone: bool, 
     bench = Bench(scene, how, exact, locks)
     try:
         bench.refuse_singular_forces()
-        found = first_sound(scene, how, bench.judged)
+        found = first_sound(scene, how, bench.judge)
     except Refused:
         solve(scene, exact)  # where the pose is singular, that is why nothing can be drawn
         raise
     if isinstance(found, Report):
         return found
     if alone and not exact:
-        return bench.alone(*found)
+        return bench.solver_report(*found)
     raise found[1]
 
 
@@ -296,7 +296,7 @@ def first_sound(scene: Scene, how: dict[str, Any], judged: Callable[[Constructio
     wrong: Judged | None = None
     undrawn: tuple[Construction, ConstructionError] | None = None
     try:
-        for drawing in islice(constructions(scene, **how), WAYS):
+        for drawing in islice(constructions(scene, **how), MAX_CONSTRUCTIONS):
             try:
                 found = judged(drawing)
             except ConstructionError as error:

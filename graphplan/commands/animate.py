@@ -65,7 +65,7 @@ def run(options: argparse.Namespace, span: tuple[float, float] | None) -> None:
 def _film(drawing: Construction, composition: Composition, moved: Loop, seconds: int, messages: Messages) -> Film:
     """The sheets of a loop, in its order; where nothing can be drawn, which is told, the mechanism alone."""
     from graphplan.accuracy.reach import constructions
-    from graphplan.check.poses import checked
+    from graphplan.check.poses import points_where_sound
     from graphplan.mechanism.travel import travel_unit
     from graphplan.output.animation import Film
     from graphplan.phrases import arranged, digits, unit
@@ -77,7 +77,7 @@ def _film(drawing: Construction, composition: Composition, moved: Loop, seconds:
         raise Refused("--animate", "no pose of the range is reached", "another range")
     points, guides, loads = ({name: z[reached] for name, z in arrays.items()}
                              for arrays in (turn.points, turn.guides, turn.loads))
-    ways = [(one, checked(one, points, guides, loads)) for one in constructions(drawing)]
+    ways = [(one, points_where_sound(one, points, guides, loads)) for one in constructions(drawing)]
     found: dict[int, tuple[Sheet, bool]] = {}
     for k, drawn in zip(reached, sheets(composition, ways, points, guides, loads), strict=True):
         found[k] = drawn

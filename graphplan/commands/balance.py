@@ -71,9 +71,9 @@ def run(options: argparse.Namespace) -> int:
     if options.pencil:
         raise Refused("--pencil", "this is a linkage, whose numbers are not drawn", "leave it out")
     if ending == ".toml":
-        from graphplan.check.balance import checked_dyads
+        from graphplan.check.balance import check_added_dyads
 
-        write(checked_dyads(scene)[0].text, options.output)
+        write(check_added_dyads(scene)[0].text, options.output)
         return 0
     if options.share is not None and (options.counterweights != "share" or not 0 <= options.share <= 1):
         raise Refused(f"--share {options.share:g}", "this is no part of the reciprocating mass", "give 0 to 1, with "

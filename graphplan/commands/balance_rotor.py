@@ -16,7 +16,7 @@ ENDINGS = (*NUMBERS, ".svg", ".pdf", ".png", ".tex", ".dxf")
 
 def run(options: argparse.Namespace, text: str) -> int:
     """Balance the rotor of a task's text and write what is asked for."""
-    from graphplan.check.rotors import checked
+    from graphplan.check.rotors import check_rotor
     from graphplan.machine.rotors.rotor import parse
     from graphplan.machine.rotors.rotor_balance import balanced
     from graphplan.output.machine.rotor_numbers import numbers, table
@@ -28,7 +28,7 @@ def run(options: argparse.Namespace, text: str) -> int:
     task = parse(text, options.scene)
     said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
     messages, found = Messages(options.quiet), balanced(replace(task, sheet=replace(task.sheet, **said)))
-    check = checked(found)
+    check = check_rotor(found)
     for note in found.notes:
         messages.remark(f"{options.scene}: {note}")
     if ending == ".csv":

@@ -79,7 +79,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.cams.construction import drawn
     from graphplan.cams.profile import made
     from graphplan.cams.task import load
-    from graphplan.check.cams import checked
+    from graphplan.check.cams import check_cam
 
     ending = kind(options.output, ENDINGS, "cam").removeprefix(".")
     _asked(options, ending)
@@ -91,7 +91,7 @@ def run(options: argparse.Namespace) -> int:
     cam = made(task)
     messages.progress("inversion")
     drawing = drawn(cam)
-    check = checked(drawing)
+    check = check_cam(drawing)
     messages.progress("")
     for note in cam.notes:
         messages.remark(f"{task.name}: {note}")

@@ -42,12 +42,12 @@ class Survey(NamedTuple):
 
 
 CHARTS = {
-    "machine": Survey("Measure", lambda module, scene, hand, named: module.measures(
+    "machine": Survey("MachineMeasure", lambda module, scene, hand, named: module.measures(
         scene, compiled=module.ALL if named else 1)),  # compiling takes seconds
     "draughtsman": Survey("Draft", lambda module, scene, hand, named: module.drafts(scene, hand, long=named)),
     "stability": Survey("Sample", lambda module, hand, tell: module.samples(*module.DEGENERACIES, pencil=hand),
                         "{0.degeneracy}, d = {0.distance:.0e}"),
-    "growth": Survey("Stage", lambda module, hand, tell: module.stages(tell=tell), "{0.links} links"),
+    "growth": Survey("StageTime", lambda module, hand, tell: module.stages(tell=tell), "{0.links} links"),
 }
 PICTURES = {"picture": "", "details": "-scenes"}  # what draws them, and how their files are called
 
@@ -71,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
         if name not in CHARTS:
             raise Refused(f"chart {name}", "there is no such chart", f"one of {', '.join(CHARTS)}")
     folder_at(options.folder)
-    beside = _beside(options.beside, options.names or CHARTS) if options.beside else []
+    beside = _rival_rows(options.beside, options.names or CHARTS) if options.beside else []
     scenes, messages, hand = [load(name) for name in options.scenes], Messages(options.quiet), pencil(options)
     for name in options.names or CHARTS:
         module = import_module(f"graphplan.accuracy.survey.{name}")
@@ -80,7 +80,7 @@ def run(options: argparse.Namespace) -> int:
         if name == "machine":
             measured = {row.scene for row in rows}
             rows += [row for row in beside if row.scene in measured]
-        told = (hand.told,) if name in ("draughtsman", "stability") else ()
+        told = (hand.description,) if name in ("draughtsman", "stability") else ()
         for part in PICTURES:
             if hasattr(module, part):
                 write(drawn(getattr(module, part)(rows, *told)), str(options.folder / f"{name}{PICTURES[part]}.svg"))
@@ -88,19 +88,19 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _beside(file: Path, names: Collection[str]) -> list[Any]:
+def _rival_rows(file: Path, names: Collection[str]) -> list[Any]:
     """The rows of machine that were measured elsewhere; fails with `Refused` where there are none, or no such chart."""
-    from graphplan.accuracy.survey.machine import Measure
+    from graphplan.accuracy.survey.machine import MachineMeasure
     from graphplan.accuracy.survey.picture import read
 
     if "machine" not in names:
         raise Refused("--beside", "only machine has other programs beside it", "name machine, or leave it out")
     try:
-        return read(Measure, file.read_text(encoding="utf-8"))
+        return read(MachineMeasure, file.read_text(encoding="utf-8"))
     except OSError as error:
         raise Refused(f"--beside {file}", str(error.strerror), "a file that can be read") from None
     except (KeyError, ValueError):
-        columns = ", ".join(field.name for field in fields(Measure))
+        columns = ", ".join(field.name for field in fields(MachineMeasure))
         raise Refused(f"--beside {file}", "it is no table of machine", f"the columns {columns}") from None
 
 

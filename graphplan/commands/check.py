@@ -28,14 +28,14 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.check.answerable import in_part
+    from graphplan.check.answerable import report_regular_part
     from graphplan.check.json_results import reasons
     from graphplan.check.shortcuts import replacements, shortcuts
     from graphplan.mechanism.structure import structure
     from graphplan.methods.panels import redundancies
 
     scene = given(options)
-    found = in_part(scene, lambda scene: reported(options, scene, exact=options.exact, refuse=False))
+    found = report_regular_part(scene, lambda scene: reported(options, scene, exact=options.exact, refuse=False))
     groups = structure(scene).lines()
     notes = [str(note) for note in (*redundancies(scene), *shortcuts(found.drawing), *replacements(scene))]
     notes += [f"{key} {name}: {why}" for key, named in reasons(found).items() for name, why in named.items()]
@@ -45,7 +45,7 @@ def run(options: argparse.Namespace) -> int:
         write("\n".join(_lines(found, groups, notes)) + "\n")
     if found.drawing.broken:
         error(f"check: {found.drawing.broken}")
-    if not found.same:
+    if not found.numbers_agree:
         error(str(found.disagreement))
     return 0 if found.agrees else 1
 
@@ -57,7 +57,7 @@ def _lines(found: Report, groups: Sequence[str], notes: Sequence[str]) -> list[s
         truth = found.truth(part)
         lines += [_row(f"{part} {name}", _text(ours[name]), _text(truth[name]),
                        *(f"{float(number):.2g}" for number in _sizes(found, part, name))) for name in ours]
-    powers = found.forces.named(found.forces.power) if found.forces and found.forces.power else {}
+    powers = found.forces.by_balance(found.forces.power) if found.forces and found.forces.power else {}
     lines += [_row(f"power balance {name}", "", _text(value)) for name, value in powers.items()]
     lines.append("")
     for kind, difference in found.check.items():

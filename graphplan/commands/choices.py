@@ -231,12 +231,13 @@ def reported(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:
 def drawable(options: argparse.Namespace) -> Report:
     """The same of the scene on its sheet, or of the part of it that is regular in this pose; its notes say what of the
     rest is not drawn, and why."""
-    from graphplan.check.answerable import in_part
+    from graphplan.check.answerable import report_regular_part
     from graphplan.check.json_results import reasons
     from graphplan.phrases import said
 
-    found, left_out = in_part(presented(options), lambda scene: reported(options, scene)), dict[str, list[str]]()
-    if found.asked is not found.scene:
+    found, left_out = report_regular_part(presented(options),
+                                          lambda scene: reported(options, scene)), dict[str, list[str]]()
+    if found.given_scene is not found.scene:
         for named in reasons(found).values():
             for name, why in named.items():
                 left_out.setdefault(why, []).append(name)
@@ -253,11 +254,11 @@ def drawn_by(options: argparse.Namespace, scene: Scene) -> tuple[dict[str, Any],
     how = {key: getattr(options, key) for key in ("method", "plan", "inertia", "strict")}
     if not options.prefer:
         return how, ()
-    from graphplan.accuracy.preference import preferred, reason
+    from graphplan.accuracy.preference import preferred_form, reason
     from graphplan.check.trusted import construct
 
     try:
-        found = preferred(scene, options.prefer, pencil(options), construct=construct, **how)
+        found = preferred_form(scene, options.prefer, pencil(options), construct=construct, **how)
     except (ConstructionError, Disagreement, Refused, SingularPose) as fault:
         if options.method:
             raise
@@ -267,12 +268,12 @@ def drawn_by(options: argparse.Namespace, scene: Scene) -> tuple[dict[str, Any],
 
 def on_paper(options: argparse.Namespace, found: Report | None = None) -> Drafted:
     """A construction on its sheet, drawn with the pencil and in the language that are asked for."""
-    from graphplan.accuracy.drafted import drafted
+    from graphplan.accuracy.drafted import draft
     from graphplan.words.tongue import tongue
 
     found = found or drawable(options)
-    return drafted(found.drawing, pencil(options), check=found.check, tongue=tongue(found.scene.sheet.language),
-                   protocol=options.protocol)
+    return draft(found.drawing, pencil(options), check=found.check, tongue=tongue(found.scene.sheet.language),
+                 protocol=options.protocol)
 
 
 def pencil(options: argparse.Namespace) -> Pencil:

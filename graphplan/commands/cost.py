@@ -51,6 +51,6 @@ def run(options: argparse.Namespace) -> int:
         write(as_json(data))
     else:
         tables = [line for one in found for line in one.lines()]
-        lines = [scene.title, f"Pencil, standard deviations: {hand.told}.", *tables, *legend(options.hands)]
+        lines = [scene.title, f"Pencil, standard deviations: {hand.description}.", *tables, *legend(options.hands)]
         write("\n".join(lines) + "\n")
     return 0

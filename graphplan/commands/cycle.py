@@ -58,7 +58,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.check.cycle import asking, curves, cycle, quantities
+    from graphplan.check.cycle import curves, cycle, quantities, scene_asking_for
 
     if (options.start is None) != (options.end is None):
         raise Refused("range", "only one of --from and --to is given", "both, or neither for a full turn")
@@ -80,7 +80,7 @@ def run(options: argparse.Namespace) -> int:
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
     wanted = quantities(scene, options.of) if options.plot else ()
     messages = Messages(options.quiet)
-    found = cycle(asking(scene, wanted), options.positions, span, method=options.method, plan=options.plan,
+    found = cycle(scene_asking_for(scene, wanted), options.positions, span, method=options.method, plan=options.plan,
                   inertia=options.inertia, workers=workers, machine=options.compiled,
                   progress=lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else ""))
     if found.wrong:
@@ -96,7 +96,7 @@ def run(options: argparse.Namespace) -> int:
 
         drawn = [diagram(curve, options.strips) for curve in curves(found, wanted)]
         write(diagrams(drawn, scene.title, tongue(scene.sheet.language)), options.plot)
-    _say(found, messages)
+    _report_poses(found, messages)
     return NOTHING_REACHED if len(found.faults) == options.positions else 0
 
 
@@ -104,7 +104,7 @@ def _paths(options: argparse.Namespace) -> str:
     """The mechanism with its paths and centrodes as SVG text: a sheet on which nothing is constructed."""
     from dataclasses import replace
 
-    from graphplan.cycle.motion_curves import traced
+    from graphplan.cycle.motion_curves import traced_motion
     from graphplan.methods.construct import construct
     from graphplan.output.svg import svg
     from graphplan.sheet.layout.composition import compose
@@ -116,7 +116,7 @@ def _paths(options: argparse.Namespace) -> str:
         raise Refused("--paths", "it is not said whose", 'such as --curves M, or --centrodes "2 frame"')
     nothing = replace(scene.find, velocity=(), acceleration=(), links=(), slides=(), reactions=())
     drawing = construct(replace(scene, find=nothing, loads=None))
-    composition = compose(drawing, tongue=tongue(scene.sheet.language), protocol="none", motion=traced(scene))
+    composition = compose(drawing, tongue=tongue(scene.sheet.language), protocol="none", motion=traced_motion(scene))
     return svg(layout(drawing, composition=composition))
 
 
@@ -124,17 +124,17 @@ def _table(found: Cycle, ending: str) -> str | bytes:
     """The table of all poses as a file of this kind."""
     from graphplan.output import tables as columns
 
-    parts = found.scene, found.turn.travel, found.asked, found.results, found.faults
+    parts = found.scene, found.turn.travel, found.requested_points, found.results, found.faults
     if ending == ".npz":
         return columns.archive(*parts)
     return columns.json(*parts) if ending == ".json" else columns.text(*parts)
 
 
-def _say(found: Cycle, messages: Messages) -> None:
+def _report_poses(found: Cycle, messages: Messages) -> None:
     """What there is to say of the poses, on standard error."""
     otherwise = {k: f"drawn by {how}" for k, how in found.otherwise.items()}
     tell = error if len(found.faults) == len(found.turn.travel) else messages.remark
-    for line in (*_told(found.faults), *_told(otherwise)):
+    for line in (*_note_lines(found.faults), *_note_lines(otherwise)):
         tell(line)
     checked = ", ".join(f"{kind} {gap:.2g}" for kind, gap in found.check.items())
     count = len(found.turn.travel)
@@ -142,7 +142,7 @@ def _say(found: Cycle, messages: Messages) -> None:
                     f"largest difference from the analytic solver: {checked}")
 
 
-def _told(notes: Mapping[int, str]) -> Iterator[str]:
+def _note_lines(notes: Mapping[int, str]) -> Iterator[str]:
     """Notes on poses, those of neighbours that say the same as one line."""
     for _, run in groupby(enumerate(notes), lambda at: (at[1] - at[0], _reason(notes[at[1]]))):
         first, *rest = (k for _, k in run)

@@ -61,7 +61,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.check.flywheel import checked
+    from graphplan.check.flywheel import check_flywheel
     from graphplan.machine.flywheel.found import flywheel
     from graphplan.mechanism.scene import parse, source_text
     from graphplan.output.machine.flywheel_numbers import numbers, table
@@ -74,7 +74,7 @@ def run(options: argparse.Namespace) -> int:
     messages.progress("reduction and energy")
     found = flywheel(scene, options.positions)
     messages.progress("second opinion")
-    result = replace(found, check=checked(found))
+    result = replace(found, check=check_flywheel(found))
     messages.progress("")
     for note in result.notes:
         messages.remark(f"{scene.name}: {note}")

@@ -143,9 +143,9 @@ class _Site:
     def _shown(self, scene: Scene, name: str) -> tuple[ShownScene, dict[str, str | bytes]]:
         """A scene as the site shows it, and its files by their names."""
         from graphplan import sheet
-        from graphplan.accuracy.drafted import drafted
+        from graphplan.accuracy.drafted import draft
         from graphplan.accuracy.hand import Pencil
-        from graphplan.check.json_results import data
+        from graphplan.check.json_results import result_data
         from graphplan.check.trusted import report
         from graphplan.commands.steps import protocol
         from graphplan.output.manual.scenes import ShownScene
@@ -156,7 +156,7 @@ class _Site:
             scene = replace(scene, sheet=replace(scene.sheet, language=self.options.language))
         scene = replace(scene, title=tongue(scene.sheet.language).title(scene.title))
         found = report(scene)
-        on_sheet = drafted(found.drawing, Pencil(), check=found.check, tongue=tongue(scene.sheet.language))
+        on_sheet = draft(found.drawing, Pencil(), check=found.check, tongue=tongue(scene.sheet.language))
         words = protocol(on_sheet)
         files: dict[str, str | bytes] = {f"{name}.svg": sheet.svg(found.drawing, composition=on_sheet.composition),
                                          f"{name}.txt": words}
@@ -166,7 +166,7 @@ class _Site:
             told |= {f"{name}.toml": said("the scene")} | {
                 path: FORMATS[path.partition("/")[0]].told for path in files if "/" in path}
         live = "" if self.options.brief else f"{LIVE}/{name}.html"
-        return ShownScene(scene, name, data(found)["steps"], words, told, live), files
+        return ShownScene(scene, name, result_data(found)["steps"], words, told, live), files
 
     def _live(self, scene: str) -> str:
         """The page on which a scene moves."""

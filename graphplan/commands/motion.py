@@ -41,7 +41,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.check.motion import checked
+    from graphplan.check.motion import check_motion
     from graphplan.machine.motion.drawing import drawn
     from graphplan.machine.motion.runs import run as motion_of
     from graphplan.mechanism.scene import parse, source_text
@@ -57,7 +57,7 @@ def run(options: argparse.Namespace) -> int:
     question(options, scene)
     found = motion_of(scene, options.speed, options.travel, options.steady)
     drawing = drawn(found.motion, min(positions, MOST))
-    check = checked(found, drawing)
+    check = check_motion(found, drawing)
     if (stop := found.motion.stop) is not None:
         when = f"after {stop.time:.6g} s" if math.isfinite(stop.time) else "and nears it for ever"
         messages.remark(f"{scene.name}: the machine stops at {found.machine.told(stop.travel)}, {when}")

@@ -34,38 +34,38 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     if options.digits is not None:
-        return _certified(options)
-    from graphplan.check.answerable import in_part
-    from graphplan.check.json_results import data
+        return _run_certified(options)
+    from graphplan.check.answerable import report_regular_part
+    from graphplan.check.json_results import result_data
 
-    found = in_part(given(options), lambda scene: reported(options, scene, exact=options.exact,
-                                                           alone=not options.pencil))
-    printed = data(found, each=options.bounds)
+    found = report_regular_part(given(options), lambda scene: reported(options, scene, exact=options.exact,
+                                                                       alone=not options.pencil))
+    printed = result_data(found, each=options.bounds)
     if options.pencil:
-        from graphplan.accuracy.drafted import drafted
+        from graphplan.accuracy.drafted import draft
 
-        printed["pencil"] = drafted(found.drawing, options.pencil, check=found.check).data
+        printed["pencil"] = draft(found.drawing, options.pencil, check=found.check).data
     if after := beyond(found.scene):
-        told = data(reported(options, after, exact=options.exact, alone=not options.pencil))
+        told = result_data(reported(options, after, exact=options.exact, alone=not options.pencil))
         printed["beyond"] = {part: told[part] for part in ("points", "links", "slides")}
     write(as_json(printed, 2))
     return 0
 
 
-def _certified(options: argparse.Namespace) -> int:
+def _run_certified(options: argparse.Namespace) -> int:
     """The same between proven bounds."""
     if options.exact:
         raise Refused("--digits", "with --exact every digit is there", "leave out one of the two")
     if find_spec("flint") is None:
         raise Refused("--digits", "proven digits need python-flint", "install graphplan[certified]")
-    from graphplan.check.answerable import in_part
-    from graphplan.check.certified import Certified, certified
+    from graphplan.check.answerable import report_regular_part
+    from graphplan.check.certified import Certified, certify
 
     def proven(scene: Scene) -> Certified:
         how, _ = drawn_by(options, scene)
-        return certified(scene, options.digits, method=how["method"], plan=options.plan, inertia=options.inertia)
+        return certify(scene, options.digits, method=how["method"], plan=options.plan, inertia=options.inertia)
 
-    found = in_part(given(options), proven)
+    found = report_regular_part(given(options), proven)
     if not found.agrees:
         raise found.disagreement
     write(as_json(found.data, 2))

@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 
 def of_rotor(options: argparse.Namespace, text: str) -> int:
     """Judge the answers to the task of a rotor."""
-    from graphplan.check.rotors import checked
+    from graphplan.check.rotors import check_rotor
     from graphplan.machine.rotors.rotor import parse
     from graphplan.machine.rotors.rotor_balance import balanced
     from graphplan.output.machine.rotor_sheet import one_sheet
 
     found = balanced(parse(text, options.scene))
-    sheet = one_sheet(found, checked(found), pencil(options))
+    sheet = one_sheet(found, check_rotor(found), pencil(options))
     return _judge(options, [_expected(sheet, answer) for answer in found.answers], found.task.sheet.language)
 
 

@@ -77,7 +77,7 @@ class Mesh(NamedTuple):
     factors: int
 
 
-class Layout(NamedTuple):
+class GroupLayout(NamedTuple):
     """The structure of a group, which says all but its numbers; links are told by their places, 0 is the frame.
 
     `known` links are placed before. The unknowns are the angles in the order of `spins`, then what the seats ask for.
@@ -106,7 +106,7 @@ class Layout(NamedTuple):
                                  for seat in self.seats)
 
 
-class Drive(NamedTuple):
+class DriveState(NamedTuple):
     """Where a drive is: the cosine and sine of its angle, and that itself where angles are counted, or its length; and
     its rate by the travel, if asked for."""
 
@@ -115,7 +115,7 @@ class Drive(NamedTuple):
 
 
 @dataclass
-class Body:
+class LinkPose:
     """A link in a pose: its base and its turn, a vector of length 1, or none where it does not turn.
 
     `moves` and `spin` are their derivatives, the turn's as angles. `angle` is how far it has turned in all, if counted.
@@ -127,28 +127,29 @@ class Body:
     spin: Moves = field(default_factory=dict)
     angle: Any = 0.0
 
-    def at(self, arm: Vector | None) -> tuple[Vector, Moves]:
+    def point(self, arm: Vector | None) -> tuple[Vector, Moves]:
         """The link's point at an arm, and how it moves."""
         if arm is None:
             return self.base, self.moves
-        lever = rotated(self.turn, arm)
-        return plus(self.base, lever), _sum(self.moves, _swung(self.spin, lever)) if self.spin else self.moves
+        lever = rotate(self.turn, arm)
+        return plus(self.base, lever), _add_rates(self.moves,
+                                                  _lever_rates(self.spin, lever)) if self.spin else self.moves
 
 
-def rotated(turn: Any, vector: Any) -> Any:
+def rotate(turn: Any, vector: Any) -> Any:
     """A vector turned as a link is."""
     return vector if turn is None else (turn[0] * vector[0] - turn[1] * vector[1],
                                         turn[1] * vector[0] + turn[0] * vector[1])
 
 
-def bodies(layout: Layout, known: Sequence[Body], arms: Sequence[Vector], drives: Sequence[Drive],
-           state: Sequence[Any], moving: bool = True) -> list[Body]:
+def pose_links(layout: GroupLayout, known: Sequence[LinkPose], arms: Sequence[Vector], drives: Sequence[DriveState],
+               state: Sequence[Any], moving: bool = True) -> list[LinkPose]:
     """All links, those of the group after the known ones; in `state` an unknown angle is its cosine and sine, and where
     angles are counted the angle itself.
 
     If they are not `moving`, derivatives by angles are left out.
     """
-    links = [*known, *(Body() for _ in layout.spins)]
+    links = [*known, *(LinkPose() for _ in layout.spins)]
     unknown = iter(enumerate(state))
     for spin in layout.spins:
         link = links[spin.link]
@@ -161,44 +162,44 @@ def bodies(layout: Layout, known: Sequence[Body], arms: Sequence[Vector], drives
         link.turn, link.spin, link.angle = on.turn, on.spin, on.angle
         if spin.drive is not None:
             (cos, sin, *angle), rate = drives[spin.drive]
-            link.turn, link.spin = rotated(on.turn, (cos, sin)), _sum(on.spin, _driven(rate))
+            link.turn, link.spin = rotate(on.turn, (cos, sin)), _add_rates(on.spin, _drive_rates(rate))
             link.angle = on.angle + angle[0] if angle else on.angle
     for seat in layout.seats:
-        _seat(links, seat, arms, drives, unknown)
+        _place_on_seat(links, seat, arms, drives, unknown)
     return links
 
 
-def _seat(links: Sequence[Body], seat: Seat, arms: Sequence[Vector], drives: Sequence[Drive],
-          unknown: Iterator[tuple[int, Any]]) -> None:
+def _place_on_seat(links: Sequence[LinkPose], seat: Seat, arms: Sequence[Vector], drives: Sequence[DriveState],
+                   unknown: Iterator[tuple[int, Any]]) -> None:
     """Put a link on another."""
     link = links[seat.link]
     if seat.on is None:
         (i, x), (j, y) = next(unknown), next(unknown)
         link.base, link.moves = plus(_arm(arms, seat.arm) or (0.0, 0.0), (x, y)), {i: (1.0, 0.0), j: (0.0, 1.0)}
         return
-    link.base, link.moves = links[seat.on].at(_arm(arms, seat.arm))
+    link.base, link.moves = links[seat.on].point(_arm(arms, seat.arm))
     if seat.way is None or seat.guide is None:
         return
     guide = links[seat.guide]
-    ray = rotated(guide.turn, arms[seat.way])
+    ray = rotate(guide.turn, arms[seat.way])
     if seat.drive is None:
         i, far = next(unknown)
         moves = {i: ray}
     else:
         far, rate = drives[seat.drive]
-        moves = {k: times(w, ray) for k, w in _driven(rate).items()}
+        moves = {k: times(w, ray) for k, w in _drive_rates(rate).items()}
     off = times(far, ray)
     link.base = plus(link.base, off)
-    link.moves = _sum(_sum(link.moves, _swung(guide.spin, off)), moves)
+    link.moves = _add_rates(_add_rates(link.moves, _lever_rates(guide.spin, off)), moves)
 
 
-def _swung(spin: Moves, lever: Vector) -> Moves:
+def _lever_rates(spin: Moves, lever: Vector) -> Moves:
     """How the end of a lever moves that turns so."""
     across = turned(lever) if spin else lever
     return {k: across if w is None else times(w, across) for k, w in spin.items()}
 
 
-def _driven(rate: Any) -> Moves:
+def _drive_rates(rate: Any) -> Moves:
     """The derivative of what is driven; none where nobody asks for rates."""
     return {} if rate is None else {TRAVEL: rate}
 
@@ -207,18 +208,20 @@ def _arm(arms: Sequence[Vector], place: int | None) -> Vector | None:
     return None if place is None else arms[place]
 
 
-def left_open(layout: Layout, links: Sequence[Body], arms: Sequence[Vector], drives: Sequence[Drive]) -> list[Row]:
+def residual_rows(layout: GroupLayout, links: Sequence[LinkPose], arms: Sequence[Vector],
+                  drives: Sequence[DriveState]) -> list[Row]:
     """What the pairs that seat no link leave open in a pose in which the links lie so."""
-    rows = [row for closing in layout.closings for row in _closed(links, closing, arms, drives)]
-    rows += [_meshed(links, mesh, arms) for mesh in layout.meshes]
-    return rows + [_turned(links, turning, drives) for turning in layout.turnings]
+    rows = [row for closing in layout.closings for row in _closing_rows(links, closing, arms, drives)]
+    rows += [_mesh_row(links, mesh, arms) for mesh in layout.meshes]
+    return rows + [_turning_row(links, turning, drives) for turning in layout.turnings]
 
 
-def _closed(links: Sequence[Body], closing: Closing, arms: Sequence[Vector], drives: Sequence[Drive]) -> Iterator[Row]:
+def _closing_rows(links: Sequence[LinkPose], closing: Closing, arms: Sequence[Vector],
+                  drives: Sequence[DriveState]) -> Iterator[Row]:
     """What a pair leaves open."""
-    place, moves = links[closing.link].at(_arm(arms, closing.arm))
-    other, others = links[closing.on].at(_arm(arms, closing.rest))
-    gap, moves = less(place, other), _difference(moves, others)
+    place, moves = links[closing.link].point(_arm(arms, closing.arm))
+    other, others = links[closing.on].point(_arm(arms, closing.rest))
+    gap, moves = less(place, other), _subtract_rates(moves, others)
     if closing.far is not None:
         far, _ = arms[closing.far]
         yield {RESIDUE: (dot(gap, gap) - far * far) / (far + far),
@@ -229,50 +232,50 @@ def _closed(links: Sequence[Body], closing: Closing, arms: Sequence[Vector], dri
             yield {RESIDUE: gap[i], **{k: move[i] for k, move in moves.items()}}
         return
     guide = links[closing.guide]
-    ray = rotated(guide.turn, arms[closing.way])
+    ray = rotate(guide.turn, arms[closing.way])
     swing = dot(turned(ray), gap)
-    row = _sum({k: dot(ray, move) for k, move in moves.items()},
-               {k: swing if w is None else w * swing for k, w in guide.spin.items()})
+    row = _add_rates({k: dot(ray, move) for k, move in moves.items()},
+                     {k: swing if w is None else w * swing for k, w in guide.spin.items()})
     left = dot(ray, gap)
     if closing.drive is not None:
         far, rate = drives[closing.drive]
-        left, row = left - far, _sum(row, {k: -w for k, w in _driven(rate).items()})
+        left, row = left - far, _add_rates(row, {k: -w for k, w in _drive_rates(rate).items()})
     if closing.lever is not None:
         one, two, (lever, _) = links[closing.link], links[closing.on], arms[closing.lever]
         left = left + lever * (one.angle - two.angle)
-        row = _sum(row, _sum(_weighed(lever, one.spin), _weighed(-lever, two.spin)))
+        row = _add_rates(row, _add_rates(_scaled_rates(lever, one.spin), _scaled_rates(-lever, two.spin)))
     yield {RESIDUE: left, **row}
 
 
-def _meshed(links: Sequence[Body], mesh: Mesh, arms: Sequence[Vector]) -> Row:
+def _mesh_row(links: Sequence[LinkPose], mesh: Mesh, arms: Sequence[Vector]) -> Row:
     """What a pair of gears leaves open: an angle, as linear in those of the links as it is."""
     (k1, k2), row, left = arms[mesh.factors], Row(), 0.0
     for weight, place in ((k1, mesh.one), (k2, mesh.other), (-(k1 + k2), mesh.carrier)):
         left = left + weight * links[place].angle
-        row = _sum(row, _weighed(weight, links[place].spin))
+        row = _add_rates(row, _scaled_rates(weight, links[place].spin))
     return {RESIDUE: left, **row}
 
 
-def _weighed(weight: Any, spin: Moves) -> Moves:
+def _scaled_rates(weight: Any, spin: Moves) -> Moves:
     """The derivatives of so many times an angle."""
     return {k: weight if w is None else weight * w for k, w in spin.items()}
 
 
-def _turned(links: Sequence[Body], turning: Spin, drives: Sequence[Drive]) -> Row:
+def _turning_row(links: Sequence[LinkPose], turning: Spin, drives: Sequence[DriveState]) -> Row:
     """What a pair leaves open that holds a link's turning to another's."""
     link, on = links[turning.link], links[turning.on or 0]
     rest, spin = on.turn or (1.0, 0.0), on.spin
     if turning.drive is not None:
         (cos, sin, *_), rate = drives[turning.drive]
-        rest, spin = rotated(on.turn, (cos, sin)), _sum(spin, _driven(rate))
+        rest, spin = rotate(on.turn, (cos, sin)), _add_rates(spin, _drive_rates(rate))
     mirrored = rest[0], -rest[1]
-    cos, sin = rotated(link.turn or (1.0, 0.0), mirrored)
-    apart = _sum({k: 1.0 if w is None else w for k, w in link.spin.items()},
-                 {k: -1.0 if w is None else -w for k, w in spin.items()})
+    cos, sin = rotate(link.turn or (1.0, 0.0), mirrored)
+    apart = _add_rates({k: 1.0 if w is None else w for k, w in link.spin.items()},
+                       {k: -1.0 if w is None else -w for k, w in spin.items()})
     return {RESIDUE: sin, **{k: cos * w for k, w in apart.items()}}
 
 
-def _sum(one: Moves, other: Moves) -> Moves:
+def _add_rates(one: Moves, other: Moves) -> Moves:
     """The sum of two sets of derivatives, of vectors or of numbers."""
     found = dict(one)
     for k, b in other.items():
@@ -281,7 +284,7 @@ def _sum(one: Moves, other: Moves) -> Moves:
     return found
 
 
-def _difference(one: Moves, other: Moves) -> Moves:
+def _subtract_rates(one: Moves, other: Moves) -> Moves:
     """The difference of two sets of derivatives of vectors."""
     found = dict(one)
     for k, (x, y) in other.items():

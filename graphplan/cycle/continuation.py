@@ -19,9 +19,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.groups import Group
+from graphplan.cycle.groups import ClosureGroup
 from graphplan.cycle.linkage import Array, Linkage
-from graphplan.cycle.newton import Lies
+from graphplan.cycle.newton import PoseNumbers
 from graphplan.cycle.tolerances import CROSSING_STEP, LONGER_MISS, MIN_STEP, SHORTER_MISS, SINGULAR_TOL
 from graphplan.cycle.travel import afford
 from graphplan.mechanism.travel import TURN, travel_unit
@@ -29,22 +29,22 @@ from graphplan.mechanism.travel import TURN, travel_unit
 Progress = Callable[[float], None]
 """Is told how much of the path is followed, from 0 to 1."""
 
-LONGEST = 1 / 60
+MAX_STEP_TURNS = 1 / 60
 """The longest step, of a turn: 6 degrees."""
 
-FIRST = 1 / 8
+FIRST_STEP = 1 / 8
 """The first step, of the longest: the tangent in one knot does not lead so far as the curve through several."""
 
-BACK = 3
+PREDICTOR_KNOTS = 3
 """How many knots lead to the next one."""
 
-BESIDE = 4
+INTERPOLATION_KNOTS = 4
 """How many knots tell what lies between two of them."""
 
-_KNOT = 512
+KNOT_BYTES = 512
 """Bytes for each link in a step, as measured on long travels."""
 
-SLACK = 16
+LIMIT_SLACK = 16
 """How many finest steps a limit may lie beyond the last knot: a step is only taken where several fit before it."""
 
 
@@ -56,7 +56,7 @@ class Knot(NamedTuple):
     rate: Array
     determinants: Array
 
-    def regular(self, start: Knot) -> bool:
+    def is_regular(self, start: Knot) -> bool:
         """Whether it is on the branch of the given pose, and not too near to where another meets it."""
         return bool((self.determinants / start.determinants >= SINGULAR_TOL).all())
 
@@ -86,13 +86,13 @@ class Path:
         self.travel, self._state, self._rate = (np.array([knot[i] for knot in knots]) for i in range(3))
         self.knots, self._steps, self.senses, self.lower, self.upper = knots, steps, senses, lower, upper
 
-    def nearest(self, travel: Array) -> Array:
+    def nearest_states(self, travel: Array) -> Array:
         """The states of the knots nearest to n travels, shape (unknowns, n)."""
         return self._state[np.argmin(np.abs(self.travel - travel[:, None]), axis=1)].T
 
-    def predicted(self, travel: Array) -> tuple[Array, Array]:
+    def predict_states(self, travel: Array) -> tuple[Array, Array]:
         """The states at n travels by the knots around each (Hermite), shape (unknowns, n), and the steps there."""
-        nodes, table = self._between
+        nodes, table = self._knot_curves
         i = np.clip(np.searchsorted(self.travel, travel) - 1, 0, len(self.travel) - 2)
         around, coefficients = travel - nodes.take(i, axis=1), table.take(i, axis=1)
         *rest, found = coefficients.reshape(2 * len(nodes), self._state.shape[1], len(travel))
@@ -102,16 +102,17 @@ class Path:
         return found, self._steps.take(i)
 
     @cached_property
-    def _between(self) -> tuple[Array, Array]:
+    def _knot_curves(self) -> tuple[Array, Array]:
         """Between any two knots: those around, and the coefficients of the curve through them."""
-        width = min(BESIDE, len(self.travel))
+        width = min(INTERPOLATION_KNOTS, len(self.travel))
         first = np.arange(1 - width // 2, len(self.travel) - width // 2).clip(0, len(self.travel) - width)
         around = np.arange(width)[:, None] + first
-        table = np.concatenate(divided(self.travel[around][..., None], self._state[around], self._rate[around]), axis=1)
+        table = np.concatenate(divided_differences(self.travel[around][..., None], self._state[around],
+                                                   self._rate[around]), axis=1)
         return self.travel[around], table.T.copy()
 
 
-def divided(travel: Array, state: Array, rate: Array) -> list[Array]:
+def divided_differences(travel: Array, state: Array, rate: Array) -> list[Array]:
     """The divided differences of m knots, the first axis, with their rates: the coefficients of Newton's polynomial."""
     nodes, column = travel.repeat(2, axis=0), np.empty((2 * len(travel) - 1, *state.shape[1:]))
     column[::2], column[1::2] = rate, (state[1:] - state[:-1]) / (travel[1:] - travel[:-1])
@@ -125,34 +126,34 @@ def divided(travel: Array, state: Array, rate: Array) -> list[Array]:
 class Continuation:
     """The path of a linkage from the given pose, either way."""
 
-    def __init__(self, linkage: Linkage, groups: Sequence[Group], lower: float, upper: float,
+    def __init__(self, linkage: Linkage, groups: Sequence[ClosureGroup], lower: float, upper: float,
                  progress: Progress | None = None):
         self.linkage, self.groups = linkage, groups
         self.ends = np.cumsum([0, *(group.unknowns for group in groups)]).tolist()
         self._angle = np.array([i < group.layout.angles for group in groups for i in range(group.unknowns)], dtype=bool)
         self.lower, self.upper, self.progress = lower, upper, progress or (lambda done: None)
-        self.longest = LONGEST * min((upper - lower if drive.slides else TURN) / abs(pace) for drive, pace
-                                      in zip(linkage.scene.drives, linkage.paces, strict=True) if pace)
+        self.longest = MAX_STEP_TURNS * min((upper - lower if drive.slides else TURN) / abs(pace) for drive, pace
+                                            in zip(linkage.scene.drives, linkage.paces, strict=True) if pace)
         self.finest = MIN_STEP * self.longest
         self.pace = max(abs(pace) / (linkage.reach if drive.slides else 1) for drive, pace
                         in zip(linkage.scene.drives, linkage.paces, strict=True))
         if self.longest:
             unit, name = travel_unit(linkage.scene)
-            afford("the cycle", (upper - lower) / unit, name, _KNOT * len(linkage.links) * unit / self.longest)
+            afford("the cycle", (upper - lower) / unit, name, KNOT_BYTES * len(linkage.links) * unit / self.longest)
 
     def path(self, closed: bool) -> Path:
         """As far as it leads, from `lower` to `upper`; round the other way too, where the cycle is closed."""
         still = np.zeros(self.ends[-1])
-        start = self._closed(0.0, still, math.inf)
+        start = self._solve_knot(0.0, still, math.inf)
         if isinstance(start, int):  # this group is singular, and the pose leads nowhere
             start = Knot(0.0, still, still, 1.0 - np.eye(len(self.groups))[start])
         with np.errstate(all="ignore"):
-            up, upper = self._walk(start, self.upper, 0.0)
-            down, lower = self._walk(start, upper.travel - TURN if closed and upper else self.lower, 0.5)
+            up, upper = self._follow_to(start, self.upper, 0.0)
+            down, lower = self._follow_to(start, upper.travel - TURN if closed and upper else self.lower, 0.5)
         self.progress(1.0)
         knots = [*down[:0:-1], *up]
         travel, states = (np.array([knot[i] for knot in knots]) for i in range(2))
-        steps = self._size(np.diff(travel), np.diff(states, axis=0), states[:-1])
+        steps = self._step_length(np.diff(travel), np.diff(states, axis=0), states[:-1])
         return Path(knots, steps, np.sign(start.determinants), lower, upper)
 
     def state(self, path: Path, travel: float) -> Array | None:
@@ -161,25 +162,25 @@ class Continuation:
         """
         near = path.knots[int(np.argmin(np.abs(path.travel - travel)))]
         with np.errstate(all="ignore"):
-            knots, limit = self._walk(near, travel)
+            knots, limit = self._follow_to(near, travel)
         return None if limit else knots[-1].state
 
-    def _walk(self, start: Knot, goal: float, done: float | None = None) -> tuple[list[Knot], Limit | None]:
+    def _follow_to(self, start: Knot, goal: float, done: float | None = None) -> tuple[list[Knot], Limit | None]:
         """The knots up to the goal, or to the limit before it; `done` so much of the path."""
-        knots, at, step = [start], start.travel, math.copysign(FIRST * self.longest, goal - start.travel)
+        knots, at, step = [start], start.travel, math.copysign(FIRST_STEP * self.longest, goal - start.travel)
         while at != goal:
             left = goal - at
             step = left if abs(left) <= abs(step) + self.finest else step
             travel = goal if step == left else at + step
-            predicted = _ahead(knots[-BACK:], travel)
-            size = float(self._size(abs(travel - at), predicted - knots[-1].state, knots[-1].state))
-            knot = self._closed(travel, predicted, size)
-            if isinstance(knot, int) or not knot.regular(start):
+            predicted = _extrapolate(knots[-PREDICTOR_KNOTS:], travel)
+            size = float(self._step_length(abs(travel - at), predicted - knots[-1].state, knots[-1].state))
+            knot = self._solve_knot(travel, predicted, size)
+            if isinstance(knot, int) or not knot.is_regular(start):
                 step /= 2
                 if abs(step) < self.finest:
-                    return self._stopped(knots, math.copysign(CROSSING_STEP * self.longest, step))
+                    return self._end_at_limit(knots, math.copysign(CROSSING_STEP * self.longest, step))
                 continue
-            missed = float(self._weighed(knot.state - predicted, predicted).max(initial=0.0)) / size
+            missed = float(self._scaled_change(knot.state - predicted, predicted).max(initial=0.0)) / size
             if missed <= LONGER_MISS and 2 * abs(step) <= self.longest:
                 step *= 2
             elif missed > SHORTER_MISS:
@@ -190,24 +191,25 @@ class Continuation:
                 self.progress(done + at / goal / 2)
         return knots, None
 
-    def _size(self, travel: Any, change: Array, state: Array) -> Any:
+    def _step_length(self, travel: Any, change: Array, state: Array) -> Any:
         """The lengths of steps of some travels, by which states change: the largest change of an unknown or a drive.
 
         It is no more than a radian or a reach.
         """
-        return np.minimum(1.0, np.maximum(self._weighed(change, state).max(axis=-1, initial=0.0), self.pace * travel))
+        return np.minimum(1.0, np.maximum(self._scaled_change(change, state).max(axis=-1, initial=0.0),
+                                          self.pace * travel))
 
-    def _weighed(self, change: Array, state: Array) -> Array:
+    def _scaled_change(self, change: Array, state: Array) -> Array:
         """The sizes of changes, beside the state where that is a displacement of more than a reach: it may be endless.
         """
         return np.abs(change) / np.where(self._angle, 1.0, np.maximum(1.0, np.abs(state)))
 
-    def _closed(self, travel: float, predicted: Array, size: float) -> Knot | int:
+    def _solve_knot(self, travel: float, predicted: Array, size: float) -> Knot | int:
         """The knot at this travel; the place of the first group in which Newton's method is not to be trusted there."""
-        placed, guess = dict[str, Lies](), predicted.tolist()
+        placed, guess = dict[str, PoseNumbers](), predicted.tolist()
         state, rate, determinants = list[float](), list[float](), list[float]()
         for i, group in enumerate(self.groups):
-            found = group.settled(placed, travel, guess[self.ends[i] : self.ends[i + 1]], size)
+            found = group.settle(placed, travel, guess[self.ends[i] : self.ends[i + 1]], size)
             if found is None:
                 return i
             last = found[1]
@@ -217,7 +219,7 @@ class Continuation:
             placed.update(zip(group.links, last.lies, strict=True))
         return Knot(travel, np.array(state), np.array(rate), np.array(determinants))
 
-    def _stopped(self, knots: list[Knot], step: float) -> tuple[list[Knot], Limit]:
+    def _end_at_limit(self, knots: list[Knot], step: float) -> tuple[list[Knot], Limit]:
         """The knots up to a limit: one more where the motion leads straight through a change point.
 
         There a determinant goes through zero, as a straight line does on so short a way. The way begins as far before
@@ -226,21 +228,22 @@ class Continuation:
         start, last = knots[0], knots[-1]
         before = next((knot for knot in reversed(knots) if abs(last.travel - knot.travel) >= abs(step)), start)
         travel = last.travel + step
-        predicted = _ahead([before], travel)
-        beyond = self._closed(travel, predicted, 
-                              float(self._size(abs(travel - before.travel), predicted - before.state, before.state)))
+        predicted = _extrapolate([before], travel)
+        beyond = self._solve_knot(travel, predicted, 
+                                  float(self._step_length(abs(travel - before.travel), predicted - before.state,
+                                                          before.state)))
         if isinstance(beyond, int) or (beyond.determinants / before.determinants > 0).all():
             i = int(np.argmin(np.abs(last.determinants / (start.determinants if len(knots) > 1 else 1.0))))
-            return knots, Limit(last.travel, SLACK * self.finest, self.linkage.parts[i], False)
+            return knots, Limit(last.travel, LIMIT_SLACK * self.finest, self.linkage.parts[i], False)
         ratio = beyond.determinants / before.determinants
         i = int(np.argmax(ratio <= 0))
         travel = before.travel + (travel - before.travel) / (1 - float(ratio[i]))
-        there = last._replace(travel=travel, state=_ahead([before, beyond], travel))
+        there = last._replace(travel=travel, state=_extrapolate([before, beyond], travel))
         knots = [knot for knot in knots if abs(knot.travel) < abs(travel)]
         return [*knots, there], Limit(travel, CROSSING_STEP * abs(step), self.linkage.parts[i], True)
 
 
-def _ahead(knots: Sequence[Knot], travel: float) -> Array:
+def _extrapolate(knots: Sequence[Knot], travel: float) -> Array:
     """The state at this travel on the curve through these knots with their rates (Hermite, in Lagrange's form)."""
     found: Array = 0.0
     for knot in knots:

@@ -22,7 +22,7 @@ QUANTITIES = ("s", "v", "a")
 
 
 @dataclass(frozen=True, eq=False)
-class Curve:
+class KinematicCurve:
     """One quantity s with its rates v and a, at n positions of the drive; nan where a position cannot be drawn.
 
     `travel` is the drive's, in radians or in the lengths that `travel_unit` names; `time` grows. `closed` says that the
@@ -43,18 +43,18 @@ class Curve:
     def __post_init__(self) -> None:
         shapes = {np.shape(array) for array in (self.travel, self.time, self.s, self.v, self.a)}
         if len(shapes) > 1 or len(next(iter(shapes))) != 1:
-            raise Refused(self._what, f"its arrays have the shapes {sorted(shapes)}", "give five of one shape (n,)")
+            raise Refused(self._label, f"its arrays have the shapes {sorted(shapes)}", "give five of one shape (n,)")
         if len(self.time) < 3 or not (np.diff(self.time) > 0).all():
-            raise Refused(self._what, "its time does not grow from each position to the next", "give three or more")
-        if not self.known.any():
-            raise Refused(self._what, "no position of the range can be drawn", "choose another range")
+            raise Refused(self._label, "its time does not grow from each position to the next", "give three or more")
+        if not self.is_known.any():
+            raise Refused(self._label, "no position of the range can be drawn", "choose another range")
 
     @property
-    def _what(self) -> str:
+    def _label(self) -> str:
         return f"diagram of {self.name}"
 
     @property
-    def known(self) -> npt.NDArray[np.bool_]:
+    def is_known(self) -> npt.NDArray[np.bool_]:
         """Where the position, the velocity and the acceleration are all known."""
         return np.isfinite(self.s) & np.isfinite(self.v) & np.isfinite(self.a)
 
@@ -72,16 +72,16 @@ class Curve:
     def values(self, quantity: str) -> Reals:
         """The values of s, v or a; nan where any of them is unknown."""
         array: Reals = {"s": self.s, "v": self.v, "a": self.a}[quantity]
-        return np.where(self.known, array, np.nan)
+        return np.where(self.is_known, array, np.nan)
 
     def stretches(self, places: Places) -> list[Places]:
         """The places in stretches of two or more between which no position is unknown: a gap is never bridged."""
-        gaps, known = np.cumsum(~self.known), self.known
+        gaps, known = np.cumsum(~self.is_known), self.is_known
         seen = places[known[places]]
         parts = np.split(seen, np.flatnonzero(np.diff(gaps[seen])) + 1)
         return [part for part in parts if len(part) > 1]
 
-    def at(self, quantity: str, times: Reals) -> Reals:
+    def values_at(self, quantity: str, times: Reals) -> Reals:
         """The values of s, v or a at other times: the cubic through the four positions about each; nan in gaps.
 
         It errs by the fourth order of the positions' distance, where the graphical methods err by the second.
@@ -91,12 +91,12 @@ class Curve:
         for part in self.stretches(np.arange(len(self.time))):
             t, y = self.time[part], self.values(quantity)[part]
             inside = (times >= t[0] - slack) & (times <= t[-1] + slack)
-            found[inside] = _through_four(t, y, times[inside])
+            found[inside] = _interpolate_cubic(t, y, times[inside])
         return found
 
 
-def passed(name: str, unit: str, travel: Reals, rate: float, s: Reals, v: Reals, a: Reals, *,
-             period: float | None = None, travel_unit: str = "rad") -> Curve:
+def curve_over_travel(name: str, unit: str, travel: Reals, rate: float, s: Reals, v: Reals, a: Reals, *,
+                      period: float | None = None, travel_unit: str = "rad") -> KinematicCurve:
     """The curve of positions that a drive passes at a constant rate.
 
     `travel` counts in the sense in which the drive moves; positions that run back are taken in reverse. Where `period`
@@ -109,17 +109,18 @@ def passed(name: str, unit: str, travel: Reals, rate: float, s: Reals, v: Reals,
         arrays = [np.append(array, array[0] + over) for array, over in zip(arrays, (period, 0, 0, 0), strict=True)]
     travel, s, v, a = arrays
     time = (travel - travel[0]) / abs(rate)
-    return Curve(name, unit, travel, time, _unwrapped(s) if unit == "rad" else s, v, a, period is not None, travel_unit)
+    return KinematicCurve(name, unit, travel, time, _unwrap(s) if unit == "rad" else s, v, a, period is not None,
+                          travel_unit)
 
 
-def _unwrapped(angles: Reals) -> Reals:
+def _unwrap(angles: Reals) -> Reals:
     """Angles without jumps of a whole turn, also from one side of a gap to the other."""
     known, found = np.isfinite(angles), angles.copy()
     found[known] = np.unwrap(angles[known])
     return found
 
 
-def _through_four(t: Reals, y: Reals, times: Reals) -> Reals:
+def _interpolate_cubic(t: Reals, y: Reals, times: Reals) -> Reals:
     """Lagrange's interpolation through the four samples about each time, or through all where there are fewer."""
     count = min(4, len(t))
     first = np.clip(np.searchsorted(t, times, side="right") - 2, 0, len(t) - count)
@@ -134,8 +135,8 @@ def _through_four(t: Reals, y: Reals, times: Reals) -> Reals:
 # ---- scales ----------------------------------------------------------------------------------------------------------
 
 
-LENGTH, HEIGHT = 150.0, 60.0  # the room for the axis of time and for each diagram's ordinates, in mm
-NEAREST, FARTHEST = 5.0, 40.0  # a pole nearer than this, in mm, tells no slopes apart; a farther one has no room
+AXIS_LENGTH_MM, ORDINATE_HEIGHT_MM = 150.0, 60.0  # the room for the axis of time, and for ordinates
+MIN_POLE_MM, MAX_POLE_MM = 5.0, 40.0  # a pole nearer than this, in mm, tells no slopes apart; a farther one has no room
 
 
 @dataclass(frozen=True)
@@ -171,25 +172,25 @@ class DiagramScales:
         return self.datum if quantity == "s" else 0.0
 
 
-def diagram_scales(curve: Curve, places: Places) -> DiagramScales:
+def diagram_scales(curve: KinematicCurve, places: Places) -> DiagramScales:
     """The largest round scales for which each diagram has room, the ordinates of s counted from the first position.
 
     The ordinates at `places` decide. A rate may grow beyond all bounds between them, where the reach ends, or even at
     them: the pole is then as near as it may be, and the largest ordinates are off the paper.
     """
-    datum = float(curve.s[curve.known][0])
-    mu_t = round_scale(float(curve.time[-1] - curve.time[0]) / LENGTH)
-    spans = sizes(curve, places[curve.known[places]])
-    mu, poles = {"s": round_scale(spans["s"] / HEIGHT)}, dict[str, Fraction]()
+    datum = float(curve.s[curve.is_known][0])
+    mu_t = round_scale(float(curve.time[-1] - curve.time[0]) / AXIS_LENGTH_MM)
+    spans = ordinate_spans(curve, places[curve.is_known[places]])
+    mu, poles = {"s": round_scale(spans["s"] / ORDINATE_HEIGHT_MM)}, dict[str, Fraction]()
     for quantity, rate in pairwise(QUANTITIES):
         slope = mu[quantity] / mu_t
-        least = min(max(spans[rate] / HEIGHT, float(slope) / FARTHEST), float(slope) / NEAREST)
+        least = min(max(spans[rate] / ORDINATE_HEIGHT_MM, float(slope) / MAX_POLE_MM), float(slope) / MIN_POLE_MM)
         mu[rate] = _rate_scale(least, slope)
         poles[rate] = slope / mu[rate]
     return DiagramScales(mu_t, mu, poles, float(curve.time[0]), datum)
 
 
-def sizes(curve: Curve, places: Places) -> dict[str, float]:
+def ordinate_spans(curve: KinematicCurve, places: Places) -> dict[str, float]:
     """How far the ordinates of s, v and a range, that of the axis included for the rates; a rate that rounding alone
     makes has no size, and nothing has where no place is known."""
     if not len(places):

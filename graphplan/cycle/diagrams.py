@@ -24,7 +24,15 @@ from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from graphplan.cycle.curves import QUANTITIES, Curve, DiagramScales, Places, Reals, diagram_scales, sizes
+from graphplan.cycle.curves import (
+    QUANTITIES,
+    DiagramScales,
+    KinematicCurve,
+    Places,
+    Reals,
+    diagram_scales,
+    ordinate_spans,
+)
 from graphplan.cycle.tolerances import ORDINATE_TOL, TIME_TOL
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.floats import Floats
@@ -76,7 +84,7 @@ def by_chords(board: Board, points: Sequence[Mark], rate: Axes, names: Sequence[
     Reads the n points of a diagram, the rate's axes and n - 1 names. The chord's slope is the mean rate of the strip,
     which differs from the rate at its middle by the second order of its width.
     """
-    return [_differentiated(board, P, Q, board.midpoint(P, Q), rate, name)
+    return [_draw_rate(board, P, Q, board.midpoint(P, Q), rate, name)
             for (P, Q), name in zip(pairwise(points), names, strict=True)]
 
 
@@ -85,11 +93,11 @@ def by_tangents(board: Board, points: Sequence[Mark], rate: Axes, names: Sequenc
 
     Reads the n points of a diagram, evenly divided, the rate's axes and n - 2 names.
     """
-    return [_differentiated(board, P, Q, at, rate, name)
+    return [_draw_rate(board, P, Q, at, rate, name)
             for P, at, Q, name in zip(points, points[1:], points[2:], names, strict=False)]
 
 
-def _differentiated(board: Board, P: Mark, Q: Mark, at: Mark, rate: Axes, name: str) -> Ray[Mark]:
+def _draw_rate(board: Board, P: Mark, Q: Mark, at: Mark, rate: Axes, name: str) -> Ray[Mark]:
     chord = board.line(P, Q, why="its slope is the mean rate")
     ray = board.parallel(chord, rate.pole, why="the ray of this slope")
     cut = board.meet(ray, rate.ordinates, why="HO times the slope")
@@ -118,7 +126,7 @@ def integrate(board: Board, ordinates: Sequence[Mark], start: Mark, divisions: S
     return rays
 
 
-def around(board: Board, points: Sequence[Mark], period: tuple[Mark, Mark], shared: int) -> list[Mark]:
+def extend_periodically(board: Board, points: Sequence[Mark], period: tuple[Mark, Mark], shared: int) -> list[Mark]:
     """The points of a periodic diagram with one more at either end, carried over by the vector of the period.
 
     `period` are the first and last point of one period; `shared` is 1 where they are points of the diagram, else 0.
@@ -138,14 +146,14 @@ def feet(board: Board, points: Sequence[Mark], rate: Axes) -> list[Mark]:
 # ---- the curves of a diagram -----------------------------------------------------------------------------------------
 
 
-class Found(NamedTuple):
+class FoundCurve(NamedTuple):
     """What was found and how: s, v or a; by chords, by tangents or integrated."""
 
     quantity: str
     method: str
 
 
-Traces = dict[Found, list[list[Ray[Spot]]]]
+Traces = dict[FoundCurve, list[list[Ray[Spot]]]]
 
 
 class _Stretch:
@@ -156,68 +164,69 @@ class _Stretch:
     `even` is a chord over two of them parallel to the tangent between; `closed` where they close a period.
     """
 
-    def __init__(self, board: Board, curve: Curve, scales: DiagramScales, places: Places, stretch: Places):
+    def __init__(self, board: Board, curve: KinematicCurve, scales: DiagramScales, places: Places, stretch: Places):
         self.board, self.curve, self.scales = board, curve, scales
         self.numbers, times = [list(places).index(place) for place in stretch], curve.time[stretch]
         self.even = bool(np.ptp(np.diff(times)) <= TIME_TOL * (curve.time[-1] - curve.time[0]))
-        self.closed = curve.closed and bool(curve.known.all())
+        self.closed = curve.closed and bool(curve.is_known.all())
         middles = (times[1:] + times[:-1]) / 2
-        self.points = self._marked("s", self._at("s", self.numbers), times, curve.s[stretch])
-        (self.start,) = self._marked("v", self._at("v", self.numbers[:1]), times[:1], curve.v[stretch[:1]])
-        self.middles = self._marked("a", self._between("a"), middles, curve.at("a", middles))
+        self.points = self._mark_points("s", self._division_names("s", self.numbers), times, curve.s[stretch])
+        (self.start,) = self._mark_points("v", self._division_names("v", self.numbers[:1]), times[:1],
+                                          curve.v[stretch[:1]])
+        self.middles = self._mark_points("a", self._strip_names("a"), middles, curve.values_at("a", middles))
 
-    def _marked(self, quantity: str, names: Sequence[str], times: Reals, values: Reals) -> list[Mark]:
+    def _mark_points(self, quantity: str, names: Sequence[str], times: Reals, values: Reals) -> list[Mark]:
         spots = zip(names, self.scales.x(times), self.scales.y(quantity, values), strict=True)
         with self.board.on(panel=PANELS[quantity]):
             return [self.board.given(x=float(x), y=float(y), name=name) for name, x, y in spots]
 
-    def _at(self, quantity: str, numbers: Sequence[int]) -> list[str]:
+    def _division_names(self, quantity: str, numbers: Sequence[int]) -> list[str]:
         """Names for what stands at divisions."""
         return [f"{self.curve.letters[quantity]}_{k}" for k in numbers]
 
-    def _between(self, quantity: str) -> list[str]:
+    def _strip_names(self, quantity: str) -> list[str]:
         """Names for what stands in the middle of strips: v_3_4 between the divisions 3 and 4."""
         return [f"{self.curve.letters[quantity]}_{j}_{k}" for j, k in pairwise(self.numbers)]
 
-    def found(self, v: Axes, a: Axes) -> dict[Found, list[Ray[Mark]]]:
+    def draw_curves(self, v: Axes, a: Axes) -> dict[FoundCurve, list[Ray[Mark]]]:
         """The rates by chords and by tangents, and the integrals, in the order in which they are drawn."""
-        figure = self._by_chords(v, a)
-        figure |= self._by_tangents(v, a) if self.even else {}
-        figure |= self._integrated(v, a)
+        figure = self._draw_by_chords(v, a)
+        figure |= self._draw_by_tangents(v, a) if self.even else {}
+        figure |= self._draw_integrals(v, a)
         return {found: rays for found, rays in figure.items() if rays}
 
-    def _by_chords(self, v: Axes, a: Axes) -> dict[Found, list[Ray[Mark]]]:
+    def _draw_by_chords(self, v: Axes, a: Axes) -> dict[FoundCurve, list[Ray[Mark]]]:
         """The velocity in the middle of the strips, and from its chords the acceleration at the divisions between."""
-        velocities = by_chords(self.board, self.points, v, self._between("v"))
+        velocities = by_chords(self.board, self.points, v, self._strip_names("v"))
         middles, inner = [ray.ordinate for ray in velocities], self.numbers[1:-1]
         if self.closed:
             first, last = feet(self.board, (self.points[0], self.points[-1]), v)
-            middles, inner = around(self.board, middles, (first, last), shared=0), self.numbers
-        return {Found("v", CHORDS): velocities,
-                Found("a", CHORDS): by_chords(self.board, middles, a, self._at("a", inner))}
+            middles, inner = extend_periodically(self.board, middles, (first, last), shared=0), self.numbers
+        return {FoundCurve("v", CHORDS): velocities,
+                FoundCurve("a", CHORDS): by_chords(self.board, middles, a, self._division_names("a", inner))}
 
-    def _by_tangents(self, v: Axes, a: Axes) -> dict[Found, list[Ray[Mark]]]:
+    def _draw_by_tangents(self, v: Axes, a: Axes) -> dict[FoundCurve, list[Ray[Mark]]]:
         """The velocity at the divisions, and from its tangents the acceleration there."""
         at = self.numbers if self.closed else self.numbers[1:-1]
-        velocities = by_tangents(self.board, self._periodic(self.points), v, self._at("v", at))
+        velocities = by_tangents(self.board, self._periodic(self.points), v, self._division_names("v", at))
         tops = self._periodic([ray.ordinate for ray in velocities])
-        accelerations = by_tangents(self.board, tops, a, self._at("a", at if self.closed else at[1:-1]))
-        return {Found("v", TANGENTS): velocities, Found("a", TANGENTS): accelerations}
+        accelerations = by_tangents(self.board, tops, a, self._division_names("a", at if self.closed else at[1:-1]))
+        return {FoundCurve("v", TANGENTS): velocities, FoundCurve("a", TANGENTS): accelerations}
 
-    def _integrated(self, v: Axes, a: Axes) -> dict[Found, list[Ray[Mark]]]:
+    def _draw_integrals(self, v: Axes, a: Axes) -> dict[FoundCurve, list[Ray[Mark]]]:
         """The velocity from the plans' acceleration in the middle of the strips, and the displacement from that."""
         points, ends = self.points, self.numbers[1:]
-        velocities = integrate(self.board, self.middles, self.start, points, a, self._at("v", ends))
+        velocities = integrate(self.board, self.middles, self.start, points, a, self._division_names("v", ends))
         means = [self.board.midpoint(ray.start, ray.end, why="the mean ordinate of the strip") for ray in velocities]
-        displacements = integrate(self.board, means, points[0], points, v, self._at("s", ends))
-        return {Found("v", INTEGRATED): velocities, Found("s", INTEGRATED): displacements}
+        displacements = integrate(self.board, means, points[0], points, v, self._division_names("s", ends))
+        return {FoundCurve("v", INTEGRATED): velocities, FoundCurve("s", INTEGRATED): displacements}
 
     def _periodic(self, points: list[Mark]) -> list[Mark]:
         """The points, with one more at either end where they close a period."""
-        return around(self.board, points, (points[0], points[-1]), shared=1) if self.closed else points
+        return extend_periodically(self.board, points, (points[0], points[-1]), shared=1) if self.closed else points
 
 
-def constructed(curve: Curve, scales: DiagramScales, places: Places) -> tuple[Program, Traces]:
+def construct_diagram(curve: KinematicCurve, scales: DiagramScales, places: Places) -> tuple[Program, Traces]:
     """The program that finds the rates and integrals of a curve, and the rays that it draws, stretch by stretch.
 
     Reads the positions, by place, at which the abscissa is divided.
@@ -225,7 +234,7 @@ def constructed(curve: Curve, scales: DiagramScales, places: Places) -> tuple[Pr
     board = Board(coplanar=True)  # one under the other over the same abscissas: an upright passes through all diagrams
     stretches = [_Stretch(board, curve, scales, places, stretch) for stretch in curve.stretches(places)]
     v, a = (axes(board, PANELS[rate], curve.letters[rate], scales.poles[rate]) for rate in QUANTITIES[1:])
-    figures = [stretch.found(v, a) for stretch in stretches]
+    figures = [stretch.draw_curves(v, a) for stretch in stretches]
     program = freeze(board, [mark for figure in figures for rays in figure.values() for ray in rays for mark in ray])
     values = evaluate(program, Floats())
     spots = iter([values[index] for index in program.wanted])
@@ -239,8 +248,8 @@ def constructed(curve: Curve, scales: DiagramScales, places: Places) -> tuple[Pr
 # ---- how far each diagram errs ---------------------------------------------------------------------------------------
 
 
-NARROWEST = 300  # strips of half a millimetre: no ray can be drawn in a narrower one
-MOST, FEWEST = 24, 8  # strips of a division: more rays cannot be told apart, fewer show no curve
+STRIP_LIMIT = 300  # strips of half a millimetre: no ray can be drawn in a narrower one
+MAX_STRIPS, MIN_STRIPS = 24, 8  # strips of a division: more rays cannot be told apart, fewer show no curve
 
 
 @dataclass(frozen=True)
@@ -249,60 +258,61 @@ class Error:
     ordinate of the plans at the same abscissas, and the order in the width of the strips; none where rounding is all or
     strips cannot be halved."""
 
-    found: Found
+    found: FoundCurve
     largest: float
     rms: float
     order: float | None
 
 
 @dataclass(frozen=True, eq=False)
-class Diagram:
+class KinematicDiagram:
     """The diagrams of a curve as they are constructed.
 
     `places` are the positions that divide the abscissa; `traces` are the rays of each curve found, stretch by stretch,
     in mm from the origin of the diagram that a spot stands in; `program` draws them.
     """
 
-    curve: Curve
+    curve: KinematicCurve
     scales: DiagramScales
     places: Places
     program: Program
-    traces: Mapping[Found, list[list[Ray[Spot]]]]
+    traces: Mapping[FoundCurve, list[list[Ray[Spot]]]]
     errors: tuple[Error, ...]
 
-    def points(self, found: Found) -> list[list[Spot]]:
+    def points(self, found: FoundCurve) -> list[list[Spot]]:
         """The points of a curve that was found, stretch by stretch, in mm; an integral's begins with its given one."""
         starts = [[rays[0].start] if found.method == INTEGRATED else [] for rays in self.traces[found]]
         return [start + part for start, part in zip(starts, _spots(found, self.traces[found]), strict=True)]
 
 
-def diagram(curve: Curve, strips: int | None = None) -> Diagram:
+def diagram(curve: KinematicCurve, strips: int | None = None) -> KinematicDiagram:
     """The diagrams of a curve, its abscissa divided in so many strips; without it in 24, 12, or as positions allow."""
-    places = _divided(curve, strips)
+    places = _dividing_places(curve, strips)
     scales = diagram_scales(curve, places)
-    program, traces = constructed(curve, scales, places)
-    misses, halved = _misses(curve, scales, traces), _halved(curve, scales, places)
+    program, traces = construct_diagram(curve, scales, places)
+    misses, halved = _misses(curve, scales, traces), _misses_at_other_width(curve, scales, places)
     errors = tuple(_error(found, miss, halved) for found, miss in misses.items())
-    return Diagram(curve, scales, places, program, traces, errors)
+    return KinematicDiagram(curve, scales, places, program, traces, errors)
 
 
-def _divided(curve: Curve, strips: int | None) -> Places:
+def _dividing_places(curve: KinematicCurve, strips: int | None) -> Places:
     """The places that divide the abscissa: evenly if some whole number of strips does, else as nearly as can be."""
     positions = len(curve.time) - 1
-    if strips is not None and not 2 <= strips <= min(positions, NARROWEST):
+    if strips is not None and not 2 <= strips <= min(positions, STRIP_LIMIT):
         raise Refused(f"{strips} strips", f"{curve.name} is known at {positions + 1} positions",
-                      f"from 2 to {min(positions, NARROWEST)} strips")
-    even = (count for count in (MOST, MOST // 2, *range(MOST - 1, FEWEST - 1, -1)) if positions % count == 0)
-    count = strips or (positions if positions <= MOST else next(even, MOST))
-    return _evenly(positions, count)
+                      f"from 2 to {min(positions, STRIP_LIMIT)} strips")
+    even = (count for count in (MAX_STRIPS, MAX_STRIPS // 2, *range(MAX_STRIPS - 1, MIN_STRIPS - 1, -1))
+            if positions % count == 0)
+    count = strips or (positions if positions <= MAX_STRIPS else next(even, MAX_STRIPS))
+    return _even_places(positions, count)
 
 
-def _evenly(positions: int, count: int) -> Places:
+def _even_places(positions: int, count: int) -> Places:
     places: Places = np.rint(np.arange(count + 1) * (positions / count)).astype(int)
     return places
 
 
-def _spots(found: Found, stretches: list[list[Ray[Spot]]]) -> list[list[Spot]]:
+def _spots(found: FoundCurve, stretches: list[list[Ray[Spot]]]) -> list[list[Spot]]:
     """What was found with each ray: the ordinate, or the end of the chord."""
     return [[ray.end if found.method == INTEGRATED else ray.ordinate for ray in rays] for rays in stretches]
 
@@ -318,31 +328,33 @@ class _Misses(NamedTuple):
         return float(np.sqrt(np.mean(self.by**2)))
 
 
-def _misses(curve: Curve, scales: DiagramScales, traces: Mapping[Found, list[list[Ray[Spot]]]]) -> dict[Found, _Misses]:
+def _misses(curve: KinematicCurve, scales: DiagramScales,
+            traces: Mapping[FoundCurve, list[list[Ray[Spot]]]]) -> dict[FoundCurve, _Misses]:
     """How far each curve found is from the plans; a quantity that stands still is left out."""
-    misses, spans = dict[Found, _Misses](), sizes(curve, np.flatnonzero(curve.known))
+    misses, spans = dict[FoundCurve, _Misses](), ordinate_spans(curve, np.flatnonzero(curve.is_known))
     for found, stretches in traces.items():
         if spans[found.quantity]:
             x, y = np.array([spot for part in _spots(found, stretches) for spot in part]).T
-            plans = scales.y(found.quantity, curve.at(found.quantity, scales.time(x)))
+            plans = scales.y(found.quantity, curve.values_at(found.quantity, scales.time(x)))
             misses[found] = _Misses(y - plans, float(np.abs(plans).max()))
     return misses
 
 
-def _halved(curve: Curve, scales: DiagramScales, places: Places) -> tuple[dict[Found, _Misses], float]:
+def _misses_at_other_width(curve: KinematicCurve, scales: DiagramScales,
+                           places: Places) -> tuple[dict[FoundCurve, _Misses], float]:
     """The misses with strips half as wide where the positions allow, else twice as wide, and the ratio of the widths;
     nothing where neither divides evenly."""
     positions, count = len(curve.time) - 1, len(places) - 1
     if positions % (2 * count) == 0:
         other, ratio = 2 * count, 0.5
-    elif positions % count == 0 and count % 2 == 0 and count >= FEWEST:
+    elif positions % count == 0 and count % 2 == 0 and count >= MIN_STRIPS:
         other, ratio = count // 2, 2.0
     else:
         return {}, 1.0
-    return _misses(curve, scales, constructed(curve, scales, _evenly(positions, other))[1]), ratio
+    return _misses(curve, scales, construct_diagram(curve, scales, _even_places(positions, other))[1]), ratio
 
 
-def _error(found: Found, miss: _Misses, halved: tuple[dict[Found, _Misses], float]) -> Error:
+def _error(found: FoundCurve, miss: _Misses, halved: tuple[dict[FoundCurve, _Misses], float]) -> Error:
     """The error of one curve found; its order is the power of the strips' width with which it goes."""
     (others, ratio), order = halved, None
     if found in others and min(miss.rms, others[found].rms) > ORDINATE_TOL * miss.largest:

@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.closure import Body
-from graphplan.cycle.groups import Group
-from graphplan.cycle.linkage import Array, Linkage, direction
+from graphplan.cycle.closure import LinkPose
+from graphplan.cycle.groups import ClosureGroup
+from graphplan.cycle.linkage import Array, Linkage, unit_direction
 from graphplan.kernel.tolerances import ROUNDOFF_TOL
 from graphplan.mechanism.model import FRAME, Contact, Gear, Slide
 
@@ -30,14 +30,14 @@ class Failure(NamedTuple):
     why: str
 
 
-class Placed(NamedTuple):
+class PlacedLink(NamedTuple):
     """A link in n poses: its turn, and where one point is, which was given at `origin`; complex arrays."""
 
     origin: complex
     base: Array
     turn: Array
 
-    def at(self, place: complex) -> Array:
+    def point(self, place: complex) -> Array:
         """Where the point given at this place is."""
         return self.base + self.turn * (place - self.origin)
 
@@ -45,12 +45,12 @@ class Placed(NamedTuple):
         """Where a direction points that was given so."""
         return self.turn * along
 
-    def beside(self, origin: complex, base: Array) -> Placed:
+    def shifted_to(self, origin: complex, base: Array) -> PlacedLink:
         """Another link that turns as this one does, and has this point."""
-        return Placed(origin, base, self.turn)
+        return PlacedLink(origin, base, self.turn)
 
 
-class Hinge(NamedTuple):
+class DyadPair(NamedTuple):
     """One pair of a dyad: its letter, name and given place; a slide with its direction.
 
     `at` is where it is on the link placed before, `on`; an inner pair is on none.
@@ -60,13 +60,13 @@ class Hinge(NamedTuple):
     name: str
     place: complex
     along: complex
-    on: Placed
+    on: PlacedLink
     carrier: str
 
     @property
-    def at(self) -> Array:
+    def carrier_point(self) -> Array:
         """Where the pair's point is on the link placed before."""
-        return self.on.at(self.place)
+        return self.on.point(self.place)
 
     @property
     def ray(self) -> Array:
@@ -74,20 +74,20 @@ class Hinge(NamedTuple):
         return self.on.ray(self.along)
 
 
-def assembled(linkage: Linkage, groups: Sequence[Group],
-              travel: Array) -> tuple[dict[str, Placed], list[tuple[Failure, Array]]]:
+def assemble(linkage: Linkage, groups: Sequence[ClosureGroup],
+             travel: Array) -> tuple[dict[str, PlacedLink], list[tuple[Failure, Array]]]:
     """The links that can be placed at n travels without the path; and each dyad with the mask of poses that prevent it.
     """
-    placed = {FRAME: Placed(linkage.origins[FRAME], np.full(travel.shape, linkage.origins[FRAME]),
-                            np.ones(travel.shape, dtype=complex))}
+    placed = {FRAME: PlacedLink(linkage.origins[FRAME], np.full(travel.shape, linkage.origins[FRAME]),
+                                np.ones(travel.shape, dtype=complex))}
     found = []
     with np.errstate(all="ignore"):
         for group in groups:
-            if linkage.special(group.part) or not {*group.carriers} <= placed.keys():
+            if linkage.is_special(group.part) or not {*group.carriers} <= placed.keys():
                 continue
             if not group.unknowns:
-                placed.update(_driven(linkage, group, travel, placed))
-            elif found_dyad := dyad(linkage, group, placed):
+                placed.update(_place_driven(linkage, group, travel, placed))
+            elif found_dyad := assemble_dyad(linkage, group, placed):
                 links, why = found_dyad
                 before = sum(placed[link].base for link in (FRAME, *group.carriers))
                 missing = ~np.isfinite(sum(link.base + link.turn for link in links)) & np.isfinite(before)
@@ -96,23 +96,24 @@ def assembled(linkage: Linkage, groups: Sequence[Group],
     return placed, found
 
 
-def _driven(linkage: Linkage, group: Group, travel: Array,
-            placed: Mapping[str, Placed]) -> Iterator[tuple[str, Placed]]:
+def _place_driven(linkage: Linkage, group: ClosureGroup, travel: Array,
+                  placed: Mapping[str, PlacedLink]) -> Iterator[tuple[str, PlacedLink]]:
     """The links of a group that has no unknowns."""
     frame = linkage.origins[FRAME]
-    known = [Body(_pair((placed[link].at(linkage.origins[link]) - frame) / linkage.reach), _pair(placed[link].turn))
+    known = [LinkPose(_pair((placed[link].point(linkage.origins[link]) - frame) / linkage.reach),
+                      _pair(placed[link].turn))
              for link in (FRAME, *group.carriers)]
-    for link, body in zip(group.links, group.lie(known, travel, ()), strict=True):
+    for link, body in zip(group.links, group.link_poses(known, travel, ()), strict=True):
         (x, y), (cos, sin) = body.base, body.turn or (1.0, 0.0)
-        yield link, Placed(linkage.origins[link], frame + linkage.reach * (x + 1j * y), cos + 1j * sin)
+        yield link, PlacedLink(linkage.origins[link], frame + linkage.reach * (x + 1j * y), cos + 1j * sin)
 
 
 def _pair(z: Array) -> tuple[Array, Array]:
     return z.real, z.imag
 
 
-def dyad(linkage: Linkage, group: Group,
-         placed: Mapping[str, Placed]) -> tuple[tuple[Placed, Placed], str] | None:
+def assemble_dyad(linkage: Linkage, group: ClosureGroup,
+                  placed: Mapping[str, PlacedLink]) -> tuple[tuple[PlacedLink, PlacedLink], str] | None:
     """Both links of a plain dyad, and why they may be nowhere; none where the group is anything else.
 
     The places and turns of links are arrays, or any numbers that compute as complex ones.
@@ -121,8 +122,8 @@ def dyad(linkage: Linkage, group: Group,
     pairs = (pair for link in part for pair in linkage.pairs(link, (*before, *part)))
     if len(part) != 2 or any(isinstance(pair, Gear | Contact) for pair in pairs):
         return None
-    outer = [_hinges(linkage, link, before, placed) for link in part]
-    inner = [hinge for hinge in _hinges(linkage, part[0], part[1:], placed)
+    outer = [_dyad_pairs(linkage, link, before, placed) for link in part]
+    inner = [hinge for hinge in _dyad_pairs(linkage, part[0], part[1:], placed)
              if (hinge.letter, hinge.name) not in {(hinge.letter, hinge.name) for hinge in outer[0]}]
     if [len(hinges) for hinges in (*outer, inner)] != [1, 1, 1]:
         return None
@@ -135,62 +136,64 @@ def dyad(linkage: Linkage, group: Group,
     return (second, first) if swapped else (first, second), why
 
 
-def _hinges(linkage: Linkage, link: str, others: tuple[str, ...], placed: Mapping[str, Placed]) -> list[Hinge]:
+def _dyad_pairs(linkage: Linkage, link: str, others: tuple[str, ...],
+                placed: Mapping[str, PlacedLink]) -> list[DyadPair]:
     """The pairs of a link with some others."""
     found = []
     for pair in linkage.pairs(link, others):
         on = min((other for other in pair.links if other != link), key=linkage.order.__getitem__)
-        along = direction(pair) if isinstance(pair, Slide) else 0j
-        found.append(Hinge(pair.letter, pair.at, linkage.places[pair.at], along, placed.get(on, placed[FRAME]), on))
+        along = unit_direction(pair) if isinstance(pair, Slide) else 0j
+        found.append(DyadPair(pair.letter, pair.at, linkage.places[pair.at], along, placed.get(on, placed[FRAME]), on))
     return found
 
 
-def _rrr(A: Hinge, B: Hinge, C: Hinge) -> tuple[Placed, Placed, str]:
+def _rrr(A: DyadPair, B: DyadPair, C: DyadPair) -> tuple[PlacedLink, PlacedLink, str]:
     """B lies on a circle about A and on a circle about C."""
     a, b, c = A.place, B.place, C.place
     side = 1 if ((c - a).conjugate() * (b - a)).imag > 0 else -1
-    from_a, from_c = A.at, C.at
+    from_a, from_c = A.carrier_point, C.carrier_point
     AC = from_c - from_a
     span = AC.real**2 + AC.imag**2
     along = (abs(b - a) ** 2 - abs(b - c) ** 2 + span) / (2 * span)
     AB = AC * (along + 1j * side * np.sqrt(abs(b - a) ** 2 / span - along**2))
     at = from_a + AB
-    return (Placed(b, at, AB * (1 / (b - a))), Placed(b, at, (at - from_c) * (1 / (b - c))),
+    return (PlacedLink(b, at, AB * (1 / (b - a))), PlacedLink(b, at, (at - from_c) * (1 / (b - c))),
             f"the circles about {A.name} and {C.name} do not meet")
 
 
-def _rrp(A: Hinge, B: Hinge, guide: Hinge) -> tuple[Placed, Placed, str]:
+def _rrp(A: DyadPair, B: DyadPair, guide: DyadPair) -> tuple[PlacedLink, PlacedLink, str]:
     """B lies on a circle about A, and on a line of the guide's link along the guide."""
-    a, b, path = A.place, B.place, guide.on.at(B.place)
+    a, b, path = A.place, B.place, guide.on.point(B.place)
     way = 1 if (guide.along.conjugate() * (b - a)).real > 0 else -1
-    from_a, ray = A.at, guide.ray
+    from_a, ray = A.carrier_point, guide.ray
     off = (from_a - path) * ray.conj()
     at = path + ray * (off.real + way * np.sqrt(abs(b - a) ** 2 - off.imag**2))
-    return (Placed(b, at, (at - from_a) * (1 / (b - a))), guide.on.beside(b, at),
+    return (PlacedLink(b, at, (at - from_a) * (1 / (b - a))), guide.on.shifted_to(b, at),
             f"the circle about {A.name} does not meet the line of {B.name} along link {guide.carrier}")
 
 
-def _rpr(A: Hinge, guide: Hinge, C: Hinge) -> tuple[Placed, Placed, str]:
+def _rpr(A: DyadPair, guide: DyadPair, C: DyadPair) -> tuple[PlacedLink, PlacedLink, str]:
     """The guide's line through A passes C at a given distance: its angle with AC has that sine."""
-    given, AC = guide.along.conjugate() * (C.place - A.place), C.at - A.at
+    given, AC = guide.along.conjugate() * (C.place - A.place), C.carrier_point - A.carrier_point
     along = math.copysign(1, given.real or -1) * np.sqrt(AC.real**2 + AC.imag**2 - given.imag**2)
-    one = Placed(A.place, A.at, AC / (along + 1j * given.imag) / guide.along)
-    return one, one.beside(C.place, C.at), f"the guide through {A.name} passes {C.name} by"
+    one = PlacedLink(A.place, A.carrier_point, AC / (along + 1j * given.imag) / guide.along)
+    return one, one.shifted_to(C.place, C.carrier_point), f"the guide through {A.name} passes {C.name} by"
 
 
-def _prp(one: Hinge, B: Hinge, two: Hinge) -> tuple[Placed, Placed, str]:
+def _prp(one: DyadPair, B: DyadPair, two: DyadPair) -> tuple[PlacedLink, PlacedLink, str]:
     """B lies on a line along either guide."""
-    at = _met(one.on.at(B.place), one.ray, two.on.at(B.place), two.ray)
-    return one.on.beside(B.place, at), two.on.beside(B.place, at), "the two guides are parallel"
+    at = _line_crossing(one.on.point(B.place), one.ray, two.on.point(B.place), two.ray)
+    return one.on.shifted_to(B.place, at), two.on.shifted_to(B.place, at), "the two guides are parallel"
 
 
-def _rpp(A: Hinge, inner: Hinge, guide: Hinge) -> tuple[Placed, Placed, str]:
+def _rpp(A: DyadPair, inner: DyadPair, guide: DyadPair) -> tuple[PlacedLink, PlacedLink, str]:
     """All turn alike; the middle link's point that was at A lies on its guide through A, and on one along the outer."""
-    at = _met(A.at, guide.on.ray(inner.along), guide.on.at(A.place), guide.ray)
-    return guide.on.beside(A.place, A.at), guide.on.beside(A.place, at), "the two guides are parallel"
+    at = _line_crossing(A.carrier_point, guide.on.ray(inner.along), guide.on.point(A.place), guide.ray)
+    return guide.on.shifted_to(A.place, A.carrier_point), guide.on.shifted_to(A.place,
+                                                                              at), "the two guides are parallel"
 
 
-def _met(one: Array, ray: Array, other: Array, across: Array) -> Array:
+def _line_crossing(one: Array, ray: Array, other: Array, across: Array) -> Array:
     """Where the lines through two points meet, if anywhere."""
     sine = (ray.conj() * across).imag
     if isinstance(sine, np.ndarray):

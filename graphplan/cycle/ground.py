@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from graphplan.cycle.dyads import Placed
+from graphplan.cycle.dyads import PlacedLink
 from graphplan.cycle.tolerances import PIN_TOL
 from graphplan.kernel.kinds import Movement, made_by
 from graphplan.kernel.tape.record import Symbol, Symbols
@@ -34,10 +34,10 @@ class Ground:
                        for end in gear.centres}
         self.free: list[str] = []
         self.pins: dict[str, Planar] = {}
-        for name in self._still():
+        for name in self._fixed_points():
             self.pins[name] = self._pin(name)
 
-    def at(self, place: complex) -> Planar:
+    def point(self, place: complex) -> Planar:
         """Where the frame's point is that was given at this place."""
         pin = next((name for name in self.pins if abs(self.places[name] - place) < PIN_TOL), None)
         return planar(place) if pin is None else self.pins[pin]
@@ -46,11 +46,11 @@ class Ground:
         """Where a direction points that was given so."""
         return planar(along)
 
-    def beside(self, origin: complex, base: Any) -> Placed:
+    def shifted_to(self, origin: complex, base: Any) -> PlacedLink:
         """A link that turns as the frame does, and has this point."""
-        return Placed(origin, base, planar(1.0))
+        return PlacedLink(origin, base, planar(1.0))
 
-    def _still(self) -> list[str]:
+    def _fixed_points(self) -> list[str]:
         """The points of the frame and of no link, each after those that place it; contacts touch where they touch."""
         touching = {contact.at for contact in self.scene.contacts}
         still = [name for name, links in self.scene.links_of.items()
@@ -71,14 +71,14 @@ class Ground:
         """A point of the frame: free, or as the scene places it from others."""
         place = self.scene.placements.get(name)
         if place and self._placers(name, [*self.pins]):
-            x, y = self._put(name, place, {other: (pin.re, pin.im) for other, pin in self.pins.items()})
+            x, y = self._apply_placement(name, place, {other: (pin.re, pin.im) for other, pin in self.pins.items()})
             return Planar(x, y)
         if name in self.fixed:
             return planar(self.places[name])
         self.free.append(name)
         return Planar(self.domain.tape.input(f"x {name}"), self.domain.tape.input(f"y {name}"))
 
-    def _put(self, name: str, placement: Placement, at: Mapping[str, Spot]) -> Any:
+    def _apply_placement(self, name: str, placement: Placement, at: Mapping[str, Spot]) -> Any:
         """Where a placement by distance, angle or compasses puts a point."""
         data: dict[str, Any] = placement.data
         scale = self.view.scale
@@ -154,8 +154,8 @@ class Planar:
 
     def __truediv__(self, other: Any) -> Planar:
         other = planar(other)
-        if _nothing(other.im):
-            return Planar(self.re / other.re, 0.0 if _nothing(self.im) else self.im / other.re)
+        if _is_zero(other.im):
+            return Planar(self.re / other.re, 0.0 if _is_zero(self.im) else self.im / other.re)
         size = other.re * other.re + other.im * other.im
         product = self * other.conj()
         return Planar(product.re / size, product.im / size)
@@ -170,12 +170,12 @@ class Planar:
     __radd__, __rmul__ = __add__, __mul__
 
 
-def _nothing(number: Any) -> bool:
+def _is_zero(number: Any) -> bool:
     return not isinstance(number, Symbol) and number == 0
 
 
 def _product(one: Any, two: Any) -> Any:
-    return 0.0 if _nothing(one) or _nothing(two) else one * two
+    return 0.0 if _is_zero(one) or _is_zero(two) else one * two
 
 
 def planar(number: Any) -> Planar:

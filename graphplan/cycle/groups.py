@@ -14,19 +14,19 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.cycle import closure, newton
-from graphplan.cycle.closure import Body, Closing, Layout, Mesh, Seat, Spin
-from graphplan.cycle.linkage import Apart, Geared, Linkage, Racked, direction
-from graphplan.cycle.newton import Corrected, Lies
+from graphplan.cycle.closure import Closing, GroupLayout, LinkPose, Mesh, Seat, Spin
+from graphplan.cycle.linkage import CentreDistance, GearBond, Linkage, RackBond, unit_direction
+from graphplan.cycle.newton import CorrectedPose, PoseNumbers
 from graphplan.cycle.tolerances import CLOSURE_TOL, CORRECTION_TOL, DETERMINANT_TOL
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.pairs.pair import TOUCHING, Along, Turning
 
 Array = Any
 
-NEAR = 1 / 64
+MAX_FIRST_CORRECTION = 1 / 64
 """The largest first correction, of the step."""
 
-SHRINKING = 1 / 4
+MAX_CORRECTION_RATIO = 1 / 4
 """The largest further correction, of the one before."""
 
 
@@ -38,7 +38,7 @@ class End(NamedTuple):
     way: bool
 
 
-class Group:
+class ClosureGroup:
     """One part of a linkage in its numbers; lengths are counted in reaches.
 
     `links` are its own, `carriers` those placed before that it needs, but for the frame. Those must be made before: the
@@ -47,17 +47,17 @@ class Group:
     """
 
     def __init__(self, linkage: Linkage, part: tuple[str, ...]):
-        made = _Maker(linkage, part)
+        made = _LayoutBuilder(linkage, part)
         self.part, self.links, self.carriers = part, tuple(made.seated), made.carriers
         self.layout, self.arms, self.ends, self.drives = made.layout(), made.arms, made.ends, made.drives
         self.unknowns, self._angles = self.layout.unknowns, self.layout.angles
-        self._run = newton.for_one(self.layout)
+        self._run = newton.single_pose_step(self.layout)
         self._flat = [number for arm in self.arms for number in arm]
         self._still = np.empty((len(self._flat), 0))  # the same for as many poses as were asked for
 
     # ---- one pose ---------------------------------------------------------------------------------------------
 
-    def corrected(self, placed: Mapping[str, Lies], travel: float, state: Sequence[float]) -> Corrected:
+    def correct(self, placed: Mapping[str, PoseNumbers], travel: float, state: Sequence[float]) -> CorrectedPose:
         """One step of Newton from a state; raises ZeroDivisionError where it is singular."""
         flat: list[float] = []
         for link in self.carriers:
@@ -65,39 +65,39 @@ class Group:
         flat += self._flat
         for turns, rate in self.drives:
             angle = rate * travel
-            flat += (*self._turn(angle), rate) if turns else (angle, rate)
+            flat += (*self._angle_numbers(angle), rate) if turns else (angle, rate)
         for angle in state[: self._angles]:
-            flat += self._turn(angle)
-        return Corrected(*self._run(*flat, *state[self._angles:]))
+            flat += self._angle_numbers(angle)
+        return CorrectedPose(*self._run(*flat, *state[self._angles:]))
 
-    def _turn(self, angle: Any) -> tuple[Any, ...]:
+    def _angle_numbers(self, angle: Any) -> tuple[Any, ...]:
         """An angle as the closure has it."""
         turn = (np.cos(angle), np.sin(angle)) if isinstance(angle, np.ndarray) else (math.cos(angle), math.sin(angle))
         return (*turn, angle) if self.layout.counted else turn
 
-    def settled(self, placed: Mapping[str, Lies], travel: float, state: list[float], size: float,
-                ) -> tuple[list[float], Corrected] | None:
+    def settle(self, placed: Mapping[str, PoseNumbers], travel: float, state: list[float], size: float,
+                ) -> tuple[list[float], CorrectedPose] | None:
         """The state that closes the group, and the step that led there last; none where it is not to be trusted.
 
         It is only where the first correction is small beside the `size` of the step that was predicted, and where each
         further one is small beside the one before.
         """
-        allowed, settled = NEAR * size, not self.unknowns
+        allowed, settled = MAX_FIRST_CORRECTION * size, not self.unknowns
         while True:
             try:
-                found = self.corrected(placed, travel, state)
+                found = self.correct(placed, travel, state)
             except (ZeroDivisionError, OverflowError, ValueError):  # singular, or a state that has gone to infinity
                 return None
-            far = self._far(found.corrections, state)
+            far = self._largest_correction(found.corrections, state)
             if not far <= allowed or abs(found.determinant) < DETERMINANT_TOL:
                 return None
             state = [value - correction for value, correction in zip(state, found.corrections, strict=True)]
             if settled or far <= CLOSURE_TOL * size:
                 return state, found
             settled = far <= CORRECTION_TOL * size
-            allowed = NEAR * size if settled else SHRINKING * far
+            allowed = MAX_FIRST_CORRECTION * size if settled else MAX_CORRECTION_RATIO * far
 
-    def _far(self, corrections: Sequence[float], state: Sequence[float]) -> float:
+    def _largest_correction(self, corrections: Sequence[float], state: Sequence[float]) -> float:
         """The largest correction, as the path weighs changes."""
         n = self._angles
         far = (abs(a) / max(1.0, abs(b)) for a, b in zip(corrections[n:], state[n:], strict=True))
@@ -105,33 +105,35 @@ class Group:
 
     # ---- many poses -------------------------------------------------------------------------------------------
 
-    def read(self, travel: Array, state: Sequence[Array]) -> tuple[list[closure.Drive], list[Any]]:
+    def drives_and_state(self, travel: Array, state: Sequence[Array]) -> tuple[list[closure.DriveState], list[Any]]:
         """The drives of n poses, and their states as the closure has them."""
-        drives = [closure.Drive(self._turn(rate * travel) if turns else rate * travel, None)
+        drives = [closure.DriveState(self._angle_numbers(rate * travel) if turns else rate * travel, None)
                   for turns, rate in self.drives]
-        return drives, [self._turn(value) if i < self._angles else value for i, value in enumerate(state)]
+        return drives, [self._angle_numbers(value) if i < self._angles else value for i, value in enumerate(state)]
 
-    def lie(self, known: Sequence[Body], travel: Array, state: Sequence[Array]) -> list[Body]:
+    def link_poses(self, known: Sequence[LinkPose], travel: Array, state: Sequence[Array]) -> list[LinkPose]:
         """How the links lie in n poses, their states taken as they are."""
-        return closure.bodies(self.layout, known, self.arms, *self.read(travel, state), moving=False)[len(known):]
+        return closure.pose_links(self.layout, known, self.arms, *self.drives_and_state(travel, state),
+                                  moving=False)[len(known):]
 
-    def step(self, known: Sequence[Body], travel: Array, state: Sequence[Array],
-             run: newton.Run | None) -> tuple[Array, Array, list[Body]]:
+    def step(self, known: Sequence[LinkPose], travel: Array, state: Sequence[Array],
+             run: newton.TapeRun | None) -> tuple[Array, Array, list[LinkPose]]:
         """Newton's corrections of n poses, shape (unknowns, n), their determinants, and how the links lie then.
 
         With `run` it is done by the tape.
         """
-        drives, numbers = self.read(travel, state)
+        drives, numbers = self.drives_and_state(travel, state)
         if run:
-            return self._replayed(known, drives, numbers, run, len(travel))
-        links = closure.bodies(self.layout, known, self.arms, drives, numbers)
-        found = newton.step(closure.left_open(self.layout, links, self.arms, drives), self.unknowns, np.sqrt)
-        closed = newton.corrected(self.layout, numbers, found.corrections)
-        links = closure.bodies(self.layout, known, self.arms, drives, closed, moving=False)[len(known):]
+            return self._replay_step(known, drives, numbers, run, len(travel))
+        links = closure.pose_links(self.layout, known, self.arms, drives, numbers)
+        found = newton.step(closure.residual_rows(self.layout, links, self.arms, drives), self.unknowns, np.sqrt)
+        closed = newton.apply_corrections(self.layout, numbers, found.corrections)
+        links = closure.pose_links(self.layout, known, self.arms, drives, closed, moving=False)[len(known):]
         return np.array(found.corrections), np.broadcast_to(found.determinant, travel.shape), links
 
-    def _replayed(self, known: Sequence[Body], drives: Sequence[closure.Drive], numbers: Sequence[Any], run: newton.Run,
-                  n: int) -> tuple[Array, Array, list[Body]]:
+    def _replay_step(self, known: Sequence[LinkPose], drives: Sequence[closure.DriveState], numbers: Sequence[Any],
+                     run: newton.TapeRun,
+                     n: int) -> tuple[Array, Array, list[LinkPose]]:
         """The same by the tape."""
         def arrays(vectors: Iterable[Any]) -> Iterator[Array]:
             for number in (number for part in vectors for number in (part if isinstance(part, tuple) else (part,))):
@@ -147,12 +149,12 @@ class Group:
         found = np.empty((self.unknowns + 1 + width * len(self.links), n))
         run.run([*arrays(bases), *self._still[:, :n], *arrays(moving)], list(found))
         corrections, (determinant, *lies) = found[: self.unknowns], found[self.unknowns:]
-        links = [Body((x, y), (cos, sin), angle=angle[0] if angle else 0.0)
+        links = [LinkPose((x, y), (cos, sin), angle=angle[0] if angle else 0.0)
                  for x, y, cos, sin, *angle in zip(*(lies[i::width] for i in range(width)), strict=True)]
         return corrections, determinant, links
 
 
-class _Maker:
+class _LayoutBuilder:
     """Finds the layout of one part."""
 
     def __init__(self, linkage: Linkage, part: tuple[str, ...]):
@@ -173,15 +175,16 @@ class _Maker:
         self.spins = tuple(self._spins())
         self.seats = tuple(self._seat(*seat) for seat in seats)
         self.closings = (*(closing for joint in self.joints.values() for closing in self._closings(joint)),
-                         *(self._rolled(bond) for bond in bonds if isinstance(bond, Apart | Racked)))
-        self.meshes = tuple(self._meshed(bond) for bond in bonds if isinstance(bond, Geared))
+                         *(self._rolling_closing(bond) for bond in bonds
+                           if isinstance(bond, CentreDistance | RackBond)))
+        self.meshes = tuple(self._gear_mesh(bond) for bond in bonds if isinstance(bond, GearBond))
 
-    def layout(self) -> Layout:
+    def layout(self) -> GroupLayout:
         """What was found."""
-        turnings = tuple(Spin(self.place[bond.link], self.place[bond.on], self._drive(True, float(bond.rate)))
+        turnings = tuple(Spin(self.place[bond.link], self.place[bond.on], self._enter_drive(True, float(bond.rate)))
                          for bond in self.turnings)
-        return Layout(1 + len(self.carriers), len(self.arms), tuple(turns for turns, _ in self.drives), self.spins,
-                      self.seats, self.closings, turnings, self.meshes, self.linkage.counted)
+        return GroupLayout(1 + len(self.carriers), len(self.arms), tuple(turns for turns, _ in self.drives), self.spins,
+                           self.seats, self.closings, turnings, self.meshes, self.linkage.counts_angles)
 
     def _spins(self) -> Iterator[Spin]:
         """How each link turns: with one that is known to turn, or else by an unknown angle."""
@@ -196,7 +199,7 @@ class _Maker:
                 continue
             self.turnings.remove(bond)
             other, rate = (bond.on, float(bond.rate)) if link == bond.link else (bond.link, -float(bond.rate))
-            yield Spin(self.place[link], self.place[other], self._drive(True, rate))
+            yield Spin(self.place[link], self.place[other], self._enter_drive(True, rate))
 
     def _seats(self) -> Iterator[tuple[str, list[Along]]]:
         """Each link with the pair that seats it, the whole ones first; none where no pair does."""
@@ -228,10 +231,10 @@ class _Maker:
         seat = Seat(self.place[link], self.place[on], self._arm(on, self.linkage.places[bond.at], bond.at))
         if len(joint) == 2 and not bond.rate:
             return seat
-        way = direction(bond) if len(joint) == 2 else -1j * direction(bond)
+        way = unit_direction(bond) if len(joint) == 2 else -1j * unit_direction(bond)
         rate = float(bond.rate) * (1 if link == bond.link else -1)
-        drive = self._drive(False, rate / self.linkage.reach) if len(joint) == 2 else None
-        return seat._replace(guide=self.place[bond.to or bond.on], way=self._way(bond, way), drive=drive)
+        drive = self._enter_drive(False, rate / self.linkage.reach) if len(joint) == 2 else None
+        return seat._replace(guide=self.place[bond.to or bond.on], way=self._guide_direction(bond, way), drive=drive)
 
     def _closings(self, joint: Sequence[Along]) -> Iterator[Closing]:
         """What closes a loop: a joint at once, or one statement after another."""
@@ -243,22 +246,23 @@ class _Maker:
             yield closing
             return
         for bond in joint:
-            drive = self._drive(False, float(bond.rate) / self.linkage.reach)
-            yield closing._replace(guide=self.place[bond.to or bond.on], way=self._way(bond, direction(bond)),
+            drive = self._enter_drive(False, float(bond.rate) / self.linkage.reach)
+            yield closing._replace(guide=self.place[bond.to or bond.on],
+                                   way=self._guide_direction(bond, unit_direction(bond)),
                                    drive=drive)
 
-    def _rolled(self, bond: Apart | Racked) -> Closing:
+    def _rolling_closing(self, bond: CentreDistance | RackBond) -> Closing:
         """What closes a loop by a length: the distance of two centres, or the radius by which a wheel rolls."""
         places, reach = self.linkage.places, self.linkage.reach
-        other = bond.other if isinstance(bond, Apart) else bond.at
+        other = bond.other if isinstance(bond, CentreDistance) else bond.at
         closing = Closing(self.place[bond.link], self._arm(bond.link, places[bond.at], bond.at),
                           self.place[bond.on], self._arm(bond.on, places[other], other))
-        if isinstance(bond, Apart):
+        if isinstance(bond, CentreDistance):
             return closing._replace(far=self._number(abs(places[bond.at] - places[other]) / reach))
-        way = self._entered(direction(bond), End(bond.on, bond.at, True))
+        way = self._enter_arm(unit_direction(bond), End(bond.on, bond.at, True))
         return closing._replace(guide=self.place[bond.on], way=way, lever=self._number(bond.lever / reach))
 
-    def _meshed(self, bond: Geared) -> Mesh:
+    def _gear_mesh(self, bond: GearBond) -> Mesh:
         """What a pair of gears closes; of its factors, and their sum, the largest is 1."""
         k1, k2 = bond.factors
         size = max(abs(k1), abs(k2), abs(k1 + k2))
@@ -267,23 +271,23 @@ class _Maker:
 
     def _number(self, one: float, other: float = 0.0) -> int:
         """Numbers that stand among the arms, and are on no link."""
-        return self._entered(complex(one, other), End("", "", False))
+        return self._enter_arm(complex(one, other), End("", "", False))
 
     def _arm(self, link: str, place: complex, at: str) -> int | None:
         """The arm from a link's base to a place, that of a point."""
         arm = (place - self.linkage.origins[link]) / self.linkage.reach
-        return self._entered(arm, End(link, at, False)) if arm else None
+        return self._enter_arm(arm, End(link, at, False)) if arm else None
 
-    def _way(self, bond: Along, way: complex) -> int:
+    def _guide_direction(self, bond: Along, way: complex) -> int:
         """A direction that is fixed to the guide's link."""
-        return self._entered(way, End(bond.to or bond.on, bond.at, True))
+        return self._enter_arm(way, End(bond.to or bond.on, bond.at, True))
 
-    def _entered(self, arm: complex, end: End) -> int:
+    def _enter_arm(self, arm: complex, end: End) -> int:
         self.arms.append((arm.real, arm.imag))
         self.ends.append(end)
         return len(self.arms) - 1
 
-    def _drive(self, turns: bool, rate: float) -> int | None:
+    def _enter_drive(self, turns: bool, rate: float) -> int | None:
         """A drive of this rate; none where it does not move."""
         if not rate:
             return None

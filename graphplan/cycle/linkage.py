@@ -62,39 +62,39 @@ class Linkage:
     def bonds(self) -> dict[str, tuple[Bond, ...]]:
         """For each link what ties it to links placed before it, or with it; a drive with its pace."""
         found: dict[str, list[Bond]] = {link: [] for link in self.links}
-        bonds = [bond for pair in self.scene.binding for bond in stated(self.scene, self._placed(pair))
+        bonds = [bond for pair in self.scene.binding for bond in pair_bonds(self.scene, self._pin_on_first_link(pair))
                  if bond.condition not in self.scene.redundant]
         bonds += [bond for name in self.lines.arms for bond in self.lines.bonds(name, self.places)]
         bonds += [replace(bond, rate=pace) for drive, pace in zip(self.scene.drives, self.paces, strict=True)
                   for bond in drive.states(self.scene)]
         for bond in bonds:
-            found[max(self.tied(bond), key=self.order.__getitem__)].append(bond)
+            found[max(self.tied_links(bond), key=self.order.__getitem__)].append(bond)
         return {link: tuple(bonds) for link, bonds in found.items()}
 
-    def tied(self, bond: Bond) -> tuple[str, ...]:
+    def tied_links(self, bond: Bond) -> tuple[str, ...]:
         """The links that a bond ties, that of its direction and the line of centres among them."""
-        more = self.lines.carriers[bond.arm] if isinstance(bond, Geared) else getattr(bond, "to", "")
+        more = self.lines.carriers[bond.arm] if isinstance(bond, GearBond) else getattr(bond, "to", "")
         return (bond.link, bond.on, more) if more else (bond.link, bond.on)
 
     @property
-    def counted(self) -> bool:
+    def counts_angles(self) -> bool:
         """Whether it must be known how far links have turned in all."""
-        return any(isinstance(bond, Geared | Racked) for bonds in self.bonds.values() for bond in bonds)
+        return any(isinstance(bond, GearBond | RackBond) for bonds in self.bonds.values() for bond in bonds)
 
-    def _placed(self, pair: KinematicPair) -> KinematicPair:
+    def _pin_on_first_link(self, pair: KinematicPair) -> KinematicPair:
         """A joint's pin is on the link that is placed first; a link that it holds in one way alone has its own axis."""
         if not isinstance(pair, Revolute):
             return pair
         half = {c.link for c in self.scene.redundant if c.on == pair.at and c.way in ("x", "y")}
         links = sorted(pair.links, key=lambda link: (link in half, self.order[link]))
-        return Revolute(pair.at, tuple(links), {link: self._across(link) for link in half})
+        return Revolute(pair.at, tuple(links), {link: self._joint_axis(link) for link in half})
 
-    def _across(self, link: str) -> Pair:
+    def _joint_axis(self, link: str) -> Pair:
         """The way x of the link's joints in the given pose; it turns with the link."""
         x, y = self.scene.across_link(link, {name: (z.real, z.imag) for name, z in self.places.items()})
         return x / math.hypot(x, y), y / math.hypot(x, y)
 
-    def special(self, part: tuple[str, ...]) -> bool:
+    def is_special(self, part: tuple[str, ...]) -> bool:
         """Whether a pair of a part is redundant by special geometry, wholly or in a condition."""
         near = {*part, *(point for link in part for point in self.points(link))}
         return any({condition.link, condition.on} & near for condition in self.scene.redundant)
@@ -106,7 +106,7 @@ class Linkage:
     def carriers(self, part: tuple[str, ...]) -> tuple[str, ...]:
         """The links placed before a part that it is tied to, but for the frame."""
         bonds = [bond for link in self.members[part] for bond in self.bonds[link]]
-        ends = {end for bond in bonds for end in self.tied(bond)}
+        ends = {end for bond in bonds for end in self.tied_links(bond)}
         placed = {self.order[end] for end in ends - {FRAME}}
         return tuple(self.links[i] for i in sorted(placed) if i < self.order[part[0]])
 
@@ -129,13 +129,13 @@ def number(x: Number, y: Number) -> complex:
     return complex(float(x), float(y))
 
 
-def direction(of: Slide | Along | Racked) -> complex:
+def unit_direction(of: Slide | Along | RackBond) -> complex:
     """A direction in the given pose, of length 1."""
     along = number(*of.direction)
     return along / abs(along)
 
 
-def grounded(scene: Scene) -> Scene:
+def pin_given_motions(scene: Scene) -> Scene:
     """The scene with the points whose motion is given as pins of its frame: how its links lie does not ask for more."""
     if not scene.motions:
         return scene
@@ -146,7 +146,7 @@ def grounded(scene: Scene) -> Scene:
 
 
 @dataclass(frozen=True)
-class Higher:
+class HigherBond:
     """What a gear or a contact of this name keeps of the point `at` of `link`, relative to the link `on`."""
 
     way: ClassVar[str] = ROLLING
@@ -162,7 +162,7 @@ class Higher:
 
 
 @dataclass(frozen=True)
-class Apart(Higher):
+class CentreDistance(HigherBond):
     """The point and the point `other` of the other link keep their distance."""
 
     way = TOUCHING
@@ -170,7 +170,7 @@ class Apart(Higher):
 
 
 @dataclass(frozen=True)
-class Racked(Higher):
+class RackBond(HigherBond):
     """The point moves along a direction fixed to the other link by as much as its link turns there by a lever."""
 
     direction: Pair
@@ -178,7 +178,7 @@ class Racked(Higher):
 
 
 @dataclass(frozen=True)
-class Geared(Higher):
+class GearBond(HigherBond):
     """Two links turn on the line of the centres, the point and `other`, so that the sum of the angles, by `factors`, is
     nothing."""
 
@@ -191,28 +191,28 @@ class Geared(Higher):
         return f"{self.link} {self.on} {self.at} {self.other}"
 
 
-Bond = Statement | Higher
+Bond = Statement | HigherBond
 
 
-def stated(scene: Scene, pair: KinematicPair) -> Iterator[Bond]:
+def pair_bonds(scene: Scene, pair: KinematicPair) -> Iterator[Bond]:
     """What a pair keeps, in the numbers of a scene."""
     if isinstance(pair, Gear):
-        yield _gear(pair)
+        yield _gear_bond(pair)
     elif isinstance(pair, Contact):
-        yield from _contact(scene, pair)
+        yield from _contact_bonds(scene, pair)
     else:
         yield from pair.states(scene)
 
 
-def _gear(gear: Gear) -> Bond:
+def _gear_bond(gear: Gear) -> Bond:
     """A pair of gears, or a gear on a rack: on its right, it rolls back along the line where it turns on."""
     if gear.direction is not None:
-        return Racked(gear.name, *gear.links, gear.centres[0], gear.direction, float(gear.radius))
+        return RackBond(gear.name, *gear.links, gear.centres[0], gear.direction, float(gear.radius))
     (link, on), (at, other), (k1, k2) = gear.links, gear.centres, gear.factors
-    return Geared(gear.name, link, on, at, other, (float(k1), float(k2)))
+    return GearBond(gear.name, link, on, at, other, (float(k1), float(k2)))
 
 
-def _contact(scene: Scene, contact: Contact) -> Iterator[Bond]:
+def _contact_bonds(scene: Scene, contact: Contact) -> Iterator[Bond]:
     """A contact; where it rolls the radii are the distances of its point from the centres, along the normal."""
     link, on, centre = contact.curved
     if contact.direction is not None:
@@ -220,25 +220,25 @@ def _contact(scene: Scene, contact: Contact) -> Iterator[Bond]:
         if contact.rolling:
             arm = less(scene.points[contact.at], scene.points[centre])
             (x, y), (u, v) = (map(float, pair) for pair in (contact.direction, arm))
-            yield Racked(contact.name, link, on, centre, contact.direction, (y * u - x * v) / math.hypot(x, y))
+            yield RackBond(contact.name, link, on, centre, contact.direction, (y * u - x * v) / math.hypot(x, y))
         return
     other = contact.centres[1] or ""
-    yield Apart(contact.name, link, on, centre, other)
+    yield CentreDistance(contact.name, link, on, centre, other)
     if contact.rolling:
-        part = share(scene, contact)
-        yield Geared(contact.name, link, on, centre, other, (part, 1.0 - part))
+        part = contact_fraction(scene, contact)
+        yield GearBond(contact.name, link, on, centre, other, (part, 1.0 - part))
 
 
-def touching(scene: Scene, contact: Contact, points: Mapping[str, Any], turn: Any) -> Any:
+def contact_point(scene: Scene, contact: Contact, points: Mapping[str, Any], turn: Any) -> Any:
     """Where two profiles touch when points, complex numbers, are elsewhere, and a straight one has turned so."""
     centre, other = contact.curved[2], contact.centres[1] or ""
     if contact.direction is None:
-        return points[centre] + share(scene, contact) * (points[other] - points[centre])
+        return points[centre] + contact_fraction(scene, contact) * (points[other] - points[centre])
     at, seat = (complex(*map(float, scene.points[name])) for name in (contact.at, centre))
     return points[centre] + (at - seat) * turn
 
 
-def share(scene: Scene, contact: Contact) -> float:
+def contact_fraction(scene: Scene, contact: Contact) -> float:
     """By which part of the way from the first centre to the second two arcs touch."""
     at, one, other = (complex(*map(float, scene.points[name or ""])) for name in (contact.at, *contact.centres))
     return ((at - one) / (other - one)).real
@@ -253,10 +253,10 @@ class LinesOfCentres:
 
     def __init__(self, scene: Scene, order: Mapping[str, int], part: Mapping[str, int]):
         self.carriers: dict[str, str] = {}
-        self.arms: dict[str, Geared] = {}
-        bonds = chain.from_iterable(stated(scene, pair) for pair in (*scene.gears, *scene.contacts))
+        self.arms: dict[str, GearBond] = {}
+        bonds = chain.from_iterable(pair_bonds(scene, pair) for pair in (*scene.gears, *scene.contacts))
         for bond in bonds:
-            if isinstance(bond, Geared) and bond.condition not in scene.redundant:
+            if isinstance(bond, GearBond) and bond.condition not in scene.redundant:
                 last = max(part[bond.link], part[bond.on])
                 both = [link for link in scene.links_of[bond.at] if link in scene.links_of[bond.other]
                         and part[link] <= last]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.cycle.linkage import Array, number
-from graphplan.cycle.positions import Moved
+from graphplan.cycle.positions import MovingLink
 from graphplan.cycle.tolerances import LOOK_AHEAD
 from graphplan.mechanism.load_values import guide_origin, onward
 from graphplan.mechanism.loads import SPEED, LoadTable
@@ -17,7 +17,7 @@ from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.tolerances import DEAD_POINT_TOL
 from graphplan.mechanism.travel import travel_unit
 
-Motion = Callable[[Array], Mapping[str, Moved]]
+Motion = Callable[[Array], Mapping[str, MovingLink]]
 """Gives how every link lies and moves at some travels."""
 
 
@@ -31,19 +31,20 @@ def loads_at(scene: Scene, travel: Array, points: Mapping[str, Array], guides: M
     found: dict[str, Array] = {}
     for name, load in changing_loads(scene.loads).items():
         assert load.table is not None
-        values = _values(scene, load.table, travel, points, guides, motion)
-        found[name] = values * _way(load, points) if isinstance(load, Force) else values
+        values = _table_values(scene, load.table, travel, points, guides, motion)
+        found[name] = values * _force_direction(load, points) if isinstance(load, Force) else values
     return found
 
 
-def _way(force: Force, points: Mapping[str, Array]) -> Any:
+def _force_direction(force: Force, points: Mapping[str, Array]) -> Any:
     """The unit vector along which a force acts."""
     return _unit(points[force.through[1]] - points[force.through[0]] if force.through
                  else number(*force.direction or (1, 0)))
 
 
-def _values(scene: Scene, table: LoadTable, travel: Array, points: Mapping[str, Array], guides: Mapping[str, Array],
-            motion: Motion) -> Array:
+def _table_values(scene: Scene, table: LoadTable, travel: Array, points: Mapping[str, Array],
+                  guides: Mapping[str, Array],
+                  motion: Motion) -> Array:
     """What a table says at these travels."""
     if table.over == SPEED:
         return table.at(np.full(travel.shape, abs(float(scene.drives[0].rate)))) + 0 * travel
@@ -51,16 +52,16 @@ def _values(scene: Scene, table: LoadTable, travel: Array, points: Mapping[str, 
         reached = np.isfinite(np.sum(list(points.values()), axis=0))
         return table.at(np.where(reached, travel / travel_unit(scene)[0], np.nan))
     slide = next(slide for slide in scene.slides if slide.name == table.slide)
-    way = direction(slide, points, guides)
+    way = guide_direction(slide, points, guides)
     speeds = slide_rate(slide, motion(travel), points[slide.at], way)
     if table.over_speed:
         return table.at(speeds * abs(float(scene.drives[0].rate)))
-    places = place(scene, slide, points, way)
-    senses = _strokes(slide, motion, travel, speeds * onward(scene), scene, points, guides)
+    places = slide_position(scene, slide, points, way)
+    senses = _stroke_senses(slide, motion, travel, speeds * onward(scene), scene, points, guides)
     return table.at(places, np.where(senses, senses, next(iter(table.strokes))))
 
 
-def direction(slide: Slide, points: Mapping[str, Array], guides: Mapping[str, Array]) -> Any:
+def guide_direction(slide: Slide, points: Mapping[str, Array], guides: Mapping[str, Array]) -> Any:
     """The unit vector of a slide's guide."""
     if slide.through:
         return _unit(points[slide.through[1]] - points[slide.through[0]])
@@ -72,21 +73,22 @@ def _unit(along: Any) -> Any:
         return along / np.abs(along)
 
 
-def place(scene: Scene, slide: Slide, points: Mapping[str, Array], way: Any) -> Array:
+def slide_position(scene: Scene, slide: Slide, points: Mapping[str, Array], way: Any) -> Array:
     """The position of a slide along its guide."""
     origin = guide_origin(scene, slide)
     away = points[slide.at] - (points[origin] if origin else 0.0)
     return np.asarray((away * np.conj(way)).real)
 
 
-def slide_rate(slide: Slide, links: Mapping[str, Moved], at: Array, way: Any) -> Array:
+def slide_rate(slide: Slide, links: Mapping[str, MovingLink], at: Array, way: Any) -> Array:
     """How a slide's position changes with the first drive's travel."""
     apart = links[slide.link].velocity_at(at) - links[slide.along].velocity_at(at)
     return np.asarray((apart * np.conj(way)).real)
 
 
-def _strokes(slide: Slide, motion: Motion, travel: Array, speeds: Array, scene: Scene, points: Mapping[str, Array],
-             guides: Mapping[str, Array]) -> Array:
+def _stroke_senses(slide: Slide, motion: Motion, travel: Array, speeds: Array, scene: Scene,
+                   points: Mapping[str, Array],
+                   guides: Mapping[str, Array]) -> Array:
     """The sense in which a slide moves, 1 or -1, or at a dead point begins to; 0 where neither can be told."""
     first = scene.drives[0]
     reach = 1.0 if first.slides else scene.extent
@@ -98,7 +100,7 @@ def _strokes(slide: Slide, motion: Motion, travel: Array, speeds: Array, scene: 
         for ahead in (1.0, -1.0):  # at the end of the way what it came by, turned
             step = ahead * onward(scene) * LOOK_AHEAD * (scene.extent if first.slides else 1.0)
             links = motion(travel[dead] + step)
-            rates = ahead * onward(scene) * slide_rate(slide, links, here[slide.at], direction(slide, here, way))
+            rates = ahead * onward(scene) * slide_rate(slide, links, here[slide.at], guide_direction(slide, here, way))
             told = np.sign(np.where(np.isfinite(rates), rates, 0.0))
             senses[dead] = np.where(senses[dead] == 0, told, senses[dead])
     return senses

@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphplan.cycle.linkage import Array
-from graphplan.cycle.positions import Moved
+from graphplan.cycle.positions import MovingLink
 from graphplan.cycle.tolerances import POLE_TOL, RATE_STEP, TURNING_TOL
 from graphplan.cycle.turn import RangeOfMotion, whole_motion
 from graphplan.errors import Refused
@@ -34,11 +34,11 @@ from graphplan.phrases import said
 from graphplan.sheet.plates.display import Spot
 from graphplan.sheet.plates.traced_motion import Centrode, PointPath, StationaryCurve, TracedMotion
 
-FINE = 720  # spots of a path, in each turn
-AWAY = 4.0  # of the mechanism's half extent: so far from its middle a centrode is drawn
+PATH_SPOTS = 720  # spots of a path, in each turn
+CENTRODE_REACH = 4.0  # of the mechanism's half extent: so far from its middle a centrode is drawn
 
 
-def traced(scene: Scene) -> TracedMotion | None:
+def traced_motion(scene: Scene) -> TracedMotion | None:
     """What the scene's sheet shows of its motion, from the given pose as far as the mechanism goes on its branch.
 
     The first drive goes through one turn, the others keep pace; one that slides goes to its limits, or where there are
@@ -56,10 +56,10 @@ def traced(scene: Scene) -> TracedMotion | None:
         raise Refused(f"sheet.{key}", refused.why, "leave it out") from None
     low, high = (float(motion.path.travel[end]) for end in (0, -1))
     turns = 1 if scene.drives[0].slides else max(1, round((high - low) / TURN))
-    fine, even = _between(low, high, turns), np.linspace(low, high, count, endpoint=not motion.whole)
+    fine, even = _dense_travels(low, high, turns), np.linspace(low, high, count, endpoint=not motion.goes_round)
     turn = motion.turn(np.concatenate([fine, even]))
     stops = motion.path.lower is not None, motion.path.upper is not None
-    paths = [path for name in wanted for path in _paths(name, turn.points[name][: fine.size], stops)]
+    paths = [path for name in wanted for path in _point_paths(name, turn.points[name][: fine.size], stops)]
     reached = np.flatnonzero(np.all([np.isfinite(z[fine.size :]) for z in turn.points.values()], axis=0)) + fine.size
     positions = tuple({name: _spot(z[k]) for name, z in turn.points.items()} for k in reached)
     centrodes = tuple(one for links in rolling for one in _centrodes(motion, links, fine))
@@ -67,13 +67,13 @@ def traced(scene: Scene) -> TracedMotion | None:
     return TracedMotion(tuple(paths), positions, (*centrodes, *cubics))
 
 
-def _between(low: float, high: float, turns: int) -> Array:
+def _dense_travels(low: float, high: float, turns: int) -> Array:
     """Travels from end to end, nearer to each other at the ends: there a pose changes with the root of the travel."""
-    part = (1 - np.cos(np.linspace(0, np.pi, FINE * turns))) / 2
+    part = (1 - np.cos(np.linspace(0, np.pi, PATH_SPOTS * turns))) / 2
     return np.clip(low + (high - low) * part, low, high)
 
 
-def _paths(name: str, places: Array, stops: tuple[bool, bool]) -> Iterator[PointPath]:
+def _point_paths(name: str, places: Array, stops: tuple[bool, bool]) -> Iterator[PointPath]:
     """The path of a point, in parts where poses between are not reached."""
     known = np.flatnonzero(np.isfinite(places))
     for part in np.split(known, np.flatnonzero(np.diff(known) > 1) + 1):
@@ -86,25 +86,25 @@ def _centrodes(motion: RangeOfMotion, links: str, travel: Array) -> Iterator[Cen
     """The fixed and the moving centrode of a link and one that it moves on."""
     link, on = links.split()
     middle, far = _reach(motion)
-    found = branches(motion, link, on, travel, middle, far)
+    found = centrode_branches(motion, link, on, travel, middle, far)
     if found is None:
         why = said("links {0} and {1} turn alike: their pole stays at infinity", link, on)
         raise Refused("sheet.centrodes", why, "leave it out")
     for own, parts in zip((on, link), found, strict=True):
-        spots = tuple(tuple(map(_spot, _whole(part, far))) for part in parts)
+        spots = tuple(tuple(map(_spot, _reduce_fixed_branch(part, far))) for part in parts)
         yield Centrode(links, own == link, spots, own, () if own == FRAME else tuple(_carriers(motion, own)))
 
 
 def _cubics(motion: RangeOfMotion, link: str) -> Iterator[StationaryCurve]:
     """The points of a link that keep the curvature of their paths in the given pose, and their centres."""
-    found = stationary(motion, link)
+    found = stationary_curvature(motion, link)
     if found is None:
         why = said("link {0} does not turn on the frame in this pose, or does not go on to both sides", link)
         raise Refused("sheet.cubics", why, "leave it out")
     middle, far = _reach(motion)
     for moving, places in zip((True, False), found, strict=True):
         closed = np.append(places, places[0])
-        parts = parted(closed, middle, far / 2, far / 32)
+        parts = split_stretches(closed, middle, far / 2, far / 32)
         spots = tuple(tuple(map(_spot, part)) for part in parts)
         yield StationaryCurve(f"{link} {FRAME}", moving, spots, link, tuple(_carriers(motion, link)))
 
@@ -113,7 +113,7 @@ def _reach(motion: RangeOfMotion) -> tuple[complex, float]:
     """The middle of the mechanism as it is given, and how far from there a curve is drawn."""
     places = np.array([*motion.linkage.places.values()])
     middle = complex(np.ptp(places.real) / 2 + places.real.min(), np.ptp(places.imag) / 2 + places.imag.min())
-    return middle, AWAY * float(np.abs(places - middle).max())
+    return middle, CENTRODE_REACH * float(np.abs(places - middle).max())
 
 
 def _carriers(motion: RangeOfMotion, link: str) -> Iterator[tuple[str, Spot]]:
@@ -124,7 +124,7 @@ def _carriers(motion: RangeOfMotion, link: str) -> Iterator[tuple[str, Spot]]:
     yield from ((name, _spot(places[name])) for name in (pin, *bar))
 
 
-def _whole(part: Array, far: float) -> Array:
+def _reduce_fixed_branch(part: Array, far: float) -> Array:
     """A branch; one spot of it where the pole stays in one place."""
     return part[:1] if np.abs(part - part[0]).max() < POLE_TOL * far else part
 
@@ -136,7 +136,7 @@ def _spot(place: complex) -> Spot:
 # ---- centrodes: the paths of a link's pole on two links --------------------------------------------------------------
 
 
-FINER = 12
+MAX_HALVINGS = 12
 """How often the travel between two poles is halved at most."""
 
 CHORDS = 256
@@ -151,7 +151,7 @@ class Centrodes(NamedTuple):
     moving: Array
 
 
-def centrodes(links: Mapping[str, Moved], link: str, on: str) -> Centrodes:
+def centrodes(links: Mapping[str, MovingLink], link: str, on: str) -> Centrodes:
     """The centrodes of a link that moves relative to another."""
     one, other = links[link], links[on]
     turning, slip = one.spin - other.spin, one.velocity - other.velocity_at(one.base)
@@ -161,44 +161,45 @@ def centrodes(links: Mapping[str, Moved], link: str, on: str) -> Centrodes:
     return Centrodes(other.carried_back(pole), one.carried_back(pole))
 
 
-def rolling(motion: RangeOfMotion, travel: Array) -> dict[str, Centrodes]:
+def sheet_centrodes(motion: RangeOfMotion, travel: Array) -> dict[str, Centrodes]:
     """The centrodes that the scene's sheet asks for at these travels, by the names of the two links."""
     wanted = motion.scene.sheet.centrodes
-    links = motion.moved(travel) if wanted else {}
+    links = motion.links_at(travel) if wanted else {}
     return {names: centrodes(links, *names.split()) for names in wanted}
 
 
-def branches(motion: RangeOfMotion, link: str, on: str, travel: Array, middle: complex,
-             far: float) -> tuple[list[Array], list[Array]] | None:
+def centrode_branches(motion: RangeOfMotion, link: str, on: str, travel: Array, middle: complex,
+                      far: float) -> tuple[list[Array], list[Array]] | None:
     """The branches of the fixed and of the moving centrode, as far as they are no further from the middle; complex
     arrays. None where the two links turn alike all the way.
 
     `travel` grows. Between poles that lie too far apart for a chord more are sought; where even the finest travel does
     not bring them together, they lie on two branches.
     """
-    longest, found = far / CHORDS, centrodes(motion.moved(travel), link, on)
+    longest, found = far / CHORDS, centrodes(motion.links_at(travel), link, on)
     if np.isnan(found.fixed).all():
         return None
-    for _ in range(FINER):
-        wide = np.any([_near(places, middle, far) & ~(np.abs(np.diff(places)) <= longest) for places in found], axis=0)
+    for _ in range(MAX_HALVINGS):
+        wide = np.any([_near_chords(places, middle, far) & ~(np.abs(np.diff(places)) <= longest) for places in found],
+                      axis=0)
         between = (travel[1:] + travel[:-1])[wide] / 2
         if not between.size:
             break
         order = np.argsort(np.concatenate([travel, between]), kind="stable")
-        more = centrodes(motion.moved(between), link, on)
+        more = centrodes(motion.links_at(between), link, on)
         travel = np.concatenate([travel, between])[order]
         found = Centrodes(*(np.concatenate(parts)[order] for parts in zip(found, more, strict=True)))
-    fixed, moving = ([*parted(places, middle, far, longest)] for places in found)
+    fixed, moving = ([*split_stretches(places, middle, far, longest)] for places in found)
     return fixed, moving
 
 
-def _near(places: Array, middle: complex, far: float) -> Array:
+def _near_chords(places: Array, middle: complex, far: float) -> Array:
     """Between which places a curve may be near enough to be drawn: one of the two is."""
     near = np.abs(places - middle) <= far
     return near[1:] | near[:-1]
 
 
-def parted(places: Array, middle: complex, far: float, longest: float) -> Iterator[Array]:
+def split_stretches(places: Array, middle: complex, far: float, longest: float) -> Iterator[Array]:
     """The stretches of a curve that are near and whole."""
     near = np.abs(places - middle) <= far
     joined = near[1:] & near[:-1] & (np.abs(np.diff(places)) <= longest)
@@ -211,10 +212,10 @@ def parted(places: Array, middle: complex, far: float, longest: float) -> Iterat
 
 
 RAYS = 7200  # of half a turn
-FIRST, SECOND = np.array([1, -8, 0, 8, -1]) / 12, np.array([-1, 16, -30, 16, -1]) / 12
+FIRST_DIFFERENCE, SECOND_DIFFERENCE = np.array([1, -8, 0, 8, -1]) / 12, np.array([-1, 16, -30, 16, -1]) / 12
 
 
-def stationary(motion: RangeOfMotion, link: str) -> tuple[Array, Array] | None:
+def stationary_curvature(motion: RangeOfMotion, link: str) -> tuple[Array, Array] | None:
     """The circling points of a link in the given pose and their centres, ray by ray; complex arrays of shape (n,).
 
     None where the link does not turn there, or the mechanism does not move on to both sides.
@@ -222,11 +223,11 @@ def stationary(motion: RangeOfMotion, link: str) -> tuple[Array, Array] | None:
     whole = float(np.ptp(motion.path.travel))
     step = RATE_STEP * whole
     travel = step * np.arange(-2, 3)
-    links = motion.moved(travel % whole if motion.whole else travel)
+    links = motion.links_at(travel % whole if motion.goes_round else travel)
     spin, poles = links[link].spin, centrodes(links, link, FRAME).fixed
     with np.errstate(all="ignore"):
-        wander = (FIRST @ poles) / step / spin[2]
-        bent = ((SECOND @ poles) / step**2 - wander * (FIRST @ spin) / step) / spin[2] ** 2
+        wander = (FIRST_DIFFERENCE @ poles) / step / spin[2]
+        bent = ((SECOND_DIFFERENCE @ poles) / step**2 - wander * (FIRST_DIFFERENCE @ spin) / step) / spin[2] ** 2
         A, J, rays = -1j * wander, wander - 1j * bent, np.exp(1j * np.linspace(0, np.pi, RAYS, endpoint=False))
         along, across, jerk = ((rays.conj() * A).real, (rays.conj() * A).imag, (rays.conj() * J).real)
         far = 3 * across * along / (jerk + 3 * across)

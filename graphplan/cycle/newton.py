@@ -11,7 +11,18 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from graphplan.cycle.closure import RESIDUE, TRAVEL, Body, Drive, Layout, Row, Vector, bodies, left_open, rotated
+from graphplan.cycle.closure import (
+    RESIDUE,
+    TRAVEL,
+    DriveState,
+    GroupLayout,
+    LinkPose,
+    Row,
+    Vector,
+    pose_links,
+    residual_rows,
+    rotate,
+)
 from graphplan.cycle.tolerances import TINY_PIVOT
 from graphplan.kernel.tape.blocks import Blocks
 from graphplan.kernel.tape.machine import Machine
@@ -19,7 +30,7 @@ from graphplan.kernel.tape.record import Symbol, Symbols, Tape
 from graphplan.kernel.tape.written import function
 
 
-class Step(NamedTuple):
+class NewtonStep(NamedTuple):
     """Newton's step: what is to be taken from each unknown, their rates, and the determinant of the derivatives."""
 
     corrections: list[Any]
@@ -27,7 +38,7 @@ class Step(NamedTuple):
     determinant: Any
 
 
-def step(rows: Sequence[Row], width: int, sqrt: Callable[[Any], Any]) -> Step:
+def step(rows: Sequence[Row], width: int, sqrt: Callable[[Any], Any]) -> NewtonStep:
     """Newton's step for so many unknowns, from what is left open."""
     left, pivots, determinant = list(rows), list[tuple[int, Row]](), 1.0
     free = set(range(width))
@@ -37,16 +48,16 @@ def step(rows: Sequence[Row], width: int, sqrt: Callable[[Any], Any]) -> Step:
                                 key=lambda row: sum(j >= 0 for j in row))
         left = [row for row in left if column not in row]
         for other in others:
-            pivot, rest = _cleared(pivot, other, column, sqrt)
+            pivot, rest = _rotate_rows(pivot, other, column, sqrt)
             left.append(rest)
         free.remove(column)
         pivots.append((column, pivot))
         determinant = determinant * pivot[column]
-    corrections, rates = (_substituted(pivots, side) for side in (RESIDUE, TRAVEL))
-    return Step(corrections, [-rate for rate in rates], determinant)
+    corrections, rates = (_back_substitute(pivots, side) for side in (RESIDUE, TRAVEL))
+    return NewtonStep(corrections, [-rate for rate in rates], determinant)
 
 
-def _cleared(one: Row, two: Row, column: int, sqrt: Callable[[Any], Any]) -> tuple[Row, Row]:
+def _rotate_rows(one: Row, two: Row, column: int, sqrt: Callable[[Any], Any]) -> tuple[Row, Row]:
     """Two rows rotated so that the second has nothing in a column."""
     a, b = one[column] + TINY_PIVOT, two[column]
     size = sqrt(a * a + b * b)
@@ -66,7 +77,7 @@ def _cleared(one: Row, two: Row, column: int, sqrt: Callable[[Any], Any]) -> tup
     return first, second
 
 
-def _substituted(pivots: Sequence[tuple[int, Row]], side: int) -> list[Any]:
+def _back_substitute(pivots: Sequence[tuple[int, Row]], side: int) -> list[Any]:
     """Back substitution for one right-hand side."""
     found: Row = {}
     for column, row in reversed(pivots):
@@ -78,7 +89,7 @@ def _substituted(pivots: Sequence[tuple[int, Row]], side: int) -> list[Any]:
     return [found[column] for column in range(len(pivots))]
 
 
-def rates_of(link: Body, rates: Sequence[Any]) -> Iterator[Any]:
+def rates_of(link: LinkPose, rates: Sequence[Any]) -> Iterator[Any]:
     """How a link's base moves along x and along y by the travel, and how it turns, where the unknowns change so."""
     base = link.moves
     for moves in ({k: x for k, (x, _) in base.items()}, {k: y for k, (_, y) in base.items()}, link.spin):
@@ -88,7 +99,7 @@ def rates_of(link: Body, rates: Sequence[Any]) -> Iterator[Any]:
         yield rate
 
 
-def corrected(layout: Layout, state: Sequence[Any], corrections: Sequence[Any]) -> list[Any]:
+def apply_corrections(layout: GroupLayout, state: Sequence[Any], corrections: Sequence[Any]) -> list[Any]:
     """The state less the corrections; an angle is turned back by Cayley's formula, right to second order, and where it
     is counted by as much: twice the arc tangent of half the correction."""
     found = list(state)
@@ -98,14 +109,14 @@ def corrected(layout: Layout, state: Sequence[Any], corrections: Sequence[Any]) 
             square = half * half
             size = 1.0 + square
             cos, sin, *angle = state[i]
-            turned = rotated((cos, sin), ((1.0 - square) / size, -correction / size))
-            found[i] = (*turned, *(one - correction * _arc(square) for one in angle))
+            turned = rotate((cos, sin), ((1.0 - square) / size, -correction / size))
+            found[i] = (*turned, *(one - correction * _arc_tangent_ratio(square) for one in angle))
         else:
             found[i] = state[i] - correction
     return found
 
 
-def _arc(square: Any) -> Any:
+def _arc_tangent_ratio(square: Any) -> Any:
     """The arc tangent over its tangent, from the square of that: to the last digit up to a quarter, by its series."""
     found: Any = 1 / 15
     for k in range(13, 0, -2):
@@ -116,22 +127,22 @@ def _arc(square: Any) -> Any:
 # ---- recorded on a tape, once for all groups of one structure --------------------------------------------------------
 
 
-Lies = tuple[float, ...]
+PoseNumbers = tuple[float, ...]
 """How a link lies in one pose: its base and turn as x, y, cos, sin, and their rates by the travel as x, y, angle; where
 angles are counted then how far it has turned in all."""
 
 
-Run = Blocks | Machine
+TapeRun = Blocks | Machine
 """What replays a tape over arrays."""
 
 
-class Corrected(NamedTuple):
+class CorrectedPose(NamedTuple):
     """One pose, corrected: as Newton's step has it, and how each link of the group lies then and moves."""
 
     corrections: tuple[float, ...]
     rates: tuple[float, ...]
     determinant: float
-    lies: tuple[Lies, ...]
+    lies: tuple[PoseNumbers, ...]
 
 
 class _Record:
@@ -140,18 +151,19 @@ class _Record:
     The inputs are how each known link but the frame lies, the arms, the drives, and the state.
     """
 
-    def __init__(self, layout: Layout, rates: bool):
+    def __init__(self, layout: GroupLayout, rates: bool):
         self.tape, self.inputs, self.layout = Symbols().tape, list[int](), layout
-        known = [Body(), *(Body(self._pair(), self._pair(), {TRAVEL: self._pair()} if rates else {},
-                                {TRAVEL: self._new()} if rates else {}, self._new() if layout.counted else 0.0)
-                           for _ in range(layout.known - 1))]
+        known = [LinkPose(), *(LinkPose(self._pair(), self._pair(), {TRAVEL: self._pair()} if rates else {},
+                                        {TRAVEL: self._new()} if rates else {}, self._new() if layout.counted else 0.0)
+                               for _ in range(layout.known - 1))]
         arms = [self._pair() for _ in range(layout.arms)]
-        drives = [Drive(self._angle() if turns else self._new(), self._new() if rates else None)
+        drives = [DriveState(self._angle() if turns else self._new(), self._new() if rates else None)
                   for turns in layout.drives]
         state = [self._angle() if i < layout.angles else self._new() for i in range(layout.unknowns)]
-        links = bodies(layout, known, arms, drives, state)
-        self.step = step(left_open(layout, links, arms, drives), layout.unknowns, Symbol.root)
-        closed = bodies(layout, known, arms, drives, corrected(layout, state, self.step.corrections), moving=False)
+        links = pose_links(layout, known, arms, drives, state)
+        self.step = step(residual_rows(layout, links, arms, drives), layout.unknowns, Symbol.root)
+        closed = pose_links(layout, known, arms, drives, apply_corrections(layout, state, self.step.corrections),
+                            moving=False)
         self.links, self.closed = links[layout.known:], closed[layout.known:]
 
     def _new(self) -> Symbol:
@@ -166,48 +178,49 @@ class _Record:
         """The cosine and sine of an angle, and where angles are counted that itself."""
         return tuple(self._new() for _ in range(3 if self.layout.counted else 2))
 
-    def told(self, *numbers: Any) -> tuple[int, ...]:
+    def tape_places(self, *numbers: Any) -> tuple[int, ...]:
         """The places of numbers."""
         return tuple(map(self.tape.place, numbers))
 
-    def lies(self, i: int) -> tuple[Any, ...]:
+    def link_pose(self, i: int) -> tuple[Any, ...]:
         """How a link of the group lies."""
         return *self.closed[i].base, *(self.closed[i].turn or (1.0, 0.0))
 
-    def angles(self, i: int) -> tuple[Any, ...]:
+    def link_angle(self, i: int) -> tuple[Any, ...]:
         """How far it has turned in all, if that is counted."""
         return (self.closed[i].angle,) if self.layout.counted else ()
 
-    def moves(self, i: int) -> Iterator[Any]:
+    def link_rates(self, i: int) -> Iterator[Any]:
         """How it moves."""
         return rates_of(self.links[i], self.step.rates)
 
 
-def recorded(layout: Layout) -> tuple[Tape, list[int], Any]:
+def record_step(layout: GroupLayout) -> tuple[Tape, list[int], Any]:
     """The tape that corrects one pose: its inputs, and where on it the parts of a :class:`Corrected` stand.
 
     The inputs are how each known link but the frame lies, the arms, the cosine and sine or the length of each drive
     with its rate, and of each unknown the cosine and sine, or the displacement.
     """
     record = _Record(layout, rates=True)
-    found, told = record.step, record.told
-    lies = tuple(told(*record.lies(i), *record.moves(i), *record.angles(i)) for i in range(len(record.links)))
-    return record.tape, record.inputs, Corrected(told(*found.corrections), told(*found.rates),
-                                                 record.tape.place(found.determinant), lies)
+    found, told = record.step, record.tape_places
+    lies = tuple(told(*record.link_pose(i), *record.link_rates(i), *record.link_angle(i))
+                 for i in range(len(record.links)))
+    return record.tape, record.inputs, CorrectedPose(told(*found.corrections), told(*found.rates),
+                                                     record.tape.place(found.determinant), lies)
 
 
 @lru_cache(maxsize=256)
-def for_one(layout: Layout) -> Callable[..., Any]:
+def single_pose_step(layout: GroupLayout) -> Callable[..., Any]:
     """A function that corrects one pose: it reads the inputs of the record and gives the parts of :class:`Corrected`.
     """
-    return function(*recorded(layout))
+    return function(*record_step(layout))
 
 
 @lru_cache(maxsize=64)
-def for_many(layout: Layout, machine: bool) -> Run:
+def many_poses_step(layout: GroupLayout, machine: bool) -> TapeRun:
     """The same over arrays, without rates: corrections, determinant, and x, y, cos, sin of each link, then the angle if
     counted."""
     record = _Record(layout, rates=False)
-    lies = [number for i in range(len(record.links)) for number in (*record.lies(i), *record.angles(i))]
-    told = record.told(*record.step.corrections, record.step.determinant, *lies)
+    lies = [number for i in range(len(record.links)) for number in (*record.link_pose(i), *record.link_angle(i))]
+    told = record.tape_places(*record.step.corrections, record.step.determinant, *lies)
     return (Machine if machine else Blocks)(record.tape, record.inputs, told)

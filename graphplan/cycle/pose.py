@@ -19,7 +19,7 @@ from typing import Any
 
 from graphplan.cycle.tolerances import PLACE_TOL
 from graphplan.cycle.travel import check_drives
-from graphplan.cycle.turn import Turn, follow, under
+from graphplan.cycle.turn import Turn, follow, points_under_slides
 from graphplan.errors import Refused, SingularPose
 from graphplan.mechanism.equations import Elimination
 from graphplan.mechanism.load_values import filled_in
@@ -42,20 +42,20 @@ def at(scene: Scene, travel: Travel | Sequence[Travel] | str) -> Scene:
     the given one. Fails with `Refused` where nothing leads there, and with `SingularPose` where it is a limit.
     """
     check_drives(scene)
-    turned, travel = extreme(scene, travel) if isinstance(travel, str) else (None, travel)
-    travels = _travels(scene, travel)
+    turned, travel = extreme_position(scene, travel) if isinstance(travel, str) else (None, travel)
+    travels = _drive_travels(scene, travel)
     given, shifts = driven_by_gears(scene, coordinates(scene, travels))
-    paced, first = _paced(scene, travels)
+    paced, first = _pace_drives(scene, travels)
     found = follow(paced, 1, (float(first), float(first)))
     if 0 in found.faults:
         why = found.faults[0]
         if all(math.isfinite(abs(z[0])) for z in found.points.values()):
             raise SingularPose(why, ())
         raise Refused(f"{scene.name}: the pose", why, said("a travel that the mechanism reaches"))
-    assembly = Assembly(given, travels, shifts, moved_on(given, shifts, TO_A_FLOAT), under(scene), turned)
+    assembly = Assembly(given, travels, shifts, moved_on(given, shifts, TO_A_FLOAT), points_under_slides(scene), turned)
     posed = filled_in(in_pose(scene, found, 0), travels[0])
     where = "the pose: constructed at another travel of its drive"
-    return replace(posed, placements=_standing(scene), irrational=(*scene.irrational, where), assembly=assembly)
+    return replace(posed, placements=_fixed_placements(scene), irrational=(*scene.irrational, where), assembly=assembly)
 
 
 def in_pose(scene: Scene, turn: Turn, pose: int) -> Scene:
@@ -72,14 +72,14 @@ def in_pose(scene: Scene, turn: Turn, pose: int) -> Scene:
     return scene.posed(points, direction)
 
 
-def _standing(scene: Scene) -> dict[str, Placement]:
+def _fixed_placements(scene: Scene) -> dict[str, Placement]:
     """How the points that stand still are placed: from each other as the scene has it, else by their coordinates."""
     fixed = [name for name, links in scene.links_of.items() if FRAME in links or not links]
     return {name: placed if (placed := scene.placements.get(name)) and {*needs(placed)} <= {*fixed}
             else Placement("given", {"at": scene.points[name]}) for name in fixed}
 
 
-def _travels(scene: Scene, travel: Travel | Sequence[Travel]) -> tuple[Fraction, ...]:
+def _drive_travels(scene: Scene, travel: Travel | Sequence[Travel]) -> tuple[Fraction, ...]:
     """How far each drive goes in its sense, in degrees or lengths."""
     given = [travel] if isinstance(travel, Fraction | float | int) else [*travel]
     if len(given) not in (1, len(scene.drives)) or not all(math.isfinite(one) for one in given):
@@ -90,7 +90,7 @@ def _travels(scene: Scene, travel: Travel | Sequence[Travel]) -> tuple[Fraction,
     return kept_pace(scene, Fraction(given[0]))
 
 
-def _paced(scene: Scene, travels: Sequence[Fraction]) -> tuple[Scene, Fraction]:
+def _pace_drives(scene: Scene, travels: Sequence[Fraction]) -> tuple[Scene, Fraction]:
     """The scene with drives at such rates that they go so far together, those first that move; and how far the first.
     """
     if len(travels) == 1:
@@ -106,7 +106,7 @@ def _paced(scene: Scene, travels: Sequence[Fraction]) -> tuple[Scene, Fraction]:
 WAYS = {"outer": 1, "inner": -1}  # on which side of the pivot the crank lies, seen from the joint, where b > r
 
 
-def extreme(scene: Scene, asked: str) -> tuple[Extreme, Fraction]:
+def extreme_position(scene: Scene, asked: str) -> tuple[Extreme, Fraction]:
     """The extreme position that is asked for, such as "outer" or "inner 3", and how far the first drive goes to it.
 
     Degrees. Fails with `Refused` where no link or more than one has such, or the mechanism does not come there.
@@ -114,21 +114,21 @@ def extreme(scene: Scene, asked: str) -> tuple[Extreme, Fraction]:
     way, _, link = asked.strip().partition(" ")
     if way not in WAYS:
         raise Refused(f"--at {asked}", "this is no position", "degrees or lengths, or outer or inner, such as outer 3")
-    found = [one for one in _swung(scene, way) if link.strip() in ("", one.link)]
+    found = [one for one in _swung_links(scene, way) if link.strip() in ("", one.link)]
     if len(found) != 1:
-        links = ", ".join(one.link for one in found or _swung(scene, way))
+        links = ", ".join(one.link for one in found or _swung_links(scene, way))
         why = (said("several links have extreme positions") if found else said("this link has no extreme position")
                if links else said("no link is swung about or along the frame by a coupler on the first drive's crank"))
         raise Refused(f"--at {asked}", why, said("one of {0}", links) if links else said("the travel of the drive"))
     one = found[0]
-    travel = _travel(scene, one)
+    travel = _travel_to_extreme(scene, one)
     if travel is None:
-        raise Refused(f"--at {asked}", _missed(one), said("the travel of the drive"))
-    other = _travel(scene, replace(one, way="inner" if way == "outer" else "outer"))
+        raise Refused(f"--at {asked}", _no_extreme_reason(one), said("the travel of the drive"))
+    other = _travel_to_extreme(scene, replace(one, way="inner" if way == "outer" else "outer"))
     return replace(one, time_ratio=_time_ratio(scene, travel, other)), Fraction(travel)
 
 
-def _missed(one: Extreme) -> Said:
+def _no_extreme_reason(one: Extreme) -> Said:
     return said("the mechanism comes to no position in which {0} and {1} lie in one line so", f"{one.pivot}{one.pin}",
                 f"{one.pin}{one.joint}")
 
@@ -142,7 +142,7 @@ def _time_ratio(scene: Scene, travel: float, other: float | None) -> float | Non
     return max(part, 360 - part) / min(part, 360 - part) if part else None
 
 
-def _swung(scene: Scene, way: str) -> Iterator[Extreme]:
+def _swung_links(scene: Scene, way: str) -> Iterator[Extreme]:
     """The links that couplers on the first drive's crank swing about a point of the frame, or push along it."""
     net = Network(scene)
     weld = next((weld for weld in net.welds.values() if weld.drive == scene.drives[0]), None)
@@ -153,11 +153,11 @@ def _swung(scene: Scene, way: str) -> Iterator[Extreme]:
         pins = [point for point in scene.links[coupler] if point in scene.links[weld.link] and point != weld.at]
         for link in free:
             joints = [point for point in scene.links[coupler] if point in scene.links[link] and point not in pins]
-            if link != coupler and pins and joints and _hold(scene, link, joints[0]) is not None:
+            if link != coupler and pins and joints and _pivot_or_guide(scene, link, joints[0]) is not None:
                 yield Extreme(way, link, coupler, weld.at, pins[0], joints[0])
 
 
-def _hold(scene: Scene, link: str, joint: str) -> str | complex | None:
+def _pivot_or_guide(scene: Scene, link: str, joint: str) -> str | complex | None:
     """The point of the frame about which a link turns, or the direction in which it slides along the frame."""
     about = next((point for point in scene.links[link] if FRAME in scene.links_of[point] and point != joint), None)
     along = (complex(*map(float, slide.direction)) for slide in scene.slides
@@ -166,7 +166,7 @@ def _hold(scene: Scene, link: str, joint: str) -> str | complex | None:
     return about or next(along, None)
 
 
-def _travel(scene: Scene, one: Extreme) -> float | None:
+def _travel_to_extreme(scene: Scene, one: Extreme) -> float | None:
     """How far the drive goes to an extreme position in its sense, in degrees: on from the given pose, else back; none
     where it does not come there."""
     at = {name: complex(*map(float, place)) for name, place in scene.points.items()}
@@ -189,7 +189,7 @@ def _travel(scene: Scene, one: Extreme) -> float | None:
 def _crossings(scene: Scene, one: Extreme, O: complex, B: complex, far: float,
                at: dict[str, complex]) -> Iterator[complex]:
     """Where the joint is so far from the pivot, on its circle or its line."""
-    hold = _hold(scene, one.link, one.joint)
+    hold = _pivot_or_guide(scene, one.link, one.joint)
     if isinstance(hold, str):
         C = at[hold]
         if C == O:
@@ -219,12 +219,12 @@ def driven_by_gears(scene: Scene, shifts: tuple[Fraction, ...]) -> tuple[Scene, 
     """
     if not scene.gears and not scene.contacts:
         return scene, shifts
-    rows = [_row((drive.link, 1), (drive.on, -1), turn=shift)
+    rows = [_turns_row((drive.link, 1), (drive.on, -1), turn=shift)
             for drive, shift in zip(scene.drives, shifts, strict=True) if not drive.slides]
-    rows += [row for gear in scene.gears if (row := _ratio(scene, gear))]
-    turns = _determined(rows) | {FRAME: Fraction(0)}
-    more, led = _led(scene, turns)
-    plain = not scene.contacts and all(_ratio(scene, gear) and {*gear.links} <= led for gear in scene.gears)
+    rows += [row for gear in scene.gears if (row := _ratio_row(scene, gear))]
+    turns = _solve_turns(rows) | {FRAME: Fraction(0)}
+    more, led = _gear_drives(scene, turns)
+    plain = not scene.contacts and all(_ratio_row(scene, gear) and {*gear.links} <= led for gear in scene.gears)
     if not plain or any(name and name not in turns for row in rows for name in row):
         raise Refused(f"{scene.name}: the pose", said("no steps are known that find where these gears or contacts go"),
                       "the pose as it is given")
@@ -234,7 +234,7 @@ def driven_by_gears(scene: Scene, shifts: tuple[Fraction, ...]) -> tuple[Scene, 
             (*shifts, *(turns[drive.link] - turns[drive.on] for drive in more)))
 
 
-def _led(scene: Scene, turns: Row) -> tuple[list[TurningDrive], set[str]]:
+def _gear_drives(scene: Scene, turns: Row) -> tuple[list[TurningDrive], set[str]]:
     """Drives for links whose turns are known, each about a joint with another such, and all links so driven."""
     led, more = {FRAME: True}, list[TurningDrive]()
     ends = [ends for drive in scene.drives for ends in (drive.links, drive.links[::-1])]
@@ -251,16 +251,16 @@ def _led(scene: Scene, turns: Row) -> tuple[list[TurningDrive], set[str]]:
             return more, {*led}
 
 
-def _ratio(scene: Scene, gear: Gear) -> Row | None:
+def _ratio_row(scene: Scene, gear: Gear) -> Row | None:
     """What a gear says of the turns of its links and of the arm that holds its centres; None of one without arm."""
     arm = next((link for link, points in scene.links.items() if {*gear.centres} <= {*points}), None)
     if len(gear.centres) < 2 or arm is None or not is_exact(gear.factors):
         return None
     one, two = gear.factors
-    return _row((gear.links[0], one), (gear.links[1], two), (arm, -one - two))
+    return _turns_row((gear.links[0], one), (gear.links[1], two), (arm, -one - two))
 
 
-def _row(*terms: tuple[str, Number], turn: Number = 0) -> Row:
+def _turns_row(*terms: tuple[str, Number], turn: Number = 0) -> Row:
     """The sum of links' turns, each times its factor."""
     row = {"": Fraction(turn)}
     for link, factor in terms:
@@ -269,7 +269,7 @@ def _row(*terms: tuple[str, Number], turn: Number = 0) -> Row:
     return row
 
 
-def _determined(rows: list[Row]) -> Row:
+def _solve_turns(rows: list[Row]) -> Row:
     """The turns that follow from the rows, as far as these bind them."""
     links = [*dict.fromkeys(name for row in rows for name in row if name)]
     system = Elimination([{k: row[link] for k, link in enumerate(links) if link in row} for row in rows], len(links))

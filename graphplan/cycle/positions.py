@@ -13,28 +13,28 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.cycle import closure, newton
-from graphplan.cycle.closure import TRAVEL, Body, Drive, Layout, Vector
+from graphplan.cycle.closure import TRAVEL, DriveState, GroupLayout, LinkPose, Vector
 from graphplan.cycle.continuation import Path
-from graphplan.cycle.dyads import Failure, assembled
-from graphplan.cycle.groups import NEAR, SHRINKING, Group
+from graphplan.cycle.dyads import Failure, assemble
+from graphplan.cycle.groups import MAX_CORRECTION_RATIO, MAX_FIRST_CORRECTION, ClosureGroup
 from graphplan.cycle.linkage import Array, Linkage
 from graphplan.cycle.tolerances import CORRECTION_TOL, RESIDUE_TOL
 from graphplan.mechanism.model import FRAME
 
-BLOCK = 2048
+BLOCK_POSES = 2048
 """Poses whose numbers fit into the cache."""
 
-_FEW = 4096
+MIN_TAPE_POSES = 4096
 """For fewer poses a tape is not worth its writing."""
 
 
-class Placing:
+class PosePlacer:
     """The points of a linkage in many poses; `points` are complex arrays of shape (n,), `turns` those of some links.
 
     `failures` tells for each group that could not be placed in which poses.
     """
 
-    def __init__(self, linkage: Linkage, groups: Sequence[Group], n: int, turning: Iterable[str]):
+    def __init__(self, linkage: Linkage, groups: Sequence[ClosureGroup], n: int, turning: Iterable[str]):
         self.linkage, self.groups = linkage, groups
         self.ends = np.cumsum([0, *(group.unknowns for group in groups)]).tolist()
         links = dict.fromkeys(turning)
@@ -48,27 +48,28 @@ class Placing:
 
     def follow(self, path: Path, travel: Array, at: Array, machine: bool) -> None:
         """Place the poses `at` these places, which the path reaches; by machine code if asked for."""
-        self._stay(at)
-        blocks = [at[start : start + BLOCK] for start in range(0, len(at), BLOCK)]
-        if not blocks or self._assembled(travel, blocks):
+        self._place_fixed_points(at)
+        blocks = [at[start : start + BLOCK_POSES] for start in range(0, len(at), BLOCK_POSES)]
+        if not blocks or self._assemble_blocks(travel, blocks):
             return
-        taped = machine or at.size > _FEW
-        runs = [newton.for_many(group.layout, machine) if taped and group.unknowns else None for group in self.groups]
+        taped = machine or at.size > MIN_TAPE_POSES
+        runs = [newton.many_poses_step(group.layout, machine) if taped and group.unknowns else None
+                for group in self.groups]
         with np.errstate(all="ignore"):
             for some in blocks:
-                self._followed(path, travel[some], some, runs)
+                self._follow_block(path, travel[some], some, runs)
 
-    def _assembled(self, travel: Array, blocks: Sequence[Array]) -> bool:
+    def _assemble_blocks(self, travel: Array, blocks: Sequence[Array]) -> bool:
         """Place blocks of poses by compass rules, which need no path; not where some group is no plain dyad."""
         for some in blocks:
-            placed, found = assembled(self.linkage, self.groups, travel[some])
+            placed, found = assemble(self.linkage, self.groups, travel[some])
             if len(placed) < len(self.linkage.links):
                 return False
             self.failures += [(failure, some[missing]) for failure, missing in found if missing.any()]
-            where = _together(some)
+            where = _as_slice(some)
             for link in self.linkage.links[1:]:
                 for point, _ in self.owned[link]:
-                    self.points[point][where] = placed[link].at(self.linkage.places[point])
+                    self.points[point][where] = placed[link].point(self.linkage.places[point])
             for link, array in self.turns.items():
                 array[where] = placed[link].turn
         return True
@@ -79,67 +80,70 @@ class Placing:
         found = {place: state for place in sorted(lost) if (state := walked(float(travel[place]))) is not None}
         if found:
             at = np.array([*found])
-            self.stand(np.stack([*found.values()], axis=1), travel, at)
+            self.place_states(np.stack([*found.values()], axis=1), travel, at)
             self.failures = [(failure, np.setdiff1d(poses, at)) for failure, poses in self.failures]
 
-    def stand(self, state: Array, travel: Array, at: Array) -> None:
+    def place_states(self, state: Array, travel: Array, at: Array) -> None:
         """Take the poses `at` these places from states, (unknowns, n): where one is singular, it cannot be closed."""
-        some, bodies = travel[at], {FRAME: Body()}
+        some, bodies = travel[at], {FRAME: LinkPose()}
         for i, group in enumerate(self.groups):
             known = [bodies[link] for link in (FRAME, *group.carriers)]
-            self._enter(group, group.lie(known, some, state[self.ends[i] : self.ends[i + 1]]), bodies, at)
-        self._stay(at)
+            self._enter_points(group, group.link_poses(known, some, state[self.ends[i] : self.ends[i + 1]]), bodies, at)
+        self._place_fixed_points(at)
         for point, place in self.linkage.places.items():
             self.points[point][at[some == 0]] = place
 
-    def _stay(self, at: Array) -> None:
+    def _place_fixed_points(self, at: Array) -> None:
         """The points of the frame, and of no link, stay where they are."""
         for point, links in self.linkage.scene.links_of.items():
             if not links or FRAME in links:
                 self.points[point][at] = self.linkage.places[point]
 
-    def refuse(self, travel: Array, at: Array) -> None:
+    def explain_failures(self, travel: Array, at: Array) -> None:
         """Tell of the poses `at` these places, which the path does not reach, what prevents them."""
-        _, found = assembled(self.linkage, self.groups, travel[at])
+        _, found = assemble(self.linkage, self.groups, travel[at])
         self.failures += [(failure, at[missing]) for failure, missing in found]
 
-    def _followed(self, path: Path, travel: Array, at: Array, runs: Sequence[newton.Run | None]) -> None:
+    def _follow_block(self, path: Path, travel: Array, at: Array, runs: Sequence[newton.TapeRun | None]) -> None:
         """One block."""
-        state, size = path.predicted(travel)
-        bodies = {FRAME: Body()}
+        state, size = path.predict_states(travel)
+        bodies = {FRAME: LinkPose()}
         for i, group in enumerate(self.groups):
             known = [bodies[link] for link in (FRAME, *group.carriers)]
-            links, trusted = _settled(group, known, travel, state[self.ends[i] : self.ends[i + 1]], size,
-                                      path.senses[i], NEAR * size, np.zeros(len(travel), dtype=bool), runs[i])
+            links, trusted = _settle_poses(group, known, travel, state[self.ends[i] : self.ends[i + 1]], size,
+                                           path.senses[i], MAX_FIRST_CORRECTION * size,
+                                           np.zeros(len(travel), dtype=bool), runs[i])
             if not trusted.all():
                 why = Failure(group.part, "Newton's method does not stay on their branch")
                 self.failures.append((why, at[~trusted]))
-            self._enter(group, links, bodies, at)
+            self._enter_points(group, links, bodies, at)
 
-    def _enter(self, group: Group, links: Sequence[Body], bodies: dict[str, Body], at: Array) -> None:
+    def _enter_points(self, group: ClosureGroup, links: Sequence[LinkPose], bodies: dict[str, LinkPose],
+                      at: Array) -> None:
         """Write down the points of a group."""
         for link, body in zip(group.links, links, strict=True):
-            bodies[link] = Body(body.base, body.turn, angle=body.angle)
+            bodies[link] = LinkPose(body.base, body.turn, angle=body.angle)
             x, y = (self.linkage.reach * number for number in body.base)
             x, y = x + self.linkage.origins[FRAME].real, y + self.linkage.origins[FRAME].imag
             for point, lever in self.owned[link]:
-                (a, b), array = closure.rotated(body.turn, (lever.real, lever.imag)), self.points[point]
+                (a, b), array = closure.rotate(body.turn, (lever.real, lever.imag)), self.points[point]
                 array.real[at], array.imag[at] = x + a, y + b
             if link in self.turns:
                 self.turns[link].real[at], self.turns[link].imag[at] = body.turn or (1.0, 0.0)
 
 
-def _together(places: Array) -> slice | Array:
+def _as_slice(places: Array) -> slice | Array:
     """Places as a slice if they follow each other: arrays are then written much faster."""
     first, last = int(places[0]), int(places[-1])
     return slice(first, last + 1) if last - first == len(places) - 1 else places
 
 
-def _settled(group: Group, known: Sequence[Body], travel: Array, state: Array, size: Array, sense: float,
-             allowed: Array, settled: Array, run: newton.Run | None) -> tuple[list[Body], Array]:
+def _settle_poses(group: ClosureGroup, known: Sequence[LinkPose], travel: Array, state: Array, size: Array,
+                  sense: float,
+                  allowed: Array, settled: Array, run: newton.TapeRun | None) -> tuple[list[LinkPose], Array]:
     """A group closed in n poses, and where that is to be trusted: see :meth:`Group.settled`."""
     if not group.unknowns:
-        return group.lie(known, travel, state), np.ones(len(travel), dtype=bool)
+        return group.link_poses(known, travel, state), np.ones(len(travel), dtype=bool)
     corrections, determinant, links = group.step(known, travel, state, run)
     far, n = np.abs(corrections), group.layout.angles
     far[n:] /= np.maximum(1.0, np.abs(state[n:]))  # as the path weighs changes
@@ -149,9 +153,10 @@ def _settled(group: Group, known: Sequence[Body], travel: Array, state: Array, s
     if again.size:
         far, size = far[again], size[again]
         settled = far <= CORRECTION_TOL * size
-        rest, trusted[again] = _settled(group, [_some(body, again) for body in known], travel[again],
-                                        (state - corrections)[:, again], size, sense,
-                                        np.where(settled, NEAR * size, SHRINKING * far), settled, run)
+        rest, trusted[again] = _settle_poses(group, [_pose_subset(body, again) for body in known], travel[again],
+                                             (state - corrections)[:, again], size, sense,
+                                             np.where(settled, MAX_FIRST_CORRECTION * size,
+                                                      MAX_CORRECTION_RATIO * far), settled, run)
         for link, other in zip(links, rest, strict=True):
             for array, some in zip((*link.base, link.angle, *(link.turn or ())),
                                    (*other.base, other.angle, *(other.turn or (1.0, 0.0))), strict=False):
@@ -160,19 +165,19 @@ def _settled(group: Group, known: Sequence[Body], travel: Array, state: Array, s
     return links, trusted
 
 
-def _some(body: Body, at: Array) -> Body:
+def _pose_subset(body: LinkPose, at: Array) -> LinkPose:
     """A link in some of its poses."""
-    def part(vector: tuple[Any, ...]) -> Any:
+    def subset(vector: tuple[Any, ...]) -> Any:
         return tuple(number[at] if isinstance(number, np.ndarray) else number for number in vector)
 
-    (angle,) = part((body.angle,))
-    return Body(part(body.base), part(body.turn) if body.turn else None, angle=angle)
+    (angle,) = subset((body.angle,))
+    return LinkPose(subset(body.base), subset(body.turn) if body.turn else None, angle=angle)
 
 
 # ---- how links move, from the closures of their groups ---------------------------------------------------------------
 
 
-class Moved(NamedTuple):
+class MovingLink(NamedTuple):
     """A link in n poses: its base, which was given at `origin`, and its turn; how both change with the drive's travel,
     the turn as an angle. All are arrays of shape (n,), complex but for the last."""
 
@@ -191,24 +196,24 @@ class Moved(NamedTuple):
         return self.velocity + 1j * self.spin * (places - self.base)
 
 
-def moved(linkage: Linkage, groups: Sequence[Group], travel: Array, points: Mapping[str, Array],
-          turns: Mapping[str, Array]) -> dict[str, Moved]:
+def link_rates(linkage: Linkage, groups: Sequence[ClosureGroup], travel: Array, points: Mapping[str, Array],
+               turns: Mapping[str, Array]) -> dict[str, MovingLink]:
     """How every link lies and moves where its points and turns are so; nan where they are, and where it is singular."""
     frame, reach, still = linkage.origins[FRAME], linkage.reach, np.zeros(travel.shape)
-    bodies = {FRAME: Body()}
+    bodies = {FRAME: LinkPose()}
     turns = {**turns, **dict(_turned_arms(linkage, points))}
     for link in linkage.links[1:]:
         origin, pin = linkage.origins[link], next(iter(linkage.points(link)), "")
         at = points[pin] + turns[link] * (origin - linkage.places[pin]) if pin else points[linkage.lines.arms[link].at]
-        bodies[link] = Body(_pair((at - frame) / reach), _pair(turns[link]))
+        bodies[link] = LinkPose(_pair((at - frame) / reach), _pair(turns[link]))
     for group in groups:
-        _move(group, bodies, travel)
-    found = {FRAME: Moved(frame, still + frame, still + 1.0, still + 0j, still)}
+        _enter_rates(group, bodies, travel)
+    found = {FRAME: MovingLink(frame, still + frame, still + 1.0, still + 0j, still)}
     for link in linkage.links[1:]:
         body = bodies[link]
         (x, y), spin = body.moves.get(TRAVEL, (0.0, 0.0)), body.spin.get(TRAVEL, 0.0)
-        found[link] = Moved(linkage.origins[link], frame + reach * _complex(body.base), turns[link],
-                            reach * _complex((x, y)) + still, spin + still)
+        found[link] = MovingLink(linkage.origins[link], frame + reach * _complex(body.base), turns[link],
+                                 reach * _complex((x, y)) + still, spin + still)
     return found
 
 
@@ -219,21 +224,22 @@ def _turned_arms(linkage: Linkage, points: Mapping[str, Array]) -> Iterator[tupl
         yield name, line / np.abs(line) / (given / abs(given))
 
 
-def _move(group: Group, bodies: dict[str, Body], travel: Array) -> None:
+def _enter_rates(group: ClosureGroup, bodies: dict[str, LinkPose], travel: Array) -> None:
     """Enter how the links of a group move."""
     known = [bodies[link] for link in (FRAME, *group.carriers)]
-    drives = [Drive(drive.at, rate) for drive, (_, rate) in zip(group.read(travel, ())[0], group.drives, strict=True)]
-    state = _state(group.layout, [*known, *(bodies[link] for link in group.links)], group.arms)
-    links = closure.bodies(group.layout, known, group.arms, drives, state)
+    drives = [DriveState(drive.at, rate) for drive, (_, rate) in zip(group.drives_and_state(travel, ())[0],
+                                                                     group.drives, strict=True)]
+    state = _unknowns_of(group.layout, [*known, *(bodies[link] for link in group.links)], group.arms)
+    links = closure.pose_links(group.layout, known, group.arms, drives, state)
     with np.errstate(all="ignore"):
-        rows = closure.left_open(group.layout, links, group.arms, drives)
+        rows = closure.residual_rows(group.layout, links, group.arms, drives)
         rates = newton.step(rows, group.unknowns, np.sqrt).rates
     for link, body in zip(group.links, links[len(known):], strict=True):
         *velocity, spin = newton.rates_of(body, rates)
-        bodies[link] = Body(bodies[link].base, bodies[link].turn, {TRAVEL: tuple(velocity)}, {TRAVEL: spin})
+        bodies[link] = LinkPose(bodies[link].base, bodies[link].turn, {TRAVEL: tuple(velocity)}, {TRAVEL: spin})
 
 
-def _state(layout: Layout, links: Sequence[Body], arms: Sequence[Vector]) -> list[Any]:
+def _unknowns_of(layout: GroupLayout, links: Sequence[LinkPose], arms: Sequence[Vector]) -> list[Any]:
     """The unknowns of a group where its links lie so: cosine and sine of the angles, then displacements."""
     found: list[Any] = [links[spin.link].turn for spin in layout.spins if spin.on is None]
     for seat in layout.seats:
@@ -243,14 +249,14 @@ def _state(layout: Layout, links: Sequence[Body], arms: Sequence[Vector]) -> lis
             found += _pair(away)
         elif seat.way is not None and seat.guide is not None and seat.drive is None:
             on, guide = links[seat.on], links[seat.guide]
-            arm = _turned(on, arms[seat.arm]) if seat.arm is not None else 0.0
-            ray = _turned(guide, arms[seat.way])
+            arm = _rotated_complex(on, arms[seat.arm]) if seat.arm is not None else 0.0
+            ray = _rotated_complex(guide, arms[seat.way])
             found.append(((base - _complex(on.base) - arm) * np.conj(ray)).real)
     return found
 
 
-def _turned(body: Body, vector: Vector) -> Any:
-    return _complex(closure.rotated(body.turn, vector))
+def _rotated_complex(body: LinkPose, vector: Vector) -> Any:
+    return _complex(closure.rotate(body.turn, vector))
 
 
 def _complex(vector: Any) -> Any:

@@ -20,13 +20,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.cycle import closure, newton
-from graphplan.cycle.closure import Body, Drive
-from graphplan.cycle.dyads import Placed, dyad
+from graphplan.cycle.closure import DriveState, LinkPose
+from graphplan.cycle.dyads import PlacedLink, assemble_dyad
 from graphplan.cycle.ground import Ground, planar
-from graphplan.cycle.groups import Group
-from graphplan.cycle.linkage import Linkage, grounded, touching
+from graphplan.cycle.groups import ClosureGroup
+from graphplan.cycle.linkage import Linkage, contact_point, pin_given_motions
 from graphplan.cycle.tolerances import RELATION_TOL
-from graphplan.cycle.turn import RangeOfMotion, range_of_motion, under
+from graphplan.cycle.turn import RangeOfMotion, points_under_slides, range_of_motion
 from graphplan.errors import GraphplanError
 from graphplan.kernel.tape.record import Symbol, Symbols
 from graphplan.kernel.tape.written import DEEPEST, Language, Writer, function
@@ -34,8 +34,8 @@ from graphplan.mechanism.model import FRAME, Contact, Scene
 from graphplan.mechanism.travel import sense_of_travel
 from graphplan.sheet.plates.view import View
 
-STEPS = 6  # of Newton: enough for pins that are dragged by a tenth of the linkage
-SPANS = 180  # between the knots of a state
+NEWTON_STEPS = 6  # of Newton: enough for pins that are dragged by a tenth of the linkage
+KNOT_SPANS = 180  # between the knots of a state
 
 Spot = tuple[Any, Any]  # symbols, or numbers where nothing moves it
 
@@ -62,15 +62,15 @@ class Knots(NamedTuple):
     high: float
     states: tuple[tuple[float, ...], ...]
 
-    def at(self, travel: float) -> list[float]:
+    def states_at(self, travel: float) -> list[float]:
         """The states at a travel, straight between the knots."""
         part = min(max((travel - self.low) / (self.high - self.low), 0.0), 1.0)
-        far = math.acos(1.0 - 2.0 * part) / math.pi * SPANS
-        k = min(int(far), SPANS - 1)
+        far = math.acos(1.0 - 2.0 * part) / math.pi * KNOT_SPANS
+        k = min(int(far), KNOT_SPANS - 1)
         return [row[k] + (far - k) * (row[k + 1] - row[k]) for row in self.states]
 
 
-class Written(NamedTuple):
+class WrittenRelations(NamedTuple):
     """Relations in a language: terms by name, each after those it reads; x and y of points in mm, cosine and sine of
     the turns of links, and directions of guides."""
 
@@ -101,7 +101,7 @@ class Relations:
     """
 
     def __init__(self, scene: Scene, view: View):
-        self.scene, self.view = grounded(scene), view
+        self.scene, self.view = pin_given_motions(scene), view
         places = {name: view((float(x), float(y))) for name, (x, y) in scene.points.items()}
         self.domain = Symbols()
         self.tape = self.domain.tape
@@ -112,62 +112,63 @@ class Relations:
         self.free = self._ground.free
         self.placed: dict[str, Any] = {FRAME: self._ground}
         self._turned: dict[str, Any] = {}  # in all, where that is counted
-        self.groups = [Group(self._on_paper, part) for part in self._on_paper.parts]
+        self.groups = [ClosureGroup(self._on_paper, part) for part in self._on_paper.parts]
         for group in self.groups:
-            self.placed.update(self._followed(group))
+            self.placed.update(self._place_group(group))
 
     # ---- the links -------------------------------------------------------------------------------------------------
 
-    def _followed(self, group: Group) -> Iterator[tuple[str, Any]]:
+    def _place_group(self, group: ClosureGroup) -> Iterator[tuple[str, Any]]:
         """The links of a group, driven, crossed or closed."""
         counted = group.layout.counted  # the compass rules do not know how far links have turned in all
-        links = dyad(self._on_paper, group, self.placed) if group.unknowns and not counted else None
-        if links and not self._on_paper.special(group.part):
+        links = assemble_dyad(self._on_paper, group, self.placed) if group.unknowns and not counted else None
+        if links and not self._on_paper.is_special(group.part):
             self.angles += [i < group.layout.angles for i in range(group.unknowns)]
             yield from zip(group.part, links[0], strict=True)
             return
         known = [self._body(link) for link in (FRAME, *group.carriers)]
         arms, drives = self._arms(group), self._drives(group)
         if not group.unknowns:
-            lies = closure.bodies(group.layout, known, arms, drives, (), moving=False)
+            lies = closure.pose_links(group.layout, known, arms, drives, (), moving=False)
         else:
-            lies = self._closed(group, known, arms, drives)
+            lies = self._close_group(group, known, arms, drives)
         for link, body in zip(group.links, lies[len(known):], strict=True):
             base, self._turned[link] = planar(body.base) + self._on_paper.origins[FRAME], body.angle
-            yield link, Placed(self._on_paper.origins[link], base, planar(body.turn or (1.0, 0.0)))
+            yield link, PlacedLink(self._on_paper.origins[link], base, planar(body.turn or (1.0, 0.0)))
 
-    def _body(self, link: str) -> Body:
+    def _body(self, link: str) -> LinkPose:
         """A link that is placed, as the closure has it."""
         if link == FRAME:
-            return Body()
+            return LinkPose()
         placed = self.placed[link]
-        base = placed.at(self._on_paper.origins[link]) - self._on_paper.origins[FRAME]
-        return Body((base.re, base.im), (placed.turn.re, placed.turn.im), angle=self._turned.get(link, 0.0))
+        base = placed.point(self._on_paper.origins[link]) - self._on_paper.origins[FRAME]
+        return LinkPose((base.re, base.im), (placed.turn.re, placed.turn.im), angle=self._turned.get(link, 0.0))
 
-    def _arms(self, group: Group) -> list[Spot]:
+    def _arms(self, group: ClosureGroup) -> list[Spot]:
         """The arms of a group: those of the frame end in pins."""
         arms, frame = list[Spot](group.arms), self._on_paper.origins[FRAME]
         for k, end in enumerate(group.ends):
             if end.link == FRAME and not end.way:
-                spot = self._ground.at(complex(*group.arms[k]) + frame) - frame
+                spot = self._ground.point(complex(*group.arms[k]) + frame) - frame
                 arms[k] = spot.re, spot.im
         return arms
 
-    def _drives(self, group: Group) -> list[Drive]:
+    def _drives(self, group: ClosureGroup) -> list[DriveState]:
         """The drives of a group where their inputs have them."""
         return [self._drive(turns, rate, group.layout.counted) for turns, rate in group.drives]
 
-    def _drive(self, turns: bool, rate: float, counted: bool) -> Drive:
+    def _drive(self, turns: bool, rate: float, counted: bool) -> DriveState:
         """Which drive it is its rate says, and which way."""
         k = round(abs(rate)) - 1
         at = [self.tape.input(f"shift {k}")] if counted or not turns else []
         shift = [far if rate > 0 else -far for far in at]
         if not turns:
-            return Drive(shift[0], None)
+            return DriveState(shift[0], None)
         cos, sin = self.tape.input(f"cos {k}"), self.tape.input(f"sin {k}")
-        return Drive((cos, sin if rate > 0 else -sin, *shift), None)
+        return DriveState((cos, sin if rate > 0 else -sin, *shift), None)
 
-    def _closed(self, group: Group, known: list[Body], arms: Sequence[Spot], drives: Sequence[Drive]) -> list[Body]:
+    def _close_group(self, group: ClosureGroup, known: list[LinkPose], arms: Sequence[Spot],
+                     drives: Sequence[DriveState]) -> list[LinkPose]:
         """A group by Newton's steps, on its branch."""
         layout, first, state = group.layout, len(self.angles), list[Any]()
         self.angles += [i < layout.angles for i in range(group.unknowns)]
@@ -175,25 +176,25 @@ class Relations:
             kinds = ("cos ", "sin ", *([""] if layout.counted else ())) if angle else ("",)
             parts = [self.tape.input(f"{part}state {i}") for part in kinds]
             state.append(tuple(parts) if angle else parts[0])
-        for _ in range(STEPS):
-            links = closure.bodies(layout, known, arms, drives, state)
-            step = newton.step(closure.left_open(layout, links, arms, drives), layout.unknowns, _root)
-            state = newton.corrected(layout, state, step.corrections)
+        for _ in range(NEWTON_STEPS):
+            links = closure.pose_links(layout, known, arms, drives, state)
+            step = newton.step(closure.residual_rows(layout, links, arms, drives), layout.unknowns, _root)
+            state = newton.apply_corrections(layout, state, step.corrections)
         reach = super(_OnPaper, self._on_paper).reach
         far = [move if i < layout.angles else move / reach for i, move in enumerate(step.corrections)]
         sure = 0.0 * self.tape.sqrt(self.tape.place(RELATION_TOL**2 - sum(move * move for move in far)))
         sure = sure + 0.0 * self.tape.sqrt(self.tape.place(step.determinant * self._sense(group)))
         state = [(one[0] + sure, *one[1:]) if isinstance(one, tuple) else one + sure for one in state]
-        return closure.bodies(layout, known, arms, drives, state, moving=False)
+        return closure.pose_links(layout, known, arms, drives, state, moving=False)
 
-    def _sense(self, group: Group) -> float:
+    def _sense(self, group: ClosureGroup) -> float:
         """The sign of the determinant in the given pose."""
-        still = [Body((z.real, z.imag)) for z in (self._on_paper.origins[link] - self._on_paper.origins[FRAME]
-                                                  for link in (FRAME, *group.carriers))]
-        drives = [Drive((1.0, 0.0) if turns else 0.0, None) for turns, _ in group.drives]
+        still = [LinkPose((z.real, z.imag)) for z in (self._on_paper.origins[link] - self._on_paper.origins[FRAME]
+                                                      for link in (FRAME, *group.carriers))]
+        drives = [DriveState((1.0, 0.0) if turns else 0.0, None) for turns, _ in group.drives]
         state = [(1.0, 0.0) if i < group.layout.angles else 0.0 for i in range(group.unknowns)]
-        links = closure.bodies(group.layout, still, group.arms, drives, state)
-        open = closure.left_open(group.layout, links, group.arms, drives)
+        links = closure.pose_links(group.layout, still, group.arms, drives, state)
+        open = closure.residual_rows(group.layout, links, group.arms, drives)
         return math.copysign(1.0, newton.step(open, group.unknowns, math.sqrt).determinant)
 
     # ---- what is made of them --------------------------------------------------------------------------------------
@@ -208,9 +209,9 @@ class Relations:
             if not links and name not in self._ground.pins:
                 continue
             carrier = min(links, key=order.__getitem__) if links else FRAME
-            at = self._ground.pins[name] if carrier == FRAME else self.placed[carrier].at(place)
+            at = self._ground.pins[name] if carrier == FRAME else self.placed[carrier].point(place)
             found[name] = at.re, at.im
-        found |= {name: found[at] for name, at in under(self.scene).items()}
+        found |= {name: found[at] for name, at in points_under_slides(self.scene).items()}
         return found | {contact.at: self._touching(contact, found) for contact in self.scene.contacts
                         if not self.scene.links_of[contact.at]}
 
@@ -218,7 +219,7 @@ class Relations:
         """Where two profiles touch."""
         on = self.placed[contact.curved[1]]
         turn = planar(1.0) if contact.curved[1] == FRAME else on.turn
-        at = touching(self._on_paper.scene, contact, {name: planar(spot) for name, spot in points.items()}, turn)
+        at = contact_point(self._on_paper.scene, contact, {name: planar(spot) for name, spot in points.items()}, turn)
         return at.re, at.im
 
     @cached_property
@@ -250,12 +251,12 @@ class Relations:
         return float(self.motion.path.travel[0]) * size, float(self.motion.path.travel[-1]) * size
 
     @cached_property
-    def ways(self) -> dict[str, Spot]:
+    def slide_ranges(self) -> dict[str, Spot]:
         """How far slides on the frame go back and on along their guides, in mm, where drives say it."""
         if not self.scene.drives:
             return {}
         (low, high), found = self.motion.path.travel[[0, -1]], {}
-        points = self.motion.turn(np.linspace(low, high, SPANS)).points
+        points = self.motion.turn(np.linspace(low, high, KNOT_SPANS)).points
         for slide in self.scene.slides:
             if slide.along == FRAME:
                 ray = complex(*map(float, slide.direction))
@@ -267,35 +268,36 @@ class Relations:
     @cached_property
     def knots(self) -> Knots | None:
         """Where the states are on the way; none where the compass rules do all, or nothing drives."""
-        if not self.scene.drives or not any("state" in name for name in self.asked):
+        if not self.scene.drives or not any("state" in name for name in self.used_inputs):
             return None
         path, (low, high) = self.motion.path, self.limits
         if low == high:
             return None
         size = self.view.scale if self.scene.drives[0].slides else 1.0
         long = self.motion.linkage.reach * self.view.scale
-        travel = low + (high - low) * (1 - np.cos(np.linspace(0.0, np.pi, SPANS + 1))) / 2
-        states, _ = path.predicted(travel / size)
+        travel = low + (high - low) * (1 - np.cos(np.linspace(0.0, np.pi, KNOT_SPANS + 1))) / 2
+        states, _ = path.predict_states(travel / size)
         return Knots(low, high, tuple(tuple((row * (1.0 if angle else long)).tolist())
                                       for row, angle in zip(states, self.angles, strict=True)))
 
     @cached_property
-    def asked(self) -> dict[str, int]:
+    def used_inputs(self) -> dict[str, int]:
         """The inputs that are read, by name, each with its place on the tape."""
         told = [self.tape.place(part) for spots in (self.points, self.turns, self.guides)
                 for spot in spots.values() for part in spot]
         return {self.tape.entries[place][1]: place for place in self.tape.needed(told)
                 if self.tape.entries[place][0] == "in"}
 
-    def written(self, language: Language, inputs: Mapping[str, str], prefix: str, deepest: float = DEEPEST) -> Written:
+    def write(self, language: Language, inputs: Mapping[str, str], prefix: str,
+              deepest: float = DEEPEST) -> WrittenRelations:
         """All of it in a language; `inputs` says how the inputs that are `asked` are called there."""
         spots = (self.points, self.turns, self.guides)
         told = [{name: tuple(map(self.tape.place, spot)) for name, spot in some.items()} for some in spots]
-        writer = Writer(self.tape, language, {place: inputs[name] for name, place in self.asked.items()}, prefix,
+        writer = Writer(self.tape, language, {place: inputs[name] for name, place in self.used_inputs.items()}, prefix,
                         deepest)
         terms = tuple(writer.terms([place for some in told for spot in some.values() for place in spot]))
-        return Written(terms, *({name: (writer.text[x], writer.text[y]) for name, (x, y) in some.items()}
-                                for some in told))
+        return WrittenRelations(terms, *({name: (writer.text[x], writer.text[y]) for name, (x, y) in some.items()}
+                                         for some in told))
 
     def inputs(self, pins: Mapping[str, Spot], shifts: Sequence[float]) -> dict[str, float]:
         """The inputs where some pins (mm) are elsewhere, and how far the drives have gone (radians, or mm)
@@ -306,21 +308,22 @@ class Relations:
             found[f"x {name}"], found[f"y {name}"] = pins.get(name, (at.real, at.imag))
         for k, shift in enumerate(shifts):
             found |= {f"cos {k}": math.cos(shift), f"sin {k}": math.sin(shift), f"shift {k}": shift}
-        states = self.knots.at(sense_of_travel(self.scene) * shifts[0]) if self.knots else [0.0] * len(self.angles)
+        travel = sense_of_travel(self.scene) * shifts[0] if shifts else 0.0
+        states = self.knots.states_at(travel) if self.knots else [0.0] * len(self.angles)
         for i, state in enumerate(states):
             found |= {f"cos state {i}": math.cos(state), f"sin state {i}": math.sin(state), f"state {i}": state}
         return found
 
     def place(self, pins: Mapping[str, Spot], shifts: Sequence[float]) -> dict[str, Spot] | None:
         """Where all points are on paper, with some pins and the drives elsewhere; none where the pose is not."""
-        found = self.posed(pins, shifts)
+        found = self.pose(pins, shifts)
         return found[0] if found else None
 
-    def posed(self, pins: Mapping[str, Spot], shifts: Sequence[float]) -> tuple[dict[str, Spot], ...] | None:
+    def pose(self, pins: Mapping[str, Spot], shifts: Sequence[float]) -> tuple[dict[str, Spot], ...] | None:
         """The same, and where guides point that ride on links."""
         numbers = self.inputs(pins, shifts)
         try:
-            found: tuple[dict[str, Spot], ...] | None = self._run(*[numbers[name] for name in self.asked])
+            found: tuple[dict[str, Spot], ...] | None = self._run(*[numbers[name] for name in self.used_inputs])
         except (ValueError, ZeroDivisionError, OverflowError):
             return None
         return found
@@ -330,7 +333,7 @@ class Relations:
         """A function from the inputs to points and guides."""
         told = tuple({name: tuple(map(self.tape.place, spot)) for name, spot in some.items()}
                      for some in (self.points, self.guides))
-        return function(self.tape, [*self.asked.values()], told)
+        return function(self.tape, [*self.used_inputs.values()], told)
 
 
 def _root(number: Any) -> Any:

@@ -16,7 +16,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.travel import TURN
 from graphplan.phrases import said
 
-POSE = 2048  # bytes for a pose with its results, as measured on mechanisms of four to ten links
+POSE_BYTES = 2048  # bytes for a pose with its results, as measured on mechanisms of four to ten links
 
 
 def travels(scene: Scene, positions: int, span: tuple[float, float] | None) -> Array:
@@ -28,7 +28,7 @@ def travels(scene: Scene, positions: int, span: tuple[float, float] | None) -> A
     check_drives(scene)
     if positions < 1:
         raise Refused("the cycle", f"{positions} positions are none", "at least 1")
-    afford("the cycle", positions, "positions", POSE)
+    afford("the cycle", positions, "positions", POSE_BYTES)
     sliding = scene.drives[0].slides
     if span is None:
         if sliding:
@@ -48,7 +48,7 @@ def check_drives(scene: Scene) -> None:
         raise Refused("the cycle", why, "a scene with a [[drive]] for each degree of freedom")
 
 
-def closes(scene: Scene, paces: tuple[float, ...]) -> bool:
+def drives_return(scene: Scene, paces: tuple[float, ...]) -> bool:
     """Whether every drive is back where it was after one turn of the first: then going back is going round."""
     return all(pace == 0 if drive.slides else pace == round(pace)
                for drive, pace in zip(scene.drives, paces, strict=True))
@@ -57,7 +57,7 @@ def closes(scene: Scene, paces: tuple[float, ...]) -> bool:
 # ---- memory ----------------------------------------------------------------------------------------------------------
 
 
-UNKNOWN = 16 * 2**30  # bytes, on a system that does not tell how many it has
+DEFAULT_MEMORY = 16 * 2**30  # bytes, on a system that does not tell how many it has
 PREFIXES = ("", "Ki", "Mi", "Gi", "Ti", "Pi", "Ei", "Zi", "Yi")
 
 
@@ -65,7 +65,8 @@ def afford(where: str, count: float, of: str, each: float) -> None:
     """Refuse a count `of` things with `each` so many bytes if they are more than the machine's memory."""
     held = memory()
     if count * each > held:
-        why = f"{count:.6g} {of} ask for {size(count * each)} of memory, and this machine has {size(held)}"
+        asked, here = memory_text(count * each), memory_text(held)
+        why = f"{count:.6g} {of} ask for {asked} of memory, and this machine has {here}"
         raise Refused(where, why, f"at most {held / each:.3g} {of}")
 
 
@@ -74,10 +75,10 @@ def memory() -> int:
     try:
         return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     except (AttributeError, OSError, ValueError):
-        return UNKNOWN
+        return DEFAULT_MEMORY
 
 
-def size(count: float) -> str:
+def memory_text(count: float) -> str:
     """A number of bytes in words, such as 1.85 EiB."""
     place = 0
     while count >= 1024 and place < len(PREFIXES) - 1:

@@ -16,12 +16,12 @@ import numpy as np
 
 from graphplan.cycle.continuation import Continuation, Limit, Path, Progress
 from graphplan.cycle.dyads import Failure
-from graphplan.cycle.groups import Group
-from graphplan.cycle.linkage import Array, Linkage, number, touching
+from graphplan.cycle.groups import ClosureGroup
+from graphplan.cycle.linkage import Array, Linkage, contact_point, number
 from graphplan.cycle.loads import loads_at
-from graphplan.cycle.positions import Moved, Placing, moved
+from graphplan.cycle.positions import MovingLink, PosePlacer, link_rates
 from graphplan.cycle.tolerances import RETURN_TOL
-from graphplan.cycle.travel import check_drives, closes, travels
+from graphplan.cycle.travel import check_drives, drives_return, travels
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.replaced import guides
@@ -57,7 +57,7 @@ class Turn:
         """
         if self.motion is None:
             return {}
-        return loads_at(self.motion.scene, self.travel, self.points, self.guides, self.motion.moved)
+        return loads_at(self.motion.scene, self.travel, self.points, self.guides, self.motion.links_at)
 
 
 def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None,
@@ -69,15 +69,15 @@ def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None
     `compiled`, they are placed by machine code, where numba is installed.
     Fails with :class:`Refused` where no drive leads, and with :class:`SceneError` where the drives leave links loose.
     """
-    motion, travel = followed(scene, positions, span, progress)
+    motion, travel = motion_and_travel(scene, positions, span, progress)
     return motion.turn(travel, compiled)
 
 
-def followed(scene: Scene, positions: int, span: tuple[float, float] | None = None,
-             progress: Progress | None = None) -> tuple[RangeOfMotion, Array]:
+def motion_and_travel(scene: Scene, positions: int, span: tuple[float, float] | None = None,
+                      progress: Progress | None = None) -> tuple[RangeOfMotion, Array]:
     """The scene's motion as far as these poses ask for, and the travels at which they are; as :func:`follow` has it."""
     travel = travels(scene, positions, span)
-    closed = span is None and closes(scene, paces(scene))
+    closed = span is None and drives_return(scene, paces(scene))
     ends = min(0.0, float(travel.min())), TURN if closed else max(0.0, float(travel.max()))
     return RangeOfMotion(scene, *ends, closed, progress), travel
 
@@ -94,18 +94,18 @@ class RangeOfMotion:
     def __init__(self, scene: Scene, lower: float, upper: float, closed: bool, progress: Progress | None = None):
         self.scene, self.closed = scene, closed
         self.linkage = Linkage(scene, paces(scene))
-        self.groups = [Group(self.linkage, part) for part in self.linkage.parts]
+        self.groups = [ClosureGroup(self.linkage, part) for part in self.linkage.parts]
         self._continuation = Continuation(self.linkage, self.groups, lower, upper, progress)
-        self._round = closed and not self.linkage.counted
+        self._round = closed and not self.linkage.counts_angles
         self.path = self._continuation.path(self._round)
 
     @property
-    def whole(self) -> bool:
+    def goes_round(self) -> bool:
         """Whether it leads back to its beginning, and no limit stands in the way."""
         free = self.closed and not (self.path.lower or self.path.upper)
-        return free and (self._round or self.back(float(self.path.travel[-1])))
+        return free and (self._round or self.returns_at(float(self.path.travel[-1])))
 
-    def back(self, travel: float) -> bool:
+    def returns_at(self, travel: float) -> bool:
         """Whether every link is back in its place at a travel that the path reaches."""
         near = int(np.argmin(np.abs(self.path.travel - travel)))
         there = abs(self.path.travel[near] - travel) <= self._continuation.finest
@@ -121,31 +121,31 @@ class RangeOfMotion:
         """The poses at these travels, an array of shape (n,) in any order."""
         scene = self.scene
         moving = {name: guide for name, guide in guides(scene).items() if guide.along != FRAME}
-        course, placing = self._placed(travel, {guide.along for guide in moving.values()}, compiled)
+        course, placing = self._place_poses(travel, {guide.along for guide in moving.values()}, compiled)
         points = {name: placing.points[name] for name in scene.points}
         turns = {name: placing.turns[guide.along] for name, guide in moving.items()}
         ways = {name: number(*guide.direction) * turns[name] for name, guide in moving.items() if guide.through is None}
-        points |= {name: points[at] for name, at in under(scene).items()}
-        points |= {contact.at: touching(scene, contact, points, turns.get(contact.name, 1.0))
+        points |= {name: points[at] for name, at in points_under_slides(scene).items()}
+        points |= {contact.at: contact_point(scene, contact, points, turns.get(contact.name, 1.0))
                    for contact in scene.contacts if not scene.links_of[contact.at]}
-        back = self.closed and self.path.upper is None and self.back(float(self.path.travel[-1]))
+        back = self.closed and self.path.upper is None and self.returns_at(float(self.path.travel[-1]))
         return Turn(travel, points, ways, course.faults(placing.failures), back, self)
 
-    def moved(self, travel: Array) -> dict[str, Moved]:
+    def links_at(self, travel: Array) -> dict[str, MovingLink]:
         """How every link lies and moves at these travels; nan where the pose is not reached."""
-        course, placing = self._placed(travel, self.scene.moving, compiled=False)
-        return moved(self.linkage, self.groups, course.at, placing.points, placing.turns)
+        course, placing = self._place_poses(travel, self.scene.moving, compiled=False)
+        return link_rates(self.linkage, self.groups, course.at, placing.points, placing.turns)
 
-    def _placed(self, travel: Array, turning: Iterable[str], compiled: bool) -> tuple[Course, Placing]:
+    def _place_poses(self, travel: Array, turning: Iterable[str], compiled: bool) -> tuple[Reachability, PosePlacer]:
         """The points, and the turns of some links, at these travels."""
         path = self.path
-        course = Course(self.scene, path, travel, self._round)
-        placing = Placing(self.linkage, self.groups, len(travel), turning)
+        course = Reachability(self.scene, path, travel, self._round)
+        placing = PosePlacer(self.linkage, self.groups, len(travel), turning)
         placing.follow(path, course.at, np.flatnonzero(course.reached & ~course.knots), compiled)
         placing.retry(partial(self._continuation.state, path), course.at)
         knots = np.flatnonzero(course.knots)
-        placing.stand(path.nearest(course.at[knots]), course.at, knots)
-        placing.refuse(course.at, np.flatnonzero(~course.reached))
+        placing.place_states(path.nearest_states(course.at[knots]), course.at, knots)
+        placing.explain_failures(course.at, np.flatnonzero(~course.reached))
         lost = ~course.reached
         for _, at in placing.failures:
             lost[at] = True
@@ -154,7 +154,7 @@ class RangeOfMotion:
         return course, placing
 
 
-def under(scene: Scene) -> dict[str, str]:
+def points_under_slides(scene: Scene) -> dict[str, str]:
     """The points of guides' links that only mark the place under a sliding point, each with that point.
 
     A point is its link's own where another link has it too, where a load, another slide or its direction needs it.
@@ -173,7 +173,7 @@ def under(scene: Scene) -> dict[str, str]:
 # ---- which poses the path leads to -----------------------------------------------------------------------------------
 
 
-class Course:
+class Reachability:
     """Travels sorted by a path: `at` is the travel by which a pose is placed, `reached` whether the path leads there,
     and `knots` whether it is a knot of the path: the given pose, or one at a limit.
 
@@ -207,31 +207,31 @@ class Course:
             which[poses] = len(reasons) - 1
 
         for limit, poses in self.stops:
-            because(stopped(limit.part, limit.change), poses)
+            because(limit_reason(limit.part, limit.change), poses)
         for failure, poses in reversed(failures):
-            because(f"{_links(failure.part)} cannot be assembled: {failure.why}", poses)
-        for limit, beyond in self._beyond():
+            because(f"{_links_text(failure.part)} cannot be assembled: {failure.why}", poses)
+        for limit, beyond in self._unreached_by_limit():
             for k in np.unique(which[beyond]):
-                reason = reasons[k] or f"{_links(limit.part)} cannot come there from the given pose"
-                because(f"{reason} ({limit.kind} near {travel_text(self.scene, self._place(limit), 4)})",
+                reason = reasons[k] or f"{_links_text(limit.part)} cannot come there from the given pose"
+                because(f"{reason} ({limit.kind} near {travel_text(self.scene, self._travel_round(limit), 4)})",
                         beyond & (which == k))
         unit, name = travel_unit(self.scene)
         poses = np.flatnonzero(which)
         at = zip(poses.tolist(), (self.travel[poses] / unit).tolist(), which[poses].tolist(), strict=True)
         return {i: f"at {travel:.6g} {name}: {reasons[k]}" for i, travel, k in at}
 
-    def _place(self, limit: Limit) -> float:
+    def _travel_round(self, limit: Limit) -> float:
         """Where a limit is on the way round."""
         return limit.travel + (self.round if limit.travel < 0 else 0.0)
 
-    def _beyond(self) -> Iterator[tuple[Limit, Array]]:
+    def _unreached_by_limit(self) -> Iterator[tuple[Limit, Array]]:
         """Each limit, with the mask of the poses that are not reached and to which it is the nearest."""
-        apart = np.abs([self._place(limit) - self.travel for limit in self.limits])
+        apart = np.abs([self._travel_round(limit) - self.travel for limit in self.limits])
         for i, limit in enumerate(self.limits):
             yield limit, ~self.reached & (np.argmin(apart, axis=0) == i)
 
 
-def stopped(part: tuple[str, ...], change: bool) -> Said:
+def limit_reason(part: tuple[str, ...], change: bool) -> Said:
     """What is to be said of a part's pose at a limit: a change point or a limit position."""
     first, last = ", ".join(part[:-1]), part[-1]
     if change:
@@ -241,7 +241,7 @@ def stopped(part: tuple[str, ...], change: bool) -> Said:
             else said("link {0} is in a limit position: they have no velocities", last))
 
 
-def _links(names: tuple[str, ...]) -> str:
+def _links_text(names: tuple[str, ...]) -> str:
     """Links in words."""
     *first, last = names
     return f"links {', '.join(first)} and {last}" if first else f"link {last}"
@@ -250,8 +250,8 @@ def _links(names: tuple[str, ...]) -> str:
 # ---- loops: round and round, or there and back between limits --------------------------------------------------------
 
 
-TURNS = 16  # of the first drive, in which gears must be back
-BEFORE = 0.002  # of the way: so far before a limit it turns round, as there are no velocities at the limit itself
+MAX_TURNS = 16  # of the first drive, in which gears must be back
+LIMIT_MARGIN = 0.002  # of the way: so far before a limit it turns round, as there are no velocities at the limit itself
 
 
 @dataclass(frozen=True)
@@ -284,21 +284,21 @@ def range_of_motion(scene: Scene) -> RangeOfMotion:
         far = max(abs(p - q) for p in places for q in places)
         found = RangeOfMotion(scene, -far, far, closed=False)
     else:
-        found = RangeOfMotion(scene, 0.0, TURN, closes(scene, paces(scene)))
-        if found.closed and found.linkage.counted and not (found.whole or found.path.upper):
-            found = _until_back(scene) or found
+        found = RangeOfMotion(scene, 0.0, TURN, drives_return(scene, paces(scene)))
+        if found.closed and found.linkage.counts_angles and not (found.goes_round or found.path.upper):
+            found = _motion_until_return(scene) or found
     return found
 
 
-def _until_back(scene: Scene) -> RangeOfMotion | None:
+def _motion_until_return(scene: Scene) -> RangeOfMotion | None:
     """The motion through the fewest turns after which all is back; none where these are too many, or it stops."""
     most = 1
-    while most < TURNS:
+    while most < MAX_TURNS:
         found, most = RangeOfMotion(scene, 0.0, 2 * most * TURN, closed=True), 2 * most
         if found.path.upper:
             return None
         for count in range(most // 2 + 1, most + 1):
-            if found.back(count * TURN):
+            if found.returns_at(count * TURN):
                 return found if count == most else RangeOfMotion(scene, 0.0, count * TURN, closed=True)
     return None
 
@@ -314,9 +314,9 @@ def loop(scene: Scene, count: int, span: tuple[float, float] | None = None) -> L
     else:
         low, high = sorted(travels(scene, 2, span).tolist())
         motion, ends = RangeOfMotion(scene, min(0.0, low), max(0.0, high), closed=False), (low, high)
-    if motion.whole:
+    if motion.goes_round:
         return Loop(motion.turn(motion.path.travel[-1] * np.arange(count) / count), range(count))
-    low, high = _inside(motion, *ends)
+    low, high = _reachable_span(motion, *ends)
     half = count // 2
     travel = (low + high) / 2 - (high - low) / 2 * np.cos(np.pi * np.arange(half + 1) / max(1, half))
     first = int(np.argmin(np.abs(travel)))
@@ -326,11 +326,11 @@ def loop(scene: Scene, count: int, span: tuple[float, float] | None = None) -> L
     return Loop(motion.turn(travel), back[first:] + back[:first])
 
 
-def _inside(motion: RangeOfMotion, low: float, high: float) -> tuple[float, float]:
+def _reachable_span(motion: RangeOfMotion, low: float, high: float) -> tuple[float, float]:
     """The travels between which it goes: as far as it can within these ends, and not quite to limits."""
     path = motion.path
     least, most = float(path.travel[0]), float(path.travel[-1])
-    spare = BEFORE * (most - least)
+    spare = LIMIT_MARGIN * (most - least)
     low = max(low, least + spare if path.lower else least)
     high = min(high, most - spare if path.upper else most)
     if low >= high:

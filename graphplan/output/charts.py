@@ -20,7 +20,7 @@ from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import GREY, PAPER, Pen
 
 if TYPE_CHECKING:
-    from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, SubChart
+    from graphplan.accuracy.survey.picture import Axis, Chart, ChartSeries, Look, Place, SubChart
 
 SMALL, LABEL = 2.2, 2.8  # letters at the axes, and at series, in mm
 LEFT, RIGHT, ABOVE, BELOW = 16.0, 8.0, 10.0, 13.0  # around a picture: readings and labels
@@ -182,7 +182,7 @@ def _frame(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) ->
     canvas.text((rect.centre[0], rect.bottom - 2.6 - 2 * SMALL), _set(panel.x.label), SMALL, "middle")
 
 
-def _line(canvas: Canvas, series: Series, x: _Scale, y: _Scale) -> None:
+def _line(canvas: Canvas, series: ChartSeries, x: _Scale, y: _Scale) -> None:
     """The line of a series, broken where it goes over a rail, or its stretch of a rail; the spreads of its spots."""
     look = series.look
     for (a, b), ((left, low), (right, high)) in zip(series.spots, series.spreads, strict=bool(series.spreads)):
@@ -219,7 +219,7 @@ def _labels(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) -
         canvas.text((best.left, best.bottom + 0.14 * LABEL), words, LABEL)
 
 
-def _covered(series: Series, x: _Scale, y: _Scale) -> Iterable[tuple[Rect, float]]:
+def _covered(series: ChartSeries, x: _Scale, y: _Scale) -> Iterable[tuple[Rect, float]]:
     """What a series covers, and how bad words are there: its marks, its line, and the spreads of its spots."""
     spots = [(x(a), y(b)) for a, b in series.spots]
     if series.look.marker:

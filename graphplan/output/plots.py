@@ -21,7 +21,7 @@ from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, PAPER, RED, VIOL
 from graphplan.words.tongue import ENGLISH, Tongue
 
 if TYPE_CHECKING:
-    from graphplan.cycle.diagrams import Diagram, Ray, Spot
+    from graphplan.cycle.diagrams import KinematicDiagram, Ray, Spot
 
 HEADING, GAP = 3.5, 10.0  # mm: the letters of a quantity's name; between columns and rows
 LEFT, RIGHT, ABOVE, BELOW = 10.0, 26.0, 13.0, 5.0  # free room left of a pole, for readings, over and under a diagram
@@ -43,7 +43,7 @@ METHODS = {  # what a way to find a curve is called, what its points are, and ho
 }  # fmt: skip
 
 
-def diagrams(drawn: Sequence[Diagram], title: str, tongue: Tongue = ENGLISH) -> str:
+def diagrams(drawn: Sequence[KinematicDiagram], title: str, tongue: Tongue = ENGLISH) -> str:
     """The sheet of these diagrams as SVG text: a column each, and after four columns a new row."""
     rows = [[_Column(one, tongue) for one in drawn[i : i + COLUMNS]] for i in range(0, len(drawn), COLUMNS)]
     breadth = max(sum(column.width + GAP for column in row) for row in rows) - GAP + 2 * MARGIN
@@ -81,7 +81,7 @@ def _draw_row(canvas: Canvas, row: list[_Column], top: float) -> None:
 class _Column:
     """The three diagrams of one quantity, its numbers, table of errors and key."""
 
-    diagram: Diagram
+    diagram: KinematicDiagram
     say: Tongue
 
     @cached_property
@@ -200,7 +200,8 @@ class _Column:
             axes.line([(x, y) for strip, y in ends for x in strip], STEP)
         curve, scales = self.diagram.curve, self.diagram.scales
         for times in self._smooth():
-            axes.line(zip(scales.x(times), scales.y(quantity, curve.at(quantity, times)), strict=True), PLANS[quantity])
+            axes.line(zip(scales.x(times), scales.y(quantity, curve.values_at(quantity, times)), strict=True),
+                      PLANS[quantity])
 
     def _smooth(self) -> Iterable[Any]:
         """The times of each stretch of positions, close enough for a smooth curve."""

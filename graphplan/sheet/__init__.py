@@ -53,9 +53,9 @@ def _laid_out(drawing: Construction, paper: str | None, check: Mapping[str, Any]
 def _compose(drawing: Construction, paper: str | None, check: Mapping[str, Any] | None,
               language: str | None) -> Composition:
     """Where all of it lies, in a language by its code."""
-    from graphplan.cycle.motion_curves import traced
+    from graphplan.cycle.motion_curves import traced_motion
     from graphplan.sheet.layout.composition import compose
     from graphplan.words.tongue import tongue
 
     say = tongue(language) if language else None
-    return compose(drawing, paper, check, say, motion=traced(drawing.scene))
+    return compose(drawing, paper, check, say, motion=traced_motion(drawing.scene))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 import graphplan as gp
-from graphplan.accuracy.drafted import Drafted, drafted
+from graphplan.accuracy.drafted import Drafted, draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
@@ -21,7 +21,7 @@ def drawing_of(name: str) -> Construction:
 
 @cache
 def drafted_of(name: str) -> Drafted:
-    return drafted(drawing_of(name), Pencil())
+    return draft(drawing_of(name), Pencil())
 
 
 def scales_of(drawing: Construction, size: float = 200.0) -> Scales:

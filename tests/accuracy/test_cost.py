@@ -13,11 +13,11 @@ from drawings import drafted_of, drawing_of
 from four_bars import four_bar
 
 import graphplan as gp
-from graphplan.accuracy.drafted import drafted
+from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.check.trusted import report
 from graphplan.commands import main
-from graphplan.cycle.motion_curves import traced
+from graphplan.cycle.motion_curves import traced_motion
 from graphplan.errors import Refused
 from graphplan.kernel import Board
 from graphplan.kernel.lemoine import counts
@@ -68,7 +68,7 @@ def test_steps_tell_cost_and_errors(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["steps", "four-bar", "--json"]) == 0
     data = json.loads(capsys.readouterr().out)
     found = report(gp.load("four-bar"))
-    deviation = drafted(found.drawing, Pencil(), check=found.check).deviations.results["velocity"]["M"]
+    deviation = draft(found.drawing, Pencil(), check=found.check).deviations.results["velocity"]["M"]
     told, worst = data["pencil"]["results"]["velocity"]["M"], data["pencil"]["worst step"]
     assert (told["value"], told["mm"]) == (deviation.value, deviation.mm)
     assert data["cost"]["operations"] == 25
@@ -107,7 +107,7 @@ def test_paper_without_room_for_every_plan_is_refused() -> None:
     line."""
     drawing = gp.construct(gp.load("walschaerts-loaded"), plan="polar")
     with pytest.raises(Refused, match="words and plans do not fit"):
-        drafted(drawing, Pencil(), "A2", protocol=ASIDE)
+        draft(drawing, Pencil(), "A2", protocol=ASIDE)
 
 
 def test_errors_compose_no_sheet_again(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -120,7 +120,7 @@ def test_errors_compose_no_sheet_again(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(composition, "best_composition", counted)
     for name in ("four-bar", "alt-eight-link", "ozols-10-1", "class-four"):
-        found, motion = drafted(drawing_of(name), Pencil()), traced(drawing_of(name).scene)
+        found, motion = draft(drawing_of(name), Pencil()), traced_motion(drawing_of(name).scene)
         often = times.pop(name)
         again = composition.Composer(drawing_of(name), motion=motion).compose(found.deviations)
         assert (again.arrangement, again.scales) == (found.composition.arrangement, found.composition.scales)

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from drawings import SCENES, drafted_of, drawing_of, scales_of
 
-from graphplan.accuracy.drafted import drafted
-from graphplan.accuracy.first_order import HANDS, Result, first_order, sampled
+from graphplan.accuracy.drafted import draft
+from graphplan.accuracy.first_order import HANDS, Result, first_order, sample_hands
 from graphplan.accuracy.hand import Hand, Pencil, hand
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.methods.construction import Construction
@@ -36,7 +36,7 @@ def parts(value: Any) -> tuple[float, ...]:
 def test_first_order_is_how_fine_hands_scatter(name: str) -> None:
     """With a fine pencil every result has the mean and the standard deviation that first order expects."""
     drawing, scales = drawing_of(name), scales_of(drawing_of(name))
-    scatter = sampled(drawing, hand(drawing, scales.lengths_per_mm, SHARP))
+    scatter = sample_hands(drawing, hand(drawing, scales.lengths_per_mm, SHARP))
     values = drawing.read(Floats())
     assert scatter.missed == 0
     for result in expected(drawing, SHARP):
@@ -50,9 +50,9 @@ def test_first_order_is_how_fine_hands_scatter(name: str) -> None:
 
 def test_flat_crossings_are_missed_by_blunt_hands() -> None:
     """Where curves cross too flat for the pencil some hands miss them, and the first order says too much."""
-    flat = drafted(drawing_of("double-butterfly"), Pencil(point=0.2))
+    flat = draft(drawing_of("double-butterfly"), Pencil(point=0.2))
     assert flat.worst is not None
-    scatter = sampled(flat.drawing, flat.hand)
+    scatter = sample_hands(flat.drawing, flat.hand)
     assert 0.1 < scatter.missed < 0.5
     assert scatter.results[flat.worst.kind][flat.worst.of].deviation < 0.8 * flat.worst.deviation.value
 

@@ -26,10 +26,11 @@ DRAFTS = [
 ]
 
 
-def measure(arithmetic: str, time: float | None, error: float | None, scene: str = "shaper") -> machine.Measure:
+def measure(arithmetic: str, time: float | None, error: float | None, scene: str = "shaper") -> machine.MachineMeasure:
     """A made-up measure of a scene."""
     why = "refused" if time is None else ""
-    return machine.Measure(scene, machine.MOTION, "every method", "orthogonal", arithmetic, *[time] * 3, error, why)
+    return machine.MachineMeasure(scene, machine.MOTION, "every method", "orthogonal", arithmetic, *[time] * 3, error,
+                                  why)
 
 
 MEASURES = [measure("one pose", 10.0, 1e-15), measure("fractions", 200.0, 0.0),
@@ -91,9 +92,9 @@ def test_ways_to_draw_are_beside_the_own_form() -> None:
 
 def test_the_exponent_is_that_of_long_chains() -> None:
     """A time that is the square of the number of links is told as such, whatever short chains take."""
-    rows = [growth.Stage(n, 6 * n - 10, stage, float(n * n) if n > 10 else 1e9, 1.0, 1.0)
+    rows = [growth.StageTime(n, 6 * n - 10, stage, float(n * n) if n > 10 else 1e9, 1.0, 1.0)
             for n in (4, 100, 500, 1000) for stage in growth.STAGES]
-    rows.append(growth.Stage(2000, 11990, growth.DRAW, None, why="sheet: words do not fit; a larger one"))
+    rows.append(growth.StageTime(2000, 11990, growth.DRAW, None, why="sheet: words do not fit; a larger one"))
     assert growth.exponent(rows, growth.SOLVE) == pytest.approx(2)
     chart = growth.picture(rows)
     labels = [series.label for series in chart.panels[0].series]

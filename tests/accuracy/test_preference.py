@@ -13,7 +13,7 @@ import pytest
 import graphplan as gp
 from graphplan.accuracy.drafted import Drafted
 from graphplan.accuracy.hand import Pencil
-from graphplan.accuracy.preference import FORMS, Form, forms, preferred, weighed
+from graphplan.accuracy.preference import FORMS, Form, choose_form, forms, preferred_form
 from graphplan.commands import main
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
@@ -54,20 +54,20 @@ def test_every_form_is_drawn_once(drawn: dict[str, Drafted]) -> None:
 
 def test_quick_and_accurate_are_the_best_of_their_kind(found: list[Form], drawn: dict[str, Drafted]) -> None:
     """The quick form has the fewest operations, the accurate one the smallest error; here they are two."""
-    quick, accurate = (drawn[weighed(found, prefer).method] for prefer in ("quick", "accurate"))
+    quick, accurate = (drawn[choose_form(found, prefer).method] for prefer in ("quick", "accurate"))
     assert quick.operations == min(one.operations for one in drawn.values()) < accurate.operations
     assert accurate.error == min(one.error for one in drawn.values()) < quick.error
 
 
 def test_balanced_has_the_smallest_product(found: list[Form], drawn: dict[str, Drafted]) -> None:
     """No form has less of operations times error than the balanced one."""
-    balanced = drawn[weighed(found, "balanced").method]
+    balanced = drawn[choose_form(found, "balanced").method]
     assert balanced.operations * balanced.error == min(one.operations * one.error for one in drawn.values())
 
 
 def test_what_was_weighed_is_told(found: list[Form], drawn: dict[str, Drafted]) -> None:
     """The choice is told with every alternative, its operations and its error, a line each."""
-    head, *others = weighed(found, "quick").told
+    head, *others = choose_form(found, "quick").told
     assert head == "quick form preferred: auxiliary; compared on A2:"
     assert {line.partition(":")[0] for line in others} == {"pose's own, poles", "auxiliary", "trial"}
     assert any(line.startswith("trial") and f"{drawn['trial'].operations} operations" in line for line in others)
@@ -78,7 +78,7 @@ def test_preference_and_method_exclude_each_other(capsys: pytest.CaptureFixture[
     assert main(["draw", "four-bar", "--prefer", "quick", "--method", "trial"]) == 2
     assert capsys.readouterr().err.startswith("--prefer quick: --method trial names the form already")
     with pytest.raises(Refused, match="nothing is weighed so"):
-        preferred(SCENE, "cheap", Pencil())
+        preferred_form(SCENE, "cheap", Pencil())
 
 
 def test_a_form_that_cannot_be_drawn_says_why() -> None:
@@ -86,9 +86,9 @@ def test_a_form_that_cannot_be_drawn_says_why() -> None:
     large = replace(SCENE, sheet=replace(SCENE.sheet, k_s=Fraction(1, 10)))
     refused = forms(large, Pencil(), paper="A4")
     assert {form.name for form in refused} == {"pose's own", "auxiliary", "trial", "poles"}
-    assert all(re.search("cannot be drawn: .* does not fit on A4", form.told) for form in refused)
+    assert all(re.search("cannot be drawn: .* does not fit on A4", form.verdict) for form in refused)
     with pytest.raises(Refused, match="does not fit on A4"):
-        preferred(large, "quick", Pencil(), paper="A4")
+        preferred_form(large, "quick", Pencil(), paper="A4")
 
 
 def test_the_protocol_tells_the_preference(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

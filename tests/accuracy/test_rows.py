@@ -15,7 +15,7 @@ from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.survey import growth
 from graphplan.accuracy.survey.draughtsman import LONG, Draft, drafts
 from graphplan.accuracy.survey.growth import STAGES, chain, stages
-from graphplan.accuracy.survey.machine import FORCES, MOTION, Measure, measures
+from graphplan.accuracy.survey.machine import FORCES, MOTION, MachineMeasure, measures
 from graphplan.accuracy.survey.picture import front, read, stairs, table
 from graphplan.accuracy.survey.problem import ARITHMETICS, COMPILED, LAPACK, SOLVERS, binary, truth
 from graphplan.mechanism.model import Scene
@@ -127,7 +127,7 @@ def test_steps_grow_by_equal_increments() -> None:
 
 def test_a_stage_that_takes_long_is_not_tried_on_longer_chains(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where a stage is too long or refused, it has a reason there and on every longer chain, and no time."""
-    monkeypatch.setattr(growth, "LONGEST", 0.0)
+    monkeypatch.setattr(growth, "MAX_SECONDS", 0.0)
     rows = list(stages((4, 6), rounds=1))
     assert {(row.links, row.stage) for row in rows} == {(links, stage) for links in (4, 6) for stage in STAGES}
     assert all(row.time is None and row.why == "longer than 0 s" for row in rows)
@@ -142,10 +142,10 @@ def test_velocities_neither_die_away_nor_grow_along_a_chain() -> None:
 
 def test_a_table_has_a_line_for_each_row() -> None:
     """A heading of the fields, then the rows; what there is not is empty, and numbers come back as they were."""
-    row = Measure("four-bar", MOTION, "trial, poles", "polar", "floats", 0.1, None, 1 / 3, 0.0, "a, b")
-    lines = list(csv.DictReader(io.StringIO(table(Measure, [row, replace(row, time=None)]))))
+    row = MachineMeasure("four-bar", MOTION, "trial, poles", "polar", "floats", 0.1, None, 1 / 3, 0.0, "a, b")
+    lines = list(csv.DictReader(io.StringIO(table(MachineMeasure, [row, replace(row, time=None)]))))
     assert [line["time"] for line in lines] == ["0.1", ""]
     assert float(lines[0]["high"]) == 1 / 3
     assert (lines[0]["form"], lines[0]["why"]) == ("trial, poles", "a, b")
-    assert read(Measure, table(Measure, [row])) == [row]
+    assert read(MachineMeasure, table(MachineMeasure, [row])) == [row]
     assert len(list(csv.reader(io.StringIO(table(Draft, []))))) == 1

@@ -13,9 +13,9 @@ from functools import cache, partial
 from harness import ROUNDS, Measured, Row, Target, alternate, compared, peer
 from problems import SCENES, N, problem, run
 
-from graphplan.accuracy.survey.machine import Measure
+from graphplan.accuracy.survey.machine import MachineMeasure
 from graphplan.accuracy.survey.picture import spent
-from graphplan.accuracy.survey.problem import ARITHMETICS, COMPILED, LAPACK, MANY, SOLVERS, Problem, Run
+from graphplan.accuracy.survey.problem import ARITHMETICS, COMPILED, LAPACK, MANY, SOLVERS, Problem, TimedRun
 from graphplan.methods.construct import construct
 
 HAND, JAX = "numba by hand", "JAX"
@@ -49,9 +49,9 @@ def measured(name: str, n: int = N, rounds: int = ROUNDS) -> Measured:
     return Measured(alternate({who: run.call for who, run in runs.items()}, rounds), errors)
 
 
-def runners(name: str) -> dict[str, Callable[[Problem], Run]]:
+def runners(name: str) -> dict[str, Callable[[Problem], TimedRun]]:
     """Everything that solves a packaged scene: what is not installed is not among them."""
-    runs: dict[str, Callable[[Problem], Run]] = {LAPACK: SOLVERS[LAPACK], MANY: partial(_ours, MANY)}
+    runs: dict[str, Callable[[Problem], TimedRun]] = {LAPACK: SOLVERS[LAPACK], MANY: partial(_ours, MANY)}
     if (loops := peer("by_hand_numba")) is not None:
         runs[COMPILED] = partial(_ours, COMPILED)
         if name in WRITTEN:
@@ -65,11 +65,11 @@ def runners(name: str) -> dict[str, Callable[[Problem], Run]]:
     return runs
 
 
-def _ours(arithmetic: str, of: Problem) -> Run:
+def _ours(arithmetic: str, of: Problem) -> TimedRun:
     return ARITHMETICS[arithmetic](of, construct(of.scene))
 
 
-def _faster(way: Callable[[Problem, bool], Run], of: Problem) -> Run:
+def _faster(way: Callable[[Problem, bool], TimedRun], of: Problem) -> TimedRun:
     """Of the two ways in which CasADi solves the one that is faster on this problem."""
     ways = [way(of, expanded) for expanded in (True, False)]
     for one in ways:
@@ -77,12 +77,12 @@ def _faster(way: Callable[[Problem, bool], Run], of: Problem) -> Run:
     return min(ways, key=lambda one: spent(one.call))
 
 
-def _by_hand(loop: Callable[..., tuple[object, object]], of: Problem) -> Run:
+def _by_hand(loop: Callable[..., tuple[object, object]], of: Problem) -> TimedRun:
     """A loop of numba's, which gives two arrays."""
     return run(of, lambda: loop(*of.points.values()), lambda found, k: [*found[0][:, k], *found[1][:, k]])
 
 
-def measures() -> Iterator[Measure]:
+def measures() -> Iterator[MachineMeasure]:
     """The rivals' rows for the chart of the machine."""
     for name in SCENES:
         yield from measured(name).beside(LAPACK, name, {who: who for who in (HAND, CASADI, FUNCTION_MAP, JAX)})

@@ -21,7 +21,7 @@ import casadi
 import numpy as np
 from problems import KINDS, equations, run
 
-from graphplan.accuracy.survey.problem import Problem, Run
+from graphplan.accuracy.survey.problem import Problem, TimedRun
 from graphplan.solver.rates import read
 
 COMPILER = os.environ.get("CC") or next(filter(shutil.which, ("cc", "gcc", "clang")), "")
@@ -44,7 +44,7 @@ void many(long long n, const double *given, double *found) {{
 """
 
 
-def compiled(problem: Problem, expanded: bool) -> Run:
+def compiled(problem: Problem, expanded: bool) -> TimedRun:
     """A run of the generated C; fails where there is no compiler."""
     many, given = _many(problem, expanded), _given(problem)
     found = np.empty(given.shape[0] * 2 * given.shape[1])
@@ -56,7 +56,7 @@ def compiled(problem: Problem, expanded: bool) -> Run:
     return run(problem, call, lambda found, k: found[k])
 
 
-def mapped(problem: Problem, expanded: bool) -> Run:
+def mapped(problem: Problem, expanded: bool) -> TimedRun:
     """A run of CasADi's own map of the function over all poses, which no compiler is needed for."""
     many, given = rates(problem, expanded).map(problem.n), casadi.DM(_given(problem).T)
     return run(problem, lambda: many(given), lambda found, k: np.array(found[:, k]).ravel().view(complex))

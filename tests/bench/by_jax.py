@@ -10,13 +10,13 @@ from jax import numpy as jnp
 from jax.scipy.linalg import lu_factor, lu_solve
 from problems import KINDS, equations, run
 
-from graphplan.accuracy.survey.problem import Problem, Run
+from graphplan.accuracy.survey.problem import Problem, TimedRun
 from graphplan.solver.rates import read
 
 jax.config.update("jax_enable_x64", True)
 
 
-def many_poses(problem: Problem) -> Run:
+def many_poses(problem: Problem) -> TimedRun:
     """A run of the compiled function; the coordinates are where JAX wants them."""
     names = list(problem.points)
 

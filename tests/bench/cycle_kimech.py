@@ -16,7 +16,7 @@ import numpy as np
 from harness import Measured, Row, Target, alternate, compared, peer
 
 import graphplan as gp
-from graphplan.accuracy.survey.machine import Measure
+from graphplan.accuracy.survey.machine import MachineMeasure
 from graphplan.accuracy.survey.problem import LAPACK, SOLVERS, Problem
 from graphplan.cycle import follow
 
@@ -60,7 +60,7 @@ def measured() -> Measured:
     return Measured(times, errors)
 
 
-def measures() -> Iterator[Measure]:
+def measures() -> Iterator[MachineMeasure]:
     """Its row for the chart of the machine."""
     return measured().beside(LAPACK, SCENE, {"kimech": "kimech, with positions"})
 

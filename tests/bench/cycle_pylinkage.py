@@ -12,7 +12,7 @@ import numpy as np
 from harness import Measured, Row, Target, alternate, compared, peer
 
 import graphplan as gp
-from graphplan.accuracy.survey.machine import Measure
+from graphplan.accuracy.survey.machine import MachineMeasure
 from graphplan.accuracy.survey.problem import LAPACK, SOLVERS, Problem
 from graphplan.cycle import follow
 
@@ -46,7 +46,7 @@ def measured() -> Measured:
     return Measured(alternate(runs), {name: exact.error(values, truth) for name, values in found.items()})
 
 
-def measures() -> Iterator[Measure]:
+def measures() -> Iterator[MachineMeasure]:
     """Its row for the chart of the machine."""
     return measured().beside(LAPACK, SCENE, {"pylinkage": "pylinkage, with positions"})
 

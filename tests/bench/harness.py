@@ -9,8 +9,8 @@ from statistics import median, quantiles
 from types import ModuleType
 from typing import Literal
 
-from graphplan.accuracy.survey.machine import MOTION, Measure
-from graphplan.accuracy.survey.picture import alternated, spread
+from graphplan.accuracy.survey.machine import MOTION, MachineMeasure
+from graphplan.accuracy.survey.picture import alternate_runs, spread
 
 ROUNDS = 9
 LONG_ENOUGH = 0.02  # seconds: shorter runs are repeated within one measurement
@@ -31,7 +31,7 @@ def peer(name: str) -> ModuleType | None:
 
 def alternate(runs: Mapping[str, Callable[[], object]], rounds: int = ROUNDS) -> Times:
     """The seconds of each run in each round; they take turns, so that what else the machine does hits all alike."""
-    return alternated(runs, rounds, LONG_ENOUGH)
+    return alternate_runs(runs, rounds, LONG_ENOUGH)
 
 
 @dataclass(frozen=True)
@@ -78,12 +78,12 @@ class Measured:
     times: Times
     errors: dict[str, float]
 
-    def beside(self, unit: str, scene: str, names: Mapping[str, str]) -> Iterator[Measure]:
+    def beside(self, unit: str, scene: str, names: Mapping[str, str]) -> Iterator[MachineMeasure]:
         """Some runs of a scene's motion as rows of the chart of the machine, each by the name that it has there."""
         for run, name in names.items():
             if run in self.times:
                 low, middle, high = spread([a / b for a, b in zip(self.times[run], self.times[unit], strict=True)])
-                yield Measure(scene, MOTION, "", "", name, middle, low, high, self.errors[run])
+                yield MachineMeasure(scene, MOTION, "", "", name, middle, low, high, self.errors[run])
 
 
 def compared(figure: str, rival: str, target: Target, times: Times, *, ours: str = "ours", over: int = 1,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import graphplan as gp
-from graphplan.accuracy.survey.problem import Problem, Run
+from graphplan.accuracy.survey.problem import Problem, TimedRun
 from graphplan.mechanism.model import Scene
 from graphplan.solver import poses
 from graphplan.solver.equations import Equations, moved
@@ -54,7 +54,7 @@ def equations(scene: Scene, places: Mapping[str, Any], root: Callable[[Any], Any
     return moved(floats.posed(everywhere, direction), root)
 
 
-def run(problem: Problem, call: Callable[[], Any], pose: Callable[[Any, int], Any]) -> Run:
+def run(problem: Problem, call: Callable[[], Any], pose: Callable[[Any, int], Any]) -> TimedRun:
     """A rival's run; `pose` gives of what was called the velocities and then the accelerations in one pose, complex
     numbers in the order of the points."""
     def read(found: Any, j: int) -> dict[str, dict[str, tuple[float, float]]]:
@@ -62,4 +62,4 @@ def run(problem: Problem, call: Callable[[], Any], pose: Callable[[Any, int], An
         return {kind: {name: (z.real, z.imag) for name, z in zip(problem.points, numbers, strict=False)}
                 for kind in KINDS}
 
-    return Run(call, problem.n, read)
+    return TimedRun(call, problem.n, read)

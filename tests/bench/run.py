@@ -38,10 +38,10 @@ def main() -> None:
 
 def rivals() -> str:
     """The other programs as rows of the chart of the machine, as they were measured."""
-    from graphplan.accuracy.survey.machine import Measure
+    from graphplan.accuracy.survey.machine import MachineMeasure
     from graphplan.accuracy.survey.picture import table
 
-    return table(Measure, [row for figure in RIVALS for row in import_module(figure).measures()])
+    return table(MachineMeasure, [row for figure in RIVALS for row in import_module(figure).measures()])
 
 
 def measured(figures: tuple[str, ...]) -> str:

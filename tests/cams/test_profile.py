@@ -14,7 +14,7 @@ from graphplan.cams.construction import drawn
 from graphplan.cams.pose import scene_text
 from graphplan.cams.profile import Cam, made
 from graphplan.cams.task import parse
-from graphplan.check.cams import checked
+from graphplan.check.cams import check_cam
 from graphplan.errors import SceneError
 from graphplan.kernel.tolerances import FORM_TOL
 from graphplan.mechanism.scene import parse as scene_of
@@ -42,7 +42,7 @@ def cam(name: str, turns: str) -> Cam:
 @pytest.mark.parametrize(("name", "turns"), EVERYWHERE)
 def test_second_opinions_agree(name: str, turns: str) -> None:
     """The drawn inversion, the contact formula, curvature and law by numbers, and the solver agree."""
-    found = checked(drawn(cam(name, turns)))
+    found = check_cam(drawn(cam(name, turns)))
     assert max(found["points"], found["motion"]) < 1e-12
     assert max(found["curvature"], found["law"]) < 1e-6
 

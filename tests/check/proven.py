@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from graphplan.check.report import Report, by_part
+from graphplan.check.report import Report, rates_by_kind
 from graphplan.mechanism.model import Scene
 from graphplan.solver import reactions, solve
 
@@ -16,7 +16,7 @@ def lies(found: Report, scene: Scene) -> list[str]:
 
 
 def _lies(found: Report, scene: Scene) -> Iterator[str]:
-    truth = by_part(solve(scene, exact=True), found.results)
+    truth = rates_by_kind(solve(scene, exact=True), found.results)
     if scene.loads is not None:
         from graphplan.check.forces import force_truth
 

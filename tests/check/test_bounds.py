@@ -14,7 +14,7 @@ from proven import lies
 
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES, WAYS, Degeneracy
 from graphplan.check import trusted
-from graphplan.check.json_results import data
+from graphplan.check.json_results import result_data
 from graphplan.check.trusted import report
 from graphplan.commands import main
 from graphplan.errors import ConstructionError, SingularPose
@@ -134,7 +134,7 @@ def test_near_a_special_pose_every_number_is_right_to_its_bound(degeneracy: Dege
     """Towards each special pose every way gives nine digits that are right, or is told that it cannot be drawn; ways
     take distances in turn."""
     for distance in DISTANCES[first % 2 :: 2]:
-        scene = degeneracy.at(distance)
+        scene = degeneracy.scene_at(distance)
         try:
             found = report(scene, **WAYS.get(way, {}))
         except (SingularPose, ConstructionError):
@@ -282,6 +282,6 @@ def test_a_singular_pose_is_singular_in_every_arithmetic(capsys: pytest.CaptureF
 def test_slidings_far_from_their_pairs_are_printed_from_enclosures() -> None:
     """Where floats lose the digits of a sliding its bound is a number like any other."""
     text = (Path(__file__).parents[1] / "faults" / "04-wrong.toml").read_text().replace("[-20, 19]", "[1e9, 19]")
-    found = json.loads(json.dumps(data(report(parse(text, "far")))))
+    found = json.loads(json.dumps(result_data(report(parse(text, "far")))))
     assert found["arithmetic"] != "floats"
     assert 0 < found["bounds"]["acceleration"] < 1e-9

@@ -15,7 +15,7 @@ from four_bars import four_bar
 
 import graphplan as gp
 from graphplan.check import trusted as checking
-from graphplan.check.poses import checked
+from graphplan.check.poses import points_where_sound
 from graphplan.check.trusted import report
 from graphplan.commands import main
 from graphplan.errors import Undrawable
@@ -170,7 +170,7 @@ def test_a_page_shows_no_pose_that_the_solver_does_not_confirm(monkeypatch: pyte
     """Of the poses of a turn those are left out in which the replayed construction differs from the solver."""
     drawing = gp.construct(gp.load("four-bar"))
     turn = gp.cycle.follow(drawing.scene, 12)
-    assert all(np.isfinite(z).all() for z in checked(drawing, turn.points, turn.guides).values())
+    assert all(np.isfinite(z).all() for z in points_where_sound(drawing, turn.points, turn.guides).values())
     real = Construction.evaluate
 
     def spoilt_in_one_pose(self: Construction, *where: Any, **how: Any) -> Any:
@@ -179,5 +179,5 @@ def test_a_page_shows_no_pose_that_the_solver_does_not_confirm(monkeypatch: pyte
         return found
 
     monkeypatch.setattr(Construction, "evaluate", spoilt_in_one_pose)
-    for z in checked(drawing, turn.points, turn.guides).values():
+    for z in points_where_sound(drawing, turn.points, turn.guides).values():
         assert np.flatnonzero(np.isnan(z)).tolist() == [5]

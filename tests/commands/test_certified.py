@@ -13,7 +13,7 @@ import pytest
 from command_line import run
 from four_bars import four_bar
 
-from graphplan.check.certified import certified
+from graphplan.check.certified import certify
 from graphplan.check.trusted import report
 from graphplan.errors import Refused
 from graphplan.kernel import TABLE
@@ -83,8 +83,8 @@ def test_packaged_scenes_are_certified(name: str) -> None:
     digits = 15 if any("its value in this pose" in why for why in scene.irrational) else 30
     if digits < 30:
         with pytest.raises(Refused, match="to the digits of a float"):
-            certified(scene, 30)
-    found, rounded = certified(scene, digits), report(scene).results
+            certify(scene, 30)
+    found, rounded = certify(scene, digits), report(scene).results
     assert found.agrees
     assert all(Fraction(gap) <= Fraction(1, 10**digits) for gap in found.data["check"].values())
     for kinds in ALIKE:
@@ -112,7 +112,7 @@ def test_sixty_digits_by_hand() -> None:
         ux, uy = 120 * along + 40 * across, 120 * across - 40 * along
         wx, wy, crank = ux - 120, uy + 40, 95 * PI / 30
         omega = crank * (30 * uy - 40 * ux) / (wx * uy - wy * ux)
-        found = certified(parse(FOUR_BAR, "four-bar"), 60).data
+        found = certify(parse(FOUR_BAR, "four-bar"), 60).data
         told = [Decimal(x) for x in (found["links"]["3"]["omega"], *found["points"]["B"]["velocity"])]
         for ours, truth in zip(told, (omega, -wy * omega, wx * omega), strict=True):
             assert len(ours.as_tuple().digits) == 60
@@ -121,9 +121,9 @@ def test_sixty_digits_by_hand() -> None:
 
 def test_precision_is_raised_until_the_digits_are_there() -> None:
     """Bars that are parallel to 1e-40, in a pose of irrational coordinates, get their 30 digits from more bits."""
-    found = certified(parse(NEARLY, "nearly"), 30)
+    found = certify(parse(NEARLY, "nearly"), 30)
     assert found.agrees
-    assert found.bits > certified(parse(FOUR_BAR, "four-bar"), 30).bits
+    assert found.bits > certify(parse(FOUR_BAR, "four-bar"), 30).bits
     assert float(found.data["links"]["3"]["omega"]) > 1e40
     assert all(len(Decimal(x).as_tuple().digits) == 30 for x in found.data["points"]["B"]["velocity"])
     assert "method" not in found.data  # no pencil could draw it
@@ -162,7 +162,7 @@ def test_a_rule_that_is_wrong_in_the_25th_digit_is_caught(name: str, op: str, mo
         return first + (first + first * first) * Fraction(1, 10**25), *others  # no affine map: statics would not see it
 
     monkeypatch.setitem(TABLE, op, replace(TABLE[op], rule=off))
-    found = certified(load(name), 30)
+    found = certify(load(name), 30)
     assert not found.agrees
     assert max(float(gap) for gap in found.data["check"].values()) > 1e-29
 
@@ -170,7 +170,7 @@ def test_a_rule_that_is_wrong_in_the_25th_digit_is_caught(name: str, op: str, mo
 @pytest.mark.parametrize("direction", ["25", '"O A"'])
 def test_directions_are_as_written(direction: str) -> None:
     """An actuator along an angle, or towards a polar point, moves by the cosine and sine of the exact degrees."""
-    found = certified(parse(ACTUATOR.replace("direction = 25", f"direction = {direction}"), "actuator"), 40).data
+    found = certify(parse(ACTUATOR.replace("direction = 25", f"direction = {direction}"), "actuator"), 40).data
     with localcontext() as context:
         context.prec = 60
         c, s = (Decimal(text) / 3 for text in found["points"]["A"]["velocity"])
@@ -182,7 +182,7 @@ def test_directions_are_as_written(direction: str) -> None:
 @pytest.mark.parametrize(("plan", "inertia"), [("polar", "couple"), ("lever", "points"), ("polygons", "shifted")])
 def test_every_way_of_drawing_is_certified(plan: str, inertia: str) -> None:
     """Whatever plans draw it, the printed digits of a loaded mechanism are the same."""
-    plain, other = (certified(load("ozols-10-1"), 30, plan=p, inertia=i).data
+    plain, other = (certify(load("ozols-10-1"), 30, plan=p, inertia=i).data
                     for p, i in (("orthogonal", "couple"), (plan, inertia)))
     assert other["balance"] == plain["balance"]
     assert other["points"] == plain["points"]
@@ -198,13 +198,13 @@ def rough(scene: Scene) -> Scene:
 def test_friction_has_an_opinion_of_its_own() -> None:
     """Slides that rub, and a balance along an angle: the drawn round and the efficiency have 30 proven digits."""
     scene = rough(load("ozols-9-1"))
-    found, rounded = certified(scene, 30), report(scene)
+    found, rounded = certify(scene, 30), report(scene)
     assert found.agrees
     assert rounded.forces is not None
     told = found.data["friction"]
     assert float(told["efficiency"]) == pytest.approx(rounded.forces.efficiency, rel=1e-12)
     assert "stands" not in told
-    assert certified(parse(FOUR_BAR + LOADS, "loaded"), 30).agrees
+    assert certify(parse(FOUR_BAR + LOADS, "loaded"), 30).agrees
 
 
 def test_solve_prints_decimal_strings(capsys: pytest.CaptureFixture[str]) -> None:
@@ -224,7 +224,7 @@ def test_thousands_of_digits(capsys: pytest.CaptureFixture[str]) -> None:
     """Ten thousand digits are no other matter than thirty."""
     assert run("solve", "ozols-5-5", "--digits", "10000") == 0
     velocity = json.loads(capsys.readouterr().out)["points"]["B"]["velocity"][0]
-    thirty = certified(load("ozols-5-5"), 30).data["points"]["B"]["velocity"][0]
+    thirty = certify(load("ozols-5-5"), 30).data["points"]["B"]["velocity"][0]
     assert len(Decimal(velocity).as_tuple().digits) == 10000
     assert velocity.startswith(thirty[:-1])
 
@@ -255,4 +255,4 @@ def test_arcs_that_only_rounding_lets_touch() -> None:
     touching = FOUR_BAR.replace("{ A = 110, C = 90 }", "{ A0 = 60, C = 60 }").replace(
         "A = [30, 40]", 'A = [30, 40]\nA0 = { from = "C", distance = 120, angle = 31 }')
     with pytest.raises(Refused, match="arcs of its points meet cannot be told"):
-        certified(parse(touching, "touching"), 30)
+        certify(parse(touching, "touching"), 30)

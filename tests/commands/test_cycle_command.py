@@ -14,7 +14,7 @@ import pytest
 from packaged_scenes import those
 
 import graphplan as gp
-from graphplan.check.cycle import asking, curves, cycle, quantities
+from graphplan.check.cycle import curves, cycle, quantities, scene_asking_for
 from graphplan.commands import main
 from graphplan.methods.construction import Construction
 
@@ -114,7 +114,7 @@ def test_curves_are_their_own_rates(name: str, of: str) -> None:
     """Displacement, velocity and acceleration of a curve are derivatives of each other, to the step's square."""
     scene = gp.load(name)
     wanted = quantities(scene, [of])
-    (curve,) = curves(cycle(asking(scene, wanted), 720), wanted)
+    (curve,) = curves(cycle(scene_asking_for(scene, wanted), 720), wanted)
     for below, above in (curve.s, curve.v), (curve.v, curve.a):
         slope = (below[2:] - below[:-2]) / (curve.time[2:] - curve.time[:-2])
         assert np.abs(slope - above[1:-1]).max() <= 2e-3 * np.abs(above).max()
@@ -125,7 +125,7 @@ def test_a_drive_that_runs_back_gives_the_same_curve_backwards() -> None:
     scene = gp.load("slider-crank")
     back = scene.with_drives([replace(scene.drives[0], rate=-10)])
     wanted = quantities(back, ["3 along frame"])
-    (curve,) = curves(cycle(asking(back, wanted), 90), wanted)
+    (curve,) = curves(cycle(scene_asking_for(back, wanted), 90), wanted)
     assert (np.diff(curve.time) > 0).all()
     slope = np.gradient(curve.s, curve.time)
     assert np.abs(slope - curve.v)[1:-1].max() <= 0.01 * np.abs(curve.v).max()

@@ -13,7 +13,7 @@ from zipfile import ZipFile
 import pytest
 
 import graphplan as gp
-from graphplan.accuracy.drafted import Drafted, drafted
+from graphplan.accuracy.drafted import Drafted, draft
 from graphplan.accuracy.hand import pencil
 from graphplan.check.trusted import report
 from graphplan.commands import main, parser
@@ -30,7 +30,7 @@ BOTH = "jaanimets-10", "rosenauer-basic"
 def on_sheet(scene: str) -> Drafted:
     """A packaged scene on its sheet."""
     found = report(gp.load(scene))
-    return drafted(found.drawing, pencil(""), check=found.check)
+    return draft(found.drawing, pencil(""), check=found.check)
 
 
 @pytest.mark.parametrize(("name", "scene"), list(zip(FORMATS, cycle(BOTH), strict=False)))

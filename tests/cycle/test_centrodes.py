@@ -13,7 +13,7 @@ from packaged_scenes import those
 
 import graphplan as gp
 from graphplan.commands import main
-from graphplan.cycle.motion_curves import branches, centrodes, traced
+from graphplan.cycle.motion_curves import centrode_branches, centrodes, traced_motion
 from graphplan.cycle.turn import RangeOfMotion, whole_motion
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Scene
@@ -58,7 +58,7 @@ def test_rates_are_those_of_the_poses(name: str) -> None:
     """How links move is how they lie a little later and a little earlier, off the limits."""
     motion = whole_motion(gp.load(name))
     travel, reach = inner(motion), motion.linkage.reach
-    rates, before, after = (motion.moved(travel + step) for step in (0.0, -STEP, STEP))
+    rates, before, after = (motion.links_at(travel + step) for step in (0.0, -STEP, STEP))
     for link, moved in rates.items():
         velocity = (after[link].base - before[link].base) / (2 * STEP)
         spin = np.angle(after[link].turn / before[link].turn) / (2 * STEP)
@@ -71,9 +71,9 @@ def test_centrodes_roll_on_each_other() -> None:
     """In every pose both lie in the pole, and go on from there alike: they touch, and do not slip."""
     motion = whole_motion(gp.load("four-bar"))
     travel = inner(motion, 360)
-    links = motion.moved(travel)
+    links = motion.links_at(travel)
     for link, on in (("2", FRAME), ("3", "1"), ("1", "3")):
-        found, before, after = (centrodes(motion.moved(travel + step), link, on) for step in (0.0, -STEP, STEP))
+        found, before, after = (centrodes(motion.links_at(travel + step), link, on) for step in (0.0, -STEP, STEP))
         one, other = links[link], links[on]
         pole = one.base + (found.moving - one.origin) * one.turn
         near = np.abs(pole) < 1e3
@@ -89,7 +89,7 @@ def test_a_bar_on_two_guides_has_cardan_circles() -> None:
     """A bar whose ends slide on two guides square to each other rolls with a circle over it in one of twice the size.
     """
     motion = RangeOfMotion(gp.parse(TRAMMEL, "trammel"), -0.9, 0.6, closed=False)
-    found = centrodes(motion.moved(np.linspace(-0.9, 0.6, 31)), "2", FRAME)
+    found = centrodes(motion.links_at(np.linspace(-0.9, 0.6, 31)), "2", FRAME)
     assert np.abs(np.abs(found.fixed) - 50).max() < 1e-12 * 50
     assert np.abs(np.abs(found.moving - (15 + 20j)) - 25).max() < 1e-12 * 50
 
@@ -98,7 +98,7 @@ def test_branches_are_not_joined_through_infinity() -> None:
     """A coupler that twice turns as the frame does has centrodes of two branches, whose spots are as near as chords."""
     motion = whole_motion(gp.load("four-bar"))
     travel = np.linspace(0, 2 * math.pi, 721)
-    fixed, moving = branches(motion, "2", FRAME, travel, 0j, 1000.0) or ([], [])
+    fixed, moving = centrode_branches(motion, "2", FRAME, travel, 0j, 1000.0) or ([], [])
     assert (len(fixed), len(moving)) == (3, 3)  # one of them is cut where the travel begins
     for part in (*fixed, *moving):
         assert np.abs(np.diff(part)).max() <= 1000 / 256
@@ -114,12 +114,12 @@ def shown(name: str, *links: str) -> Scene:
 def test_links_that_turn_alike_have_no_centrodes() -> None:
     """A block on the frame has its pole at infinity in every pose: that is said, and nothing drawn."""
     with pytest.raises(Refused, match="links 3 and frame turn alike: their pole stays at infinity"):
-        traced(shown("slider-crank", "3 frame"))
+        traced_motion(shown("slider-crank", "3 frame"))
 
 
 def test_a_pin_is_a_centrode_of_one_spot() -> None:
     """The pole of two links with a joint stays in it, on either."""
-    found = traced(shown("four-bar", "3 2"))
+    found = traced_motion(shown("four-bar", "3 2"))
     assert found
     for one in found.centrodes:
         ((spot,),) = one.branches

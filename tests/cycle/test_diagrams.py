@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 from graphplan import construct, load
-from graphplan.cycle.curves import Curve, passed
-from graphplan.cycle.diagrams import Diagram, Found, axes, by_chords, by_tangents, diagram, integrate
+from graphplan.cycle.curves import KinematicCurve, curve_over_travel
+from graphplan.cycle.diagrams import FoundCurve, KinematicDiagram, axes, by_chords, by_tangents, diagram, integrate
 from graphplan.errors import Refused
 from graphplan.kernel import Board, Mark
 from graphplan.kernel.numbers import Fractions
@@ -26,7 +26,7 @@ from graphplan.kernel.program import evaluate
 from graphplan.output import plots
 
 HO = Fraction(25)
-CHORDS, TANGENTS = Found("v", "by chords"), Found("v", "by tangents")
+CHORDS, TANGENTS = FoundCurve("v", "by chords"), FoundCurve("v", "by tangents")
 
 
 def marked(board: Board, spots: list[tuple[Fraction, Fraction]]) -> list[Mark]:
@@ -47,14 +47,14 @@ def scattered(r: Random) -> list[tuple[Fraction, Fraction]]:
     return [(Fraction(x, 3), Fraction(r.randint(-50, 50), 7)) for x in xs]
 
 
-def polynomial(power: int, positions: int = 48) -> Curve:
+def polynomial(power: int, positions: int = 48) -> KinematicCurve:
     """s = t^power over three seconds."""
     t = np.linspace(0, 3, positions + 1)
-    return Curve("x_B", "mm", t, t, t**power, power * t ** (power - 1), power * (power - 1) * t ** (power - 2))
+    return KinematicCurve("x_B", "mm", t, t, t**power, power * t ** (power - 1), power * (power - 1) * t ** (power - 2))
 
 
 @cache
-def crank(positions: int = 96) -> Curve:
+def crank(positions: int = 96) -> KinematicCurve:
     """The piston of the packaged slider-crank over one turn, its rates from the replayed plans."""
     scene = load("slider-crank")
     O, A, B, S = (complex(*map(float, scene.points[name])) for name in "OABS")
@@ -62,7 +62,8 @@ def crank(positions: int = 96) -> Curve:
     a = (A - O) * np.exp(1j * turn)
     b = a.real + np.sqrt(abs(B - A) ** 2 - a.imag**2)
     poses = construct(scene).evaluate(points={"A": a, "B": b + 0j, "S": a + (b - a) * ((S - A) / (B - A))})
-    return Curve("x_B", "mm", turn, turn / 10, b, poses.velocity["B"].real, poses.acceleration["B"].real, closed=True)
+    return KinematicCurve("x_B", "mm", turn, turn / 10, b, poses.velocity["B"].real, poses.acceleration["B"].real,
+                          closed=True)
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -115,7 +116,7 @@ def test_the_scales_agree() -> None:
     assert all(30 <= np.ptp(scales.y(quantity, crank().values(quantity))) <= 62 for quantity in "sva")
 
 
-def error(drawn: Diagram, found: Found) -> Any:
+def error(drawn: KinematicDiagram, found: FoundCurve) -> Any:
     """The error of one curve found."""
     return next(error for error in drawn.errors if error.found == found)
 
@@ -143,15 +144,16 @@ def test_all_is_of_the_second_order_around_a_cycle() -> None:
     assert len(drawn.errors) == 6
     assert all(1.9 < of.order < 2.1 for of in drawn.errors if of.order is not None)
     assert 3.5 < error(drawn, TANGENTS).rms / error(drawn, CHORDS).rms < 4.5
-    assert error(drawn, Found("a", "by chords")).largest < 0.02
+    assert error(drawn, FoundCurve("a", "by chords")).largest < 0.02
 
 
 def test_a_period_closes() -> None:
     """Around a turn rates are found at both ends and are equal there, also for a link that turns all the way round."""
     turn = np.linspace(0, 2 * np.pi, 49)
-    psi = Curve("psi_2", "rad", turn, turn, turn + np.sin(turn) / 3, 1 + np.cos(turn) / 3, -np.sin(turn) / 3, True)
+    psi = KinematicCurve("psi_2", "rad", turn, turn, turn + np.sin(turn) / 3, 1 + np.cos(turn) / 3, -np.sin(turn) / 3,
+                         True)
     drawn = diagram(psi)
-    for found in (TANGENTS, Found("a", "by chords"), Found("a", "by tangents")):
+    for found in (TANGENTS, FoundCurve("a", "by chords"), FoundCurve("a", "by tangents")):
         [points] = drawn.points(found)
         assert len(points) == 25
         assert points[0] == pytest.approx((0, points[-1][1]), rel=1e-9, abs=1e-9)
@@ -163,7 +165,7 @@ def test_a_followed_turn_is_closed(rate: float) -> None:
     travel, way = np.arange(48) * (2 * np.pi / 48), np.sign(rate)
     psi = np.angle(np.exp(1j * way * (travel + np.sin(travel) / 3)))
     v, a = rate * (1 + np.cos(travel) / 3), -way * rate**2 * np.sin(travel) / 3
-    curve = passed("psi_2", "rad", travel, rate, psi, v, a, period=2 * np.pi)
+    curve = curve_over_travel("psi_2", "rad", travel, rate, psi, v, a, period=2 * np.pi)
     assert curve.closed
     assert len(curve.time) == 49
     assert curve.s[-1] - curve.s[0] == pytest.approx(np.copysign(2 * np.pi, rate))
@@ -181,18 +183,19 @@ def test_gaps_are_never_bridged(lost: range) -> None:
     for found, parts in drawn.traces.items():
         for ray in (ray for part in parts for ray in part):
             between = (whole.time > drawn.scales.time(ray.start[0])) & (whole.time < drawn.scales.time(ray.end[0]))
-            assert curve.known[between].all(), found
+            assert curve.is_known[between].all(), found
     assert all(np.isfinite(spot).all() for found in drawn.traces for part in drawn.points(found) for spot in part)
-    assert np.isnan(curve.at("v", whole.time[list(lost)])).all()
-    for (x, y), *_ in drawn.points(Found("s", "integrated")):
-        assert y == pytest.approx(drawn.scales.y("s", curve.at("s", drawn.scales.time([x])))[0], rel=1e-12, abs=1e-12)
+    assert np.isnan(curve.values_at("v", whole.time[list(lost)])).all()
+    for (x, y), *_ in drawn.points(FoundCurve("s", "integrated")):
+        assert y == pytest.approx(drawn.scales.y("s", curve.values_at("s", drawn.scales.time([x])))[0], rel=1e-12,
+                                  abs=1e-12)
     assert 20 <= sum(map(len, drawn.traces[CHORDS])) <= 23
 
 
 def test_what_stands_still_has_no_errors() -> None:
     """A quantity that does not move is drawn as a straight line, rounding in its rates is not blown up."""
     t = np.linspace(0, 1, 25)
-    still = Curve("y_B", "mm", t, t, 80 + 0 * t, 1e-14 * np.sin(9 * t), 1e-13 * np.cos(9 * t))
+    still = KinematicCurve("y_B", "mm", t, t, 80 + 0 * t, 1e-14 * np.sin(9 * t), 1e-13 * np.cos(9 * t))
     assert diagram(still).errors == ()
     assert np.ptp(diagram(still).scales.y("v", still.v)) < 1e-9
     assert "y" in plots.diagrams([diagram(still)], "Still")

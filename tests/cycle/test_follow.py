@@ -19,8 +19,8 @@ from random_mechanisms import GROUPS, mechanism
 import graphplan as gp
 from graphplan.accuracy.survey.growth import chain
 from graphplan.cycle import Turn, follow
-from graphplan.cycle.dyads import assembled
-from graphplan.cycle.groups import Group
+from graphplan.cycle.dyads import assemble
+from graphplan.cycle.groups import ClosureGroup
 from graphplan.cycle.linkage import Linkage
 from graphplan.errors import Refused, SceneError
 from graphplan.mechanism.model import FRAME, Scene, SlidingDrive
@@ -163,13 +163,13 @@ def test_compass_rules_place_dyads_as_newton_does(group: str) -> None:
     """Each of the five dyads is assembled by its compass rule where its closure puts it, in every pose of the path."""
     for scene in sound(group, 2):
         turn, linkage = follow(scene, 48), Linkage(scene, paces(scene))
-        groups = [Group(linkage, part) for part in linkage.parts]
-        placed, failures = assembled(linkage, groups, turn.travel)
+        groups = [ClosureGroup(linkage, part) for part in linkage.parts]
+        placed, failures = assemble(linkage, groups, turn.travel)
         assert placed.keys() == set(scene.links)
         on = reached(turn)
         assert not any(missing[on].any() for _, missing in failures)
         for point, links in scene.links_of.items():
-            gap = placed[links[0]].at(place(scene, point)) - turn.points[point]
+            gap = placed[links[0]].point(place(scene, point)) - turn.points[point]
             assert np.all(np.abs(gap[on]) <= 1e-9 * extent(scene)), (group, point)
 
 

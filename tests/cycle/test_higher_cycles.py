@@ -99,7 +99,7 @@ def test_cardan_circles_draw_straight_lines() -> None:
 def test_the_motion_goes_on_until_all_is_back(teeth: tuple[int, int], turns: int) -> None:
     """A planetary gear is followed through the fewest turns that bring its planet back; none if these are too many."""
     found = whole_motion(planet(f"links = ['frame', '2']\ncentres = ['O', 'A']\nteeth = {[*teeth]}"))
-    assert found.whole == bool(turns)
+    assert found.goes_round == bool(turns)
     assert found.path.travel[-1] == pytest.approx(2 * math.pi * max(turns, 1))
     assert follow(found.scene, 12).closed == (turns == 1)
 
@@ -248,7 +248,7 @@ def test_random_mechanisms_move_as_the_solver_says() -> None:
         travel = np.linspace(low, high, 15)[1:-1]
         if high - low < 0.1:
             continue
-        turn, links, span = motion.turn(travel), motion.moved(travel), tuple(map(math.degrees, travel[[0, -1]]))
+        turn, links, span = motion.turn(travel), motion.links_at(travel), tuple(map(math.degrees, travel[[0, -1]]))
         truth = poses.solve(poses.posed(scene, turn.points, turn.guides), travel.size)
         for link in scene.moving:
             gap = np.abs(abs(float(scene.drives[0].rate)) * links[link].spin - truth.omega[link])

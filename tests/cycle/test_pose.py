@@ -137,7 +137,7 @@ def test_crank_and_coupler_lie_in_one_line() -> None:
         assert abs(math.degrees(math.atan2(B[1], B[0] - 60)) - angle) < 1e-3
         assert abs(found.drawing.omega["3"]) < 1e-12
         assert max(found.check.values()) < 1e-12
-        assert found.same
+        assert found.numbers_agree
 
 
 @pytest.mark.parametrize(("name", "way"), [("slider-crank", "outer"), ("jaanimets-10", "inner"),
@@ -187,7 +187,7 @@ def test_gears_turn_by_their_ratio(capsys: pytest.CaptureFixture[str]) -> None:
     assert abs((M - A) / before - complex(math.cos(math.pi / 6), -math.sin(math.pi / 6))) < 1e-12
     assert main(["steps", "cardan-circles", "--at", "30"]) == 0
     assert "the ratio of the gears" in capsys.readouterr().out
-    assert report(gp.at(gp.load("geared-five-bar"), 30)).same  # read in enclosures, too
+    assert report(gp.at(gp.load("geared-five-bar"), 30)).numbers_agree  # read in enclosures, too
     for name in ("gear-linkage", "racks", "roller-cam"):
         with pytest.raises(Refused, match="no steps are known"):
             gp.at(gp.load(name), 10)

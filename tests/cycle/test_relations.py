@@ -10,7 +10,7 @@ from dragged_linkages import DraggedLinkage
 
 import graphplan as gp
 from graphplan.cycle.relations import Relations, relations
-from graphplan.cycle.turn import under
+from graphplan.cycle.turn import points_under_slides
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import packaged, parse
 from graphplan.mechanism.travel import paces
@@ -66,7 +66,7 @@ def test_the_linkage_follows(name: str) -> None:
         if truth is None:
             continue
         led += 1
-        truth |= {one: truth[at] for one, at in under(found.scene).items()}
+        truth |= {one: truth[at] for one, at in points_under_slides(found.scene).items()}
         on_paper = [VIEW.scale * t if d.slides else t for d, t in zip(scene.drives, drives, strict=True)]
         told = found.place({one: VIEW((z.real, z.imag)) for one, z in pins.items()}, on_paper)
         assert told is not None

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import graphplan as gp
-from graphplan.cycle.motion_curves import stationary, traced
+from graphplan.cycle.motion_curves import stationary_curvature, traced_motion
 from graphplan.cycle.turn import whole_motion
 from graphplan.mechanism.scene import parse
 
@@ -40,7 +40,7 @@ direction = [1, 0]
 
 def cubic(text: str) -> tuple[np.ndarray, np.ndarray]:
     """The circling points and their centres."""
-    found = stationary(whole_motion(parse(text.format(x=50, y=20), "scene")), "2")
+    found = stationary_curvature(whole_motion(parse(text.format(x=50, y=20), "scene")), "2")
     assert found
     return found
 
@@ -84,7 +84,7 @@ def changed(text: str, place: complex) -> float:
 def test_it_is_drawn_in_its_own_pose_alone() -> None:
     """The sheet has both curves with their names; in another pose they say nothing, and are not drawn."""
     scene = parse(SCENE.format(x=50, y=20), "scene")
-    found = traced(scene)
+    found = traced_motion(scene)
     assert found
     assert [str(one.words) for one in found.centrodes] == ["circling points of 2", "centre points of 2"]
     moved = scene.posed(scene.points | {"A": (32, 24)}, lambda one: one.direction)

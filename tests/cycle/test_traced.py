@@ -13,7 +13,7 @@ from packaged_scenes import those
 
 from graphplan import load, parse
 from graphplan.cycle import follow
-from graphplan.cycle.motion_curves import traced
+from graphplan.cycle.motion_curves import traced_motion
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.replaced import guides
@@ -25,7 +25,7 @@ ROUNDING = 1e-12
 def shown(scene: Scene, *points: str, positions: int = 0) -> TracedMotion:
     """What is shown of a scene whose sheet asks for these paths, all of them without any, and positions."""
     wanted = points or tuple(scene.points)
-    found = traced(replace(scene, sheet=replace(scene.sheet, curves=wanted, positions=positions)))
+    found = traced_motion(replace(scene, sheet=replace(scene.sheet, curves=wanted, positions=positions)))
     assert found
     return found
 
@@ -109,7 +109,7 @@ def test_positions_stand_at_equal_travels() -> None:
 
 def test_what_is_not_asked_for_is_not_followed() -> None:
     """A sheet without these wishes shows nothing of the motion."""
-    assert traced(load("five-bar")) is None
+    assert traced_motion(load("five-bar")) is None
 
 
 @pytest.mark.parametrize(("scene", "why"), [

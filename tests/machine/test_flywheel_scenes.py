@@ -11,7 +11,7 @@ import jsonschema
 import numpy as np
 import pytest
 
-from graphplan.check.flywheel import checked
+from graphplan.check.flywheel import check_flywheel
 from graphplan.commands import main
 from graphplan.commands.result_schemas import printed
 from graphplan.errors import Disagreement, Refused
@@ -52,7 +52,7 @@ def test_the_printed_yoke() -> None:
     assert result.wheel.inertia == pytest.approx(49.379, abs=5e-4)
     assert result.cycle.closing == pytest.approx(400 / math.pi)
     assert math.degrees(result.wheel.upper.travel) % 180 == pytest.approx(6.503 + 120, abs=0.005)
-    assert max(checked(result).values()) < 1e-10
+    assert max(check_flywheel(result).values()) < 1e-10
     assert abs(result.measured - result.wheel.inertia) < result.strip_error
 
 
@@ -60,7 +60,7 @@ def test_the_printed_yoke() -> None:
 def test_random_linkages(seed: int) -> None:
     """The integrated motion has the unevenness asked for, and the drawn flywheel is as near as its error says."""
     result = flywheel(four_bar(np.random.default_rng(seed)))
-    found = checked(result)
+    found = check_flywheel(result)
     assert max(found[what] for what in ("omega_max", "omega_min", "unevenness", "closing")) < 1e-9
     assert abs(result.measured - result.wheel.inertia) < result.strip_error
     assert sum(map(result.cycle.work, result.cycle.loads)) == pytest.approx(
@@ -75,7 +75,7 @@ def test_loads_that_close_the_cycle() -> None:
     result = flywheel(replace(linkage, loads=driven, flywheel=Flywheel(Fraction(6), Fraction(1, 50), closes="load")))
     assert result.cycle.closing == 0
     assert "multiplied" in " ".join(map(str, result.notes))
-    assert checked(result)["closing"] < 1e-9
+    assert check_flywheel(result)["closing"] < 1e-9
 
 
 def test_a_wheel_that_is_given() -> None:
@@ -84,7 +84,7 @@ def test_a_wheel_that_is_given() -> None:
     result = flywheel(asked(unevenness=None, inertia=Fraction(wheel)))
     assert result.unevenness == pytest.approx(1 / 30, rel=1e-9)
     assert abs(result.measured - result.unevenness) < result.strip_error
-    checked(result)
+    check_flywheel(result)
 
 
 def test_a_wrong_flywheel_is_a_disagreement() -> None:
@@ -92,7 +92,8 @@ def test_a_wrong_flywheel_is_a_disagreement() -> None:
     result = flywheel(load(YOKE))
     wheel = replace(result.wheel, inertia=result.wheel.inertia * (1 + 1e-6))
     with pytest.raises(Disagreement):
-        checked(FlywheelResult(result.reduction, result.cycle, wheel, result.unevenness, False, result.methods, 24))
+        check_flywheel(FlywheelResult(result.reduction, result.cycle, wheel, result.unevenness, False, result.methods,
+                                      24))
 
 
 @pytest.mark.parametrize(("wish", "why"), [
@@ -115,7 +116,7 @@ def test_cycles_that_do_not_close() -> None:
 def test_a_machine_without_inertia_in_a_pose() -> None:
     """Where the reduced inertia is nothing in a pose a flywheel is found, and no speeds without it."""
     result = flywheel(replace(load("jaanimets-10"), flywheel=Flywheel(Fraction(5), Fraction(1, 30))))
-    checked(result)
+    check_flywheel(result)
     assert result.own is None
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import graphplan as gp
-from graphplan.check.reduction import checked, friction_gap
+from graphplan.check.reduction import check_reduction, friction_gap
 from graphplan.errors import Refused
 from graphplan.machine.reduced.friction import Rubbed
 from graphplan.machine.reduced.reduction import Reduction, reduction
@@ -68,7 +68,7 @@ def test_kinytskyi_over_the_cycle(lambda_mechanism: Reduction) -> None:
     vanishes in the dwell."""
     travel = np.radians(np.arange(0, 360, 30))
     assert friction_gap(lambda_mechanism, travel) < 1e-12
-    assert max(checked(lambda_mechanism, travel).values()) < 1e-13
+    assert max(check_reduction(lambda_mechanism, travel).values()) < 1e-13
     found = rubbed(lambda_mechanism, travel)
     assert sum(found.losses.values()) == pytest.approx(found.moment, rel=1e-10)
     assert found.moment == pytest.approx(lambda_mechanism.at(travel).by["M_F"])

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from graphplan.check.json_results import data
-from graphplan.check.reduction import checked, friction_gap
+from graphplan.check.json_results import result_data
+from graphplan.check.reduction import check_reduction, friction_gap
 from graphplan.check.trusted import report
 from graphplan.machine.reduced.reduction import reduction
 from graphplan.mechanism.model import Scene
@@ -65,7 +65,7 @@ def excavator() -> Scene:
 
 def test_what_drives_do_has_its_counterpart(excavator: Scene) -> None:
     """Without friction the drives do what the power of all loads says, relative to the links that bear them."""
-    found = data(report(excavator))["without_friction"]["balance"]
+    found = result_data(report(excavator))["without_friction"]["balance"]
     cylinder, motor = power(excavator)
     assert found[0]["force"] == pytest.approx(cylinder, rel=1e-12)
     assert found[1]["moment"] == pytest.approx(motor, rel=1e-12)
@@ -74,7 +74,7 @@ def test_what_drives_do_has_its_counterpart(excavator: Scene) -> None:
 @pytest.mark.parametrize("plan", ["", "lever", "polar,polygons"])
 def test_friction_is_drawn_with_inner_drives(plan: str, excavator: Scene) -> None:
     """Whichever plan is drawn, the balances with friction are the solver's."""
-    told = data(report(excavator, plan=plan))
+    told = result_data(report(excavator, plan=plan))
     cylinder, motor = with_friction(excavator).balances
     assert told["balance"][0]["force"] == pytest.approx(cylinder, rel=1e-12)
     assert told["balance"][1]["moment"] == pytest.approx(motor, rel=1e-12)
@@ -83,7 +83,7 @@ def test_friction_is_drawn_with_inner_drives(plan: str, excavator: Scene) -> Non
 
 def test_the_motor_bears_its_own_journal_alone(excavator: Scene) -> None:
     """The journal of the stick takes from its motor radius times coefficient times force, as the two turn."""
-    told = data(report(excavator))
+    told = result_data(report(excavator))
     force = next(one["force"] for one in told["reactions"] if one["at"] == "A")
     lost = told["balance"][1]["moment"] - told["without_friction"]["balance"][1]["moment"]
     assert lost == pytest.approx(0.01 * 0.1 * float(np.hypot(*force)), rel=1e-9)
@@ -94,7 +94,7 @@ def test_friction_over_the_cycle_with_inner_drives(excavator: Scene) -> None:
     found = reduction(excavator, (0.0, 20.0))
     travel = np.linspace(*found.ends, 5)
     assert friction_gap(found, travel) < 1e-12
-    assert max(checked(found, travel).values()) < 1e-12
+    assert max(check_reduction(found, travel).values()) < 1e-12
     assert found.friction
     rubbed = found.friction.at(travel)
     assert sum(rubbed.losses.values()) == pytest.approx(rubbed.moment, rel=1e-9)

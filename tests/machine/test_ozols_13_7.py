@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from graphplan.check.motion import checked
+from graphplan.check.motion import check_motion
 from graphplan.machine.motion.runs import Run, run
 from graphplan.machine.motion.strips import by_energy, parabola, times
 from graphplan.mechanism.scene import load
@@ -46,4 +46,4 @@ def test_accurate_motion(lowered: Run) -> None:
     found = lowered.motion.at(np.radians([0, 2, 4, 6, 81.5]))
     assert found.omega == pytest.approx([0, 0.3161, 0.4241, 0.4933, 0.32778], abs=5e-5)
     assert found.time[-1] == pytest.approx(3.423, abs=5e-4)
-    assert max(checked(lowered).values()) < 1e-10
+    assert max(check_motion(lowered).values()) < 1e-10

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import graphplan as gp
-from graphplan.check.reduction import checked, lever
+from graphplan.check.reduction import check_lever, check_reduction
 from graphplan.errors import Disagreement, Refused, SceneError
 from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.mechanism.model import Force, Loads, Mass, Moment, Scene
@@ -202,8 +202,8 @@ def test_closed_forms_of_the_scotch_yoke(omega: str) -> None:
     assert told.inertia == pytest.approx(10 + 4 * np.sin(phi) ** 2, rel=1e-14)
     assert told.slope == pytest.approx(4 * np.sin(2 * phi), abs=1e-13)
     assert told.moment == pytest.approx(-200 * np.abs(np.sin(phi)), abs=1e-11)
-    assert max(checked(found, phi).values()) < 1e-14
-    assert max(lever(found, travel)[1] for travel in (0.0, 1.0, 4.0)) < 1e-14
+    assert max(check_reduction(found, phi).values()) < 1e-14
+    assert max(check_lever(found, travel)[1] for travel in (0.0, 1.0, 4.0)) < 1e-14
 
 
 def test_breaks_over_a_slide_are_where_it_passes_the_places() -> None:
@@ -216,7 +216,7 @@ def test_breaks_over_a_slide_are_where_it_passes_the_places() -> None:
         sides = [found.at(np.array([travel]), side).moment[0] for side in (-1, 1)]
         near = [found.at(np.array([travel + side * 1e-7])).moment[0] for side in (-1, 1)]
         assert sides == pytest.approx(near, abs=1e-3)
-    assert max(checked(found, np.linspace(0.01, 6.2, 40)).values()) < 1e-13
+    assert max(check_reduction(found, np.linspace(0.01, 6.2, 40)).values()) < 1e-13
 
 
 def test_a_table_over_two_turns_makes_a_cycle_of_two() -> None:
@@ -262,7 +262,7 @@ def test_reduced_inertia_of_a_hoist() -> None:
     """
     found = reduction(parse(HOIST, "hoist"), (0, 90))
     assert found.at(0).inertia == pytest.approx([0.7113], abs=5e-5)
-    assert max(checked(found, [0.0, 0.7, 1.4]).values()) < 1e-13
+    assert max(check_reduction(found, [0.0, 0.7, 1.4]).values()) < 1e-13
 
 
 def test_reduced_weight_of_an_oscillating_cylinder() -> None:
@@ -298,7 +298,7 @@ def test_a_mass_reduces_to_a_sliding_drive() -> None:
     assert piston.at(0).inertia == pytest.approx(crank.at(0).inertia / speed**2)
     ends = piston.at([-1e-3, 1e-3]).inertia
     assert piston.at(0).slope == pytest.approx([(ends[1] - ends[0]) / 2e-6], rel=1e-5)
-    assert max(checked(piston, np.linspace(-20, 20, 9)).values()) < 1e-13
+    assert max(check_reduction(piston, np.linspace(-20, 20, 9)).values()) < 1e-13
 
 
 def loaded(name: str) -> Scene:
@@ -318,8 +318,8 @@ def test_any_mechanism_reduces_as_the_solver_says(name: str) -> None:
     and so is the drawn lever."""
     found = reduction(loaded(name))
     travel = np.linspace(*found.ends, 11)[:-1] + 0.01
-    assert max(checked(found, travel).values()) < 1e-13
-    assert lever(found, float(travel[3]))[1] < 1e-13
+    assert max(check_reduction(found, travel).values()) < 1e-13
+    assert check_lever(found, float(travel[3]))[1] < 1e-13
 
 
 REFUSED = {
@@ -348,4 +348,4 @@ def test_a_wrong_reduction_is_a_disagreement() -> None:
     found = reduction(yoke(STROKES))
     found.masses["3"] = found.loads.masses["1"]
     with pytest.raises(Disagreement, match=r"at a travel of 1.*reduced inertia"):
-        checked(found, [1.0])
+        check_reduction(found, [1.0])

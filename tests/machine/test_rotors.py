@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from graphplan.check.rotors import checked, equilibrium, reactions
+from graphplan.check.rotors import bearing_reactions, check_rotor, equilibrium
 from graphplan.commands import main
 from graphplan.errors import Refused, SceneError
 from graphplan.machine.rotors.polygons import State
@@ -33,7 +33,7 @@ ONE = "[rotor]\nplanes = [0]\n[trial]\n"
 def found(text: str) -> Balanced:
     """A rotor, balanced, all its opinions compared."""
     rotor = balanced(parse(text, "rotor.toml"))
-    checked(rotor)
+    check_rotor(rotor)
     return rotor
 
 
@@ -161,8 +161,8 @@ def test_bearings_bear_nothing_of_a_balanced_rotor() -> None:
     """The turning reactions before are those of a beam's statics; after balancing they are gone."""
     rotor = found(masses("mass = 2, radius = 50, angle = 90, at = 100", planes="[0, 400]")
                   + "bearings = [-100, 500]\nomega = 100\n")
-    assert reactions(rotor) == pytest.approx([2 * 0.05 * 1e4 * 400 / 600 * 1j, 2 * 0.05 * 1e4 * 200 / 600 * 1j])
-    assert max(map(abs, reactions(rotor, rotor.corrections))) < 1e-9
+    assert bearing_reactions(rotor) == pytest.approx([2 * 0.05 * 1e4 * 400 / 600 * 1j, 2 * 0.05 * 1e4 * 200 / 600 * 1j])
+    assert max(map(abs, bearing_reactions(rotor, rotor.corrections))) < 1e-9
 
 
 def test_sheets_show_the_views_and_what_balances(tmp_path: Path) -> None:

@@ -56,10 +56,10 @@ def draw(drawing: Construction, where: Mapping[str, PlanFrame], pencil: Pencil, 
     drawn: list[Any] = []
     for step in drawing.drawn.steps:
         try:
-            made = hand.made(step, Floats(), drawn, lambda index: list(rng.normal(0.0, hand.slips[index])))
+            made = hand.draw_step(step, Floats(), drawn, lambda index: list(rng.normal(0.0, hand.slips[index])))
             if wrong and step.index in wrong:
-                made = hand.slipped(step, wrong[step.index].value(Floats(), drawn),
-                                    list(rng.normal(0.0, hand.slips[step.index])))
+                made = hand.add_slips(step, wrong[step.index].value(Floats(), drawn),
+                                      list(rng.normal(0.0, hand.slips[step.index])))
         except (Undrawable, TypeError):
             made = None
         drawn.append(made)

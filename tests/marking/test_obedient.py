@@ -12,7 +12,7 @@ import pytest
 from hands import Drawn, frames, points
 
 import graphplan as gp
-from graphplan.accuracy.drafted import drafted
+from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import CIRCLE, OPENING, POINT, Movement
 from graphplan.kernel.numbers.floats import Floats
@@ -67,7 +67,7 @@ def measured(step: Step, value: Any, values: Sequence[Any], told: str, per_mm: f
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "open-chain", "ozols-5-2", "triad-loaded"])
 def test_who_obeys_the_guided_handout_is_judged_right(name: str) -> None:
     """Drawn by the spoken lengths, no mark is half a millimetre off, and the score is 100 of 100."""
-    composition = drafted(drawing := gp.construct(gp.load(name)), Pencil()).composition
+    composition = draft(drawing := gp.construct(gp.load(name)), Pencil()).composition
     values = obeyed(composition)
     exact = [step.index for step in drawing.drawn.steps if step.op.gives == POINT]
     off = [math.dist(values[i][:2], map(float, drawing.values[i][:2]))
@@ -79,7 +79,7 @@ def test_who_obeys_the_guided_handout_is_judged_right(name: str) -> None:
 
 def test_who_mistakes_a_spoken_length_is_not() -> None:
     """A length that is 2 mm longer than the handout says makes its step wrong."""
-    composition = drafted(drawing := gp.construct(gp.load("four-bar")), Pencil()).composition
+    composition = draft(drawing := gp.construct(gp.load("four-bar")), Pencil()).composition
     step = next(step for step in drawing.drawn.steps if step.op.root is not None and step.name)
     values = obeyed(composition)
     start, per_mm = values[step.args[step.op.root or 0]], composition.scales.lengths_per_mm(

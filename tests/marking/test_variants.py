@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import pytest
 
-from graphplan.accuracy.drafted import Drafted, drafted
+from graphplan.accuracy.drafted import Drafted, draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.check.trusted import report
 from graphplan.marking.classroom.flaws import Flaw, Quality, flaw
@@ -23,7 +23,7 @@ CHOICES = {"a": tuple(map(Fraction, range(4))), "b": tuple(map(Fraction, range(3
 def draw(scene: Scene) -> Drafted:
     """A scene on its sheet."""
     found = report(scene)
-    return drafted(found.drawing, Pencil(), check=found.check)
+    return draft(found.drawing, Pencil(), check=found.check)
 
 
 def design(name: str) -> Design:

@@ -15,8 +15,8 @@ from packaged_scenes import those
 
 import graphplan as gp
 from graphplan.cycle import closure
-from graphplan.cycle.groups import Group
-from graphplan.cycle.linkage import Apart, Geared, Linkage, Racked, direction
+from graphplan.cycle.groups import ClosureGroup
+from graphplan.cycle.linkage import CentreDistance, GearBond, Linkage, RackBond, unit_direction
 from graphplan.mechanism.model import FRAME, Contact, Gear, Scene
 from graphplan.mechanism.numbers import dot, less, turned
 from graphplan.mechanism.pairs import KINDS
@@ -148,12 +148,12 @@ def test_the_cycle_closes_what_is_stated(name: str) -> None:
     """
     scene, chance = HIGHER.get(name) or gp.load(name), Random(name)
     linkage = Linkage(scene, paces(scene))
-    groups, bodies = [Group(linkage, part) for part in linkage.parts], {FRAME: closure.Body()}
+    groups, bodies = [ClosureGroup(linkage, part) for part in linkage.parts], {FRAME: closure.LinkPose()}
     for group in groups:
         known, state = [bodies[link] for link in (FRAME, *group.carriers)], np.array(
             [chance.uniform(-0.1, 0.1) for _ in range(group.unknowns)])
         rows, links = _left(group, known, state)
-        placed = (closure.Body(body.base, body.turn, angle=body.angle) for body in links[len(known):])
+        placed = (closure.LinkPose(body.base, body.turn, angle=body.angle) for body in links[len(known):])
         bodies |= zip(group.links, placed, strict=True)
         for i, step in enumerate(np.eye(group.unknowns) * STEP / 16):
             before, after = (_left(group, known, state + sign * step)[0] for sign in (-1, 1))
@@ -165,29 +165,30 @@ def test_the_cycle_closes_what_is_stated(name: str) -> None:
         assert [0.0] * (len(stated) - len(closed)) + closed == pytest.approx(stated, abs=1e-12)
 
 
-def _left(group: Group, known: list[closure.Body], state: Any) -> tuple[list[closure.Row], list[closure.Body]]:
+def _left(group: ClosureGroup, known: list[closure.LinkPose], state: Any) -> tuple[list[closure.Row],
+                                                                                   list[closure.LinkPose]]:
     """What a group leaves open in a state, and how its links lie."""
-    drives, numbers = group.read(0.0, state)
-    links = closure.bodies(group.layout, known, group.arms, drives, numbers)
-    return closure.left_open(group.layout, links, group.arms, drives), links
+    drives, numbers = group.drives_and_state(0.0, state)
+    links = closure.pose_links(group.layout, known, group.arms, drives, numbers)
+    return closure.residual_rows(group.layout, links, group.arms, drives), links
 
 
-def _stated(linkage: Linkage, group: Group, bodies: dict[str, closure.Body]) -> Iterator[float]:
+def _stated(linkage: Linkage, group: ClosureGroup, bodies: dict[str, closure.LinkPose]) -> Iterator[float]:
     """What each statement on a group's links leaves, without its sign; of gears with 1 for the largest factor."""
     lies = {link: Attitude(*body.base, *(body.turn or (1.0, 0.0))) for link, body in bodies.items()}
     for bond in [bond for link in group.links for bond in linkage.bonds[link]]:
-        if isinstance(bond, Geared):
+        if isinstance(bond, GearBond):
             turns = [lies[link] for link in (bond.link, bond.on, linkage.lines.carriers[bond.arm])]
             one, other, line = (math.atan2(link.sin, link.cos) for link in turns)
             k1, k2 = bond.factors
             yield abs(k1 * (one - line) + k2 * (other - line)) / max(abs(k1), abs(k2), abs(k1 + k2))
             continue
         arms: Any = None, None
-        if isinstance(bond, Apart):
+        if isinstance(bond, CentreDistance):
             z = (linkage.places[bond.at] - linkage.places[bond.other]) / linkage.reach
             radius, bond = abs(z), Touching(bond.link, bond.on, bond.at, (z.real, z.imag), bond.condition.way)
         elif not isinstance(bond, Turning):
-            z, lever = direction(bond), bond.lever / linkage.reach if isinstance(bond, Racked) else 0
+            z, lever = unit_direction(bond), bond.lever / linkage.reach if isinstance(bond, RackBond) else 0
             bond = Along(bond.link, bond.on, bond.at, (z.real, z.imag), "", to=getattr(bond, "to", ""), lever=lever)
             radius = 1.0
         if not isinstance(bond, Turning):

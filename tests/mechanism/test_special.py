@@ -12,7 +12,7 @@ import pytest
 from packaged_scenes import those
 from special_machines import MACHINES, Machine
 
-from graphplan.check.json_results import data
+from graphplan.check.json_results import result_data
 from graphplan.check.trusted import report
 from graphplan.cycle import follow
 from graphplan.errors import SceneError, SingularPose
@@ -217,7 +217,7 @@ def test_a_reaction_that_statics_cannot_tell_is_null_by_name() -> None:
     """What is asked for and statically indeterminate is null, with the reason; the others at its joint are told."""
     text = loaded(MACHINES[0]) + '\n[find]\nreactions = ["{}"]'
     for point, name in ("D", "4 at D"), ("A", "2 at A"):
-        told = data(report(parse(text.format(point), "asked")))
+        told = result_data(report(parse(text.format(point), "asked")))
         assert told["indeterminate"] == [name]
         assert "statically indeterminate" in told["reasons"]["reactions"][name]
         null = [f"{one['on']} at {one['at']}" for one in told["reactions"] if one["force"] is None]

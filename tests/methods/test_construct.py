@@ -139,7 +139,7 @@ def verdicts() -> Iterator[str]:
             try:
                 structure(scene)
                 first = construct(scene, method="poles")  # the way before any other is taken
-                yield "ok" if Bench(scene, {"method": "poles"}, exact=True).judged(first).agrees else "wrong"
+                yield "ok" if Bench(scene, {"method": "poles"}, exact=True).judge(first).agrees else "wrong"
             except (SceneError, gp.SingularPose):
                 continue
             except Exception as error:  # a fault may show as any refusal or failure

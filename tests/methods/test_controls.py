@@ -38,7 +38,7 @@ def test_a_control_that_fails_is_a_broken_claim() -> None:
     wrong = replace(found, results=found.results | {"velocity": velocities})
     assert found.agrees
     assert not wrong.agrees
-    assert "link 3" in wrong.broken
+    assert "link 3" in wrong.broken_claim
 
 
 def test_polar_plans_and_what_is_not_asked_for_leave_no_control() -> None:

@@ -11,7 +11,7 @@ import pytest
 from jsonschema import validate
 
 import graphplan as gp
-from graphplan.check.json_results import data
+from graphplan.check.json_results import result_data
 from graphplan.check.report import path_truth
 from graphplan.check.trusted import report
 from graphplan.commands.result_schemas import printed
@@ -129,7 +129,7 @@ M, ALL = 'curvature = ["M on 2"]', 'curvature = "all"\ninflection = "all"'
 
 def solved(text: str, find: str, **how: Any) -> dict[str, Any]:
     """What `solve` prints of a scene that asks for this."""
-    found: dict[str, Any] = json.loads(json.dumps(data(report(parse(text + find, "scene"), **how))))
+    found: dict[str, Any] = json.loads(json.dumps(result_data(report(parse(text + find, "scene"), **how))))
     validate(found, printed("solve"))
     return found
 

@@ -11,7 +11,7 @@ from random_loads import loaded
 from random_mechanisms import mechanism
 from tiers import sample
 
-from graphplan.check.json_results import data
+from graphplan.check.json_results import result_data
 from graphplan.check.trusted import report
 from graphplan.errors import ConstructionError, SingularPose
 from graphplan.mechanism.model import Friction, Scene, TurningDrive
@@ -78,7 +78,7 @@ def test_the_balance_pays_for_what_is_rubbed(groups: list[str]) -> None:
 def test_kinytskyi(plan: str) -> None:
     """The lambda mechanism: two rounds stand; Kinytskyi's power sum of the first forces is a third of a percent off."""
     found = report(load("kinytskyi"), plan=plan)
-    printed = data(found)
+    printed = result_data(found)
     told = printed["friction"]
     assert told["rounds"] == 2
     assert "friction: the forces no longer change after round 2" in found.drawing.forms
@@ -98,7 +98,7 @@ def test_each_round_squares_the_error() -> None:
     for number in (1, 2, 3):
         found = report(rounds(scene, number))
         gaps.append(abs(found.results["balance moment with friction"]["1"] / float(stands) - 1))
-        assert found.drawing.rounds == data(found)["friction"]["rounds"] == number
+        assert found.drawing.rounds == result_data(found)["friction"]["rounds"] == number
         assert f"friction: rounds drawn, as asked: {number}" in found.drawing.forms
         assert found.agrees
     assert 1e-7 < gaps[0] < 1e-5
@@ -169,7 +169,7 @@ coefficient = 0.057
 
 def test_a_bearing_without_force_has_no_friction() -> None:
     """Rotors whose bearings bear nothing are not self-locking: no force has no direction, and rubs nothing."""
-    told = data(report(parse(ROTORS, "rotors")))
+    told = result_data(report(parse(ROTORS, "rotors")))
     for found in told, told["friction"]["stands"], told["without_friction"]:
         assert [balance["moment"] for balance in found["balance"]] == pytest.approx([13.0, 2.0], rel=1e-15)
 
@@ -179,15 +179,15 @@ def test_at_rest_there_is_no_friction() -> None:
     scene = load("kinytskyi")
     drive = scene.drives[0]
     assert isinstance(drive, TurningDrive)
-    assert "friction" not in data(report(scene.with_drives([replace(drive, rate=Fraction(0))])))
+    assert "friction" not in result_data(report(scene.with_drives([replace(drive, rate=Fraction(0))])))
 
 
 def test_exact_numbers_have_no_friction_of_journals() -> None:
     """The size of a reaction is a root: where journals rub exact numbers are those without friction, and it is said."""
     scene = rough(load("jaanimets-11"), Fraction(1, 10))
-    assert "friction" in data(report(scene))
+    assert "friction" in result_data(report(scene))
     found = report(scene, exact=True)
-    told = data(found)
+    told = result_data(found)
     assert told["balance"]["moment"] is None
     assert "root" in told["reasons"]["balance"]["1"]
     assert told["without_friction"]["balance"]["moment"] == str(found.results["balance moment"]["1"])

@@ -13,7 +13,7 @@ from polar import with_all_poles
 
 import graphplan as gp
 from graphplan.check.cycle import cycle
-from graphplan.check.json_results import data
+from graphplan.check.json_results import result_data
 from graphplan.check.report import Report
 from graphplan.check.trusted import report
 from graphplan.kernel.kinds import LINE
@@ -38,7 +38,7 @@ def poles(found: Report) -> dict[str, tuple[str, Fraction, Fraction]]:
 
 def test_poles_of_a_four_bar_lie_where_its_sides_meet() -> None:
     """The pole of the coupler is where crank and rocker meet, that of crank and rocker where coupler and frame do."""
-    found = data(report(parse(FOUR_BAR % '["2 frame", "3 1"]', "four-bar"), exact=True))
+    found = result_data(report(parse(FOUR_BAR % '["2 frame", "3 1"]', "four-bar"), exact=True))
     assert found["poles"] == {"2 frame": {"at": ["80", "120"]}, "3 1": {"at": ["-50", "0"]}}
     assert found["check"] == {"poles": 0}
 
@@ -115,21 +115,21 @@ def test_poles_are_found_in_other_poses(name: str) -> None:
 def test_a_pole_may_be_a_joint() -> None:
     """Where crank and coupler are in line their joint with the rocker is the coupler's pole."""
     text = FOUR_BAR.replace("B = [90, 60]", "B = [60, 90]").replace("C = [100, 0]", "C = [140, 90]")
-    found = data(report(parse(text % '["2 frame", "1 3", "2 3"]', "dead centre"), exact=True))
+    found = result_data(report(parse(text % '["2 frame", "1 3", "2 3"]', "dead centre"), exact=True))
     assert found["poles"] == {"2 frame": {"at": ["60", "90"]}, "1 3": {"at": ["0", "0"]}, "2 3": {"at": ["60", "90"]}}
 
 
 def test_links_that_turn_alike_have_their_pole_at_infinity() -> None:
     """The coupler of a parallelogram turns as the frame does: its pole lies the way of the cranks."""
     text = FOUR_BAR.replace("B = [90, 60]", "B = [120, 30]") % '["2 frame", "1 3"]'
-    found = data(report(parse(text, "parallelogram"), exact=True))
+    found = result_data(report(parse(text, "parallelogram"), exact=True))
     assert found["poles"] == {"2 frame": {"direction": ["2/5", "3/5"]}, "1 3": {"direction": ["1", "0"]}}
 
 
 def test_links_that_rest_on_each_other_have_no_pole_of_their_own() -> None:
     """Any point is a pole of links that do not move relative to each other: none is given, which is said; pins are."""
     found = report(parse(FOUR_BAR.replace("omega = 2", "omega = 0") % '["2 frame", "1 2"]', "at rest"), exact=True)
-    assert data(found)["poles"] == {"2 frame": {"at": None}, "1 2": {"at": ["20", "30"]}}
+    assert result_data(found)["poles"] == {"2 frame": {"at": None}, "1 2": {"at": ["20", "30"]}}
     assert any("any point is a pole" in note for note in found.drawing.notes)
 
 

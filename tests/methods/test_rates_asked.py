@@ -181,8 +181,8 @@ def test_rates_over_many_poses() -> None:
 def test_rates_between_proven_bounds() -> None:
     """In enclosures the rates of every link have their digits, and the solver agrees."""
     pytest.importorskip("flint")
-    from graphplan.check.certified import certified
+    from graphplan.check.certified import certify
 
-    found = certified(rated(gp.load("slotted-link")), 20)
+    found = certify(rated(gp.load("slotted-link")), 20)
     assert found.agrees
     assert set(found.data["links"]) == set(found.scene.moving)

@@ -13,7 +13,7 @@ import pytest
 from higher import ARC_CAM, ARM_DRIVE, DRIVE, TEXTS, gear, scenes, slide, text
 
 import graphplan as gp
-from graphplan.check.poses import Round, gaps, sound
+from graphplan.check.poses import PoseBatch, pose_gaps, sound_poses
 from graphplan.check.trusted import report
 from graphplan.commands import main
 from graphplan.mechanism.model import Scene
@@ -163,11 +163,11 @@ def test_a_rack_at_a_uniform_speed_is_sound_around_the_cycle() -> None:
                  .replace("O = [0, 0]\n", "") + "[[drive]]\nlink = '2'\nomega = 2\n", "rack")
     turn = gp.cycle.follow(rack, 5, (0, 90))
     drawing = gp.construct(rack)
-    part = Round.reached(rack, turn.points, turn.guides)
+    part = PoseBatch.of_reached(rack, turn.points, turn.guides)
     results = drawing.evaluate(part.points, part.guides).results
-    apart = gaps(part, drawing, results)
+    apart = pose_gaps(part, drawing, results)
     assert max(abs(results["acceleration"]["S"])) > 0
-    assert sound(part, drawing, results, apart).all()
+    assert sound_poses(part, drawing, results, apart).all()
 
 
 def test_where_two_arcs_meet_the_acceleration_jumps(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

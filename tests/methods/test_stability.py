@@ -25,10 +25,19 @@ from graphplan.accuracy.survey.degeneracies import (
     Degeneracy,
 )
 from graphplan.accuracy.survey.problem import Results, largest_error
-from graphplan.accuracy.survey.stability import COMPUTED, DRAWN, MOST, SHEET, SOLVE, Pose, as_drawn, samples
+from graphplan.accuracy.survey.stability import (
+    COMPUTED,
+    DRAWN,
+    MAX_LOST_ROUNDINGS,
+    SHEET,
+    SOLVE,
+    TestedPose,
+    as_drawn,
+    samples,
+)
 from graphplan.accuracy.tolerances import EPSILON
 from graphplan.check.arithmetics import Exact
-from graphplan.check.report import opinion
+from graphplan.check.report import reference_solution
 from graphplan.check.trusted import report
 from graphplan.errors import SingularPose
 from graphplan.kernel.numbers.floats import Floats
@@ -44,19 +53,19 @@ EACH = pytest.mark.parametrize("degeneracy", DEGENERACIES, ids=lambda degeneracy
 
 def error(results: Results, scene: Scene) -> float:
     """The largest error beside what fractions say."""
-    return largest_error(results, opinion(scene, Exact()).truth(results))
+    return largest_error(results, reference_solution(scene, Exact()).truth(results))
 
 
 @EACH
 def test_a_special_pose_is_special_and_no_pose_near_it(degeneracy: Degeneracy) -> None:
     """At d = 0 the mechanism is singular, where it is said to be, and never on the way there."""
     for d in (1.0, 1e-16):
-        opinion(degeneracy.at(d), Exact())
+        reference_solution(degeneracy.scene_at(d), Exact())
     if degeneracy.singular:
         with pytest.raises(SingularPose):
-            report(degeneracy.at(0.0), exact=True)
+            report(degeneracy.scene_at(0.0), exact=True)
     else:
-        opinion(degeneracy.at(0.0), Exact())
+        reference_solution(degeneracy.scene_at(0.0), Exact())
 
 
 @EACH
@@ -64,8 +73,8 @@ def test_the_answer_is_as_good_as_the_mechanism_allows(degeneracy: Degeneracy) -
     """Towards each special pose `solve` loses no more than the mechanism, and to the last keeps nine digits; value
     rules in floats lose no more, either."""
     for d in DISTANCES:
-        pose = Pose(degeneracy.at(d), Pencil())
-        found, most = report(pose.scene, alone=True), MOST * EPSILON * pose.condition
+        pose = TestedPose(degeneracy.scene_at(d), Pencil())
+        found, most = report(pose.scene, alone=True), MAX_LOST_ROUNDINGS * EPSILON * pose.condition
         assert error(found.results, pose.scene) <= min(1e-9, most)
         assert pose.floats is None or error(found.drawing.read(Floats()), pose.scene) <= most
 
@@ -98,7 +107,7 @@ def test_every_way_fails_somewhere(degeneracy: Degeneracy) -> None:
     for way in serve:
         row = found[way, DRAWN]
         assert row.error is not None
-        assert row.error <= MOST * EPSILON * row.condition
+        assert row.error <= MAX_LOST_ROUNDINGS * EPSILON * row.condition
     assert {*fail, *serve} == {*degeneracy.ways, SHEET}
     assert (found[SOLVE, COMPUTED].error or 0.0) <= 1e-13
 
@@ -113,16 +122,16 @@ def test_no_way_fails_nowhere() -> None:
     ("C on QR", 1e-6, {"plan": "polar"}), ("slide locks", 1e-6, {})])
 def test_small_vectors_beside_large_plans_are_drawn(name: str, d: float, how: dict[str, Any]) -> None:
     """What is drawn near a special pose loses digits as the pose does: no small vector is left out of a large plan."""
-    scene = SWEEPS[name].at(d)
-    assert error(as_drawn(construct(scene, **how)), scene) <= 10 * MOST * EPSILON * solve(scene).condition
+    scene = SWEEPS[name].scene_at(d)
+    assert error(as_drawn(construct(scene, **how)), scene) <= 10 * MAX_LOST_ROUNDINGS * EPSILON * solve(scene).condition
 
 
 @pytest.mark.parametrize("d", [1e-6, 1e-13])
 def test_forces_are_found_where_floats_hold_the_pose_for_singular(d: float) -> None:
     """Of a loaded triad a hair from its singular pose all is told, and drawn as well as floats can."""
-    found = report(scene := replace(SWEEPS["triad"], scene="triad-loaded").at(d))
+    found = report(scene := replace(SWEEPS["triad"], scene="triad-loaded").scene_at(d))
     assert found.arithmetic != "floats"
-    assert error(found.results, scene) <= MOST * EPSILON
+    assert error(found.results, scene) <= MAX_LOST_ROUNDINGS * EPSILON
 
 
 def posed(**moved: complex) -> Scene:
@@ -140,19 +149,19 @@ def test_the_auxiliary_point_may_lie_anywhere(seed: int) -> None:
     Q = (A + B) / 2 + 10.0 ** random.uniform(-2, 6) * complex(math.cos(angle), math.sin(angle))
     share = 100 / max(abs(Q - A), abs(Q - B), 200)
     found = report(scene := posed(K=A + share * (Q - A), L=B + share * (Q - B)))
-    assert error(found.results, scene) <= MOST * EPSILON * found.rates.condition
+    assert error(found.results, scene) <= MAX_LOST_ROUNDINGS * EPSILON * found.rates.condition
 
 
 def test_the_sheet_leaves_the_auxiliary_point_where_it_leaves_the_sheet() -> None:
     """With parallel bars the trial figure is drawn, and the protocol says why."""
     bars = SWEEPS["parallel bars"]
-    assert "trial figure" in report(bars.at(0.0)).drawing.method["velocity"][0]
-    assert any("off the sheet" in form for form in report(bars.at(1e-3)).drawing.forms)
+    assert "trial figure" in report(bars.scene_at(0.0)).drawing.method["velocity"][0]
+    assert any("off the sheet" in form for form in report(bars.scene_at(1e-3)).drawing.forms)
 
 
 def test_a_link_too_short_for_its_vectors_is_drawn_on_polar_plans() -> None:
     """With a crank of a hundred-thousandth the default is a polar plan, and says why; a plan that is named stays."""
-    short = SWEEPS["short crank"].at(1e-5)
+    short = SWEEPS["short crank"].scene_at(1e-5)
     drawing = report(short).drawing
     assert not drawing.turned
     assert any("polar plans, as links differ so much in length" in note for note in drawing.notes)

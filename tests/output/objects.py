@@ -14,7 +14,7 @@ import figures
 from each import each
 
 import graphplan as gp
-from graphplan.accuracy.drafted import drafted
+from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import pencil
 from graphplan.check.trusted import report
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, TABLE
@@ -98,7 +98,7 @@ PLACES = each("place", [together, apart])
 def drafted_plates(name: str, strict: bool = False) -> tuple[Construction, Plates, Composition]:
     """A packaged scene constructed, as it is drawn, on its sheet."""
     found = report(gp.load(name), strict=strict)
-    composition = drafted(found.drawing, pencil(""), None, found.check).composition
+    composition = draft(found.drawing, pencil(""), None, found.check).composition
     return found.drawing, composition.plates, composition
 
 

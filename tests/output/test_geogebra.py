@@ -22,7 +22,7 @@ from objects import NAMES, PLACES, Place, drafted_plates, gap, loose, programs
 
 from graphplan.accuracy.reach import Reached, holding, put_right
 from graphplan.cycle.relations import relations
-from graphplan.cycle.turn import under
+from graphplan.cycle.turn import points_under_slides
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import evaluate
@@ -102,7 +102,7 @@ class Drag:
         points = self.linkage.dragged(pins, travels)
         if points is None:
             return None
-        points |= {name: points[at] for name, at in under(self.relations.scene).items()}
+        points |= {name: points[at] for name, at in points_under_slides(self.relations.scene).items()}
         guides = self.linkage.guides(pins, travels)
         one = Reached(*({name: np.array([z]) for name, z in some.items()} for some in (points, guides)))
         values = put_right(self.drawing, one, self.wrong)

@@ -12,7 +12,7 @@ from tex_pictures import ENGINES, HIDDEN, compiled, lacking, lettered, rendered,
 from tiers import THOROUGH, sample
 
 import graphplan as gp
-from graphplan.accuracy.drafted import drafted
+from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import pencil
 from graphplan.mechanism.scene import packaged
 from graphplan.output.exports.latex import letters, package
@@ -35,7 +35,7 @@ SPOKEN = sample(("uk",), LANGUAGES)
 
 def composed(name: str, language: str) -> Composition:
     """A packaged scene on its sheet in a language."""
-    return drafted(gp.construct(gp.load(name)), pencil(""), tongue=tongue(language)).composition
+    return draft(gp.construct(gp.load(name)), pencil(""), tongue=tongue(language)).composition
 
 
 @pytest.mark.parametrize("name", packaged())

@@ -12,7 +12,7 @@ from tiers import sample
 
 import graphplan as gp
 from graphplan.check.cycle import cycle
-from graphplan.check.poses import checked
+from graphplan.check.poses import points_where_sound
 from graphplan.cycle import follow
 from graphplan.mechanism.model import Scene
 
@@ -59,7 +59,7 @@ def test_no_pose_is_drawn_by_points_that_coincide_in_another(seed: int) -> None:
     drawing, turn = gp.construct(scene), follow(scene, 9, (0, 40))
     poses = drawing.evaluate(turn.points, turn.guides)
     given = np.all([np.isfinite(z) for z in poses.velocity.values()], axis=0)
-    agreed = np.all([np.isfinite(z) for z in checked(drawing, turn.points, turn.guides).values()], axis=0)
+    agreed = np.all([np.isfinite(z) for z in points_where_sound(drawing, turn.points, turn.guides).values()], axis=0)
     assert drawing.relied
     assert given.tolist() == agreed.tolist()
     assert all("coincide in the scene and lie apart here" in why for why in poses.faults.values())

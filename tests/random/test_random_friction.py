@@ -18,7 +18,7 @@ from loads import loaded_scenes
 from rubbing_by_hand import Machine
 
 from graphplan.check import answerable, trusted
-from graphplan.check.json_results import data
+from graphplan.check.json_results import result_data
 from graphplan.check.trusted import report
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import Find, Scene
@@ -87,7 +87,7 @@ def printed(found: dict[str, Any]) -> dict[str, float]:
 
 def compare(seed: int, scene: Scene, right: dict[str, float], plan: str) -> str:
     """What differs; nothing where nothing does."""
-    found = printed(data(report(scene, plan=plan)))
+    found = printed(result_data(report(scene, plan=plan)))
     assert scene.loads is not None
     names = scene.loads.named_balances
     largest = max(map(abs, right.values()), default=0.0)

@@ -100,7 +100,7 @@ def test_friction_is_drawn_until_it_stands(journals: bool) -> None:
         found = report(scene, exact=not journals, plan="polygons")
         rounds.add(found.drawing.rounds)
         assert found.forces is not None
-        for name, value in found.forces.rubbed.items():
+        for name, value in found.forces.friction_balances.items():
             right = named(standing)[name]
             assert value == (right if not journals else pytest.approx(right, rel=1e-8, abs=1e-9)), seed
     assert 1 in rounds

@@ -34,7 +34,7 @@ def test_a_machine_runs_as_evenly_as_was_asked_for(seed: int) -> None:
     """Its flywheel is found, and the speeds of its motion; only a machine that is even enough needs no flywheel."""
     scene = machine(seed)
     found = run(scene)
-    assert max(of_motions.checked(found).values()) <= CLOSE
+    assert max(of_motions.check_motion(found).values()) <= CLOSE
     assert found.steady is not None
     assert scene.flywheel is not None
     uneven = found.steady.means.unevenness
@@ -44,7 +44,7 @@ def test_a_machine_runs_as_evenly_as_was_asked_for(seed: int) -> None:
         assert "needs no flywheel" in str(refused)
         assert uneven <= float(scene.flywheel.unevenness or 0)
     else:
-        assert max(of_flywheels.checked(wheel).values()) <= CLOSE
+        assert max(of_flywheels.check_flywheel(wheel).values()) <= CLOSE
         assert uneven == pytest.approx(float(scene.flywheel.unevenness or 0), rel=1e-6)
 
 

@@ -10,7 +10,7 @@ import pytest
 from loads import loaded_scenes
 from tiers import sample
 
-from graphplan.check.reduction import checked
+from graphplan.check.reduction import check_reduction
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import GraphplanError, Refused
 from graphplan.machine.integrals import settled
@@ -58,7 +58,7 @@ def test_reductions_agree_with_the_solver_and_close_the_energy_balance(first: in
     closed = 0
     for seed, scene, found in reductions(range(first, first + TOGETHER)):
         low, high = found.ends
-        checked(found, np.linspace(low, high, 7))
+        check_reduction(found, np.linspace(low, high, 7))
         rate = abs(float(scene.drives[0].rate)) * found.unit
         if not rate:
             continue

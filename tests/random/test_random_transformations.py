@@ -37,7 +37,7 @@ from transformations import (
 
 import graphplan
 from graphplan.check.cycle import cycle
-from graphplan.check.json_results import data
+from graphplan.check.json_results import result_data
 from graphplan.check.trusted import report
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.scene import parse
@@ -70,7 +70,7 @@ def _scenes() -> Iterator[tuple[str, Tables]]:
 def _solved(tables: Tables, exact: bool = True) -> tuple[int, Results]:
     """The exit status of `solve`, and its results where that is 0."""
     try:
-        return 0, results_of(data(report(parse(text_of(tables), "scene"), exact=exact)))
+        return 0, results_of(result_data(report(parse(text_of(tables), "scene"), exact=exact)))
     except GraphplanError as error:
         return error.status, {}
 

@@ -21,7 +21,7 @@ from inked_sheet import InkedSheet
 from numpy.typing import NDArray
 from spoken import misspoken
 
-from graphplan.accuracy.drafted import drafted
+from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.check.trusted import report
 from graphplan.errors import GraphplanError, Refused
@@ -54,7 +54,7 @@ class DrawnScene:
     def of(cls, scene: Scene) -> DrawnScene:
         """The scene as `graphplan draw` has it; fails as that does."""
         found = report(scene)
-        return cls(scene, drafted(found.drawing, Pencil(), check=found.check).composition)
+        return cls(scene, draft(found.drawing, Pencil(), check=found.check).composition)
 
     @cached_property
     def pages(self) -> list[InkedSheet]:
@@ -83,7 +83,7 @@ class DrawnScene:
         composition = self.composition
         if composition.arrangement.paper != frame_of(self.scene).paper("A4"):  # named, it is the same once more
             try:
-                composition = drafted(composition.plans.drawing, Pencil(), paper="A4").composition
+                composition = draft(composition.plans.drawing, Pencil(), paper="A4").composition
             except Refused:
                 return False
         page, view = task(composition)[0], composition.views[MECHANISM]

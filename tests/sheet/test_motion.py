@@ -15,7 +15,7 @@ from inked_sheet import InkedSheet
 from sheets import solution
 
 import graphplan as gp
-from graphplan.cycle.motion_curves import traced
+from graphplan.cycle.motion_curves import traced_motion
 from graphplan.marking.submission import read
 from graphplan.methods.panels import MECHANISM
 from graphplan.output import back_end
@@ -31,7 +31,7 @@ def composed(name: str, curves: tuple[str, ...] = (), positions: int = 0) -> Com
     """The sheet of a packaged scene that shows its motion."""
     scene = gp.load(name)
     drawing = gp.construct(replace(scene, sheet=replace(scene.sheet, curves=curves, positions=positions)))
-    return compose(drawing, motion=traced(drawing.scene))
+    return compose(drawing, motion=traced_motion(drawing.scene))
 
 
 @cache

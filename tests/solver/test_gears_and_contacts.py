@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from graphplan import analytic
-from graphplan.check.arithmetics import FLOATS, bounded_rates, enclosed, enclosures
+from graphplan.check.arithmetics import FLOATS, bounded_rates, enclose_scene, enclosures
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.replaced import beyond
 from graphplan.mechanism.scene import load, parse
@@ -222,7 +222,7 @@ def test_all_numbers_say_the_same(name: str) -> None:
     assert single.condition < 100
     for by in (FLOATS, enclosures(200)):
         with by.working():
-            proven = bounded_rates(enclosed(scene, by), by)
+            proven = bounded_rates(enclose_scene(scene, by), by)
         for part in ("omega", "alpha"):
             for link, value in getattr(exact, part).items():
                 assert by.lift(value).overlaps(getattr(proven, part)[link])

@@ -11,7 +11,17 @@ from dataclasses import dataclass, replace
 
 from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.preference import forms
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart, front, grouped, median, stairs
+from graphplan.accuracy.survey.picture import (
+    Axis,
+    Chart,
+    ChartSeries,
+    Look,
+    SubChart,
+    front,
+    group_rows,
+    median,
+    stairs,
+)
 from graphplan.mechanism.model import Scene
 from graphplan.methods.styles import MOTION_PLANS, motion_plans
 from graphplan.sheet.plates.pens import BLUE, GREY, INK, RED
@@ -39,12 +49,12 @@ class Draft:
 
 def drafts(scene: Scene, pencil: Pencil, long: bool = True) -> list[Draft]:
     """Every form of a scene, those on the front marked; without `long` loaded scenes are not drawn strictly."""
-    found = list(_drawn(scene, pencil, long))
+    found = list(_draft_rows(scene, pencil, long))
     best = front([(one.operations, one.error) for one in found if one.operations is not None and one.error])
     return [replace(one, front=(one.operations, one.error) in best) for one in found]
 
 
-def _drawn(scene: Scene, pencil: Pencil, long: bool) -> Iterator[Draft]:
+def _draft_rows(scene: Scene, pencil: Pencil, long: bool) -> Iterator[Draft]:
     for tools in (SQUARES, STRICT):
         for plan in motion_plans(scene):
             if tools == STRICT and scene.loads is not None and not long:
@@ -84,25 +94,25 @@ Place = tuple[float, float]  # in operations and error
 
 def picture(rows: Sequence[Draft], pencil: str) -> Chart:
     """The chart of the medians over the scenes, drawn with a pencil."""
-    scenes = grouped(rows, "scene")
+    scenes = group_rows(rows, "scene")
     ways: dict[tuple[str, str, str], list[Place]] = {}
     for of in scenes.values():
-        for way, place in _beside_own(of):
+        for way, place in _relative_to_own(of):
             ways.setdefault(way, []).append(place)
     found: dict[tuple[tuple[float, float], ...], list[tuple[str, str, str]]] = {}
     for way, places in ways.items():
         found.setdefault(median(places), []).append(way)
     middles = [middle for middle, *_ in found]
-    series = [Series(_look(*alike[0]), (place[0],), ((place[1], place[2]),), label=_told(alike))
+    series = [ChartSeries(_look(*alike[0]), (place[0],), ((place[1], place[2]),), label=_ways_text(alike))
               for place, alike in found.items()]
     panel = SubChart("", TIMES_OPERATIONS, TIMES_ERROR, (
-        Series(FRONT, tuple(stairs(front(middles), _ends(middles)))), *series))
+        ChartSeries(FRONT, tuple(stairs(front(middles), _ends(middles)))), *series))
     title, remarks = "The draughtsman: operations against pencil error", REMARKS.format(
         paper=PAPER, pencil=pencil, scenes=len(scenes))
     return Chart(title, remarks, (panel,), 1, (240.0, 140.0), tuple(_key()))
 
 
-def _beside_own(rows: Sequence[Draft]) -> Iterator[tuple[tuple[str, str, str], Place]]:
+def _relative_to_own(rows: Sequence[Draft]) -> Iterator[tuple[tuple[str, str, str], Place]]:
     """Each way to draw one scene, method, plan and tools, beside the pose's own form; methods that lead to one form
     have it in common, but where all do it is the pose's own alone."""
     there = {(name, row.plan, row.tools): _spot(row) for row in rows if row.error
@@ -111,7 +121,7 @@ def _beside_own(rows: Sequence[Draft]) -> Iterator[tuple[tuple[str, str, str], P
         yield from ((way, (x / own[0], y / own[1])) for way, (x, y) in there.items())
 
 
-def _told(alike: Sequence[tuple[str, str, str]]) -> str:
+def _ways_text(alike: Sequence[tuple[str, str, str]]) -> str:
     """The ways to draw that stand at one place: the methods by plan and tools."""
     methods: dict[str, list[str]] = {}
     for method, plan, tools in alike:
@@ -127,7 +137,7 @@ def _ends(places: Sequence[Place]) -> Place:
 
 def details(rows: Sequence[Draft], pencil: str) -> Chart:
     """The chart of every form of every scene."""
-    panels = tuple(_panel(scene, of) for scene, of in grouped(rows, "scene").items())
+    panels = tuple(_panel(scene, of) for scene, of in group_rows(rows, "scene").items())
     remarks = DETAILS.format(paper=PAPER, pencil=pencil)
     title = "The draughtsman: operations against pencil error, scene by scene"
     return Chart(title, remarks, panels, 6, (44.0, 36.0), tuple(_key()))
@@ -139,7 +149,7 @@ def _panel(scene: str, rows: Sequence[Draft]) -> SubChart:
     there = [row for row in rows if row.operations is not None and row.error]
     line = stairs(sorted({_spot(row) for row in rows if row.front}), _ends(list(map(_spot, there)))) if there else []
     return SubChart(f"{scene} ({missing} not drawn)" if missing else scene, OPERATIONS, ERROR,
-                    (Series(FRONT, tuple(line)), *(Series(look(row), (_spot(row),)) for row in there)))
+                    (ChartSeries(FRONT, tuple(line)), *(ChartSeries(look(row), (_spot(row),)) for row in there)))
 
 
 def _spot(row: Draft) -> Place:

@@ -16,7 +16,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from graphplan.accuracy.survey.picture import ROUNDS, Axis, Chart, Look, Series, SubChart, ratios, spent
+from graphplan.accuracy.survey.picture import ROUNDS, Axis, Chart, ChartSeries, Look, SubChart, ratios, spent
 from graphplan.check.trusted import report
 from graphplan.cycle import follow
 from graphplan.errors import GraphplanError
@@ -30,8 +30,9 @@ from graphplan.solver import poses, solve
 LINKS = (4, 10, 20, 50, 100, 200, 500, 1000, 2000)
 POSES = 1000  # evaluated at once
 POSITIONS, TRAVEL = 36, (0.0, 5.0)  # that are followed, and how far, in degrees
-LONG = 50  # links from which an exponent is fitted: below, what is done once for any mechanism counts as well
-LEAST, LONGEST = 0.02, 10.0  # seconds of a measurement, and that a stage may take
+# links from which an exponent is fitted: below, what is done once for any mechanism counts as well
+MIN_FITTED_LINKS = 50
+MIN_SECONDS, MAX_SECONDS = 0.02, 10.0  # of a measurement, and that a stage may take
 CONSTRUCT, SOLVE, CHECK, FOLLOW, DRAW, EVALUATE = STAGES = (
     "construct", "solve", "check", "follow, a pose", "draw", "evaluate, a pose of many")
 UNIT = "four links solved"
@@ -59,7 +60,7 @@ def chain(dyads: int) -> Scene:
 
 
 @dataclass(frozen=True)
-class Stage:
+class StageTime:
     """One stage for a chain of so many links: its time, between quartiles, and the steps of the program; or why there
     is no time."""
 
@@ -73,7 +74,7 @@ class Stage:
 
 
 def stages(links: Sequence[int] = LINKS, rounds: int = ROUNDS,
-           tell: Callable[[str], None] = lambda said: None) -> Iterator[Stage]:
+           tell: Callable[[str], None] = lambda said: None) -> Iterator[StageTime]:
     """Every stage of every chain, an even number of links each, four at least; all take turns. What is under way is
     told."""
     four, steps = poses.posed(chain(1), {}, {}), dict[int, int]()
@@ -84,24 +85,24 @@ def stages(links: Sequence[int] = LINKS, rounds: int = ROUNDS,
         drawing = construct(chain(count // 2 - 1))
         steps[count] = len(drawing.program) - drawing.program.givens
         for stage, run in _runs(drawing).items():
-            if stage not in left and not (why := _hindered(run[0])):
+            if stage not in left and not (why := _hindrance(run[0])):
                 runs[count, stage] = run
             else:
                 left.setdefault(stage, why)
-                yield Stage(count, steps[count], stage, None, why=left[stage])
-    times = ratios(runs, (0, ""), rounds, LEAST, lambda done: tell(f"round {done + 1} of {rounds}"))
+                yield StageTime(count, steps[count], stage, None, why=left[stage])
+    times = ratios(runs, (0, ""), rounds, MIN_SECONDS, lambda done: tell(f"round {done + 1} of {rounds}"))
     for (count, stage), (low, middle, high) in times.items():
         if count:
-            yield Stage(count, steps[count], stage, middle, low, high)
+            yield StageTime(count, steps[count], stage, middle, low, high)
 
 
-def _hindered(run: Callable[[], object]) -> str:
+def _hindrance(run: Callable[[], object]) -> str:
     """Why a stage cannot be measured; nothing where it can."""
     try:
         time = spent(run)
     except GraphplanError as refusal:
         return refusal.lines[0]
-    return f"longer than {LONGEST:g} s" if time > LONGEST else ""
+    return f"longer than {MAX_SECONDS:g} s" if time > MAX_SECONDS else ""
 
 
 def _runs(drawing: Construction) -> dict[str, tuple[Callable[[], object], int]]:
@@ -114,10 +115,10 @@ def _runs(drawing: Construction) -> dict[str, tuple[Callable[[], object], int]]:
         EVALUATE: (lambda: drawing.evaluate(many), POSES)}
 
 
-def exponent(rows: Sequence[Stage], stage: str) -> float | None:
+def exponent(rows: Sequence[StageTime], stage: str) -> float | None:
     """The power of the number of links with which the time of a stage grows, fitted where chains are long, three at
     least."""
-    long = [(row.links, row.time) for row in rows if row.stage == stage and row.links >= LONG and row.time]
+    long = [(row.links, row.time) for row in rows if row.stage == stage and row.links >= MIN_FITTED_LINKS and row.time]
     if len(long) < 3:
         return None
     links, times = np.log(np.array(long, float)).T
@@ -133,26 +134,26 @@ TIME = Axis("time; 1 is one pose of four links solved")
 REMARKS = (
     "A crank and a chain of dyads; a program has {steps} steps. Times are medians and quartiles within one run, "
     "relative to the time that the analytic solver takes for one pose of four links; the powers of the number n of "
-    f"links are fitted from {LONG} links."
+    f"links are fitted from {MIN_FITTED_LINKS} links."
 )
 
 
-def picture(rows: Sequence[Stage]) -> Chart:
+def picture(rows: Sequence[StageTime]) -> Chart:
     """The chart of these stages."""
     lines = tuple(_line(rows, stage, look) for stage, look in LOOKS.items())
     remarks = REMARKS.format(steps=_steps(sorted({(row.links, row.steps) for row in rows})))
     return Chart("Growth with the number of links", remarks, (SubChart("", SIZE, TIME, lines),), 1, (240.0, 140.0), ())
 
 
-def _line(rows: Sequence[Stage], stage: str, look: Look) -> Series:
+def _line(rows: Sequence[StageTime], stage: str, look: Look) -> ChartSeries:
     """A stage's times with their quartiles, its exponent at the end of the line, and why it ends there."""
     there = [row for row in rows if row.stage == stage and row.time]
     why = next((row.why for row in rows if row.stage == stage and row.why), "")
     power = exponent(rows, stage)
     told = stage if power is None else f"{stage}: n^{power:.2f}"
-    return Series(look, tuple((row.links, row.time) for row in there if row.time),
-                  tuple(((row.links, row.low), (row.links, row.high)) for row in there if row.low and row.high),
-                  label=f"{told} ({why.split(': ')[-1].split(';')[0]})" if why else told)
+    return ChartSeries(look, tuple((row.links, row.time) for row in there if row.time),
+                       tuple(((row.links, row.low), (row.links, row.high)) for row in there if row.low and row.high),
+                       label=f"{told} ({why.split(': ')[-1].split(';')[0]})" if why else told)
 
 
 def _steps(counts: Sequence[tuple[int, int]]) -> str:

@@ -10,16 +10,16 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from graphplan.accuracy.preference import called, led_to
+from graphplan.accuracy.preference import form_name, led_to
 from graphplan.accuracy.survey.picture import (
     Axis,
     Chart,
+    ChartSeries,
     Look,
     Place,
-    Series,
     SubChart,
     front,
-    grouped,
+    group_rows,
     median,
     ratios,
     stairs,
@@ -33,7 +33,7 @@ from graphplan.accuracy.survey.problem import (
     SOLVERS,
     TWENTY,
     Problem,
-    Run,
+    TimedRun,
 )
 from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import Scene
@@ -46,11 +46,11 @@ MOTION, FORCES = "motion", "motion and forces"
 ALL = 1000
 Drawn = Construction | GraphplanError
 Key = tuple[str, str, str]  # form, plan and arithmetic
-Rivals = Mapping[str, Callable[[Problem], Run]]
+Rivals = Mapping[str, Callable[[Problem], TimedRun]]
 
 
 @dataclass(frozen=True)
-class Measure:
+class MachineMeasure:
     """One form in one arithmetic: the time for a pose in LAPACK's, between quartiles, and the largest error; or why
     there is none. The solver and other programs have no form and no plan."""
 
@@ -66,43 +66,43 @@ class Measure:
     why: str = ""
 
 
-def measures(scene: Scene, compiled: int = ALL) -> Iterator[Measure]:
+def measures(scene: Scene, compiled: int = ALL) -> Iterator[MachineMeasure]:
     """Every form of a scene in every arithmetic, and the solver; of a scene with loads its forces, too.
 
     Numba compiles so many forms of each, the pose's own first; of the others it is said that they are left out.
     """
     for asked in (MOTION, FORCES) if scene.loads is not None else (MOTION,):
         problem = Problem(scene, forces=asked == FORCES)
-        yield from measured(problem, asked, SOLVERS, forms(problem.scene), compiled)
+        yield from measure_runs(problem, asked, SOLVERS, forms(problem.scene), compiled)
 
 
-def measured(problem: Problem, asked: str, others: Rivals, drawn: Iterable[tuple[str, str, Drawn]],
-             compiled: int = ALL) -> Iterator[Measure]:
+def measure_runs(problem: Problem, asked: str, others: Rivals, drawn: Iterable[tuple[str, str, Drawn]],
+                 compiled: int = ALL) -> Iterator[MachineMeasure]:
     """What has no form, and every form in every arithmetic, taking turns; LAPACK is among the others."""
-    runs, errors = dict[Key, Run](), dict[Key, float]()
-    for key, made in _offered(problem, others, drawn, compiled):
+    runs, errors = dict[Key, TimedRun](), dict[Key, float]()
+    for key, made in _candidate_runs(problem, others, drawn, compiled):
         try:
             run = made()
             errors[key], runs[key] = problem.error(run, run.call()), run
         except GraphplanError as refusal:
-            yield Measure(problem.scene.name, asked, *key, None, None, None, None, refusal.lines[0])
+            yield MachineMeasure(problem.scene.name, asked, *key, None, None, None, None, refusal.lines[0])
     times = ratios({key: (run.call, run.count) for key, run in runs.items()}, ("", "", LAPACK))
     for key, (low, middle, high) in times.items():
-        yield Measure(problem.scene.name, asked, *key, middle, low, high, errors[key])
+        yield MachineMeasure(problem.scene.name, asked, *key, middle, low, high, errors[key])
 
 
-def _offered(problem: Problem, others: Rivals, drawn: Iterable[tuple[str, str, Drawn]],
-             compiled: int) -> Iterator[tuple[Key, Callable[[], Run]]]:
+def _candidate_runs(problem: Problem, others: Rivals, drawn: Iterable[tuple[str, str, Drawn]],
+                    compiled: int) -> Iterator[tuple[Key, Callable[[], TimedRun]]]:
     """Everything that is measured: what has no form, then every form."""
     for name, other in others.items():
         yield ("", "", name), partial(other, problem)
     for k, (form, plan, one) in enumerate(drawn):
         for name, arithmetic in ARITHMETICS.items():
             left_out = name == COMPILED and k >= compiled
-            yield (form, plan, name), partial(_drawn, partial(arithmetic, problem), one, left_out)
+            yield (form, plan, name), partial(_run_of_form, partial(arithmetic, problem), one, left_out)
 
 
-def _drawn(arithmetic: Callable[[Construction], Run], drawn: Drawn, left_out: bool) -> Run:
+def _run_of_form(arithmetic: Callable[[Construction], TimedRun], drawn: Drawn, left_out: bool) -> TimedRun:
     """An arithmetic at work on a form; fails where the form is refused, and where it takes too long."""
     if isinstance(drawn, GraphplanError):
         raise drawn
@@ -115,7 +115,7 @@ def forms(scene: Scene) -> Iterator[tuple[str, str, Drawn]]:
     """The programs to which all methods lead, on both kinds of plan, by the methods' names; or why there is none."""
     for plan in motion_plans(scene):
         for names, one in led_to(partial(construct, scene, plan=plan), lambda drawing: drawing.program):
-            yield called(names), plan, one
+            yield form_name(names), plan, one
 
 
 # ---- the pictures -----------------------------------------------------------------------------------------------
@@ -144,46 +144,47 @@ DETAILS = (
 )
 
 
-def picture(rows: Sequence[Measure]) -> Chart:
+def picture(rows: Sequence[MachineMeasure]) -> Chart:
     """The chart of the medians over the scenes: of the motion, and of the motion and forces of scenes with loads."""
-    panels = [SubChart(f"{asked.capitalize()}, {len(grouped(of, 'scene'))} scenes", TIME, ERROR, tuple(_medians(of)))
-              for asked, of in grouped(rows, "asked").items()]
+    panels = [SubChart(f"{asked.capitalize()}, {len(group_rows(of, 'scene'))} scenes", TIME, ERROR, tuple(_medians(of)))
+              for asked, of in group_rows(rows, "asked").items()]
     key = (("the construction", OWN), ("the analytic solver", SOLVERS_OWN), ("other programs", RIVAL),
            ("the front: nothing is faster and more accurate", FRONT))
     return Chart("The machine: time against error", REMARKS, tuple(panels), 2, (165.0, 120.0), key)
 
 
-def _medians(rows: Sequence[Measure]) -> Iterator[Series]:
+def _medians(rows: Sequence[MachineMeasure]) -> Iterator[ChartSeries]:
     """The front, and each arithmetic by its median over the scenes: of the form that the pose chooses for itself."""
     chosen = [row for row in rows if row.time is not None and row.arithmetic not in BY_RULES
               and row.plan in ("", MOTION_PLANS[0]) and row.form.split(", ")[0] in ("", "pose's own", "every method")]
-    several = grouped(chosen, "arithmetic")
+    several = group_rows(chosen, "arithmetic")
     found = {name: median([(row.time, row.error) for row in of if row.time is not None and row.error is not None])
              for name, of in several.items()}
     middles = [middle for middle, _, _ in found.values()]
     best = stairs(front(middles), (max(x for x, _ in middles), max(y for _, y in middles)))
     ends = {middle: name for name, (middle, _, _) in found.items()}
     levels = {y: _level(y, ends[x, y]) for x, y in front(middles)}
-    yield Series(FRONT, tuple((x, levels.get(y, y)) for x, y in best), through=True)
+    yield ChartSeries(FRONT, tuple((x, levels.get(y, y)) for x, y in best), through=True)
     for name, (middle, low, high) in found.items():
         spot, *corners = ((x, _level(y, name)) for x, y in (middle, low, high))
         look = OWN if name in ARITHMETICS else SOLVERS_OWN if name in SOLVERS else RIVAL
         label = "" if isinstance(spot[1], str) else f"{name} ({len(several[name])})" if look is RIVAL else name
-        yield Series(look, (spot,), ((corners[0], corners[1]),), label=label)
+        yield ChartSeries(look, (spot,), ((corners[0], corners[1]),), label=label)
 
 
-def details(rows: Sequence[Measure]) -> Chart:
+def details(rows: Sequence[MachineMeasure]) -> Chart:
     """The chart of every form in every scene."""
     close = replace(ERROR, pitch=4.0)
     panels = tuple(SubChart(f"{scene}, {asked}", TIME, close, tuple(_marks(of)))
-                   for asked, every in grouped(rows, "asked").items() for scene, of in grouped(every, "scene").items())
+                   for asked, every in group_rows(rows, "asked").items()
+                   for scene, of in group_rows(every, "scene").items())
     return Chart("The machine: time against error, scene by scene", DETAILS, panels, 6, (44.0, 44.0), tuple(_key()))
 
 
-def _marks(rows: Iterable[Measure]) -> Iterator[Series]:
+def _marks(rows: Iterable[MachineMeasure]) -> Iterator[ChartSeries]:
     for row in rows:
         if row.time is not None and row.error is not None:
-            yield Series(look(row), ((row.time, _level(row.error, row.arithmetic)),))
+            yield ChartSeries(look(row), ((row.time, _level(row.error, row.arithmetic)),))
 
 
 def _level(error: float, arithmetic: str) -> Place:
@@ -192,7 +193,7 @@ def _level(error: float, arithmetic: str) -> Place:
     return EXACT if error == 0 else rail if rail and error < PROVEN[rail] else error
 
 
-def look(row: Measure) -> Look:
+def look(row: MachineMeasure) -> Look:
     """A measure's look: its arithmetic by the marker, its method by the colour, polar plans hollow."""
     if row.arithmetic not in MARKERS:
         return RIVAL

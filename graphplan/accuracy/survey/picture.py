@@ -38,7 +38,7 @@ class Look:
 
 
 @dataclass(frozen=True)
-class Series:
+class ChartSeries:
     """Spots of one look, and for each of them the corners of its spread, where it is told; the words that stand at its
     last spot, or in an area. The line of a series `through` goes over rails as over numbers, else it ends there."""
 
@@ -72,7 +72,7 @@ class SubChart:
     title: str
     x: Axis
     y: Axis
-    series: tuple[Series, ...]
+    series: tuple[ChartSeries, ...]
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ class Chart:
     key: tuple[tuple[str, Look], ...]
 
 
-def grouped(rows: Iterable[T], field: str) -> dict[str, list[T]]:
+def group_rows(rows: Iterable[T], field: str) -> dict[str, list[T]]:
     """Rows by what a field of them says, in the order in which it is first said."""
     found: dict[str, list[T]] = {}
     for row in rows:
@@ -147,27 +147,28 @@ def _cell(value: Any) -> str:
 
 
 ROUNDS = 5
-LONG_ENOUGH = 2e-3  # seconds: shorter runs are repeated within one measurement
+MIN_SECONDS = 2e-3  # seconds: shorter runs are repeated within one measurement
 
 Key = TypeVar("Key")
 Quartiles = tuple[float, float, float]  # the middle one is the median
 
 
 def ratios(runs: Mapping[Key, tuple[Callable[[], object], int]], unit: Key,
-           rounds: int = ROUNDS, least: float = LONG_ENOUGH,
+           rounds: int = ROUNDS, least: float = MIN_SECONDS,
            told: Callable[[int], None] = lambda done: None) -> dict[Key, Quartiles]:
     """The time of each run for one of the things that it does, over that of the run `unit` in the same round.
 
     Reads each run with how many things it does.
     """
-    times = alternated({name: run for name, (run, _) in runs.items()}, rounds, least, told)
+    times = alternate_runs({name: run for name, (run, _) in runs.items()}, rounds, least, told)
     count = runs[unit][1]
     return {name: spread([count * a / (runs[name][1] * b) for a, b in zip(values, times[unit], strict=True)])
             for name, values in times.items()}
 
 
-def alternated(runs: Mapping[Key, Callable[[], object]], rounds: int = ROUNDS,
-               least: float = LONG_ENOUGH, told: Callable[[int], None] = lambda done: None) -> dict[Key, list[float]]:
+def alternate_runs(runs: Mapping[Key, Callable[[], object]], rounds: int = ROUNDS,
+                   least: float = MIN_SECONDS,
+                   told: Callable[[int], None] = lambda done: None) -> dict[Key, list[float]]:
     """The seconds of each run in each round, each measured over `least` seconds at least; `told` hears of each round.
 
     Every run is called beforehand, to warm up and to find how often.

@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.arithmetics import Exact, enclosures
-from graphplan.check.compared import UNBOUNDED, each
+from graphplan.check.compared import UNBOUNDED, components
 from graphplan.check.forces import force_truth
-from graphplan.check.report import Opinion, opinion
+from graphplan.check.report import ReferenceSolution, reference_solution
 from graphplan.errors import Refused
 from graphplan.kernel.numbers import Domain, Fractions
 from graphplan.kernel.numbers.arrays import Arrays
@@ -41,7 +41,7 @@ Results = Mapping[str, Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
-class Run:
+class TimedRun:
     """One arithmetic at work: what is called, for how many poses, and its results in the sampled pose of a number."""
 
     call: Callable[[], Any]
@@ -64,32 +64,32 @@ class Problem:
         self.places = [round(k) for k in np.linspace(0, self.n - 1, SAMPLED)]
 
     @cached_property
-    def sampled(self) -> list[dict[str, complex]]:
+    def sampled_points(self) -> list[dict[str, complex]]:
         """The points in the sampled poses."""
         return [{name: complex(z[k]) for name, z in self.points.items()} for k in self.places]
 
     @cached_property
-    def truths(self) -> list[Opinion]:
+    def truths(self) -> list[ReferenceSolution]:
         """What is true in the sampled poses."""
-        return [truth(placed(self.scene, pose)) for pose in self.sampled]
+        return [truth(place_points(self.scene, pose)) for pose in self.sampled_points]
 
-    def error(self, run: Run, found: Any) -> float:
+    def error(self, run: TimedRun, found: Any) -> float:
         """The largest error of any number in the sampled poses, beside the largest of its kind."""
         told = (run.read(found, j) for j in range(SAMPLED))
         return max(largest_error(results, true.truth(results)) for results, true in zip(told, self.truths, strict=True))
 
-    def each(self, one: Callable[[Any], Any], given: Sequence[Any],
-             read: Callable[[Any], Results] = lambda found: found) -> Run:
+    def run_each(self, one: Callable[[Any], Any], given: Sequence[Any],
+                 read: Callable[[Any], Results] = lambda found: found) -> TimedRun:
         """A run over the sampled poses, one after the other."""
-        return Run(lambda: [one(pose) for pose in given], SAMPLED, lambda found, j: read(found[j]))
+        return TimedRun(lambda: [one(pose) for pose in given], SAMPLED, lambda found, j: read(found[j]))
 
-    def arrays(self, call: Callable[[], Results]) -> Run:
+    def arrays(self, call: Callable[[], Results]) -> TimedRun:
         """A run over all poses: results as arrays of them, as pairs of arrays, or as numbers that never change."""
-        return Run(call, self.n, lambda found, j: {kind: {name: self._at(self.places[j], value)
-                                                          for name, value in named.items()}
-                                                   for kind, named in found.items()})
+        return TimedRun(call, self.n, lambda found, j: {kind: {name: self._value_at(self.places[j], value)
+                                                               for name, value in named.items()}
+                                                        for kind, named in found.items()})
 
-    def _at(self, k: int, value: Any) -> Any:
+    def _value_at(self, k: int, value: Any) -> Any:
         if isinstance(value, tuple):
             return tuple(float(np.broadcast_to(part, self.n)[k]) for part in value)
         one = np.broadcast_to(value, self.n)[k]
@@ -100,10 +100,10 @@ def largest_error(found: Results, true: Results) -> float:
     """The largest error of any number, beside the largest of its kind; of an enclosure that of its farther bound."""
     worst = 0.0
     for kind, named in found.items():
-        known = {name: each(true[kind][name]) for name in named}
+        known = {name: components(true[kind][name]) for name in named}
         largest = max((abs(_middle(number)) for numbers in known.values() for number in numbers), default=0)
         gap = max((abs(_middle(ours) - _middle(number)) + getattr(ours, "error", 0) for name, value in named.items()
-                   for ours, number in zip(each(value), known[name], strict=True)), default=0)
+                   for ours, number in zip(components(value), known[name], strict=True)), default=0)
         worst = max(worst, float(gap / largest) if largest else 0.0)
     return worst
 
@@ -125,7 +125,7 @@ def binary(scene: Scene, forces: bool = False) -> Scene:
     plain = replace(driven, irrational=(), placements={}, find=find, loads=loads)
     numbers = {"points": plain.points, "written": tuple(map(_as_given, plain.written)), "motions": plain.motions,
                "loads": loads and replace(loads, balances=tuple(map(_as_given, loads.balances)))}
-    return placed(replace(plain, **mapped(numbers, lambda number: Fraction(float(number)))), {})
+    return place_points(replace(plain, **mapped(numbers, lambda number: Fraction(float(number)))), {})
 
 
 def _as_given(one: Any) -> Any:
@@ -133,7 +133,7 @@ def _as_given(one: Any) -> Any:
     return replace(one, written=None) if getattr(one, "written", None) is not None else one
 
 
-def placed(scene: Scene, places: Mapping[str, complex]) -> Scene:
+def place_points(scene: Scene, places: Mapping[str, complex]) -> Scene:
     """A binary scene with some points elsewhere; guides through two points turn with them."""
     points = scene.points | {name: (Fraction(z.real), Fraction(z.imag)) for name, z in places.items()}
 
@@ -146,122 +146,125 @@ def placed(scene: Scene, places: Mapping[str, complex]) -> Scene:
     return scene.posed(points, direction)
 
 
-def truth(scene: Scene) -> Opinion:
+def truth(scene: Scene) -> ReferenceSolution:
     """What is true of a binary scene: in fractions, or beyond fifty digits where a root is irrational.
 
     Fails with `Refused` where that would need enclosures and they are not installed, with `SingularPose` as `solve`.
     """
     try:
-        return opinion(scene, Exact())
+        return reference_solution(scene, Exact())
     except Refused:
         if find_spec("flint") is None:
             raise
     by = enclosures(TRUE_BITS)
     with by.working():
-        return opinion(scene, by)
+        return reference_solution(scene, by)
 
 
 # ---- the construction's arithmetics ----------------------------------------------------------------------------
 
 
-def _given(drawing: Construction, lift: Callable[[Any], Any], pose: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+def _given_coordinates(drawing: Construction, lift: Callable[[Any], Any],
+                       pose: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     """The coordinates of a pose, or of arrays of poses, as a construction is given them."""
     names = {step.name for step in drawing.program.steps[:drawing.program.givens]}
     return {name: {"x": lift(z.real), "y": lift(z.imag)} for name, z in pose.items() if name in names}
 
 
-def _by_rules(domain: Callable[[], Domain], lift: Callable[[float], Any], problem: Problem,
-              drawing: Construction) -> Run:
+def _run_rules(domain: Callable[[], Domain], lift: Callable[[float], Any], problem: Problem,
+               drawing: Construction) -> TimedRun:
     """The rules, one pose after the other."""
-    return problem.each(lambda pose: drawing.read(domain(), pose),
-                        [_given(drawing, lift, pose) for pose in problem.sampled])
+    return problem.run_each(lambda pose: drawing.read(domain(), pose),
+                            [_given_coordinates(drawing, lift, pose) for pose in problem.sampled_points])
 
 
-def _replayed(problem: Problem, drawing: Construction) -> Run:
+def _run_replay(problem: Problem, drawing: Construction) -> TimedRun:
     """The replay that was written down from the tape, one pose after the other."""
-    return problem.each(drawing.replay, problem.sampled)
+    return problem.run_each(drawing.replay, problem.sampled_points)
 
 
-def _on_arrays(problem: Problem, drawing: Construction) -> Run:
+def _on_arrays(problem: Problem, drawing: Construction) -> TimedRun:
     """The rules, on arrays of all poses."""
-    given = _given(drawing, np.copy, problem.points)
+    given = _given_coordinates(drawing, np.copy, problem.points)
     return problem.arrays(lambda: drawing.read(Arrays(), given))
 
 
-def _in_blocks(machine: bool, problem: Problem, drawing: Construction) -> Run:
+def _in_blocks(machine: bool, problem: Problem, drawing: Construction) -> TimedRun:
     """The tape on blocks of poses, by numpy or compiled."""
     return problem.arrays(lambda: drawing.evaluate(problem.points, compiled=machine).results)
 
 
-def _enclosed(digits: int, problem: Problem, drawing: Construction) -> Run:
+def _run_enclosures(digits: int, problem: Problem, drawing: Construction) -> TimedRun:
     """The rules between proven bounds, to so many digits."""
     if find_spec("flint") is None:
         raise Refused("enclosures", "python-flint is not installed", "pip install 'graphplan[certified]'")
     from graphplan.kernel.numbers.enclosures import Enclosures, precision
 
-    given, bits = [_given(drawing, Fraction, pose) for pose in problem.sampled], ceil(digits * log2(10)) + SPARE_BITS
+    given, bits = [_given_coordinates(drawing, Fraction, pose)
+                   for pose in problem.sampled_points], ceil(digits * log2(10)) + SPARE_BITS
 
     def call() -> list[Results]:
         with precision(bits):
             return [drawing.read(Enclosures(), numbers) for numbers in given]
 
-    return Run(call, SAMPLED, lambda found, j: found[j])
+    return TimedRun(call, SAMPLED, lambda found, j: found[j])
 
 
 ONE, MANY, COMPILED = "one pose", "many poses", "many poses, compiled"
 TWENTY, FORTY, FRACTIONS = "20 proven digits", "40 proven digits", "fractions"
-ARITHMETICS: dict[str, Callable[[Problem, Construction], Run]] = {
-    "rules, one pose": partial(_by_rules, Floats, float),
+ARITHMETICS: dict[str, Callable[[Problem, Construction], TimedRun]] = {
+    "rules, one pose": partial(_run_rules, Floats, float),
     "rules, many poses": _on_arrays,
-    ONE: _replayed,
+    ONE: _run_replay,
     MANY: partial(_in_blocks, False),
     COMPILED: partial(_in_blocks, True),
-    TWENTY: partial(_enclosed, 20),
-    FORTY: partial(_enclosed, 40),
-    FRACTIONS: partial(_by_rules, Fractions, Fraction),
+    TWENTY: partial(_run_enclosures, 20),
+    FORTY: partial(_run_enclosures, 40),
+    FRACTIONS: partial(_run_rules, Fractions, Fraction),
 }
 
 
 # ---- the solver's -----------------------------------------------------------------------------------------------
 
 
-def _solved(exact: bool, problem: Problem) -> Run:
+def _run_solver(exact: bool, problem: Problem) -> TimedRun:
     """The solver, one pose after the other."""
-    lift = placed if exact else partial(poses.posed, guides={})
+    lift = place_points if exact else partial(poses.posed, guides={})
 
-    def one(scene: Scene) -> Rates | Reactions:
+    def solve_one(scene: Scene) -> Rates | Reactions:
         return solve(scene, exact) if scene.loads is None else reactions(scene, exact)
 
-    return problem.each(one, [lift(problem.scene, pose) for pose in problem.sampled], partial(_asked, problem.scene))
+    return problem.run_each(solve_one, [lift(problem.scene, pose) for pose in problem.sampled_points],
+                            partial(_requested_results, problem.scene))
 
 
-def _by_lapack(problem: Problem) -> Run:
+def _run_lapack(problem: Problem) -> TimedRun:
     """The solver over many poses, in batches of LAPACK whose matrices take few megabytes: measured to be fastest."""
     size = max(1, int(BYTES / (8 * (3 * len(problem.scene.moving)) ** 2)))
     starts = range(0, problem.n, size)
     sizes = [min(size, problem.n - start) for start in starts]
 
-    def solved(start: int, count: int) -> Results:
+    def solve_block(start: int, count: int) -> Results:
         block = {name: z[start : start + count] for name, z in problem.points.items()}
         scene = poses.posed(problem.scene, block, {})
         rates = poses.solve(scene, count)
-        return _asked(scene, rates if scene.loads is None else poses.reactions(scene, rates, count))
+        return _requested_results(scene, rates if scene.loads is None else poses.reactions(scene, rates, count))
 
-    return problem.arrays(lambda: _joined(list(map(solved, starts, sizes)), sizes))
+    return problem.arrays(lambda: _join_blocks(list(map(solve_block, starts, sizes)), sizes))
 
 
-def _joined(parts: Sequence[Results], sizes: Sequence[int]) -> Results:
+def _join_blocks(parts: Sequence[Results], sizes: Sequence[int]) -> Results:
     """The results of blocks of these sizes as those of all poses, pairs of arrays."""
-    def whole(values: Sequence[Any]) -> Any:
+    def join_values(values: Sequence[Any]) -> Any:
         if isinstance(values[0], tuple):
-            return tuple(map(whole, zip(*values, strict=True)))
+            return tuple(map(join_values, zip(*values, strict=True)))
         return np.concatenate([np.broadcast_to(value, size) for value, size in zip(values, sizes, strict=True)])
 
-    return {kind: {name: whole([part[kind][name] for part in parts]) for name in named}
+    return {kind: {name: join_values([part[kind][name] for part in parts]) for name in named}
             for kind, named in parts[0].items()}
 
 
-def _asked(scene: Scene, found: Rates | Reactions) -> Results:
+def _requested_results(scene: Scene, found: Rates | Reactions) -> Results:
     """What a scene asks of the solver's answer."""
     motion, forces = (found, {}) if isinstance(found, Rates) else (found.rates, force_truth(scene, {}, found))
     return {kinds.VELOCITY: {name: motion.velocity[name] for name in scene.find.velocity},
@@ -270,5 +273,5 @@ def _asked(scene: Scene, found: Rates | Reactions) -> Results:
 
 
 SOLVER, LAPACK, EXACT_SOLVER = "solver, one pose", "solver, LAPACK batches", "solver, fractions"
-SOLVERS: dict[str, Callable[[Problem], Run]] = {
-    SOLVER: partial(_solved, False), LAPACK: _by_lapack, EXACT_SOLVER: partial(_solved, True)}
+SOLVERS: dict[str, Callable[[Problem], TimedRun]] = {
+    SOLVER: partial(_run_solver, False), LAPACK: _run_lapack, EXACT_SOLVER: partial(_run_solver, True)}

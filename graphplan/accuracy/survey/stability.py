@@ -19,12 +19,12 @@ import numpy as np
 from graphplan.accuracy.first_order import first_order, readings
 from graphplan.accuracy.hand import Pencil, hand
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES, FALSE, ORTHOGONAL, POLAR, POLES, WAYS, Degeneracy
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, SubChart, grouped
+from graphplan.accuracy.survey.picture import Axis, Chart, ChartSeries, Look, Place, SubChart, group_rows
 from graphplan.accuracy.survey.problem import Results, largest_error
 from graphplan.accuracy.tolerances import EPSILON, MIN_ERROR
 from graphplan.check.arithmetics import Exact
 from graphplan.check.compared import UNBOUNDED
-from graphplan.check.report import Opinion, opinion
+from graphplan.check.report import ReferenceSolution, reference_solution
 from graphplan.check.trusted import report
 from graphplan.errors import GraphplanError, Refused
 from graphplan.kernel.kinds import POINT, Movement, plain
@@ -41,7 +41,7 @@ from graphplan.sheet.plates.plans import Plans
 from graphplan.solver import reactions, solve
 
 DISTANCES = (*(10.0 ** (-k / 2) for k in range(33)), 0.0)  # 1, 0.3, 0.1, ... 1e-16, and the special pose itself
-ACROSS = 250.0  # mm: how large each plan is drawn by pencil
+PLAN_WIDTH_MM = 250.0  # mm: how large each plan is drawn by pencil
 
 SHEET, VALUE, SOLVER, SOLVE = "the pose's own", "value rule", "solver", "solve"
 DRAWN, PENCIL, COMPUTED = "drawn in floats", "drawn by pencil", "computed"
@@ -70,9 +70,9 @@ def samples(*degeneracies: Degeneracy, distances: Sequence[float] = DISTANCES,
     """Every way at every distance from special poses."""
     for degeneracy in degeneracies:
         for d in distances:
-            pose = Pose(degeneracy.at(d), pencil or Pencil())
+            pose = TestedPose(degeneracy.scene_at(d), pencil or Pencil())
             ways = {SHEET: {}, **{way: WAYS[way] for way in degeneracy.ways}}
-            for way, how, error, told in pose.measured(ways):
+            for way, how, error, told in pose.measure(ways):
                 yield Sample(degeneracy.name, way, how, d, pose.condition, error, told)
 
 
@@ -80,7 +80,7 @@ Found = tuple[float | None, str]  # an error, and what is told of it; or none, a
 SINGULAR = "the pose is singular"
 
 
-class Pose:
+class TestedPose:
     """A scene in one pose: what is true of it, and what the solver says in floats; neither where it is singular."""
 
     def __init__(self, scene: Scene, pencil: Pencil):
@@ -93,31 +93,31 @@ class Pose:
         found = self.floats
         return max(found.rates.condition, found.reactions.condition if found.reactions else 1.0) if found else math.inf
 
-    def measured(self, ways: Mapping[str, Mapping[str, Any]]) -> Iterator[tuple[str, str, float | None, str]]:
+    def measure(self, ways: Mapping[str, Mapping[str, Any]]) -> Iterator[tuple[str, str, float | None, str]]:
         """Each way with how it is found, its error, and what is told of it."""
         for way, choices in ways.items():
-            for how, (error, told) in self._drawn(way, choices).items():
+            for how, (error, told) in self._drawing_errors(way, choices).items():
                 if how != COMPUTED:
                     yield way, how, error, told
                 elif way == SHEET:
                     yield VALUE, how, error, told
-        yield SOLVER, COMPUTED, *self._found(lambda: (self._solved(), 0, ""))
-        yield SOLVE, COMPUTED, *self._found(self._answer)
+        yield SOLVER, COMPUTED, *self._error_of(lambda: (self._solver_results(), 0, ""))
+        yield SOLVE, COMPUTED, *self._error_of(self._answer)
 
-    def _drawn(self, way: str, choices: Mapping[str, Any]) -> dict[str, Found]:
+    def _drawing_errors(self, way: str, choices: Mapping[str, Any]) -> dict[str, Found]:
         """One way as it is drawn in floats and by pencil, and by its value rules."""
         try:
             drawing = construct(self.scene, **choices)
             form = form_of(drawing)
         except GraphplanError as refusal:
             return dict.fromkeys((DRAWN, PENCIL, COMPUTED), (None, refusal.lines[0]))
-        if refused := otherwise(drawing, way):
+        if refused := why_not_drawn_so(drawing, way):
             return dict.fromkeys((DRAWN, PENCIL), (None, refused))
-        return {DRAWN: self._found(lambda: (as_drawn(drawing), drawing.rounds, form)),
+        return {DRAWN: self._error_of(lambda: (as_drawn(drawing), drawing.rounds, form)),
                 PENCIL: by_pencil(drawing, self.pencil) if self.truth else (None, SINGULAR),
-                COMPUTED: self._found(lambda: (drawing.read(Floats()), drawing.rounds, form))}
+                COMPUTED: self._error_of(lambda: (drawing.read(Floats()), drawing.rounds, form))}
 
-    def _found(self, read: Callable[[], tuple[Results, int, str]]) -> Found:
+    def _error_of(self, read: Callable[[], tuple[Results, int, str]]) -> Found:
         """The error of what is read, after so many rounds of friction, and what is told of it."""
         if self.truth is None:
             return None, SINGULAR
@@ -130,7 +130,7 @@ class Pose:
         except (ValueError, OverflowError):  # of what is no number, or beyond all
             return None, "beyond floats"
 
-    def _solved(self) -> Results:
+    def _solver_results(self) -> Results:
         """What the solver says in floats."""
         if self.floats is None:
             raise Refused(self.scene.name, "floats hold it for singular", "fractions")
@@ -142,18 +142,18 @@ class Pose:
         return found.results, found.drawing.rounds, found.arithmetic
 
 
-def _exact(scene: Scene) -> Opinion:
-    return opinion(scene, Exact())
+def _exact(scene: Scene) -> ReferenceSolution:
+    return reference_solution(scene, Exact())
 
 
-def _in_floats(scene: Scene) -> Opinion:
+def _in_floats(scene: Scene) -> ReferenceSolution:
     if scene.loads is None:
-        return Opinion(scene, solve(scene))
+        return ReferenceSolution(scene, solve(scene))
     forces = reactions(scene)
-    return Opinion(scene, forces.rates, forces, lambda rounds: forces)
+    return ReferenceSolution(scene, forces.rates, forces, lambda rounds: forces)
 
 
-def _or_none(find: Callable[[Scene], Opinion], scene: Scene) -> Opinion | None:
+def _or_none(find: Callable[[Scene], ReferenceSolution], scene: Scene) -> ReferenceSolution | None:
     try:
         return find(scene)
     except GraphplanError:
@@ -176,7 +176,7 @@ def as_drawn(drawing: Construction) -> Results:
     return found
 
 
-def otherwise(drawing: Construction, way: str) -> str:
+def why_not_drawn_so(drawing: Construction, way: str) -> str:
     """Why a construction is not drawn in the way that is asked for, if it is not: it is the next best one."""
     if way in (POLES, FALSE) and not any(way in told for told in drawing.ways):
         return f"no {way}: {joined(drawing.ways)}"
@@ -197,7 +197,7 @@ def by_pencil(drawing: Construction, pencil: Pencil) -> Found:
     for step in drawn.steps:
         if step.op.gives == POINT:
             points.setdefault(plans[step.index], []).append(complex(*values[step.index]))
-    units = {plan: max(np.ptp(np.real(at)), np.ptp(np.imag(at))) / ACROSS or 1.0 for plan, at in points.items()}
+    units = {plan: max(np.ptp(np.real(at)), np.ptp(np.imag(at))) / PLAN_WIDTH_MM or 1.0 for plan, at in points.items()}
     lines = [step.args for step in drawn.steps if step.op.movement is Movement.RULED]
     given = {step.name: step.index for step in drawn.steps[: drawn.givens]}
     lines += [(given[P], given[R]) for joints in drawing.scene.links.values()
@@ -212,14 +212,14 @@ def by_pencil(drawing: Construction, pencil: Pencil) -> Found:
 
 # ---- the picture ------------------------------------------------------------------------------------------------
 
-MOST = 100  # roundings of the mechanism's own condition that the default may lose
+MAX_LOST_ROUNDINGS = 100  # roundings of the mechanism's own condition that the default may lose
 PAIR = ((BLUE, "circle", ()), (RED, "up", (1.6, 0.7)))  # of the two ways of a sweep
 DOTS = (0.25, 0.75)
 CONDITION = Look("#bdbdbd", width=1.1)
 OWN = Look(INK, width=0.35, dash=DOTS)
 LOOKS = {VALUE: Look(GREEN, "diamond", True, 1.3, 0.2), SOLVER: Look(VIOLET, "plus", True, 1.5, 0.18, (0.8, 0.6)),
          SOLVE: Look(INK, width=0.7)}
-APART = 30.0  # times: by so much is a way worse than another
+NOTABLE_RATIO = 30.0  # times: by so much is a way worse than another
 TINTS = "#f2f2f2", "#dcdcdc", "#c8c8c8", "#b4b4b4"
 BEYOND = "0"
 ERROR = Axis("", before=((SOLVE, SOLVE), (SHEET, "sheet")), after=(("0", "not drawn"), ("1", "")), pitch=3.4,
@@ -239,10 +239,11 @@ REMARKS = (
 def picture(rows: Sequence[Sample], pencil: str = "") -> Chart:
     """The atlas of these samples, drawn by this pencil."""
     sweeps = {way.name: way for way in DEGENERACIES}
-    panels = tuple(_panel(sweeps[name], of) for name, of in grouped(rows, "degeneracy").items())
+    panels = tuple(_panel(sweeps[name], of) for name, of in group_rows(rows, "degeneracy").items())
     key = (*((f"{way}, in floats" if way != SOLVE else "answer of solve", look) for way, look in LOOKS.items()),
            ("form chosen for the pose, by pencil", OWN), ("condition", CONDITION))
-    return Chart("Where methods fail, and which works there", REMARKS.format(pencil=pencil or Pencil().told), panels, 4,
+    return Chart("Where methods fail, and which works there", REMARKS.format(pencil=pencil or Pencil().description),
+                 panels, 4,
                  (76.0, 62.0), key)
 
 
@@ -254,19 +255,19 @@ def _panel(sweep: Degeneracy, rows: Sequence[Sample]) -> SubChart:
                            if (row := told.get((way, how, d))) and (error := row.error) is not None}
               for way, how in {(row.way, row.how): 0 for row in rows}}
 
-    def lines(way: str, how: str, look: Look) -> Iterator[Series]:
+    def lines(way: str, how: str, look: Look) -> Iterator[ChartSeries]:
         """The error of a way, apart where there is none between."""
         for there, part in groupby(distances, key=errors[way, how].__contains__):
             if there:
-                yield Series(look, tuple((d or BEYOND, errors[way, how][d]) for d in part))
+                yield ChartSeries(look, tuple((d or BEYOND, errors[way, how][d]) for d in part))
 
     condition = {row.distance: EPSILON * row.condition for row in rows if row.distance and row.condition < math.inf}
-    series = [Series(CONDITION, tuple(condition.items())), *lines(SHEET, PENCIL, OWN)]
+    series = [ChartSeries(CONDITION, tuple(condition.items())), *lines(SHEET, PENCIL, OWN)]
     for place, (way, (colour, marker, dash)) in enumerate(zip(sweep.ways, PAIR, strict=True)):
         look = Look(colour, marker, bool(place), 1.3, 0.3, dash)
         missing = tuple((d or BEYOND, str(place)) for d in distances if d not in errors[way, DRAWN])
         series += [*lines(way, PENCIL, Look(colour, width=0.3, dash=DOTS)), *lines(way, DRAWN, look),
-                   Series(replace(look, width=0.0), missing), *_named(way, colour, place, errors, sweep.ways)]
+                   ChartSeries(replace(look, width=0.0), missing), *_way_label(way, colour, place, errors, sweep.ways)]
     series += [one for way, look in LOOKS.items() for one in lines(way, COMPUTED, look)]
     strips = (_stretches(SOLVE, distances, {d: _arithmetic(told[SOLVE, COMPUTED, d]) for d in distances}),
               _stretches(SHEET, distances, {d: "" if (row := told[SHEET, DRAWN, d]).error is None else row.told
@@ -274,15 +275,15 @@ def _panel(sweep: Degeneracy, rows: Sequence[Sample]) -> SubChart:
     return SubChart(sweep.name, DISTANCE, replace(ERROR, label=sweep.what), (*chain(*strips), *series))
 
 
-def _named(way: str, colour: str, place: int, errors: Mapping[tuple[str, str], Mapping[float, float]],
-           ways: Sequence[str]) -> Iterator[Series]:
+def _way_label(way: str, colour: str, place: int, errors: Mapping[tuple[str, str], Mapping[float, float]],
+               ways: Sequence[str]) -> Iterator[ChartSeries]:
     """The name of a way: halfway where it is worse than the other, or else where it ends, or a third before."""
     mine, other = (errors[one, DRAWN] for one in (way, ways[1 - place]))
-    apart = [d for d in mine if d and mine[d] > APART * other.get(d, math.inf)]
+    apart = [d for d in mine if d and mine[d] > NOTABLE_RATIO * other.get(d, math.inf)]
     there = apart or [d for d in mine if d]
     if there:
         at = there[len(there) // 2 if apart else (len(there) - 1) * (2 + place) // 3]
-        yield Series(Look(colour), ((at, mine[at]),), label=way)
+        yield ChartSeries(Look(colour), ((at, mine[at]),), label=way)
 
 
 def _arithmetic(row: Sample) -> str:
@@ -292,7 +293,7 @@ def _arithmetic(row: Sample) -> str:
     return "p/q" if row.told == "fractions" else row.told.removeprefix("enclosures of ")
 
 
-def _stretches(strip: str, distances: Sequence[float], told: Mapping[float, str]) -> Iterator[Series]:
+def _stretches(strip: str, distances: Sequence[float], told: Mapping[float, str]) -> Iterator[ChartSeries]:
     """What serves from where to where, in words on tints; white where nothing does."""
     tints = dict(zip(dict.fromkeys(filter(None, told.values())), cycle(TINTS)))
     far = [d for d in distances if d]
@@ -304,6 +305,6 @@ def _stretches(strip: str, distances: Sequence[float], told: Mapping[float, str]
         yield _stretch(strip, told[0.0], ("<", ">"), tints)
 
 
-def _stretch(strip: str, words: str, ends: tuple[Place, Place], tints: Mapping[str, str]) -> Series:
+def _stretch(strip: str, words: str, ends: tuple[Place, Place], tints: Mapping[str, str]) -> ChartSeries:
     look = Look(tints[words] if words else GREY, area=True, hollow=not words)
-    return Series(look, tuple((end, strip) for end in ends), label=words or "no")
+    return ChartSeries(look, tuple((end, strip) for end in ends), label=words or "no")

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.cycle.linkage import Array
-from graphplan.cycle.loads import direction, place
+from graphplan.cycle.loads import guide_direction, slide_position
 from graphplan.cycle.turn import Turn
 from graphplan.machine.reduced.unit_motion import Rates, UnitMotion
 from graphplan.machine.tolerances import DEAD_POINT_TOL
@@ -160,7 +160,7 @@ class LoadValues:
 
     def place(self, slide: Slide, turn: Turn) -> Array:
         """Where a slide stands along its guide, in scene lengths."""
-        return place(self.scene, slide, turn.points, self.along(slide, turn))
+        return slide_position(self.scene, slide, turn.points, self.along(slide, turn))
 
     def speed(self, slide: Slide, turn: Turn, rates: Rates, kind: str = kinds.SLIDE_VELOCITY) -> Array:
         """How fast a slide moves along its guide, in metres for a unit of travel; or how that changes."""
@@ -168,7 +168,7 @@ class LoadValues:
 
     def along(self, slide: Slide, turn: Turn) -> Any:
         """The direction of a guide, a unit vector."""
-        return direction(slide, turn.points, turn.guides)
+        return guide_direction(slide, turn.points, turn.guides)
 
     def _sense(self, slide: Slide, motion: UnitMotion, turn: Turn, rates: Rates, side: int) -> Array:
         """The stroke: the sense in which a slide moves, at a dead point that on one side of it."""

@@ -213,7 +213,7 @@ def _whole(scene: Scene) -> RangeOfMotion:
     if scene.drives[0].slides:
         raise Refused("the cycle", said("the first drive slides, and no turn closes its travel"), "a span of lengths")
     motion = whole_motion(scene)
-    if not motion.whole:
+    if not motion.goes_round:
         _reached(scene, motion, 0.0, math.inf)
         turns = f"{motion.path.travel[-1] / TURN:.0f}"
         raise Refused("the cycle", said("links are not back after turns of the drive: {0}", turns),

@@ -52,7 +52,7 @@ class UnitMotion:
         self.motion, self.compiled = motion, compiled
         first = scene.drives[0]
         self.sense = sense(first)
-        self.period = float(motion.path.travel[-1]) if motion.whole else 0.0
+        self.period = float(motion.path.travel[-1]) if motion.goes_round else 0.0
         self.metres = float(METRES[scene.units.length])
         self.turns = not first.slides
         self.unit = 1.0 if self.turns else self.metres

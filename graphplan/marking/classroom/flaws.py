@@ -45,7 +45,7 @@ class Quality:
         """The quality of a sheet."""
         composition, cost = drafted.composition, drafted.cost
         return cls(tuple(composition.short), cost.off_sheet, composition.poor, composition.legible,
-                   cost.flattest.degrees if cost.flattest else 90.0, drafted.worst.named if drafted.worst else "",
+                   cost.flattest.degrees if cost.flattest else 90.0, drafted.worst.label if drafted.worst else "",
                    drafted.error)
 
     def flaw(self, own: Quality) -> Flaw | None:

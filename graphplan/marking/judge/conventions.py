@@ -18,7 +18,7 @@ from itertools import combinations
 from typing import Any
 
 from graphplan.accuracy.hand import Pencil
-from graphplan.accuracy.preference import Constructing, called, constructions
+from graphplan.accuracy.preference import Constructing, constructions, form_name
 from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.judge.readings import Reading
@@ -123,7 +123,7 @@ class Proposer:
                                             construct=self.construct):
             if isinstance(other, Construction) and _keys(other) != _keys(drawing):
                 yield replace(reading, drawing=other, prior=reading.prior + OTHER_FORM,
-                              told=(*reading.told, said("drawn by the form {0}", called(methods))))
+                              told=(*reading.told, said("drawn by the form {0}", form_name(methods))))
 
     def _numbered(self, reading: Reading) -> Iterator[Reading]:
         """With the numbers at its marks in an order of the student's own, so that they tell nothing."""

@@ -103,7 +103,7 @@ def summary(judgement: Judgement) -> list[Said]:
     """
     told = [arranged("{0:capital}.", counted(judgement))]
     if judgement.pencil is not None:
-        told.append(said("Pencil read off the drawing: {0}.", judgement.pencil.told))
+        told.append(said("Pencil read off the drawing: {0}.", judgement.pencil.description))
     told += [twice(judgement, number) for number in judgement.numbers if number.again]
     if judgement.unasked:
         told.append(said("Not asked for, and not counted: {0}.", joined(

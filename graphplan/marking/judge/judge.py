@@ -62,7 +62,7 @@ class Judge:
     def __init__(self, reading: Reading, hand: SeenPencil):
         self.hand, pencil = hand, hand.pencil
         if not all(size > 0 for size in pencil.model.values()):
-            raise Refused(f"--pencil {pencil.told}", "a hand without errors has no tolerance", "sizes above 0")
+            raise Refused(f"--pencil {pencil.description}", "a hand without errors has no tolerance", "sizes above 0")
         self.reading, self.drawing, self.pencil = reading, reading.drawing, pencil
         self.named = lettered(self.drawing, reading.task, reading.submission, pencil)
         self.submission = blurred(self.named, hand)

@@ -271,7 +271,8 @@ class Matching:
         """Take a mistake for what was done at the next step: what is drawn where it leads, or a mark that is not to be
         seen, but from which others follow."""
         step, asked = self.next, self._asked(self.next)
-        made = self.sheet.hand.slipped(step, mistake.value(self.sheet.domain, self.own), self.sheet.errors(step.index))
+        made = self.sheet.hand.add_slips(step, mistake.value(self.sheet.domain, self.own),
+                                         self.sheet.errors(step.index))
         mended = asked[0][0] if asked else made
         place = self._drawn(step, made, self.own)
         if place is None:

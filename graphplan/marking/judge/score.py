@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from graphplan.accuracy.hand import decimal, settings
+from graphplan.accuracy.hand import decimal, read_settings
 from graphplan.errors import Refused
 from graphplan.kernel.passes import needed
 from graphplan.marking.judge.asked import results
@@ -61,7 +61,7 @@ VERDICTS = "right", "follows", "missing", "wrong", "numbers"
 def weights(text: str) -> Weights:
     """The weights that a text such as `follows=0.5,numbers=3,reversed=30` speaks of; what it leaves out stays as it is
     by default."""
-    told = settings("--weights", text, [*VERDICTS, *KINDS], "nothing of this name is weighed", _size)
+    told = read_settings("--weights", text, [*VERDICTS, *KINDS], "nothing of this name is weighed", _size)
     right, follows, missing, wrong, numbers = (told.get(name, float(getattr(Weights, name))) for name in VERDICTS)
     costs = {kind: told.get(kind, cost) for kind, cost in Weights().costs.items()}
     found = Weights(right, follows, missing, wrong, numbers, costs)

@@ -179,7 +179,7 @@ class StudentSheet:
 
     def expected(self, step: Step, drawn: Sequence[Any]) -> Any:
         """What a step should make of these marks, with the errors of the hand; fails as its rule does."""
-        return self.hand.made(step, self.domain, drawn, self.errors)
+        return self.hand.draw_step(step, self.domain, drawn, self.errors)
 
     def laid_off(self, step: Step, start: int, drawn: Sequence[Any]) -> tuple[complex, float] | None:
         """The vector that a step lays off from a mark, and its standard deviation; None where it cannot be drawn."""

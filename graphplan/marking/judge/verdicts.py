@@ -104,12 +104,12 @@ def _carried(matching: Matching, step: Step, values: Sequence[Any], suspect: Sus
     drawn, source, hand = list(values), suspect.source.index, matching.sheet.hand
     try:
         wrong = suspect.mistake.value(domain, values)
-        drawn[source:source + 1] = [hand.slipped(suspect.source, wrong, errors(source))]
+        drawn[source:source + 1] = [hand.add_slips(suspect.source, wrong, errors(source))]
         follows = {source}
         for between in matching.steps[source + 1:step.index + 1]:
             unseen = between.index == step.index or matching.matches[between.index].place is None
             if unseen and not follows.isdisjoint(between.args):
-                drawn[between.index:between.index + 1] = [hand.made(between, domain, drawn, errors)]
+                drawn[between.index:between.index + 1] = [hand.draw_step(between, domain, drawn, errors)]
                 follows.add(between.index)
     except Undrawable:
         return None

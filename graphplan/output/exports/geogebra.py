@@ -21,7 +21,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 import numpy as np
 
 from graphplan.accuracy.reach import Missed, Reached, holding, put_right
-from graphplan.cycle.relations import Written, relations
+from graphplan.cycle.relations import WrittenRelations, relations
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Panel
 from graphplan.methods.construction import Compound
@@ -92,7 +92,7 @@ class _GeoGebraWriter(Elements):
         self.objects, box = Objects(self.title), plates.box
         self.size = min((WIDE - COLUMN) / box.width, (HIGH - ROWS) / box.height) * 0.97  # pixels for a mm
         self.by_name = {name: self.names[drawn] for name, drawn in plates.pose.items()}
-        self.placed, self.ways = Written((), {}, {}, {}), dict[str, Spot]()
+        self.placed, self.ways = WrittenRelations((), {}, {}, {}), dict[str, Spot]()
 
     def named(self) -> Mapping[DrawnStep, str]:
         return labels(self.plates)
@@ -201,7 +201,7 @@ class _GeoGebraWriter(Elements):
         pose, given = self.plates.pose, self.given.pose
         found = relations(self.given.scene, next(iter(self.given)).view)
         free = found.free if found else []
-        self.ways = found.ways if found else {}
+        self.ways = found.slide_ranges if found else {}
         if found:
             linkage = Linkage(found, self.objects, self.by_name)
             self.placed = linkage.enter(lambda name: self._point(pose[name], given[name].spot))

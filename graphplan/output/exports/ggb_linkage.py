@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import chain
 from xml.etree.ElementTree import Element
 
-from graphplan.cycle.relations import SPANS, Relations
-from graphplan.cycle.relations import Written as WrittenRelations
+from graphplan.cycle.relations import KNOT_SPANS, Relations
+from graphplan.cycle.relations import WrittenRelations as WrittenRelations
 from graphplan.mechanism.model import FRAME, Drive
 from graphplan.mechanism.travel import sense
 from graphplan.output.exports.ggb_commands import DEEPEST, LANGUAGE, number
@@ -57,7 +57,7 @@ class Linkage:
         for k, drive in enumerate(self.scene.drives):
             inputs |= dict(self._driven(k, drive))
         inputs |= dict(self._states())
-        return self._numbers(self.relations.written(LANGUAGE, inputs, "place", DEEPEST))
+        return self._numbers(self.relations.write(LANGUAGE, inputs, "place", DEEPEST))
 
     def _numbers(self, found: WrittenRelations) -> WrittenRelations:
         """The terms, and the turns of links by a label each."""
@@ -82,7 +82,7 @@ class Linkage:
         for part in ("cos", "sin"):
             yield f"{part} {k}", self.objects.numeric(f"{part}travel_{{{k + 1}}}".replace("travel", "drive"),
                                                       f"{part}({shift}°)")
-        if f"shift {k}" in self.relations.asked:  # where it is counted how far links have turned in all
+        if f"shift {k}" in self.relations.used_inputs:  # where it is counted how far links have turned in all
             within = in_sense(drive, self._round(in_sense(drive, shift), k))
             yield f"shift {k}", self.objects.numeric(f"turned_{{{k + 1}}}", f"({within})°")
 
@@ -141,7 +141,7 @@ class Linkage:
 
     def _states(self) -> Iterator[tuple[str, str]]:
         """The inputs of states: straight between the knots around the first drive's travel."""
-        knots, asked = self.relations.knots, self.relations.asked
+        knots, asked = self.relations.knots, self.relations.used_inputs
         states = sorted({int(name.split()[-1]) for name in asked if "state" in name})
         if knots is None:
             yield from chain.from_iterable(((f"cos state {i}", "1"), (f"sin state {i}", "0"), (f"state {i}", "0"))
@@ -151,8 +151,8 @@ class Linkage:
         unit = 1.0 if self.scene.drives[0].slides else math.radians(1.0)
         part = f"({travel} - {number(knots.low / unit)}) / {number((knots.high - knots.low) / unit)}"
         done = self.objects.numeric("knot_{1}", f"Min[1, Max[0, {part}]]")
-        far = self.objects.numeric("knot_{2}", f"{number(SPANS / math.pi)} * acos(1 - 2 * {done})")
-        k = self.objects.numeric("knot_{3}", f"Min[{SPANS}, floor({far}) + 1]")
+        far = self.objects.numeric("knot_{2}", f"{number(KNOT_SPANS / math.pi)} * acos(1 - 2 * {done})")
+        k = self.objects.numeric("knot_{3}", f"Min[{KNOT_SPANS}, floor({far}) + 1]")
         for i in states:
             values = f"knots_{{{i}}}"
             self.objects.expression(values, "{" + ", ".join(number(round(one, 7)) for one in knots.states[i]) + "}")

@@ -13,10 +13,10 @@ from itertools import combinations
 from typing import Any
 
 from graphplan.cycle import continuation, groups, newton
-from graphplan.cycle.closure import Layout
+from graphplan.cycle.closure import GroupLayout
 from graphplan.cycle.continuation import Limit
-from graphplan.cycle.groups import Group
-from graphplan.cycle.linkage import Linkage, grounded, share
+from graphplan.cycle.groups import ClosureGroup
+from graphplan.cycle.linkage import Linkage, contact_fraction, pin_given_motions
 from graphplan.cycle.tolerances import (
     CLOSURE_TOL,
     CORRECTION_TOL,
@@ -28,7 +28,7 @@ from graphplan.cycle.tolerances import (
     SINGULAR_TOL,
 )
 from graphplan.cycle.travel import check_drives
-from graphplan.cycle.turn import RangeOfMotion, range_of_motion, stopped, under
+from graphplan.cycle.turn import RangeOfMotion, limit_reason, points_under_slides, range_of_motion
 from graphplan.errors import Refused
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer
 from graphplan.mechanism.load_values import guide_origin
@@ -60,7 +60,8 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
         "points": {name: [*map(float, at)] for name, at in scene.points.items()},
         "guides": {name: [*map(float, guide.direction)] for name, guide in guides(scene).items()},
         "touching": [*_touching(scene)],
-        "under": under(scene), "shared": [[point, at, apart(point, at)] for point, at in drawings[0].shared.items()],
+        "under": points_under_slides(scene),
+            "shared": [[point, at, apart(point, at)] for point, at in drawings[0].shared.items()],
         "lined": [[one, other, said("guides {0} and {1} are drawn as one line, and turn apart here", one, other)]
                   for one, other in _lined(scene)],
         "scene": _plain(_anywhere(tomllib.loads(scene.text))), "placed": [*_placed(scene)],
@@ -126,10 +127,12 @@ def _plain(value: Any) -> Any:
 
 
 RULES = {
-    "longest": continuation.LONGEST * TURN, "first": continuation.FIRST, "back": continuation.BACK,
-    "beside": continuation.BESIDE, "finest": MIN_STEP, "slack": continuation.SLACK,
+    "longest": continuation.MAX_STEP_TURNS * TURN, "first": continuation.FIRST_STEP,
+         "back": continuation.PREDICTOR_KNOTS,
+    "beside": continuation.INTERPOLATION_KNOTS, "finest": MIN_STEP, "slack": continuation.LIMIT_SLACK,
     "easy": LONGER_MISS, "hard": SHORTER_MISS, "singular": SINGULAR_TOL,
-    "across": CROSSING_STEP, "nothing": DETERMINANT_TOL, "near": groups.NEAR, "shrinking": groups.SHRINKING,
+    "across": CROSSING_STEP, "nothing": DETERMINANT_TOL, "near": groups.MAX_FIRST_CORRECTION,
+         "shrinking": groups.MAX_CORRECTION_RATIO,
     "settled": CORRECTION_TOL, "closed": CLOSURE_TOL,
 }  # fmt: skip
 """By what the path is guarded: the constants of `cycle`."""
@@ -137,7 +140,7 @@ RULES = {
 
 def _linkage(scene: Scene) -> tuple[Data, list[str]]:
     """The linkage with its limits, and Newton's step of each structure of groups; where nothing drives it, why."""
-    found = grounded(scene)
+    found = pin_given_motions(scene)
     linkage, parts = _parts(found, tuple(1.0 for _ in scene.drives))
     _, others = _parts(found, tuple(float(k + 1) for k in range(len(scene.drives))))
     layouts = list(dict.fromkeys(group.layout for group in parts))
@@ -145,7 +148,7 @@ def _linkage(scene: Scene) -> tuple[Data, list[str]]:
     return {
         "rules": RULES, "reach": linkage.reach, "origin": _pair(linkage.origins[FRAME]), **_followed(scene),
         "groups": [_group(group, other, moving, layouts) for group, other in zip(parts, others, strict=True)],
-        "counted": _counted(parts, others, moving) if linkage.counted else None,
+        "counted": _counted(parts, others, moving) if linkage.counts_angles else None,
         "links": moving, "opinion": _opinion(scene, moving), "changing": [*_changing(scene, moving)],
         "bases": [_pair(linkage.origins[link] - linkage.origins[FRAME], linkage.reach) for link in linkage.links],
         "owned": dict(_owned(linkage)), "guided": dict(_guided(scene, moving)),
@@ -237,7 +240,7 @@ def _changing(scene: Scene, moving: Mapping[str, int]) -> Iterator[Data]:
         }  # fmt: skip
 
 
-def _parts(scene: Scene, rates: tuple[float, ...]) -> tuple[Linkage, list[Group]]:
+def _parts(scene: Scene, rates: tuple[float, ...]) -> tuple[Linkage, list[ClosureGroup]]:
     """The linkage and its groups, whose drives have these rates.
 
     The frame's base lies off all its points, so that each has an arm: it may be moved.
@@ -245,10 +248,10 @@ def _parts(scene: Scene, rates: tuple[float, ...]) -> tuple[Linkage, list[Group]
     linkage = Linkage(scene, rates)
     low = [min(part) for part in zip(*((z.real, z.imag) for z in linkage.places.values()), strict=True)]
     linkage.origins[FRAME] = complex(*low) - linkage.reach * (1 + 1j)
-    return linkage, [Group(linkage, part) for part in linkage.parts]
+    return linkage, [ClosureGroup(linkage, part) for part in linkage.parts]
 
 
-def _group(group: Group, other: Group, moving: Mapping[str, int], layouts: Sequence[Layout]) -> Data:
+def _group(group: ClosureGroup, other: ClosureGroup, moving: Mapping[str, int], layouts: Sequence[GroupLayout]) -> Data:
     """A group in its numbers; `other` is the same with drives of other rates, which tell them apart."""
     return {
         "step": layouts.index(group.layout), "carriers": [moving[link] for link in group.carriers],
@@ -256,11 +259,11 @@ def _group(group: Group, other: Group, moving: Mapping[str, int], layouts: Seque
         "drives": [[round(two / one) - 1, turns, one]
                    for (turns, one), (_, two) in zip(group.drives, other.drives, strict=True)],
         "angles": group.layout.angles, "unknowns": group.unknowns,
-        "stops": [stopped(group.part, change) for change in (False, True)],
+        "stops": [limit_reason(group.part, change) for change in (False, True)],
     }  # fmt: skip
 
 
-def _counted(groups: Sequence[Group], others: Sequence[Group], moving: Mapping[str, int]) -> list[Data]:
+def _counted(groups: Sequence[ClosureGroup], others: Sequence[ClosureGroup], moving: Mapping[str, int]) -> list[Data]:
     """For each link by what its angle is counted: an unknown, or the angle of the link `on`, and a drive; -1 for none.
     """
     found, first = [{"on": 0, "unknown": -1, "drive": -1, "rate": 0.0} for _ in moving], 0
@@ -328,10 +331,10 @@ def _touching(scene: Scene) -> Iterator[Data]:
         if contact.direction is not None:
             yield found | {"off": _pair(given[contact.at] - given[centre]), "on": on}
         else:
-            yield found | {"other": contact.centres[1], "share": share(scene, contact)}
+            yield found | {"other": contact.centres[1], "share": contact_fraction(scene, contact)}
 
 
-def _anchors(linkage: Linkage, parts: Iterable[Group]) -> Iterator[tuple[Any, ...]]:
+def _anchors(linkage: Linkage, parts: Iterable[ClosureGroup]) -> Iterator[tuple[Any, ...]]:
     """The arms and ways of the frame that follow its points.
 
     Each by its group and place; the points P and Q that it follows, none if empty; and its number c: the arm leads to
@@ -357,9 +360,9 @@ def _anchors(linkage: Linkage, parts: Iterable[Group]) -> Iterator[tuple[Any, ..
                 yield g, k, end.way, pins[0], "", c.real, c.imag
 
 
-def _step(layout: Layout) -> str:
+def _step(layout: GroupLayout) -> str:
     """Newton's step as a function `(x, y)`: it reads x and writes corrections, rates, the determinant and lies to y."""
-    tape, inputs, found = newton.recorded(layout)
+    tape, inputs, found = newton.record_step(layout)
     outputs = [*found.corrections, *found.rates, found.determinant, *(number for lies in found.lies for number in lies)]
     writer = Writer(tape, JAVASCRIPT, {place: f"x[{k}]" for k, place in enumerate(inputs)})
     body = [*writer.statements(outputs), *(f"y[{k}] = {writer.text[place]};" for k, place in enumerate(outputs))]

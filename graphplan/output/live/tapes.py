@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple, cast
 
 from graphplan.check.forces import Forces
-from graphplan.check.json_results import data as as_solved
+from graphplan.check.json_results import result_data as as_solved
 from graphplan.check.report import Report
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import POINT

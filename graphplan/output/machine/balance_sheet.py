@@ -197,7 +197,7 @@ class BalanceSheet(Panelled):
     def _smooth(self, motion: MassMotion, spots: list[Spot]) -> list[Spot]:
         """A smooth line through spots, back to its beginning where the motion closes."""
         known = [spot for spot, z in zip(spots, motion.path, strict=True) if np.isfinite(z)]
-        if not motion.closed or len(known) < len(spots):
+        if not motion.closes or len(known) < len(spots):
             return smoothed(known)
         count = len(spots)
         whole = smoothed([known[-1], *known, known[0], known[1]])
@@ -234,7 +234,7 @@ class BalanceSheet(Panelled):
         beyond all bounds, those that are not many times as large as most."""
         known = values[np.isfinite(values)]
         most = MANY_TIMES * np.median(np.abs(known))
-        return known if self.before.closed or not most else known[np.abs(known) <= most]
+        return known if self.before.closes or not most else known[np.abs(known) <= most]
 
     def _legend(self, rect: Rect, curves: list[tuple[str, Pen]]) -> Iterator[Item]:
         """Which curve is which, in the upper left corner."""
@@ -272,7 +272,7 @@ class BalanceSheet(Panelled):
     @cached_property
     def _whole(self) -> bool:
         """Whether the travel is that of whole turns."""
-        return self.before.closed and not self.scene.drives[0].slides
+        return self.before.closes and not self.scene.drives[0].slides
 
     def _uprights(self, travel: Any) -> list[float]:
         """The travels of the numbered positions."""

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.check.reduction import lever
+from graphplan.check.reduction import check_lever
 from graphplan.cycle.turn import Turn
 from graphplan.kernel.program import Panel
 from graphplan.machine.reduced.reduction import Reduction
@@ -62,7 +62,7 @@ class LeverFigures:
     @cached_property
     def drawing(self) -> Construction:
         """The lever of the given pose, step by step, compared with the reduced moment."""
-        return lever(self.reduction, float(self.travel[0]))[0]
+        return check_lever(self.reduction, float(self.travel[0]))[0]
 
     @cached_property
     def plans(self) -> Plans:

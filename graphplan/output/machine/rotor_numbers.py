@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from graphplan.check.rotors import reactions
+from graphplan.check.rotors import bearing_reactions
 from graphplan.machine.rotors.polygons import Correction
 from graphplan.machine.rotors.rotor import direction
 from graphplan.machine.rotors.rotor_balance import Answer, Balanced
@@ -39,8 +39,8 @@ def numbers(sheet: RotorSheet) -> dict[str, Any]:
     if task.rotor.bearings:
         data["reactions"] = {
             "omega": task.rotor.omega, "bearings": [float(at) for at in task.rotor.bearings],
-            "before": [_borne(one) for one in reactions(found)],
-            "after": [_borne(one) for one in reactions(found, found.corrections)]}
+            "before": [_borne(one) for one in bearing_reactions(found)],
+            "after": [_borne(one) for one in bearing_reactions(found, found.corrections)]}
     return data | {
         "notes": [str(note) for note in found.notes],
         "steps": [{"step": program.number(step.index), "stage": str(stage.title),

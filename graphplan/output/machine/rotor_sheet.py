@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from graphplan.accuracy.first_order import deviation
 from graphplan.accuracy.hand import Pencil, program_hand
-from graphplan.check.rotors import reactions
+from graphplan.check.rotors import bearing_reactions
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Panel
 from graphplan.machine.rotors.polygons import END_VIEW, FORCES, MOMENTS, Correction
@@ -327,7 +327,7 @@ class RotorSheet(Panelled):
         """The bearings' turning reactions, before and after."""
         if self.balanced.task.rotor.bearings:
             force = self.balanced.task.units.force
-            sizes = [[abs(one) / float(NEWTONS[force]) for one in reactions(self.balanced, answer)]
+            sizes = [[abs(one) / float(NEWTONS[force]) for one in bearing_reactions(self.balanced, answer)]
                      for answer in ((), self.balanced.corrections)]
             nothing = ZERO_TOL * max(sizes[0])
             before, after = (joined(digits(size if size > nothing else 0.0) for size in part) for part in sizes)

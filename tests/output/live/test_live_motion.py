@@ -26,7 +26,7 @@ from tiers import sample, scenes
 
 import graphplan as gp
 from graphplan.check.cycle import cycle
-from graphplan.check.json_results import data as printed
+from graphplan.check.json_results import result_data as printed
 from graphplan.check.trusted import report
 from graphplan.cycle.motion_curves import centrodes
 from graphplan.cycle.turn import RangeOfMotion
@@ -282,7 +282,7 @@ def test_poles() -> None:
         if not case.travels or not pairs:
             continue
         travel = np.array(case.travels) * case.unit
-        links = RangeOfMotion(case.scene, min(0.0, travel.min()), max(0.0, travel.max()), False).moved(travel)
+        links = RangeOfMotion(case.scene, min(0.0, travel.min()), max(0.0, travel.max()), False).links_at(travel)
         for i, (link, on) in enumerate(pairs):
             one, found = links[link], centrodes(links, link, on)
             poles = one.base + (found.moving - one.origin) * one.turn

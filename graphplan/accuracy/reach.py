@@ -21,6 +21,7 @@ import numpy as np
 from graphplan.accuracy.tolerances import MIN_SIZE
 from graphplan.cycle.relations import Relations, relations
 from graphplan.errors import ConstructionError, Refused
+from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
@@ -28,7 +29,7 @@ from graphplan.kernel.program import Program, Step, evaluate
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.travel import paces
 from graphplan.methods.construct import construct
-from graphplan.methods.construction import Compound, Construction
+from graphplan.methods.construction import Construction
 from graphplan.sheet.cycle_frames import given_in, scene_in
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.view import View
@@ -164,7 +165,7 @@ def _drawn_in(drawing: Construction, points: dict[str, complex], guides: dict[st
         return step.but(params={**step.params, **other}) if other else step
 
     program = replace(drawing.program, steps=tuple(map(there, drawing.program.steps)))
-    one = Construction(**{**drawing.__getstate__(), "scene": scene, "program": program})
+    one = replace(drawing, scene=scene, program=program)
     for afresh in (False, True) if drawing.scene.loads is None else (False,):
         try:
             found = _afresh(scene, drawing) if afresh else one

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -122,7 +122,8 @@ def _filled(construction: Recorded, given: Coordinates, stretches: Iterable[slic
         for place in stretches:
             yield _stretch(construction, _cut(given, place), _cut(results, place), compiled)
         return
-    work = partial(_errand, construction, kinds=tuple(results), compiled=compiled)
+    bare = replace(construction)  # without what was computed of it, which a worker has no use for
+    work = partial(_errand, bare, kinds=tuple(results), compiled=compiled)
     with crew(workers) as shared_out:
         found = shared_out(work, (_cut(given, place) for place in stretches))
         for place, (values, faults) in zip(stretches, found, strict=True):

@@ -39,9 +39,7 @@ def plain_construction(scene: Scene, *, method: str = "", plan: str = "", strict
     """The construction of a loaded scene by the first way, whatever numbers that has in this pose; see `construct`."""
     from graphplan.methods.forces.loaded import plainly_loaded
 
-    found = plainly_loaded(scene, method, style(plan, inertia))
-    found.strict = strict
-    return found
+    return replace(plainly_loaded(scene, method, style(plan, inertia)), strict=strict)
 
 
 def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False,
@@ -56,15 +54,13 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
     chosen = style(plan, inertia)
     try:
         for found in _by_plans(scene, method, chosen):
-            found.prefer, found.strict = forms.get(method, ""), strict
-            yield found
+            yield replace(found, prefer=forms.get(method, ""), strict=strict)
     except Refused:
         if not method:
             raise
     for found in _by_plans(scene, "", chosen) if method else ():
-        found.notes.append(said("the chosen method cannot be drawn in this pose; another is drawn"))
-        found.strict = strict
-        yield found
+        note = said("the chosen method cannot be drawn in this pose; another is drawn")
+        yield replace(found, strict=strict, notes=[*found.notes, note])
 
 
 def _by_plans(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:

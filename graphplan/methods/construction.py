@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel.claims import broken
+from graphplan.kernel.drawing import Compound, Drawing, Values
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander
 from graphplan.kernel.faithful import Faithful, faithful
 from graphplan.kernel.kinds import LINE, POINT, plain
@@ -20,6 +21,7 @@ from graphplan.kernel.passes import gathered
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.kernel.tolerances import FORM_TOL
 from graphplan.kernel.window import EVERYWHERE, Window
+from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
 from graphplan.methods.controls import Control, controls
 from graphplan.methods.motion.circle_diagram import DrawnCircle
@@ -35,7 +37,7 @@ from graphplan.methods.panels import (
 from graphplan.methods.recorded import Recorded
 from graphplan.methods.results import Given
 from graphplan.methods.tolerances import EXTENT_TOL
-from graphplan.phrases import Phrase, Said, said
+from graphplan.phrases import Said, said
 
 if TYPE_CHECKING:
     from graphplan.methods.batch import Poses
@@ -64,46 +66,25 @@ class ForceArrow(NamedTuple):
     marks: tuple[int, int]
 
 
-@dataclass(frozen=True)
-class Compound:
-    """A compound as it is drawn: its step, of drawn marks, its movements, and the marks that its form has names for.
-    """
+@dataclass(frozen=True, eq=False, repr=False)
+class DrawnOut(Values):
+    """The marks of a construction drawn out in single movements, with their values in some pose; the compounds, the
+    controls, and what is read in that pose."""
 
-    drawn: Program
-    step: Step
-    movements: tuple[Step, ...]
-    inner: Mapping[str, int]
-
-    @property
-    def form(self) -> str:
-        """The form in which it is drawn, or of which that is a variant."""
-        return next((step.choice.form for step in self.movements if step.choice), "")
-
-    @property
-    def sentence(self) -> Said:
-        """All of it as one step, in the source's words."""
-        return self._spoken(self.step.op.by_form) or self.drawn.spoken(self.step)
-
-    @property
-    def before(self) -> Said | None:
-        """What of it is drawn on another plan before the rest, where its form has words for that."""
-        return self._spoken(self.step.op.before)
-
-    def _spoken(self, phrases: Mapping[str, Phrase]) -> Said | None:
-        if self.form not in phrases:
-            return None
-        words, inner = phrases[self.form], {name: self.drawn.text(mark) for name, mark in self.inner.items()}
-        return self.drawn.spoken(self.step, lambda marks, **named: words(*marks, **named, **inner))
+    compounds: Sequence[Compound] = ()
+    controls: Sequence[Control] = ()
+    results: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
 
-@dataclass(repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Construction(Recorded, Given):
     """Ordered drawing steps for a scene, and what they give.
 
     `drawn` is the program in single movements, in the form chosen for this pose. Velocities and accelerations are
     complex numbers in scene units, true and not turned. `rounds` are those of friction that are drawn.
     `by_poles` says by which poles velocities are drawn, `poles_by` how poles are found that are asked for, `circle` in
-    which order, `paths_by` how the curvature of paths is where no form says so.
+    which order, `paths_by` how the curvature of paths is where no form says so. `posed` are the drawn marks in another
+    pose than that of the program: see :meth:`with_values`.
     """
 
     ways: tuple[Said, ...] = ()
@@ -116,6 +97,15 @@ class Construction(Recorded, Given):
     poles_by: tuple[Said, ...] = ()
     circle: DrawnCircle | None = None
     paths_by: tuple[Said, ...] = ()
+    posed: DrawnOut | None = None
+
+    def with_values(self, values: Values, results: Mapping[str, Mapping[str, Any]],
+                    scene: Scene | None = None) -> Construction:
+        """The same drawing with other values of its drawn marks and what is read from them; `scene` is that of their
+        pose. What its program gives in other numbers (`read`, `evaluate`) stays that of the pose it was recorded in.
+        """
+        posed = DrawnOut(values.drawing, values.numbers, values.domain, self.compounds, self.controls, results)
+        return replace(self, scene=scene or self.scene, posed=posed)
 
     def __repr__(self) -> str:
         """One line: the title, and of what can be drawn in this pose how many steps it takes, by which methods."""
@@ -153,7 +143,8 @@ class Construction(Recorded, Given):
         return Expander(program, truth, keep, windows, self.prefer, self.scene.extent, self._faithful.better)
 
     @cached_property
-    def _gathered(self) -> tuple[Program, list[Any], list[int]]:
+    def _gathered(self) -> tuple[Program, Sequence[Any], list[int]]:
+        """The program in single movements, the values of its steps, and the place of each among those drawn out."""
         program, order = gathered(self._expander.run())
         values, origin = [self._expander.values[index] for index in order], self.program.origin
         if origin is None:
@@ -162,8 +153,10 @@ class Construction(Recorded, Given):
         return drawn, origin.back(Floats(), on_pose(program.steps), values), order
 
     @cached_property
-    def compounds(self) -> list[Compound]:
+    def compounds(self) -> Sequence[Compound]:
         """The compounds that take several movements, by their first in drawing order."""
+        if self.posed:
+            return self.posed.compounds
         drawn, _, order = self._gathered
         now = {before: index for index, before in enumerate(order)}
         place, whole = [now[before] for before in self._expander.place], dict[int, list[Step]]()
@@ -190,8 +183,10 @@ class Construction(Recorded, Given):
         return ""
 
     @cached_property
-    def controls(self) -> tuple[Control, ...]:
+    def controls(self) -> Sequence[Control]:
         """What the finished sheet shows though nothing was drawn by it; nothing where this pose cannot be drawn."""
+        if self.posed:
+            return self.posed.controls
         with suppress(ConstructionError):
             ends = {one.point: (one.start, one.end) for one in self.arrows if one.kind == kinds.VELOCITY}
             window, origin = self._expander.windows.get(MECHANISM, EVERYWHERE), self.program.origin
@@ -201,15 +196,20 @@ class Construction(Recorded, Given):
             return tuple(found) if self.turned else ()
         return ()
 
+    @cached_property
+    def drawn_out(self) -> Values:
+        """The marks drawn in single movements, with their values."""
+        return self.posed or Values(Drawing(self._gathered[0]), self._gathered[1])
+
     @property
     def drawn(self) -> Program:
         """The program in single movements."""
-        return self._gathered[0]
+        return self.drawn_out.drawing.program
 
     @property
-    def values(self) -> list[Any]:
-        """The float value of every step of `drawn`."""
-        return self._gathered[1]
+    def values(self) -> Sequence[Any]:
+        """The value of every step of `drawn`, a float where the pose is known."""
+        return self.drawn_out.numbers
 
     def sentences(self) -> list[str]:
         """Each drawn step in words, with the law or purpose where there is one."""
@@ -349,9 +349,9 @@ class Construction(Recorded, Given):
             kind: named for kind, named in self.read(Floats(), given).items() if kind in kinds}
 
     @cached_property
-    def computed(self) -> dict[str, dict[str, Any]]:
+    def computed(self) -> Mapping[str, Mapping[str, Any]]:
         """All readings in floats, right to the last digits near singular poses too, by kind and name."""
-        return self.read_off(self._faithful.values, Floats())
+        return self.posed.results if self.posed else self.read_off(self._faithful.values, Floats())
 
     @cached_property
     def _results(self) -> dict[str, dict[str, Any]]:

@@ -133,7 +133,7 @@ class Draughtsman:
         self._rates(velocity, kinds.OMEGA)
         self.readings.sort(key=lambda reading: kinds.ORDER.get(reading.kind, len(kinds.ORDER)))
         program = freeze(self.board, self.marks)
-        return Construction(self.scene, self.tempo, program, tuple(self.readings), self.velocities.turned,
+        return Construction(program, self.scene, self.tempo, tuple(self.readings), self.velocities.turned,
                             relied=tuple(self.net.relied), ways=tuple(_ways(self.moves)),
                             by_poles=_by_poles(self.velocity_moves), poles_by=self.poles_by,
                             circle=self.circle, paths_by=self.paths_by,

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
 from graphplan.errors import Undrawable
+from graphplan.kernel.drawing import Drawing
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.primitives import dot, meet
-from graphplan.kernel.program import Program, Step, about_origin, error_at
+from graphplan.kernel.program import Step, about_origin, error_at
 from graphplan.mechanism import units
 from graphplan.mechanism.model import Number, Pair, Scene
 from graphplan.methods.kinds import ResultKind, kind_of
@@ -35,18 +36,17 @@ class Reading(NamedTuple):
     given: Number | Pair | None = None
 
 
-@dataclass(repr=False)
-class Recorded:
-    """The program of a scene, and what is read from it.
+@dataclass(frozen=True, eq=False, repr=False)
+class Recorded(Drawing):
+    """The drawing of a scene, and what is read from it.
 
-    `program` holds compounds, each with the value rule that is good in every pose. The drawn velocities are in the
+    Its program holds compounds, each with the value rule that is good in every pose. The drawn velocities are in the
     scale of `tempo`, quarter `turned` or not; forces are `phi` lengths long for each unit of force. Where two points
     that are `relied` on lie apart, the program holds no more.
     """
 
     scene: Scene
     tempo: Tempo
-    program: Program
     readings: tuple[Reading, ...]
     turned: bool
     phi: Number = 1
@@ -119,10 +119,6 @@ class Recorded:
             numbers[:] = vectors[:] = value
         rows = {True: iter(numbers), False: iter(vectors)}
         return self._named(lambda reading: next(rows[bool(reading.kind.single)]))
-
-    def __getstate__(self) -> dict[str, Any]:
-        """What makes it up; what is found from that is found again elsewhere."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
 
 
 def _difference(one: Any, two: Any) -> Any:

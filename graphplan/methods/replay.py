@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
+from weakref import WeakKeyDictionary
 
 from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.kinds import Movement
@@ -80,12 +81,15 @@ class Replay:
             yield from (z.real, z.imag) if isinstance(self.told[kind][name], tuple) else (z,)
 
 
+REPLAYS: WeakKeyDictionary[Recorded, dict[Any, Replay | None]] = WeakKeyDictionary()  # as long as there is the drawing
+
+
 def replay_of(construction: Recorded, free: Free, kinds: tuple[str, ...]) -> Replay | None:
     """The replay in which these numbers are free and these kinds of readings wanted, made once.
 
     None where what stands still cannot be drawn: the rules say why.
     """
-    made: dict[Any, Replay | None] = construction.__dict__.setdefault("_replays", {})
+    made = REPLAYS.setdefault(construction, {})
     if (free, kinds) not in made:
         try:
             made[free, kinds] = Replay(construction, free, kinds)

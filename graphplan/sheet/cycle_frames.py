@@ -12,8 +12,8 @@ from dataclasses import replace
 from typing import Any
 
 from graphplan.errors import ConstructionError
+from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import POINT, Movement
-from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, evaluate
 from graphplan.mechanism.model import Pair, Scene, Slide
@@ -39,26 +39,8 @@ Given = dict[Any, dict[str, float]]
 Places = Mapping[str, Any]  # arrays: of points, of the directions of guides or of loads, in each pose
 
 
-class Posed(Construction):
-    """A construction in another pose: its drawn steps with other values, as a sheet reads it."""
-
-    def __init__(self, construction: Construction, scene: Scene, values: list[Any], given: Given):
-        self.__dict__ |= {**construction.__getstate__(), "scene": scene, "_gathered": (construction.drawn, values),
-                          "compounds": construction.compounds}
-        self.given = given
-
-    def read(self, domain: Domain, *_: Any) -> dict[str, dict[str, Any]]:
-        """All readings in this pose."""
-        return super().read(domain, self.given)
-
-    @property
-    def computed(self) -> dict[str, dict[str, Any]]:
-        """The same in floats."""
-        return self.read(Floats())
-
-
 def posed(construction: Construction, points: Mapping[str, complex], guides: Mapping[str, complex],
-          loads: Mapping[str, Any] | None = None) -> Posed | None:
+          loads: Mapping[str, Any] | None = None) -> Construction | None:
     """The construction with its points, and the guides that ride on links, elsewhere, and other loads that change.
 
     None where the pose is singular, its drawing takes other forms than that of the given pose, or points lie apart on
@@ -70,16 +52,17 @@ def posed(construction: Construction, points: Mapping[str, complex], guides: Map
     drawn, program = (given_in(steps, points, guides) | given_loads(steps, scene, phi, loads or {})
                       for steps in (construction.drawn, construction.program))
     try:
-        values = evaluate(construction.drawn, Floats(), drawn)
+        values = construction.drawn_out.drawing.mark_values(given=drawn)
         truth = evaluate(construction.program, Floats(), program)
     except ConstructionError:
         return None
     if not _alike(construction, values, truth):
         return None
-    return Posed(construction, scene_in(construction.scene, points, guides, loads), values, program)
+    return construction.with_values(values, construction.read(Floats(), program),
+                                    scene_in(construction.scene, points, guides, loads))
 
 
-def _alike(construction: Construction, values: Sequence[Any], truth: Sequence[Any]) -> bool:
+def _alike(construction: Construction, values: Values, truth: Sequence[Any]) -> bool:
     """Whether the drawn steps give the points that the rules do."""
     wanted = zip(construction.drawn.wanted, construction.program.wanted, strict=True)
     pairs = [(values[i], truth[j]) for i, j in wanted if construction.drawn.steps[i].op.gives == POINT]
@@ -150,7 +133,7 @@ def _sheet(composition: Composition, items: Iterable[Item]) -> Sheet:
 
 
 def _drawn(drawing: Construction, composition: Composition, points: Places, guides: Places, loads: Places,
-           k: int) -> Posed | None:
+           k: int) -> Construction | None:
     """A construction in the pose at a place of these arrays, where it can be drawn on these plans."""
     here, directions, acting = _at(k, points, guides, loads)
     found = posed(drawing, here, directions, acting) if all(map(cmath.isfinite, here.values())) else None

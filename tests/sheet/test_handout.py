@@ -210,7 +210,7 @@ def test_a_posed_drawing_reads_what_the_construction_gives_there(name: str) -> N
     found = posed(drawing, points, guides)
     assert found is not None
     fresh = gp.construct(found.scene).read(Floats())
-    for kind, values in found.read(Floats()).items():
+    for kind, values in found.computed.items():
         largest = max(math.hypot(*value) if isinstance(value, tuple) else abs(value) for value in values.values())
         for key, value in values.items():
             assert value == pytest.approx(fresh[kind][key], rel=0, abs=1e-9 * largest)

@@ -39,9 +39,7 @@ class LeverDraughtsman(Draughtsman):
         marks = self._balanced(lever)
         self.read(kinds.balance_kind(kinds.BY_LEVER, balance), name, *marks)
         shown = force_arrows(self.board, self.marks, [*lever.shown, Shown("balance", lever.letter, *marks[-2:])])
-        drawn = super().finished(velocity, plan)
-        drawn.phi, drawn.shown = phi, shown
-        return drawn
+        return replace(super().finished(velocity, plan), phi=phi, shown=shown)
 
     def _balanced(self, lever: Lever) -> tuple[Mark, ...]:
         """The moment on the link that turns, or the force on the one that slides, which balances all loads."""

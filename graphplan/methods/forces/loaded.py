@@ -78,9 +78,7 @@ class Loaded(Draughtsman):
         self._forces(velocity, plan)
         shown = force_arrows(self.board, self.marks, self.shown)
         drawn = super().finished(velocity, plan)
-        drawn.phi, drawn.shown, drawn.rounds = self.phi, shown, self.rounds
-        drawn.notes += self.notes
-        return drawn
+        return replace(drawn, phi=self.phi, shown=shown, rounds=self.rounds, notes=[*drawn.notes, *self.notes])
 
     def _forces(self, velocity: Velocity, plan: Normal | None) -> None:
         """Force plans and lever, as the style says."""
@@ -239,7 +237,7 @@ class Alternatives:
                 continue
             singular = _singular(found)
             if singular is None:
-                found.notes += [missing(faults[-1].why)] if faults else []
+                found.notes.extend([missing(faults[-1].why)] if faults else [])
                 if self.added and style.polygons:
                     found.notes.append(said("friction: force polygons alone have it, so they are drawn, too"))
                 return found
@@ -301,8 +299,7 @@ class Alternatives:
         grown = {way: growth(construction.program) for way, construction in drawn.items()}
         least = EQUAL * min(grown.values())
         way = min(drawn, key=lambda way: (max(grown[way], least), len(drawn[way].program)))
-        drawn[way].notes = found.notes
-        return drawn[way], way
+        return replace(drawn[way], notes=found.notes), way
 
 
 def _singular(found: Construction) -> ConstructionError | None:
@@ -328,9 +325,8 @@ def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Constructi
     least, reach = max(least, SHORT_FORCE * size / float(found.phi)), NEAR * size / float(metre(found.scene.units))
     near = tuple(name for name, size in sizes.items() if size > least and abs(moments[name]) <= reach * size)
     drawn = draw(near) if near else found
-    drawn.notes = found.notes + [
+    return replace(drawn, notes=found.notes + [
         said("slide {0}: its reaction is small compared with its moment; it is given as a force and a couple, not by "
              "its line of action", slide_named(slide))
         for slide in found.scene.slides
-        if slide.name in sizes and slide.name not in near and abs(moments[slide.name]) > least * reach]
-    return drawn
+        if slide.name in sizes and slide.name not in near and abs(moments[slide.name]) > least * reach])

@@ -381,18 +381,19 @@ class MotionPlan:
     def _trial(self, move: moves.FalsePosition) -> None:
         """Two trial figures, the false position, then the true figure by the same moves."""
         place, locus = move.at[0], self.loci[move.at]
-        trials: list[Mark] = []
-        outer = self.prime
+        trials, outer = list[Mark](), self.prime
         before = {name: getattr(self, name) for name in STATE}
         for prime, ratio in zip(("'", "''"), TRIAL_RATIOS, strict=True):
-            self.__dict__ |= {name: copy(drawn) for name, drawn in before.items()}  # nothing of another trial serves
+            for name, drawn in before.items():
+                setattr(self, name, copy(drawn))  # nothing of another trial serves
             self.prime = outer + prime
             start = self.board.pick(locus, self.home(place), self.far_from(place), ratio=ratio)
             self._know(place, self.board.named(start, self.end_name(place) + self.prime))
             self.draw(move.moves)
             trials += [start, self.ends[move.end], self.loci[move.locus]]
         self.prime = outer
-        self.__dict__ |= before
+        for name, drawn in before.items():
+            setattr(self, name, drawn)
         A1, Z1, l1, A2, Z2, l2 = trials
         true = self.board.false_position(A1, A2, Z1, l1, Z2, l2, name=self.end_name(place) + self.prime)
         self._know(place, true)

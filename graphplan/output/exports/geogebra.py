@@ -22,9 +22,9 @@ import numpy as np
 
 from graphplan.accuracy.reach import Missed, Reached, holding, put_right
 from graphplan.cycle.relations import WrittenRelations, relations
+from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Panel
-from graphplan.methods.construction import Compound
 from graphplan.output.exports.ggb_commands import labels, letters, number, ruled, written
 from graphplan.output.exports.ggb_linkage import ROW, Linkage
 from graphplan.output.exports.ggb_xml import CURVES, LINKS, POINTS, VECTORS, Objects, empty, lettered, quoted, spot

@@ -156,10 +156,9 @@ class LivePage:
         """A composition that speaks a language; its drawing is the same."""
         if say.code == composition.plans.tongue.code:
             return composition
-        drawing = object.__new__(Construction)
-        scene = composition.plans.drawing.scene
-        drawing.__dict__.update(composition.plans.drawing.__dict__, scene=replace(scene, title=say.title(self.title)))
-        return replace(composition, plans=Plans(drawing, say))
+        drawing = composition.plans.drawing
+        scene = replace(drawing.scene, title=say.title(self.title))
+        return replace(composition, plans=Plans(drawing.with_values(drawing.drawn_out, drawing.computed, scene), say))
 
 
 def live(variants: Sequence[Variant], languages: Sequence[str], title: str, *, steps_first: bool = False,

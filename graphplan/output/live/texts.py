@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from html import escape
 from typing import Any
 
-from graphplan.kernel.numbers import Domain
+from graphplan.kernel.drawing import Values
 from graphplan.kernel.stages import Equation
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import WORDS
@@ -43,22 +43,11 @@ class FollowingScales(Scales):
         return super().lengths_per_mm(panel) * self.later.input(f"s[{self.panels.index(panel)}]")
 
 
-class Following(Construction):
-    """A construction whose marks lie wherever they will lie."""
-
-    def __init__(self, construction: Construction, later: Later):
-        self.__dict__ |= {**construction.__getstate__(), "compounds": construction.compounds,
-                          "controls": construction.controls,
-                          "_gathered": (construction.drawn, unknown(later, construction.values))}
-
-    def read(self, domain: Domain, *_: Any) -> dict[str, dict[str, Any]]:
-        """All readings of the drawn marks."""
-        return self.told([self.values[mark] for mark in self.drawn.wanted], Laters())
-
-    @property
-    def computed(self) -> dict[str, dict[str, Any]]:
-        """The same, whatever the domain."""
-        return self.read(Laters())
+def with_marks_anywhere(construction: Construction, later: Later) -> Construction:
+    """The construction with its marks wherever they will lie, and what is read of them there."""
+    values = Values(construction.drawn_out.drawing, unknown(later, construction.values), Laters())
+    results = construction.told([values[mark] for mark in construction.drawn.wanted], values.domain)
+    return construction.with_values(values, results)
 
 
 @dataclass
@@ -73,7 +62,7 @@ class Texts:
         """The texts of the given pose by the part of the page, what the marks are called, and the templates."""
         plans = replace(self.plans, tongue=tongue)
         given = Telling(plans, self.scales)
-        following = Telling(Plans(Following(plans.drawing, self.later), tongue), self._scales)
+        following = Telling(Plans(with_marks_anywhere(plans.drawing, self.later), tongue), self._scales)
         parts = {"list": "\n".join(given.protocol()), "readings": "".join(given.readings()),
                  "tables": given.results(), "forms": "".join(given.forms())}
         for _ in (*following.protocol(), *following.readings(), following.results()):

@@ -12,9 +12,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LAID, OPENING, Movement, Quantity, Sizing
 from graphplan.kernel.program import Panel, Program, Step
-from graphplan.methods.construction import Compound
 from graphplan.phrases import Said, Unknown, arranged, digits, joined, said, tenths, unit
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.tolerances import LENGTH_TOL, MIN_LENGTH

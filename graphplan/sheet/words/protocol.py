@@ -23,9 +23,9 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import groupby
 
+from graphplan.kernel.drawing import Compound
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.kernel.stages import Stage
-from graphplan.methods.construction import Compound
 from graphplan.phrases import Said, arranged, in_any_case, joined, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans

@@ -1,0 +1,109 @@
+"""A drawing and the values of its marks: two records, as another pose is the same drawing with other values.
+
+A drawing is a program, the role of each mark and the scale of each plan. Values know their drawing; a drawing knows no
+values. They may be those of the given pose, of another one, of n poses at once, fractions, numbers that a page will
+know later, or what was measured on paper: what reads them need not know which.
+
+    drawing = recorded(board, {"energies": energies, "tangent": [tangent]}, {FLYWHEEL: PlanScale(on_paper=True)})
+    values = drawing.mark_values()       # of the recorded pose, in floats
+    values.of("energies")                # the points of that role, in drawing order
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.panel import Panel
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import Board, Mark, Program, Step, evaluate
+from graphplan.phrases import Phrase, Said
+
+
+class PlanScale(NamedTuple):
+    """How a plan is drawn: `on_paper` in mm of paper, else in the lengths of the scene; its velocities `turned` by a
+    quarter or not."""
+
+    on_paper: bool = False
+    turned: bool = False
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Drawing:
+    """A program, the marks of each role by the role's name, as steps of it, and the scales of plans that have one."""
+
+    program: Program
+    roles: Mapping[str, tuple[int, ...]] = field(default_factory=dict, kw_only=True)
+    plans: Mapping[Panel, PlanScale] = field(default_factory=dict, kw_only=True)
+
+    def on_paper(self, panel: Panel) -> bool:
+        """Whether a plan is drawn in mm of paper."""
+        return panel in self.plans and self.plans[panel].on_paper
+
+    def mark_values(self, domain: Domain | None = None, given: Mapping[Any, Mapping[str, Any]] | None = None,
+                    after: Callable[[Step], None] | None = None) -> Values:
+        """The values of all marks in a number domain, floats by default; see :func:`graphplan.kernel.program.evaluate`.
+        """
+        domain = domain or Floats()
+        return Values(self, evaluate(self.program, domain, given, after), domain)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Values:
+    """The value of each mark of a drawing, by step, in the numbers of a domain."""
+
+    drawing: Drawing
+    numbers: Sequence[Any]
+    domain: Domain = field(default_factory=Floats)
+
+    def __getitem__(self, step: int) -> Any:
+        return self.numbers[step]
+
+    def of(self, role: str) -> list[Any]:
+        """The values of the marks of a role."""
+        return [self.numbers[step] for step in self.drawing.roles[role]]
+
+
+@dataclass(frozen=True)
+class Compound:
+    """A compound as it is drawn: its step, of drawn marks, its movements, and the marks that its form has names for.
+    """
+
+    drawn: Program
+    step: Step
+    movements: tuple[Step, ...]
+    inner: Mapping[str, int]
+
+    @property
+    def form(self) -> str:
+        """The form in which it is drawn, or of which that is a variant."""
+        return next((step.choice.form for step in self.movements if step.choice), "")
+
+    @property
+    def sentence(self) -> Said:
+        """All of it as one step, in the source's words."""
+        return self._spoken(self.step.op.by_form) or self.drawn.spoken(self.step)
+
+    @property
+    def before(self) -> Said | None:
+        """What of it is drawn on another plan before the rest, where its form has words for that."""
+        return self._spoken(self.step.op.before)
+
+    def _spoken(self, phrases: Mapping[str, Phrase]) -> Said | None:
+        if self.form not in phrases:
+            return None
+        words, inner = phrases[self.form], {name: self.drawn.text(mark) for name, mark in self.inner.items()}
+        return self.drawn.spoken(self.step, lambda marks, **named: words(*marks, **named, **inner))
+
+
+def recorded(board: Board, roles: Mapping[str, Iterable[Mark]],
+             plans: Mapping[Panel, PlanScale] | None = None) -> Drawing:
+    """What the marks of these roles need of a board, as a drawing: nothing else is drawn."""
+    marks = {role: [*named] for role, named in roles.items()}
+    program = freeze(board, [mark for named in marks.values() for mark in named])
+    steps = iter(program.wanted)
+    return Drawing(program, roles={role: tuple(next(steps) for _ in named) for role, named in marks.items()},
+                   plans=plans or {})

@@ -65,8 +65,8 @@ def _pages(composition: Composition, document: Said) -> list[Sheet]:
     for plate in composition.plates:
         items += starting_items(plate)
     first = sheet(composition, items, document)
-    pages, own = [first, *words_pages(first, composition, document)], code(composition)
-    return [_with_corner_marks(page, page_code(own, number)) for number, page in enumerate(pages, 1)]
+    pages, first_code = [first, *words_pages(first, composition, document)], code(composition)
+    return [_with_corner_marks(page, page_code(first_code, number)) for number, page in enumerate(pages, 1)]
 
 
 def _with_corner_marks(page: Sheet, code: int) -> Sheet:
@@ -85,7 +85,7 @@ def _with_task_words(composition: Composition, guided: bool) -> Composition:
     filled = paginate_tightly(enlarge_words(words, LARGE)(page.further_columns[0].width), page)
     if len(filled) > 1:
         filled = paginate_tightly(page.set(words), page)
-    apart = tuple((page, one) for one in filled)
+    apart = tuple((page, placed_rows) for placed_rows in filled)
     return replace(composition, arrangement=replace(arrangement, rows=()), protocol=apart)
 
 
@@ -93,17 +93,17 @@ def starting_items(plate: Plate) -> Iterator[Item]:
     """What a plan has before its first step: the mechanism with what drives and loads it, or crosses to measure by; and
     where it begins."""
     rect, begins = plate.view.rect, plate.beginnings
-    spots = [drawn.spot for drawn in begins]
-    items: list[Item] = [Circle(ORIGIN, LAYER, drawn.index, drawn.spot, plate.dot_radius(drawn)) for drawn in begins]
-    wishes = [Wish(list_runs([drawn.name]), (drawn.spot,), step=drawn.index, label=drawn.name)
-              for drawn in begins if drawn.name]
+    spots = [mark.spot for mark in begins]
+    items: list[Item] = [Circle(ORIGIN, LAYER, mark.index, mark.spot, plate.dot_radius(mark)) for mark in begins]
+    wishes = [Wish(list_runs([mark.name]), (mark.spot,), step=mark.index, label=mark.name)
+              for mark in begins if mark.name]
     if plate.panel == MECHANISM:
         scene = plate.plates.scene
         mechanism = _standing(plate) if scene.assembly else DrawnMechanism(scene, plate.view)
-        given = [] if scene.assembly else list(GivenArrows(mechanism, plate.plans.tongue))
+        arrows = [] if scene.assembly else list(GivenArrows(mechanism, plate.plans.tongue))
         items += mechanism.items() if scene.assembly else (item for item in plate.mechanism if item.layer != MOTION)
-        items += (item for arrow, _ in given for item in arrow)
-        wishes += [*mechanism_wishes(mechanism), *(value for _, value in given)]
+        items += (item for arrow, _ in arrows for item in arrow)
+        wishes += [*mechanism_wishes(mechanism), *(value for _, value in arrows)]
         spots += mechanism.visible_points.values()
     else:
         yield from _ruling(rect, spots)

@@ -45,14 +45,14 @@ FIRM = 0.25  # mm: no new stroke is thinner
 
 def marks_used(program: Program, own: Collection[int]) -> frozenset[int]:
     """The marks of before that steps read: with an opening its two points, with a line those that it is named by."""
-    found, waiting = set[int](), [arg for index in own for arg in program.steps[index].args]
+    used, waiting = set[int](), [arg for index in own for arg in program.steps[index].args]
     while waiting:
         step = program.steps[waiting.pop()]
-        if step.index not in found and step.index not in own:
-            found.add(step.index)
+        if step.index not in used and step.index not in own:
+            used.add(step.index)
             named = step.op.movement is Movement.RULED and all(program.steps[arg].name for arg in step.args)
             waiting += step.args if named or step.op.gives == OPENING else ()
-    return frozenset(found)
+    return frozenset(used)
 
 
 @dataclass(frozen=True)
@@ -65,8 +65,8 @@ class Excerpt(Plate):
     @cached_property
     def steps(self) -> list[DrawnStep]:
         """What is shown, in drawing order."""
-        shown = self.own | self.earlier
-        return [drawn for drawn in self.plates.steps if drawn.panel == self.panel and drawn.index in shown]
+        indices = self.own | self.earlier
+        return [step for step in self.plates.steps if step.panel == self.panel and step.index in indices]
 
     @cached_property
     def drawn_mechanism(self) -> DrawnMechanism:
@@ -91,8 +91,8 @@ class Excerpt(Plate):
         every, last = super().marks(curve), max(self.own)
         if curve.index in self.own:
             return every
-        shown = [mark for mark in every if mark.index in self.own or mark.index in self.earlier]
-        return (shown if curve.kind == CIRCLE else []) or [mark for mark in every if mark.index <= last] or every
+        shown_marks = [mark for mark in every if mark.index in self.own or mark.index in self.earlier]
+        return (shown_marks if curve.kind == CIRCLE else []) or [mark for mark in every if mark.index <= last] or every
 
     def strokes(self, drawn: DrawnStep) -> Iterator[Stroke]:
         """What of a line is drawn; of a point of before that is laid off from elsewhere nothing."""
@@ -110,8 +110,8 @@ class Excerpt(Plate):
     @cached_property
     def wanted_vectors(self) -> list[Stroke]:
         """The vectors whose ends are both shown."""
-        shown = {drawn.index for drawn in self.steps}
-        return [one for one in super().wanted_vectors if {one.start.index, one.end.index} <= shown]
+        indices = {step.index for step in self.steps}
+        return [vector for vector in super().wanted_vectors if {vector.start.index, vector.end.index} <= indices]
 
     def ink_or_grey(self, item: Item) -> Item:
         """An item in ink where it is new, else in grey: the mechanism paler, letters in one that can be read."""
@@ -125,13 +125,13 @@ class Excerpt(Plate):
 
 def excerpt(plans: Plans, own: Collection[int], wide: float, high: float) -> Excerpt:
     """The picture of some steps of one plan, so many mm wide and as high as they need, but no higher than that."""
-    program, shown = plans.drawing.drawn, frozenset(own)
-    panel, before = plans.plan_of_step[max(shown)], marks_used(program, shown)
-    box = _box(plans, panel, shown, before)
+    program, new = plans.drawing.drawn, frozenset(own)
+    panel, before = plans.plan_of_step[max(new)], marks_used(program, new)
+    box = _box(plans, panel, new, before)
     inner = wide - 2 * MARGIN
     rect = Rect(0.0, 0.0, wide, min(inner * max(box.height / box.width, FLAT) + 2 * MARGIN, high))
     window = view(box, rect, fit_scale(box, rect.inset(MARGIN, MARGIN, MARGIN, MARGIN)))
-    return Excerpt(Plates(plans, dict.fromkeys(plans.panels, window)), panel, shown, before)
+    return Excerpt(Plates(plans, dict.fromkeys(plans.panels, window)), panel, new, before)
 
 
 def _box(plans: Plans, panel: Panel, own: Collection[int], before: Collection[int]) -> Rect:
@@ -154,8 +154,8 @@ def _box(plans: Plans, panel: Panel, own: Collection[int], before: Collection[in
 def _spots(plans: Plans, panel: Panel, marks: Collection[int]) -> list[Spot]:
     """Where those of the marks are that are points of a plan."""
     steps = plans.drawing.drawn.steps
-    found = [plans.spot(i) for i in sorted(marks) if steps[i].op.gives == POINT and plans.plan_of_step[i] == panel]
-    return [spot for spot in found if all(map(math.isfinite, spot))]
+    spots = [plans.spot(i) for i in sorted(marks) if steps[i].op.gives == POINT and plans.plan_of_step[i] == panel]
+    return [spot for spot in spots if all(map(math.isfinite, spot))]
 
 
 def _at_least(box: Rect, size: float) -> Rect:
@@ -194,9 +194,9 @@ class Part:
     @property
     def entries(self) -> Iterator[tuple[Entry, list[SpokenStep]]]:
         """The entries of its steps, each with those of its movements that are among these."""
-        own = {step.index for step in self.steps}
+        indices = {step.index for step in self.steps}
         for entry in self.passage.entries:
-            if movements := [one for one in entry.movements if one.index in own]:
+            if movements := [movement for movement in entry.movements if movement.index in indices]:
                 yield entry, movements
 
     def cut(self, runs: Iterable[Sequence[Step]]) -> Iterator[Part]:
@@ -254,9 +254,9 @@ class Picture:
 def pictures(protocol: Protocol, cut: str, room: tuple[float, float],
              fits: Callable[[Picture], bool]) -> list[Picture]:
     """The pictures of a construction, each no larger than its room, width and height in mm, and so that it `fits`."""
-    ways = {MARK: _by_marks, STEP: _by_steps, STAGE: _by_stages}
-    return [one for parts in ways[cut](protocol)
-            for one in _split_until_it_fits(Picture(protocol, tuple(parts), room), fits)]
+    cuts = {MARK: _by_marks, STEP: _by_steps, STAGE: _by_stages}
+    return [picture for parts in cuts[cut](protocol)
+            for picture in _split_until_it_fits(Picture(protocol, tuple(parts), room), fits)]
 
 
 def _split_until_it_fits(one: Picture, fits: Callable[[Picture], bool]) -> Iterator[Picture]:
@@ -272,7 +272,7 @@ def _passage_parts(protocol: Protocol) -> Iterator[Part]:
     """The passages plan by plan."""
     plan_of_step = protocol.plans.plan_of_step
     for passage in protocol.passages:
-        steps = [one.step for entry in passage.entries for one in entry.movements]
+        steps = [movement.step for entry in passage.entries for movement in entry.movements]
         for _, run in groupby(steps, lambda step: plan_of_step[step.index]):
             yield Part(passage, tuple(run))
 
@@ -280,7 +280,7 @@ def _passage_parts(protocol: Protocol) -> Iterator[Part]:
 def _by_steps(protocol: Protocol) -> Iterator[list[Part]]:
     """A picture for each step."""
     for part in _passage_parts(protocol):
-        yield from ([one] for one in part.cut([step] for step in part.steps))
+        yield from ([step_part] for step_part in part.cut([step] for step in part.steps))
 
 
 def _by_marks(protocol: Protocol) -> Iterator[list[Part]]:
@@ -295,13 +295,13 @@ def _by_marks(protocol: Protocol) -> Iterator[list[Part]]:
             continue
         group, runs = list[Step](), list[list[Step]]()
         for _, movements in part.entries:
-            steps = [one.step for one in movements]
+            steps = [movement.step for movement in movements]
             group += steps
             marked = steps[-1].name and steps[-1].op.gives == POINT and len(group) >= LEAST
             if marked or len(group) >= MOST[MARK]:
                 runs, group = [*runs, group], []
-        for one in part.cut([*runs, *([group] if group else [])]):
-            yield [*begun, one]
+        for movement in part.cut([*runs, *([group] if group else [])]):
+            yield [*begun, movement]
             begun = []
     if begun:
         yield begun
@@ -312,12 +312,13 @@ def _by_stages(protocol: Protocol) -> Iterator[list[Part]]:
     plans, short = protocol.plans, list[Part]()
     for part in _passage_parts(protocol):
         home = plans.plan_of_step[part.steps[0].index]
-        count = sum(len(one.steps) for one in short)
+        count = sum(len(short_part.steps) for short_part in short)
         if short and (count + len(part.steps) > SHORT or plans.plan_of_step[short[-1].steps[0].index] != home):
             yield short
             short = []
         if len(part.steps) > SHORT:
-            yield from ([one] for one in part.cut(cut_into_runs(plans.drawing.drawn, part.steps, MOST[STAGE])))
+            yield from ([short_part]
+                        for short_part in part.cut(cut_into_runs(plans.drawing.drawn, part.steps, MOST[STAGE])))
         else:
             short.append(part)
     if short:
@@ -342,12 +343,12 @@ def cut_into_runs(program: Program, steps: Sequence[Step], most: int) -> list[Se
 
 def letters_crowded(items: Iterable[Item]) -> bool:
     """Whether letters stand on each other, or a thin line of another step goes through them."""
-    drawn = list(items)
-    letters = [item for item in drawn if isinstance(item, Text)]
-    if any(one.box.meets(other.box) for one, other in combinations(letters, 2)):
+    all_items = list(items)
+    letters = [item for item in all_items if isinstance(item, Text)]
+    if any(letter.box.meets(neighbour.box) for letter, neighbour in combinations(letters, 2)):
         return True
-    lines = [(item.step, shapely.linestrings(chain)) for item in drawn for chain, _ in strokes([item])]
+    lines = [(item.step, shapely.linestrings(chain)) for item in all_items for chain, _ in strokes([item])]
     tree = shapely.STRtree([line for _, line in lines])
-    boxes = [(one.step, one.box.inset(AIR, AIR, AIR, AIR)) for one in letters]
+    boxes = [(letter.step, letter.box.inset(AIR, AIR, AIR, AIR)) for letter in letters]
     return any(lines[k][0] != step for step, box in boxes if box.width > 0 < box.height for k in tree.query(
         shapely.box(box.left, box.bottom, box.right, box.top), predicate="intersects"))

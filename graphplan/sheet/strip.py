@@ -119,11 +119,11 @@ class Strip:
     @cached_property
     def pictures(self) -> list[Picture]:
         tallest = max(column.height for column in self.columns)
-        found = pictures(self.protocol, self.cut, (self.wide, HIGH[self.cut] * self.wide),
+        cut_pictures = pictures(self.protocol, self.cut, (self.wide, HIGH[self.cut] * self.wide),
                          lambda one: self._height(one) <= tallest)
-        if max(map(self._height, found), default=0.0) > tallest:
+        if max(map(self._height, cut_pictures), default=0.0) > tallest:
             raise Refused("film strip", "a picture with its words is larger than the sheet", "a larger --paper")
-        return found
+        return cut_pictures
 
     @property
     def wide(self) -> float:
@@ -153,8 +153,8 @@ class Strip:
     def _pages(self) -> Iterator[list[tuple[int, Spot]]]:
         page, places = list[tuple[int, Spot]](), list[Rect]()
         place, y = Rect(0.0, 0.0, 0.0, 0.0), 0.0
-        for number, one in enumerate(self.pictures):
-            high = self._height(one)
+        for number, picture in enumerate(self.pictures):
+            high = self._height(picture)
             while y - high < place.bottom:
                 if not places and page:
                     yield page
@@ -173,30 +173,30 @@ class Strip:
         title = self.title.items(self.block, Page(document, self.paper, NO_SCALE, number, of))
         items = [*style.items(self.paper, self.frame, say), *title]
         items += [move_item(item, 0.0, 0.0, self.times) for place, corner in page for item in self._cell(place, corner)]
-        told = said("Film strip of a graphical construction: {0} steps in {1} pictures.",
+        description = said("Film strip of a graphical construction: {0} steps in {1} pictures.",
                     len(drawing.drawn) - drawing.drawn.givens, len(self.pictures))
-        return Sheet(*self.paper_size, self.frame, {}, tuple(items), scene.title, say(told),
+        return Sheet(*self.paper_size, self.frame, {}, tuple(items), scene.title, say(description),
                      tuple(self.plans.sentences),
                      Scales(1.0, drawing.kappa, scene.units.length, {}), say.code, scene.text, drawing.drawn.givens)
 
     def _cell(self, number: int, corner: Spot) -> Iterator[Item]:
         """A picture with its heading above and its words below."""
-        one, (x, y) = self.pictures[number], corner
-        rect = one.excerpt.view.rect
-        heads, told = self._rows(one, number)
+        picture, (x, y) = self.pictures[number], corner
+        rect = picture.excerpt.view.rect
+        heads, words = self._rows(picture, number)
         y -= sum(row.height for row in heads)
         yield from _stack_rows(heads, x, corner[1])
         yield Outline(pens.BORDER, "paper", None, tuple((u + x, v + y - rect.height) for u, v in rect.corners),
-                      one.excerpt.panel)
-        for item in one.items:
+                      picture.excerpt.panel)
+        for item in picture.items:
             yield move_item(item, x, y - rect.height)
         below = (0.0, rect.height + UNDER) if self.cut != STAGE else (rect.width + GAP, 0.0)
-        yield from _stack_rows(told, x + below[0], y - below[1])
+        yield from _stack_rows(words, x + below[0], y - below[1])
 
     def _height(self, one: Picture) -> float:
         """How far down a picture reaches with its words."""
-        (heads, told), high = self._rows(one), one.excerpt.view.rect.height
-        words = sum(row.height + row.gap for row in told)
+        (heads, words_rows), high = self._rows(one), one.excerpt.view.rect.height
+        words = sum(row.height + row.gap for row in words_rows)
         return sum(row.height for row in heads) + (max(high, words) if self.cut == STAGE else high + UNDER + words)
 
     def _rows(self, one: Picture, number: int = 99) -> tuple[list[TextRow], list[TextRow]]:
@@ -219,8 +219,8 @@ class Strip:
                 continue
             if words.unfolded:
                 yield from words.paragraph(entry.text, wide, movements[0].index)
-            for one in movements:
-                yield from words.paragraph(one.sentence, wide, one.index, str(one.number))
+            for movement in movements:
+                yield from words.paragraph(movement.sentence, wide, movement.index, str(movement.number))
 
     def _title(self, text: Said, wide: float) -> Iterator[TextRow]:
         """What stands over a picture or a part, in as many lines as it takes."""

@@ -60,7 +60,7 @@ def test_what_the_scale_lays_off_is_told_in_mm(name: str) -> None:
     """No step leaves it open how long it is what is measured off on the scale, unless it is nothing."""
     composition = composition_of(name)
     for step, plate in zip(steps(composition)["steps"], composition.plates.steps, strict=True):
-        nothing = plate.root is not None and math.dist(plate.root.at, plate.at) < 0.06
+        nothing = plate.root is not None and math.dist(plate.root.spot, plate.spot) < 0.06
         if step["instrument"] == "scale" and step["kind"] == "point" and step["number"] and not nothing:
             assert step["lengths"], step["sentence"]
 

@@ -51,8 +51,8 @@ class SheetFrame:
 
     def paper(self, name: str) -> str:
         """A sheet as it lies, if its name does not say."""
-        size, _, way = name.partition(" ")
-        return self.a4[0] if size.upper() == "A4" and not way else f"{size.upper()} {way}".strip()
+        size, _, orientation = name.partition(" ")
+        return self.a4[0] if size.upper() == "A4" and not orientation else f"{size.upper()} {orientation}".strip()
 
     def space(self, wide: float, high: float) -> Rect:
         """The space for drawing on a sheet of this size."""
@@ -119,9 +119,9 @@ def _name(name: str, middle: Spot) -> Item:
 
 def _format(paper: str, space: Rect, tongue: Tongue) -> Iterator[Item]:
     """The format, under the title block."""
-    told = tongue(joined((said("Format"), paper.partition(" ")[0]), " "))
+    text = tongue(joined((said("Format"), paper.partition(" ")[0]), " "))
     at = space.right - 2.0, space.bottom - 3.6
-    yield Text(LETTERS, BORDER, None, at, sentence_runs(told), SIZE, "end")
+    yield Text(LETTERS, BORDER, None, at, sentence_runs(text), SIZE, "end")
 
 
 FRAMES = {

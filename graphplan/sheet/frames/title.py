@@ -204,13 +204,13 @@ class IsoBlock:
         """
         room = wide - 2 * PAD
         sizes = HEADING / self.times, TITLE, SIZE
-        *found, small = (wrap(sentence_runs(self.scene.title), size, room, bold=True) for size in sizes)
-        told = self.tongue(page.brief) if page.filled_by_hand else self.scene.source
-        source = wrap(sentence_runs(told), SIZE, room)
+        *large_lines, small = (wrap(sentence_runs(self.scene.title), size, room, bold=True) for size in sizes)
+        subtitle = self.tongue(page.brief) if page.filled_by_hand else self.scene.source
+        source = wrap(sentence_runs(subtitle), SIZE, room)
         for name, lines in (("title", small), ("source", source)):
             if len(lines) > 2 * MOST:
                 raise Refused(name, f"it is too long for a title block {wide:g} mm wide", "fewer words")
-        fitting = (pair for pair, most in zip(zip(found, sizes, strict=False), (1, MOST), strict=True)
+        fitting = (pair for pair, most in zip(zip(large_lines, sizes, strict=False), (1, MOST), strict=True)
                    if len(pair[0]) <= most)
         lines, size = next(fitting, (small, SIZE))
         return [*((runs, size, True) for runs in lines), *((runs, SIZE, False) for runs in source)]
@@ -219,18 +219,18 @@ class IsoBlock:
 
     def _rows(self, wide: float, page: Page) -> Iterator[list[_FilledCell]]:
         """The cells in rows: first those that a scene fills or not, then those of every sheet."""
-        found, longest = values(self.scene, self.tongue, page), self._longest()
-        optional, always = ([_FilledCell(self.tongue(cell.words), found[cell.field], longest.get(cell.field, ""))
+        texts, longest = values(self.scene, self.tongue, page), self._longest()
+        optional, always = ([_FilledCell(self.tongue(cell.words), texts[cell.field], longest.get(cell.field, ""))
                              for cell in cells] for cells in (OPTIONAL, ALWAYS))
-        by_hand = [_FilledCell(self.tongue(cell.words), found.get(cell.field, ""), least=least) for cell,
+        by_hand = [_FilledCell(self.tongue(cell.words), texts.get(cell.field, ""), least=least) for cell,
                    least in BY_HAND]
         for cells in ([cell for cell in optional if cell.text], by_hand if page.filled_by_hand else always):
             row: list[_FilledCell] = []
-            for made in cells:
-                if row and sum(other.natural for other in (*row, made)) > wide:
+            for cell_text in cells:
+                if row and sum(neighbour.natural for neighbour in (*row, cell_text)) > wide:
                     yield row
                     row = []
-                row.append(made)
+                row.append(cell_text)
             if row:
                 yield row
 
@@ -329,17 +329,17 @@ class GostBlock:
 
     def items(self, rect: Rect, page: Page) -> Iterator[Item]:
         """The block in its rectangle."""
-        x, y, found = rect.left, rect.bottom, values(self.scene, self.tongue, page)
+        x, y, texts = rect.left, rect.bottom, values(self.scene, self.tongue, page)
         for at, start, end, wide in LEVEL:
             yield stroke((x + start, y + at), (x + end, y + at), wide)
         for at, start, end, wide in UPRIGHT:
             yield stroke((x + at, y + start), (x + at, y + end), wide)
         for cell in (*_roles(ROLES_BY_HAND if page.filled_by_hand else ROLES), *CELLS):
             left, low, right, high = cell.place
-            text = " ".join(filter(None, (self.tongue(cell.words), found.get(cell.field, ""))))
+            text = " ".join(filter(None, (self.tongue(cell.words), texts.get(cell.field, ""))))
             place = Rect(x + left, y + low, x + right, y + high)
-            what = cell.field or cell.words
-            yield from fit_text(place, text, cell.sizes, what=what, bold=cell.bold, middle=cell.middle)
+            name = cell.field or cell.words
+            yield from fit_text(place, text, cell.sizes, what=name, bold=cell.bold, middle=cell.middle)
 
 
 def _roles(roles: Sequence[tuple[Said | str, str]]) -> Iterator[TitleCell]:

@@ -103,14 +103,15 @@ class Composition:
     @property
     def poor(self) -> float:
         """The part of the letters that can hardly be read."""
-        found = [picture.letters for picture in self.pictures.values()]
-        return sum(one.poor for one in found) / max(1, sum(len(one.wishes) for one in found))
+        labels = [picture.letters for picture in self.pictures.values()]
+        return sum(plan.poor for plan in labels) / max(1, sum(len(plan.wishes) for plan in labels))
 
     def with_words(self, **words: Any) -> Composition:
         """The same plans with other words: their letters stand where they stood."""
-        found = replace(self, **words)
-        found.__dict__.update({name: self.__dict__[name] for name in ("plates", "pictures") if name in self.__dict__})
-        return found
+        composition = replace(self, **words)
+        for name in self.__dict__.keys() & {"plates", "pictures"}:
+            composition.__dict__[name] = self.__dict__[name]
+        return composition
 
     @property
     def score(self) -> tuple[float, float]:
@@ -123,15 +124,15 @@ class Composition:
         weights = {panel: count / sum(marks.values()) if len(marks) > 2 else 0.5 for panel, count in marks.items()}
         weights[MECHANISM] = 1.0
         large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())
-        shown = (self._size_mm(panel) / need for panel, need in self.needs.items() if need)
-        return round(large - SHORT * len(self.short), 9), min(shown, default=0.0)
+        fractions_of_need = (self._size_mm(panel) / need for panel, need in self.needs.items() if need)
+        return round(large - SHORT * len(self.short), 9), min(fractions_of_need, default=0.0)
 
     @property
     def short(self) -> list[float]:
         """The mm of vectors that are too short for a ruler, without what is next to nothing beside its kind."""
-        drawn = [(kind, length * self.views[panel].scale) for kind, panel, length in self.plans.lengths]
-        largest = dict(sorted(drawn))
-        return [length for kind, length in drawn if MIN_VECTOR * largest[kind] <= length < MEASURED]
+        vectors = [(kind, length * self.views[panel].scale) for kind, panel, length in self.plans.lengths]
+        largest = dict(sorted(vectors))
+        return [length for kind, length in vectors if MIN_VECTOR * largest[kind] <= length < MEASURED]
 
     @property
     def legible(self) -> bool:
@@ -171,20 +172,21 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
     """
     extents: dict[str, Extent] = {panel: plans.extent(panel) for panel in plans.panels}
     needs: dict[str, float] = {panel: math.sqrt(len(plans.points(panel))) for panel in plans.panels}
-    frame, given = frame_of(plans.drawing.scene), given_scales(plans)
+    frame, scene_scales = frame_of(plans.drawing.scene), given_scales(plans)
     tried: list[Composition] = []
     for name in [frame.paper(paper)] if paper else frame.papers:
-        for words in (ways := _word_choices(protocol, rows)):
-            wants = [_demands(plans, extents, scales, name) for scales in ((given, FREE) if given[0] else (FREE,))]
-            found = list(arrangements(name, partial(_divide_region, wants, plans), words, frame, title))
+        for words in (choices := _word_choices(protocol, rows)):
+            wants = [_demands(plans, extents, scales, name)
+                     for scales in ((scene_scales, FREE) if scene_scales[0] else (FREE,))]
+            candidates = list(arrangements(name, partial(_divide_region, wants, plans), words, frame, title))
             if words and protocol != ASIDE:
-                found = [arrangement for arrangement in found if arrangement.share >= MOST_OF_PAGE]
-            tried = [_windows(arrangement, extents, needs, plans, given) for arrangement in found] or tried
+                candidates = [arrangement for arrangement in candidates if arrangement.share >= MOST_OF_PAGE]
+            tried = [_windows(arrangement, extents, needs, plans, scene_scales) for arrangement in candidates] or tried
             fitting = [composition for composition in tried if not composition.oversize_factors]
-            if not (found and fitting):
+            if not (candidates and fitting):
                 continue
-            best, asked = max(fitting, key=lambda c: c.score), given[0] or (paper and words is ways[-1])
-            if (not lettered or best.poor <= UNREADABLE) if asked else (
+            best, is_given = max(fitting, key=lambda c: c.score), scene_scales[0] or (paper and words is choices[-1])
+            if (not lettered or best.poor <= UNREADABLE) if is_given else (
                     _legible(plans, best.views, name) and (not lettered or best.poor <= POOR[name[:2]])):
                 return best
     if any(composition.oversize_factors for composition in tried):
@@ -196,8 +198,8 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
 def _divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: Rect,
              block: Rect | None) -> dict[str, Rect] | None:
     """The panels in a region by the first demands for which there is room."""
-    found = (divide_among_plans(region, block, demands, plans.twins) for demands in wants)
-    return next(filter(None, found), None)
+    divisions = (divide_among_plans(region, block, demands, plans.twins) for demands in wants)
+    return next(filter(None, divisions), None)
 
 
 def _word_choices(protocol: str, rows: Measure[Sequence[TextRow]]) -> Sequence[Measure[Sequence[TextRow]] | None]:
@@ -210,10 +212,10 @@ def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: SheetFra
     """The words on pages of their own: one of the smallest paper that holds them all, else several like the sheet's."""
     for name in frame.papers:
         page = words_page(name, frame, title)
-        found = paginate_tightly(page.set(rows), page)
-        if len(found) == 1 or math.prod(sheet_size(name)) >= math.prod(sheet_size(paper)):
+        filled_pages = paginate_tightly(page.set(rows), page)
+        if len(filled_pages) == 1 or math.prod(sheet_size(name)) >= math.prod(sheet_size(paper)):
             break
-    return tuple((page, placed) for placed in found)
+    return tuple((page, placed_rows) for placed_rows in filled_pages)
 
 
 def _too_large(tried: Sequence[Composition]) -> Refused:
@@ -234,14 +236,14 @@ def _too_large(tried: Sequence[Composition]) -> Refused:
 
 def _demands(plans: Plans, extents: Mapping[str, Extent], given: GivenScales, paper: str) -> dict[str, Demand]:
     """What each plan wants of its panel on a paper."""
-    found, (k_s, multiples), size = dict[str, Demand](), given, letter_sizes(paper).text
+    demands, (k_s, multiples), size = dict[str, Demand](), given, letter_sizes(paper).text
     for panel in plans.panels:
         head = sentence_runs(plans.tongue(panel.caption(plans.kinds(panel))))
         box = wanted_box(extents[panel], COARSER if panel == MECHANISM else MUCH_COARSER)
         scale = k_s if panel == MECHANISM else k_s / float(multiples[panel]) if k_s and panel in multiples else None
-        found[panel] = Demand(box.width, box.height, max(1, len(plans.points(panel))), _lengths(plans, panel),
+        demands[panel] = Demand(box.width, box.height, max(1, len(plans.points(panel))), _lengths(plans, panel),
                               two_line_width(head, size) + 2 * SIDE, scale)
-    return found
+    return demands
 
 
 def _lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
@@ -269,11 +271,11 @@ def windows(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Pla
 
 def _scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans, given: GivenScales) -> Scales:
     """The scales, round if they are not given, for so much room for the marks of each plan; twins have one."""
-    drawing, names, (k_s, told) = plans.drawing, plans.drawing.scene.units, given
+    drawing, names, (k_s, given_multiples) = plans.drawing, plans.drawing.scene.units, given
     side, lengths = max(*_sides(rooms.values())), _lengths(plans, MECHANISM)
-    own = Fraction(k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM], COARSER, lengths))
-    if not k_s and (times := extents[MECHANISM].longest / side / float(own)) <= SHRUNK:
-        own = max(own, round_up(times * float(own), lengths))
+    mechanism_scale = Fraction(k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM], COARSER, lengths))
+    if not k_s and (times := extents[MECHANISM].longest / side / float(mechanism_scale)) <= SHRUNK:
+        mechanism_scale = max(mechanism_scale, round_up(times * float(mechanism_scale), lengths))
     most: dict[str, Fraction] = {}
     for panel in plans.panels[1:]:
         twin, lengths = plans.twins[panel], _lengths(plans, panel)
@@ -282,10 +284,11 @@ def _scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Pla
         most[twin] = max(scale, most.get(twin, scale))
     for source, panel in plans.carry_overs:
         if panel != MECHANISM:
-            twin, taken = plans.twins[panel], most.get(plans.twins[source], own)
+            twin, taken = plans.twins[panel], most.get(plans.twins[source], mechanism_scale)
             most[twin] = max(most[twin], round_up(float(taken) / LARGEST, _lengths(plans, panel)))
-    multiples: dict[str, Fraction] = {panel: own / most[plans.twins[panel]] for panel in plans.panels[1:]}
-    return Scales(float(own), drawing.kappa, names.length, multiples | told, float(drawing.phi), names.force,
+    multiples: dict[str, Fraction] = {panel: mechanism_scale / most[plans.twins[panel]] for panel in plans.panels[1:]}
+    return Scales(float(mechanism_scale), drawing.kappa, names.length, multiples | given_multiples, float(drawing.phi),
+                  names.force,
                   drawing.scene.sheet.convention)
 
 
@@ -355,25 +358,25 @@ class Composer:
         what its words measure is so at its scales."""
         scales = self._composed[0].scales if self._composed else self.usual
         for _ in range(ROUNDS):
-            found, composition = self._compose_at(scales, pencil or Deviations())
+            rows, composition = self._compose_at(scales, pencil or Deviations())
             if composition.scales == scales:
                 break
             scales = composition.scales
-        return self._with_words(composition, found) if worded else composition
+        return self._with_words(composition, rows) if worded else composition
 
     def _compose_at(self, scales: Scales, pencil: Deviations) -> tuple[Measure[list[TextRow]], Composition]:
         """Words that measure at some scales, for columns of any width, and the composition that they lead to."""
-        found: dict[float, list[TextRow]] = {}
+        rows_by_width: dict[float, list[TextRow]] = {}
 
         def rows(exact: float) -> list[TextRow]:
             wide = round(exact, 9)  # columns of one width differ by rounding
-            if wide not in found:
-                found[wide] = self.words.rows(wide, scales, pencil)
-            return found[wide]
+            if wide not in rows_by_width:
+                rows_by_width[wide] = self.words.rows(wide, scales, pencil)
+            return rows_by_width[wide]
 
         if not (self._composed and all(_need_same_room(was, rows(wide)) for wide, was in self._composed[1].items())):
             page = best_composition(self.plans, rows, self.title, self.paper, self.protocol, self.lettered)
-            self._composed = page, dict(found)
+            self._composed = page, dict(rows_by_width)
         return rows, self._composed[0]
 
     def _with_words(self, composition: Composition, rows: Measure[Sequence[TextRow]]) -> Composition:
@@ -387,8 +390,8 @@ class Composer:
 
 def with_results_alone(composition: Composition) -> Composition:
     """The composition whose pages of words have no steps, which are told elsewhere."""
-    rows = [row for _, placed in composition.protocol for row, _, _ in placed if row.layer == RESULTS]
-    pages = ((page, placed) for page, _ in composition.protocol[:1] for placed in paginate(rows, page))
+    rows = [row for _, placed_rows in composition.protocol for row, _, _ in placed_rows if row.layer == RESULTS]
+    pages = ((page, placed_rows) for page, _ in composition.protocol[:1] for placed_rows in paginate(rows, page))
     return composition.with_words(protocol=tuple(pages))
 
 

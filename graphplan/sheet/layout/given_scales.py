@@ -56,14 +56,14 @@ def _multiple(plans: Plans, panel: Panel) -> Fraction | None:
     """The multiple given for a plan, or 1 where a scale of its vectors is given."""
     sheet, kinds = plans.drawing.scene.sheet, plans.kinds(panel)
     plan = panel.whole
-    told = sheet.multiples.get(plan, sheet.multiples.get(plan.twin))
+    multiple = sheet.multiples.get(plan, sheet.multiples.get(plan.twin))
     scaled = ((sheet.k_v, VELOCITIES), (sheet.k_a, ACCELERATIONS), (sheet.k_F, FORCES))
-    return told or (Fraction(1) if any(scale and kinds & of for scale, of in scaled) else None)
+    return multiple or (Fraction(1) if any(scale and kinds & of for scale, of in scaled) else None)
 
 
 def _check_force_plans(plans: Plans) -> None:
     """Every force plan that is spoken of is one that is drawn, unless none is."""
-    drawn = [panel for panel in plans.panels if isinstance(panel, ForcePlan)]
+    force_plans = [panel for panel in plans.panels if isinstance(panel, ForcePlan)]
     for plan in plans.drawing.scene.sheet.multiples:
-        if drawn and ForcePlan.names(plan) and plan not in drawn:
-            raise Refused(f"sheet.multiples.{plan}", "there is no such plan", f"one of {', '.join(drawn)}")
+        if force_plans and ForcePlan.names(plan) and plan not in force_plans:
+            raise Refused(f"sheet.multiples.{plan}", "there is no such plan", f"one of {', '.join(force_plans)}")

@@ -41,8 +41,8 @@ def layout(drawing: Construction, paper: str | None = None, check: Mapping[str, 
     """
     composition = composition or compose(drawing, paper, check, tongue=tongue)
     items = [*frame_items(composition), *captions(composition)]
-    for drawn in composition.pictures.values():
-        items += drawn.items
+    for plan in composition.pictures.values():
+        items += plan.items
     return sheet(composition, items, document)
 
 
@@ -68,9 +68,9 @@ def pages(composition: Composition, document: Said = CONSTRUCTION) -> list[Sheet
 
 def words_pages(first: Sheet, composition: Composition, document: Said) -> Iterator[Sheet]:
     """The pages of words that follow a first sheet."""
-    for number, (page, placed) in enumerate(composition.protocol, 2):
+    for number, (page, placed_rows) in enumerate(composition.protocol, 2):
         apart = replace(composition, arrangement=page)
-        items = back_to_front([*frame_items(apart), *row_items(placed),
+        items = back_to_front([*frame_items(apart), *row_items(placed_rows),
                                *title_items(apart, document, number, composition.page_count)])
         yield replace(first, width=page.width, height=page.height, frame=page.frame, panels={}, items=tuple(items))
 
@@ -100,9 +100,9 @@ def back_to_front(items: Iterable[Item]) -> list[Item]:
 def _description(composition: Composition, plans: Plans) -> str:
     """What a reader who cannot see the sheet is told."""
     steps = len(plans.drawing.drawn) - plans.drawing.drawn.givens
-    told = [joined((panel.words, joined(composition.scales.scale_texts(panel, plans.kinds(panel)))), ": ")
+    scales = [joined((panel.words, joined(composition.scales.scale_texts(panel, plans.kinds(panel)))), ": ")
             for panel in composition.plans.panels]
-    return plans.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, joined(told, "; ")))
+    return plans.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, joined(scales, "; ")))
 
 
 TOP, APART = 1.3, 1.2  # mm over a caption, and between its lines
@@ -118,11 +118,11 @@ def captions(composition: Composition) -> Iterator[Text]:
     for panel, head in heads.items():
         large = HEADING if len(fitting[HEADING]) == len(heads) else letters.mark
         size, room = large if panel in fitting[large] else letters.text, panels[panel].width - 2 * SIDE
-        told = [sentence_runs(plans.tongue(scale))
+        scales = [sentence_runs(plans.tongue(scale))
                 for scale in composition.scales.scale_texts(panel, plans.kinds(panel))]
         lines = [(line, size, True) for line in wrap(head, size, room, bold=True)[:2]]
         fine = letters.mark if len(lines) == 1 else letters.text
-        lines += [(line, fine, False) for line in _scales(told, fine, room)]
+        lines += [(line, fine, False) for line in _scales(scales, fine, room)]
         y = panels[panel].top - TOP
         for runs, high, bold in lines:
             y -= CAPS * high

@@ -65,8 +65,8 @@ class Demand:
 
     def finer(self, scale: Fraction) -> Fraction | None:
         """The next larger scale; none where it is given."""
-        found = (round_up(float(scale) / times, self.lengths) for times in FINER)
-        return None if self.given or not self.area else next((finer for finer in found if finer < scale), None)
+        scales = (round_up(float(scale) / times, self.lengths) for times in FINER)
+        return None if self.given or not self.area else next((finer for finer in scales if finer < scale), None)
 
     def panel(self, scale: Fraction) -> tuple[float, float]:
         """How wide and high its panel is at least."""
@@ -124,10 +124,10 @@ def _best(region: Rect, demands: Mapping[str, Demand], twins: Mapping[str, str],
     for count in range(2, len(leaves) + 1):
         for start in range(len(leaves) - count + 1):
             end = start + count
-            found = [shape for middle in range(start + 1, end)
+            shapes = [shape for middle in range(start + 1, end)
                      for one, two in product(runs[start, middle], runs[middle, end]) for shape in _join_shapes(one, two)
                      if shape.wide <= region.width and shape.high <= region.height]
-            runs[start, end] = _minimal_shapes(found)
+            runs[start, end] = _minimal_shapes(shapes)
     whole = [shape for shape in runs[0, len(leaves)] if shape.wide <= region.width and shape.high <= region.height]
     return max(whole, key=lambda shape: min(region.width / shape.wide, region.height / shape.high), default=None)
 
@@ -140,27 +140,28 @@ def _join_shapes(one: Shape, two: Shape) -> tuple[Shape, Shape]:
 
 def _minimal_shapes(shapes: Sequence[Shape]) -> list[Shape]:
     """The shapes than which none other is smaller both ways, or of very many some."""
-    found: list[Shape] = []
+    minimal: list[Shape] = []
     for shape in sorted(shapes, key=lambda shape: (shape.wide, shape.high)):
-        if not found or shape.high < found[-1].high:
-            found.append(shape)
-    return [found[round(i * (len(found) - 1) / (MOST - 1))] for i in range(MOST)] if len(found) > MOST else found
+        if not minimal or shape.high < minimal[-1].high:
+            minimal.append(shape)
+    last = len(minimal) - 1
+    return [minimal[round(i * last / (MOST - 1))] for i in range(MOST)] if last >= MOST else minimal
 
 
 def _places(shape: Shape, rect: Rect) -> dict[str, Rect]:
     """The panels of a run in its place: what is left over they share by their sizes, the title block takes none."""
     if shape.parts is None:
         return {shape.name: rect} if shape.name else {}
-    one, two = shape.parts
+    first, two = shape.parts
     last = two.parts is None and not two.name
     if shape.beside:
-        share = 1.0 if last else one.wide / (one.wide + two.wide)
-        edge = rect.left + one.wide + share * (rect.width - one.wide - two.wide)
-        return _places(one, Rect(rect.left, rect.bottom, edge, rect.top)) | _places(
+        share = 1.0 if last else first.wide / (first.wide + two.wide)
+        edge = rect.left + first.wide + share * (rect.width - first.wide - two.wide)
+        return _places(first, Rect(rect.left, rect.bottom, edge, rect.top)) | _places(
             two, Rect(edge, rect.bottom, rect.right, rect.top))
-    share = 1.0 if last else one.high / (one.high + two.high)
-    edge = rect.top - one.high - share * (rect.height - one.high - two.high)
-    return _places(one, Rect(rect.left, edge, rect.right, rect.top)) | _places(
+    share = 1.0 if last else first.high / (first.high + two.high)
+    edge = rect.top - first.high - share * (rect.height - first.high - two.high)
+    return _places(first, Rect(rect.left, edge, rect.right, rect.top)) | _places(
         two, Rect(rect.left, rect.bottom, rect.right, edge))
 
 
@@ -225,11 +226,11 @@ def room_for_marks(room: Rect) -> Rect:
 
 def sheet_size(paper: str) -> tuple[float, float]:
     """Width and height of a sheet such as `A3` or `A4 portrait`."""
-    name, _, way = paper.partition(" ")
-    if name.upper() not in SIZES or way not in ("", "landscape", "portrait"):
+    name, _, orientation = paper.partition(" ")
+    if name.upper() not in SIZES or orientation not in ("", "landscape", "portrait"):
         raise Refused(f"paper {paper!r}", "there is no such sheet", f"one of {', '.join(SIZES)}, or 'A4 portrait'")
     wide, high = SIZES[name.upper()]
-    return (high, wide) if way == "portrait" else (wide, high)
+    return (high, wide) if orientation == "portrait" else (wide, high)
 
 
 MOST_OF_PAGE = 0.6  # what plans take of a page on which words stand
@@ -244,10 +245,10 @@ def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | 
     wide, high = sheet_size(paper)
     space, title, times = frame.space(wide, high), title.on_paper(paper), letter_sizes(paper).times
     words = rows and enlarge_words(rows, times)
-    found = (*_words_beside(space, words, title, times * COLUMN),
+    divisions = (*_words_beside(space, words, title, times * COLUMN),
              *_words_below(space, words, title, times * COLUMN)) if words \
         else _plans_alone(space, title, times * COLUMN)
-    for plans, columns, block in found:
+    for plans, columns, block in divisions:
         if panels := divide(plans, None if columns else block):
             filled = words(columns[0].width) if words else ()
             yield Arrangement(paper, wide, high, space, panels, columns, block, filled)
@@ -346,10 +347,10 @@ def paginate_tightly(rows: Sequence[TextRow], arrangement: Arrangement) -> list[
 
 def _fitting(rows: Sequence[TextRow], columns: Sequence[Rect]) -> int:
     """How many of the rows the columns hold, not parted where rows keep together."""
-    breaks, held = [0], 0
+    breaks, last_kept = [0], 0
     for i, row in enumerate(rows):
-        held = min(max(held, i + row.keep), len(rows) - 1)
-        if held == i:
+        last_kept = min(max(last_kept, i + row.keep), len(rows) - 1)
+        if last_kept == i:
             breaks.append(i + 1)
     full = bisect_right(breaks, False, key=lambda count: fill(rows[:count], columns) is None)
     return breaks[full - 1]

@@ -39,9 +39,9 @@ def _rounded_up(least: float, lengths: tuple[Number, ...]) -> Fraction:
     if not least > 0 or math.isinf(least):
         return first
     power = math.floor(math.log10(least / first))
-    found = [first * step * Fraction(10) ** n for n in range(power - 1, power + 3) for step in SERIES]
-    found = [scale for scale in found if scale >= least * (1 - SCALE_TOL)]
-    return min([scale for scale in found if all(_is_round(scale / Fraction(length)) for length in lengths)] or found)
+    scales = [first * step * Fraction(10) ** n for n in range(power - 1, power + 3) for step in SERIES]
+    scales = [scale for scale in scales if scale >= least * (1 - SCALE_TOL)]
+    return min([scale for scale in scales if all(_is_round(scale / Fraction(length)) for length in lengths)] or scales)
 
 
 def _is_round(scale: Fraction) -> bool:
@@ -51,8 +51,8 @@ def _is_round(scale: Fraction) -> bool:
 
 def lengths_of(kinds: Collection[str], kappa: Number, phi: Number) -> list[Number]:
     """How many lengths long a unit is drawn of each quantity of which there are these kinds of vector."""
-    drawn = (VELOCITIES, kappa), (ACCELERATIONS, kappa * kappa), (FORCES, phi)
-    return [length for vectors, length in drawn if not vectors.isdisjoint(kinds)]
+    lengths_by_kind = (VELOCITIES, kappa), (ACCELERATIONS, kappa * kappa), (FORCES, phi)
+    return [length for vectors, length in lengths_by_kind if not vectors.isdisjoint(kinds)]
 
 
 @dataclass(frozen=True)
@@ -86,12 +86,12 @@ class Scales:
 
     def scale_texts(self, panel: str, kinds: set[str]) -> list[Said]:
         """The scales of a panel with their units; `kinds` are the kinds of vector drawn on it."""
-        told = [] if panel in self.multiples else [self._static("s", self.k_s, self.length)]
+        texts = [] if panel in self.multiples else [self._static("s", self.k_s, self.length)]
         if kinds & VELOCITIES:
-            told.append(self._moving(SPEED, self.speed(panel), f"{self.length}/s"))
+            texts.append(self._moving(SPEED, self.speed(panel), f"{self.length}/s"))
         if kinds & ACCELERATIONS:
-            told.append(self._moving(SHARPNESS, self.acceleration(panel), f"{self.length}/s²"))
-        return [*told, self._static("F", self.force(panel), self.unit)] if kinds & FORCES else told
+            texts.append(self._moving(SHARPNESS, self.acceleration(panel), f"{self.length}/s²"))
+        return [*texts, self._static("F", self.force(panel), self.unit)] if kinds & FORCES else texts
 
     def _static(self, letter: str, scale: float, of: str) -> Said:
         """What a millimetre stands for, or how many stand for one."""
@@ -101,17 +101,17 @@ class Scales:
 
     def _moving(self, words: tuple[Phrase, Phrase], scale: float, of: str) -> Said:
         """The same of a rate, by the words for the one and for the other."""
-        drawn = self.convention == "drawn"
-        return words[drawn](digits(1 / scale if drawn else scale), unit(of))
+        per_unit = self.convention == "drawn"
+        return words[per_unit](digits(1 / scale if per_unit else scale), unit(of))
 
     @property
     def ratio(self) -> Said:
         """The scale of the mechanism plan as a title block has it, such as 1 : 5."""
-        told = ratio(self.k_s, self.length)
-        return joined((told, *self.scale_texts("", set())), "; ") if self.convention == "drawn" else told
+        text = ratio(self.k_s, self.length)
+        return joined((text, *self.scale_texts("", set())), "; ") if self.convention == "drawn" else text
 
 
 def ratio(k_s: float, length: str) -> Said:
     """A drawing scale as a ratio of lengths on paper to those of the scene, such as 1 : 5."""
-    size = k_s * 1000 * float(METRES[length])
-    return arranged("1 : {0}", digits(size)) if size >= 1 else arranged("{0} : 1", digits(1 / size))
+    reduction = k_s * 1000 * float(METRES[length])
+    return arranged("1 : {0}", digits(reduction)) if reduction >= 1 else arranged("{0} : 1", digits(1 / reduction))

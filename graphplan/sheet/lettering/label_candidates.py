@@ -136,7 +136,7 @@ class LabelCandidates:
         return LabelCandidates(*map(np.concatenate, pairs))
 
     def __getitem__(self, chosen: Any) -> LabelCandidates:
-        return LabelCandidates(*(part[chosen] for part in vars(self).values()))
+        return LabelCandidates(*(column[chosen] for column in vars(self).values()))
 
 
 def candidates(wishes: Sequence[Wish], rect: Rect, rings: Array = RINGS, ways: int = 16) -> LabelCandidates:
@@ -158,8 +158,8 @@ def candidates(wishes: Sequence[Wish], rect: Rect, rings: Array = RINGS, ways: i
     cost = (costs + (0.05 * number[at] + LEADER * led) * free[at])[:, None] + TASTE * ((16 * turns - 2) % 16)
     inside = ((boxes[..., :2] >= (rect.left, rect.bottom)) & (boxes[..., 2:] <= (rect.right, rect.top))).all(axis=-1)
     row, _ = np.nonzero(inside)
-    found = LabelCandidates(letter[at][row], boxes[inside], spots[at][row], cost[inside], led[row])
-    return _with_outsiders(found, wishes, rect)
+    places = LabelCandidates(letter[at][row], boxes[inside], spots[at][row], cost[inside], led[row])
+    return _with_outsiders(places, wishes, rect)
 
 
 def _with_outsiders(found: LabelCandidates, wishes: Sequence[Wish], rect: Rect) -> LabelCandidates:

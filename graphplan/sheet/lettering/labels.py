@@ -66,48 +66,48 @@ class Relabelling:
 
     def _improve(self, letter: int) -> bool:
         """Whether a letter found a better place, if need be where others stood."""
-        span, found, before = self.spans[letter], self.prices.found, self._cost(letter)
+        span, candidates, before = self.spans[letter], self.prices.found, self._cost(letter)
         places = np.arange(span.start, span.stop)
         alone = self.prices.total(places, before)
         places, alone = places[alone < before - BETTER], alone[alone < before - BETTER]
         if not len(places):
             return False
         self.standing.put(letter, None)
-        cost = alone + self.standing.clash_costs(found[places])
-        self.standing.put(letter, found[self.choice[letter]])
-        moved = bool((cost < before - BETTER).any())
-        if moved:
+        cost = alone + self.standing.clash_costs(candidates[places])
+        self.standing.put(letter, candidates[self.choice[letter]])
+        improved = bool((cost < before - BETTER).any())
+        if improved:
             self._move(letter, int(places[cost.argmin()]))
             before = float(cost.min())
-        if before - found.cost[self.choice[letter]] < FAULT:
-            return moved
+        if before - candidates.cost[self.choice[letter]] < FAULT:
+            return improved
         tempting = [int(places[k]) for k in alone.argsort(kind="stable")[:TRIES] if alone[k] < before - BETTER]
-        return any(self._make_room(letter, place, before) for place in tempting) or moved
+        return any(self._make_room(letter, place, before) for place in tempting) or improved
 
     def _make_room(self, letter: int, place: int, before: float) -> bool:
         """Whether a letter takes a place because those that stand there pay less elsewhere than it saves."""
-        others = [other for other in self._in_the_way(place) if other != letter]
-        if not 0 < len(others) <= MOVED or self.left <= 0:
+        neighbours = [neighbour for neighbour in self._in_the_way(place) if neighbour != letter]
+        if not 0 < len(neighbours) <= MOVED or self.left <= 0:
             return False
         self.left -= 1
-        was = {one: int(self.choice[one]) for one in (letter, *others)}
-        paid = before + sum(self._cost(other) for other in others)
-        for other in others:
-            self.standing.put(other, None)
+        was = {moved: int(self.choice[moved]) for moved in (letter, *neighbours)}
+        paid = before + sum(self._cost(neighbour) for neighbour in neighbours)
+        for neighbour in neighbours:
+            self.standing.put(neighbour, None)
         self._move(letter, place)
-        for other in others:
-            span = self.spans[other]
-            self._move(other, self.prices.cheapest(span, self.standing.clash_costs(self.prices.found[span])))
-        if sum(self._cost(one) for one in was) < paid - BETTER:
+        for neighbour in neighbours:
+            span = self.spans[neighbour]
+            self._move(neighbour, self.prices.cheapest(span, self.standing.clash_costs(self.prices.found[span])))
+        if sum(self._cost(moved) for moved in was) < paid - BETTER:
             return True
-        for one, old in was.items():
-            self._move(one, old)
+        for moved, old in was.items():
+            self._move(moved, old)
         return False
 
     def _in_the_way(self, place: int) -> Iterator[int]:
         """The letters on which a place lies."""
         boxes = self.prices.found.boxes[place : place + 1]
-        yield from (int(other) for other in np.flatnonzero(self.standing.letters_touching(boxes)))
+        yield from (int(neighbour) for neighbour in np.flatnonzero(self.standing.letters_touching(boxes)))
 
     def _cost(self, letter: int) -> float:
         """What a letter pays where it stands."""
@@ -159,8 +159,8 @@ class PlacedLetters:
         prices, choice = self.prices, self.choice
         if faulty := sorted(Relabelling(prices, choice).faulty):
             more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE, WAYS).for_letters(faulty)
-            prices, moved = prices.with_more_places(more)
-            choice = Relabelling(prices, moved[choice]).relabel()
+            prices, new_index = prices.with_more_places(more)
+            choice = Relabelling(prices, new_index[choice]).relabel()
         return [(wish, prices.found[place]) for wish, place in zip(self.wishes, choice, strict=True)]
 
 

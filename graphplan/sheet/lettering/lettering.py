@@ -107,16 +107,17 @@ def _pattern(names: tuple[str, ...]) -> re.Pattern[str]:
     """What needs setting: the names, longest first, and what always does."""
     special = [n for n in names if "_" in n or n.endswith("'") or n.lower() in GREEK]
     ranked = sorted(special, key=lambda n: (-len(n), n))
-    parts = [rf"(?<![a-z]){n}(?![a-z])" if n.isalpha() else re.escape(n) + r"(?!\d)" * n[-1].isdigit() for n in ranked]
-    return re.compile("|".join([*parts, _PLAIN.pattern]))
+    patterns = [rf"(?<![a-z]){n}(?![a-z])" if n.isalpha() else re.escape(n) + r"(?!\d)" * n[-1].isdigit()
+                for n in ranked]
+    return re.compile("|".join([*patterns, _PLAIN.pattern]))
 
 
 def _set_names(sentence: str, pattern: re.Pattern[str]) -> Runs:
     runs: list[TextRun] = []
     done = 0
-    for found in pattern.finditer(sentence):
-        runs += [TextRun(sentence[done : found.start()]), *name_runs(found.group())]
-        done = found.end()
+    for match in pattern.finditer(sentence):
+        runs += [TextRun(sentence[done : match.start()]), *name_runs(match.group())]
+        done = match.end()
     return _merge_runs((*runs, TextRun(sentence[done:])))
 
 
@@ -127,22 +128,22 @@ _SYMBOLS = re.compile(r"\^([A-Za-z]+)|_([A-Za-z0-9,']+(?:\([A-Za-z0-9]+\))?)")
 def equation_runs(text: str) -> Runs:
     """An equation as runs: a^n_BA is a with n above and BA below."""
     runs, done = list[TextRun](), 0
-    for found in _SYMBOLS.finditer(text):
-        above, below = found.groups()
-        runs += [TextRun(text[done : found.start()]), TextRun(above, 1) if above else TextRun(below, -1)]
-        done = found.end()
+    for match in _SYMBOLS.finditer(text):
+        above, below = match.groups()
+        runs += [TextRun(text[done : match.start()]), TextRun(above, 1) if above else TextRun(below, -1)]
+        done = match.end()
     return _merge_runs((*runs, TextRun(text[done:])))
 
 
 def _merge_runs(runs: Iterable[TextRun]) -> Runs:
     """Without empty runs, and neighbours on one level made one."""
-    found: list[TextRun] = []
+    merged: list[TextRun] = []
     for run in runs:
-        if found and found[-1].level == run.level:
-            found[-1] = TextRun(found[-1].text + run.text, run.level)
+        if merged and merged[-1].level == run.level:
+            merged[-1] = TextRun(merged[-1].text + run.text, run.level)
         elif run.text:
-            found.append(run)
-    return tuple(found)
+            merged.append(run)
+    return tuple(merged)
 
 
 def list_runs(names: Iterable[str], lead: str = "") -> Runs:
@@ -182,16 +183,17 @@ def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]
             lines.append(_merge_runs(line))
         line, long = [*word], wide
         while long > room and len(_flat(line)) > 1:
-            head, rest = _break_line(line, size, room, bold)
+            head, tail = _break_line(line, size, room, bold)
             lines.append(head)
-            line, long = [*rest], width(rest, size, bold)
+            line, long = [*tail], width(tail, size, bold)
     return [*lines, _merge_runs(line)] if line else lines
 
 
 def two_line_width(runs: Runs, size: float) -> float:
     """How wide bold lettering is at least on two lines."""
     long = width(runs, size, bold=True)
-    return next((part * long for part in (0.55, 0.65, 0.8) if len(wrap(runs, size, part * long, bold=True)) <= 2), long)
+    return next((share * long for share in (0.55, 0.65, 0.8) if len(wrap(runs, size, share * long, bold=True)) <= 2),
+                long)
 
 
 def plain(runs: Runs) -> str:
@@ -204,11 +206,11 @@ def _words(runs: Runs, small: float) -> list[tuple[Runs, float]]:
     """The words, each with its length beside the size of the letters, and with subscripts so much smaller."""
     words: list[list[TextRun]] = [[]]
     for run in runs:
-        for i, part in enumerate(run.text.split(" ")):
+        for i, piece in enumerate(run.text.split(" ")):
             if i:
                 words.append([])
-            if part:
-                words[-1].append(TextRun(part, run.level))
+            if piece:
+                words[-1].append(TextRun(piece, run.level))
     return [(tuple(word), _ems(tuple(word), small)) for word in words if word]
 
 

@@ -41,11 +41,11 @@ def plate_items(plate: Plate) -> list[Item]:
 
 def letter_plates(plates: Plates) -> dict[Panel, LetteredPlate]:
     """The plans with their letters; those of the same windows are drawn once."""
-    windows, known = (*plates.views.values(), plates.letters), plates.plans.drawn
-    if windows not in known:
-        known[windows] = {plate.panel: letter_plate(plate) for plate in plates}
-    found: dict[Panel, LetteredPlate] = known[windows]
-    return found
+    windows, lettered = (*plates.views.values(), plates.letters), plates.plans.drawn
+    if windows not in lettered:
+        lettered[windows] = {plate.panel: letter_plate(plate) for plate in plates}
+    plans: dict[Panel, LetteredPlate] = lettered[windows]
+    return plans
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class LetteredPlate:
 def letter_plate(plate: Plate) -> LetteredPlate:
     """The same, and how well the letters stand."""
     items, wishes = [*plate.items(), *plate.mechanism], wishes_on(plate)
-    marks = [drawn.spot for drawn in plate.steps if plate.is_on_panel(drawn)]
+    marks = [mark.spot for mark in plate.steps if plate.is_on_panel(mark)]
     if plate.panel == MECHANISM:
         marks += list(plate.drawn_mechanism.visible_points.values())
     rect = plate.view.rect
@@ -101,12 +101,13 @@ def _path_letters(plate: Plate) -> Iterator[Wish]:
     if not motion:
         return
     curves = [(said("path of {0}", path.point), path.point, path.spots, f"path {path.point}") for path in motion.paths]
-    curves += [(one.words, "", sum(one.branches, ()), f"{'moving' if one.moving else 'fixed'} centrode {one.links}")
-               for one in motion.centrodes if one.branches]
+    curves += [(centrode.words, "", sum(centrode.branches, ()),
+                f"{'moving' if centrode.moving else 'fixed'} centrode {centrode.links}")
+               for centrode in motion.centrodes if centrode.branches]
     for words, name, spots, label in curves:
-        some = tuple(map(plate.view, spots[:: len(spots) // PATH_PLACES + 1]))
+        candidate_spots = tuple(map(plate.view, spots[:: len(spots) // PATH_PLACES + 1]))
         runs = sentence_runs(plate.plans.tongue(words), (name,))
-        yield Wish(runs, some, 0.6, True, pens.FAINT, label=label, free=True, layer=MOTION)
+        yield Wish(runs, candidate_spots, 0.6, True, pens.FAINT, label=label, free=True, layer=MOTION)
 
 
 @dataclass(frozen=True)
@@ -122,11 +123,11 @@ class PlateLetters:
     def wishes(self) -> Iterator[Wish]:
         """The letters of the plan: marks, loci, vectors, and the numbers of marks that are spoken of by them."""
         yield from self._point_letters()
-        for drawn in self.plate.steps:
-            if drawn.index in self.plate.stretches:
-                yield from self._line_letters(drawn, self.plate.stretches[drawn.index])
-            elif drawn.kind == CIRCLE and self.plate.numbers(drawn):
-                yield from self._arc_number(drawn)
+        for mark in self.plate.steps:
+            if mark.index in self.plate.stretches:
+                yield from self._line_letters(mark, self.plate.stretches[mark.index])
+            elif mark.kind == CIRCLE and self.plate.numbers(mark):
+                yield from self._arc_number(mark)
         spans = self._spans()
         for (start, end), vectors in spans.items():
             yield from self._vector_letter(vectors, any(_coincide(span, (end, start)) for span in spans))
@@ -142,8 +143,9 @@ class PlateLetters:
                            raised=self._raised_numbers(*lettered))
             numbered = [mark for mark in marks if mark not in lettered]
             if numbered:
-                said = _numbers(*numbered)
-                yield Wish(sentence_runs(said), (spot,), clear, True, pens.FAINT, numbered[0].index, f"point {said}")
+                numbers = _numbers(*numbered)
+                yield Wish(sentence_runs(numbers), (spot,), clear, True, pens.FAINT, numbered[0].index,
+                           f"point {numbers}")
 
     def _raised_numbers(self, *marks: DrawnStep) -> str:
         """The numbers that letters bear, where they do."""
@@ -154,9 +156,9 @@ class PlateLetters:
         where they are constructed."""
         places: dict[Spot, list[DrawnStep]] = {}
         for mark in self.plate.steps:
-            own = not self._of_pose(mark) or self.plate.numbers(mark)
-            if mark.number and own and self.plate.is_on_panel(mark) and self.is_mentioned(mark):
-                key = next((other for other in places if math.dist(other, mark.spot) < NEAR), mark.spot)
+            is_lettered_here = not self._of_pose(mark) or self.plate.numbers(mark)
+            if mark.number and is_lettered_here and self.plate.is_on_panel(mark) and self.is_mentioned(mark):
+                key = next((place for place in places if math.dist(place, mark.spot) < NEAR), mark.spot)
                 places.setdefault(key, []).append(mark)
         return places
 

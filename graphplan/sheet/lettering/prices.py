@@ -37,15 +37,15 @@ class Lines:
     def price(self, found: LabelCandidates) -> Array:
         """For every stroke its length in a place and the air around it, and for touching it."""
         cells, count = found.cells, len(self.prices)
-        who, what = self.tree.query(_diagonals(cells))
-        part = share(cells[who], self.start[what], self.end[what])
-        who, what, part = who[part >= 0], what[part >= 0], part[part >= 0]
-        length = np.hypot(*(self.end - self.start).T)[what] * part
-        pairs = np.sort(who * count + self.stroke[what])
+        places, segments = self.tree.query(_diagonals(cells))
+        shares = share(cells[places], self.start[segments], self.end[segments])
+        places, segments, shares = places[shares >= 0], segments[shares >= 0], shares[shares >= 0]
+        length = np.hypot(*(self.end - self.start).T)[segments] * shares
+        pairs = np.sort(places * count + self.stroke[segments])
         touched, stroke = np.divmod(pairs[np.diff(pairs, prepend=-1) > 0], max(count, 1))
-        paid = np.concatenate([length * self.prices[self.stroke[what]], TOUCH * self.prices[stroke]])
-        through = share(found.boxes[who], self.start[what], self.end[what]) > 0
-        return np.bincount(np.concatenate([who, touched]), paid, len(cells)) + _faulty(who[through], len(cells))
+        paid = np.concatenate([length * self.prices[self.stroke[segments]], TOUCH * self.prices[stroke]])
+        through = share(found.boxes[places], self.start[segments], self.end[segments]) > 0
+        return np.bincount(np.concatenate([places, touched]), paid, len(cells)) + _faulty(places[through], len(cells))
 
 
 def _faulty(places: Array, count: int) -> Array:
@@ -77,12 +77,12 @@ def share(cells: Array, start: Array, end: Array) -> Array:
     """
     enter, leave = np.zeros(len(cells)), np.ones(len(cells))
     for axis in (0, 1):  # column by column: numpy takes far longer to compare the two of a row
-        here, way = start[:, axis], end[:, axis] - start[:, axis]
+        origin, run = start[:, axis], end[:, axis] - start[:, axis]
         with np.errstate(divide="ignore", invalid="ignore"):
-            one, other = (cells[:, axis] - here) / way, (cells[:, axis + 2] - here) / way
-        still = way == 0
-        enter = np.maximum(enter, np.where(still, 0.0, np.minimum(one, other)))
-        leave = np.minimum(leave, np.where(still, 1.0, np.maximum(one, other)))
+            entry, exit = (cells[:, axis] - origin) / run, (cells[:, axis + 2] - origin) / run
+        still = run == 0
+        enter = np.maximum(enter, np.where(still, 0.0, np.minimum(entry, exit)))
+        leave = np.minimum(leave, np.where(still, 1.0, np.maximum(entry, exit)))
     return np.asarray(leave - enter)
 
 
@@ -95,22 +95,23 @@ class Marks:
 
     def price(self, found: LabelCandidates) -> Array:
         """For every mark that is nearer than the place's own, or that its leader passes."""
-        own = _gap(found.boxes, found.spots)
-        near = np.where(found.led, 0.0, own + BESIDE)  # a leader tells whose the letters are
-        who, what = self.tree.query(_diagonals(found.boxes + near[:, None] * OUTWARDS))
-        foreign = np.hypot(*(self.spots[what] - found.spots[who]).T) > BESIDE
-        nearer = foreign & (_gap(found.boxes[who], self.spots[what]) < near[who])
-        mistaken = _gap(found.boxes[who], self.spots[what]) < near[who] - BESIDE - MISTAKEN
-        return STRANGER * np.bincount(who[nearer], minlength=len(own)) + _faulty(who[mistaken], len(own)) \
+        own_gap = _gap(found.boxes, found.spots)
+        near = np.where(found.led, 0.0, own_gap + BESIDE)  # a leader tells whose the letters are
+        places, marks = self.tree.query(_diagonals(found.boxes + near[:, None] * OUTWARDS))
+        foreign = np.hypot(*(self.spots[marks] - found.spots[places]).T) > BESIDE
+        nearer = foreign & (_gap(found.boxes[places], self.spots[marks]) < near[places])
+        mistaken = _gap(found.boxes[places], self.spots[marks]) < near[places] - BESIDE - MISTAKEN
+        return STRANGER * np.bincount(places[nearer], minlength=len(own_gap)) + _faulty(places[mistaken],
+                                                                                        len(own_gap)) \
             + self._leader_faults(found)
 
     def _leader_faults(self, found: LabelCandidates) -> Array:
         """For every place whose leader passes another mark."""
         led = np.flatnonzero(found.led)
         leaders = shapely.linestrings(np.stack([found.spots[led], found.ends[led]], axis=1))
-        who, what = self.tree.query(leaders, "dwithin", BESIDE) if len(led) else np.empty((2, 0), dtype=int)
-        foreign = np.hypot(*(self.spots[what] - found.spots[led[who]]).T) > BESIDE
-        return _faulty(led[who[foreign]], len(found.led))
+        leads, marks = self.tree.query(leaders, "dwithin", BESIDE) if len(led) else np.empty((2, 0), dtype=int)
+        foreign = np.hypot(*(self.spots[marks] - found.spots[led[leads]]).T) > BESIDE
+        return _faulty(led[leads[foreign]], len(found.led))
 
 
 def _gap(boxes: Array, spots: Array) -> Array:
@@ -129,10 +130,10 @@ class Surfaces:
     def price(self, found: LabelCandidates) -> Array:
         """For the area of every surface that a place and the air around it cover, and for touching it."""
         cells = shapely.box(*found.cells.T)
-        who, what = self.tree.query(cells, predicate="intersects")
-        covered = shapely.area(shapely.intersection(cells[who], self.figures[what])) + TOUCH
-        hidden = shapely.intersects(shapely.box(*found.boxes[who].T), self.figures[what])
-        return np.bincount(who, covered * self.rates[what], len(cells)) + _faulty(who[hidden], len(cells))
+        places, surfaces = self.tree.query(cells, predicate="intersects")
+        covered = shapely.area(shapely.intersection(cells[places], self.figures[surfaces])) + TOUCH
+        hidden = shapely.intersects(shapely.box(*found.boxes[places].T), self.figures[surfaces])
+        return np.bincount(places, covered * self.rates[surfaces], len(cells)) + _faulty(places[hidden], len(cells))
 
 
 def surfaces(items: Iterable[Item]) -> Iterator[tuple[Any, float]]:
@@ -185,9 +186,9 @@ class Prices:
 
     def _look(self, places: Array) -> None:
         """Add the next part to the price of those of the places that are furthest behind."""
-        part = int(self.known[places].min())
-        behind = places[self.known[places] == part]
-        self.cost[behind] += self.parts[part].price(self.found[behind])
+        known_parts = int(self.known[places].min())
+        behind = places[self.known[places] == known_parts]
+        self.cost[behind] += self.parts[known_parts].price(self.found[behind])
         self.known[behind] += 1
 
     def total(self, places: Array, most: float = np.inf) -> Array:
@@ -206,10 +207,10 @@ class Prices:
         order = every.letters.argsort(kind="stable")
         longer = Prices(every[order], self.parts)
         count = len(self.cost)
-        moved = np.empty(len(order), dtype=int)
-        moved[order] = np.arange(len(order))
-        longer.cost[moved[:count]], longer.known[moved[:count]] = self.cost, self.known
-        return longer, moved[:count]
+        new_index = np.empty(len(order), dtype=int)
+        new_index[order] = np.arange(len(order))
+        longer.cost[new_index[:count]], longer.known[new_index[:count]] = self.cost, self.known
+        return longer, new_index[:count]
 
     def spans(self, count: int) -> list[slice]:
         """Where the places of each letter are."""
@@ -234,8 +235,8 @@ class Standing:
     def letters_touching(self, boxes: Array) -> Array:
         """Which letters stand in any of some boxes, or have a leader that goes through one."""
         low, high = boxes[:, None, :2] - AIR, boxes[:, None, 2:] + AIR
-        there = ((self.boxes[:, :2] < high) & (self.boxes[:, 2:] > low)).all(axis=2).any(axis=0)
-        return np.asarray(there | _crossings(boxes, self.leaders).any(axis=0))
+        stands_inside = ((self.boxes[:, :2] < high) & (self.boxes[:, 2:] > low)).all(axis=2).any(axis=0)
+        return np.asarray(stands_inside | _crossings(boxes, self.leaders).any(axis=0))
 
     def clash_costs(self, places: LabelCandidates) -> Array:
         """What it costs places that other letters stand there, or that a leader goes through letters."""

@@ -49,16 +49,16 @@ def dimensions(scene: Scene, spots: Mapping[str, Spot], obstacles: Iterable[Item
     import shapely  # where nothing is drawn, as for a list of steps, it is not needed
 
     bodies = [[spots[name] for name in names] for names in scene.links.values()]
-    drawn = [*filter(None, map(_figure, obstacles)),
+    obstacle_shapes = [*filter(None, map(_figure, obstacles)),
              *(shapely.LineString(ends) for body in bodies for ends in _sides(body))]
-    found: list[LinkDimension] = []
+    placed: list[LinkDimension] = []
     for p, q in sorted(_measured_pairs(scene, spots),
                        key=lambda pair: (math.dist(spots[pair[0]], spots[pair[1]]), pair)):
-        aside, figure = min((_price_place(spots[p], spots[q], level, side, drawn) for level in range(LEVELS)
+        aside, figure = min((_price_place(spots[p], spots[q], level, side, obstacle_shapes) for level in range(LEVELS)
                              for side in (1, -1)), key=lambda tried: tried[0])[1:]
-        found.append(LinkDimension(p, q, aside))
-        drawn.append(figure)
-    return found
+        placed.append(LinkDimension(p, q, aside))
+        obstacle_shapes.append(figure)
+    return placed
 
 
 def _figure(item: Item) -> Any:
@@ -77,7 +77,7 @@ def _figure(item: Item) -> Any:
 
 def _measured_pairs(scene: Scene, spots: Mapping[str, Spot]) -> Iterator[tuple[str, str]]:
     """The pairs of points of each link that are measured, no two of them at the same two places."""
-    known = set[frozenset[Spot]]()
+    measured = set[frozenset[Spot]]()
     named: dict[Spot, str] = {}
     for names in scene.links.values():
         for name in names:
@@ -85,14 +85,14 @@ def _measured_pairs(scene: Scene, spots: Mapping[str, Spot]) -> Iterator[tuple[s
     for names in scene.links.values():
         for p, q in _sides([spots[name] for name in names]):
             ends = _place(p, named), _place(q, named)
-            if frozenset(ends) not in known:
-                known.add(frozenset(ends))
+            if frozenset(ends) not in measured:
+                measured.add(frozenset(ends))
                 yield named[ends[0]], named[ends[1]]
 
 
 def _place(spot: Spot, known: Iterable[Spot]) -> Spot:
     """The known place where a spot is, if it is at one."""
-    return next((other for other in known if math.dist(other, spot) < NEAR), spot)
+    return next((place for place in known if math.dist(place, spot) < NEAR), spot)
 
 
 def _sides(spots: Sequence[Spot]) -> Iterator[tuple[Spot, Spot]]:
@@ -118,19 +118,19 @@ def _price_place(p: Spot, q: Spot, level: int, side: int, drawn: Sequence[Any]) 
     lead to it."""
     import shapely
 
-    way, aside = unit_vector(p, q), side * (FIRST + APART * level)
-    start, end = offset(p, way, 0.0, aside), offset(q, way, 0.0, aside)
-    middle = offset(((start[0] + end[0]) / 2, (start[1] + end[1]) / 2), way, 0.0, LETTERS)
-    number = shapely.LineString([offset(middle, way, -FIGURES / 2),
-                                 offset(middle, way, FIGURES / 2)]).buffer(LETTERS / 2)
+    along, aside = unit_vector(p, q), side * (FIRST + APART * level)
+    start, end = offset(p, along, 0.0, aside), offset(q, along, 0.0, aside)
+    middle = offset(((start[0] + end[0]) / 2, (start[1] + end[1]) / 2), along, 0.0, LETTERS)
+    number = shapely.LineString([offset(middle, along, -FIGURES / 2),
+                                 offset(middle, along, FIGURES / 2)]).buffer(LETTERS / 2)
     line = shapely.union_all([shapely.LineString([start, end]).buffer(1.0), number])
-    leading = shapely.MultiLineString([(offset(foot, way, 0.0, side * 1.0), top) for foot,
+    leading = shapely.MultiLineString([(offset(foot, along, 0.0, side * 1.0), top) for foot,
                                        top in ((p, start), (q, end))])
     cost = float(level)
-    for other in drawn:
-        if line.intersects(other):
-            cost += ACROSS + PER_MM * shapely.intersection(line, other).length
-        if leading.intersects(other):
+    for obstacle in drawn:
+        if line.intersects(obstacle):
+            cost += ACROSS + PER_MM * shapely.intersection(line, obstacle).length
+        if leading.intersects(obstacle):
             cost += ACROSS / 2
     return cost, aside, shapely.union_all([line, leading])
 
@@ -181,8 +181,8 @@ class GivenArrows:
 
     def _value(self, letter: str, value: float, of: str) -> Runs:
         """A letter with its value."""
-        told = joined(("=", digits(float(value)), unit(of)), " ")
-        return (*name_runs(letter), *sentence_runs(f" {self.tongue(told)}"))
+        value_text = joined(("=", digits(float(value)), unit(of)), " ")
+        return (*name_runs(letter), *sentence_runs(f" {self.tongue(value_text)}"))
 
     def _arrow(self, name: str, value: Pair, pen: Pen, told: Runs) -> Marked:
         """A vector from the point where it acts, or to it where only that way it stays on the panel."""
@@ -212,18 +212,18 @@ class GivenArrows:
         """The sense of turning, which the mechanism itself shows, or an arrow beside the sliding block."""
         scene, length = self.mechanism.scene, self.mechanism.scene.units.length
         if not drive.slides:
-            told = self._value(rate_letters(drive)[0], abs(float(drive.rate)), "1/s")
-            found = list(self.mechanism.drive_symbol(drive))
-            if not found:
-                return self._turn(self.mechanism.middle(drive.link), math.copysign(1.0, drive.rate), told)
-            _, wish = self._turning_mark(found, told)
+            value = self._value(rate_letters(drive)[0], abs(float(drive.rate)), "1/s")
+            symbol = list(self.mechanism.drive_symbol(drive))
+            if not symbol:
+                return self._turn(self.mechanism.middle(drive.link), math.copysign(1.0, drive.rate), value)
+            _, wish = self._turning_mark(symbol, value)
             return [], wish
-        told = self._value(rate_letters(drive)[0], abs(float(drive.rate)), f"{length}/s")
+        value = self._value(rate_letters(drive)[0], abs(float(drive.rate)), f"{length}/s")
         slide = next(slide for slide in scene.slides if (slide.link, slide.along) == drive.links)
         at, (x, y) = self.mechanism.seat(slide), self.mechanism.direction(slide)
-        way: Vector = (x, y) if drive.rate > 0 else (-x, -y)
-        start, end = offset(at, way, -LENGTHS[0] / 2, ASIDE), offset(at, way, LENGTHS[0] / 2, ASIDE)
-        return self._straight(start, end, pens.GIVEN["velocity"], told)
+        direction: Vector = (x, y) if drive.rate > 0 else (-x, -y)
+        start, end = offset(at, direction, -LENGTHS[0] / 2, ASIDE), offset(at, direction, LENGTHS[0] / 2, ASIDE)
+        return self._straight(start, end, pens.GIVEN["velocity"], value)
 
 
 def _moves(drive: Drive) -> bool:

@@ -162,10 +162,11 @@ class Arrow(Item):
             return
         yield self.barbs, self.pen.colour
         radius = half * self.head / (half + math.hypot(half, self.head))  # of the circle inside
-        part = 1 - WALL / radius if self.pen.tip == WHITE else 0.0
-        if part > 0:
+        hollow = 1 - WALL / radius if self.pen.tip == WHITE else 0.0
+        if hollow > 0:
             middle = self._spot(self.head - radius)
-            yield tuple((x + part * (u - x), y + part * (v - y)) for u, v in self.barbs for x, y in (middle,)), PAPER
+            yield tuple((x + hollow * (u - x), y + hollow * (v - y)) for u, v in self.barbs for x,
+                        y in (middle,)), PAPER
 
     @property
     def shaft(self) -> tuple[tuple[Spot, Spot], ...]:

@@ -87,12 +87,12 @@ class DrawnMechanism:
     @property
     def _slides(self) -> list[Slide]:
         """The sliding pairs that are shown."""
-        return [one for one in self.scene.slides if not {one.link, one.along}.isdisjoint(self._moving)]
+        return [slide for slide in self.scene.slides if not {slide.link, slide.along}.isdisjoint(self._moving)]
 
     def items(self) -> Iterator[Item]:
         """Everything, from the ground up."""
-        for part in self.figures():
-            yield from part.items
+        for figure in self.figures():
+            yield from figure.items
         yield from self._pairs()
 
     def figures(self) -> Iterator[Figure | FixedGuide | Rail]:
@@ -136,28 +136,28 @@ class DrawnMechanism:
     def neighbours(self, name: str) -> list[Spot]:
         """The other ends of the moving links at a point."""
         links = [link for link in self.scene.links_of[name] if link != FRAME]
-        here = self.spots[name]
-        others = [self.spots[p] for link in links for p in self.scene.links[link]]
-        return [spot for spot in others if math.dist(spot, here) > NEAR]
+        own_spot = self.spots[name]
+        spots = [self.spots[p] for link in links for p in self.scene.links[link]]
+        return [spot for spot in spots if math.dist(spot, own_spot) > NEAR]
 
     def _link_ends_around(self, at: Spot) -> list[Spot]:
         """The other ends of the moving links at all the points of a place."""
-        here = [name for name, spot in self.spots.items() if math.dist(spot, at) < NEAR]
-        return [other for name in here for other in self.neighbours(name)]
+        names = [name for name, spot in self.spots.items() if math.dist(spot, at) < NEAR]
+        return [end for name in names for end in self.neighbours(name)]
 
     def _is_shared(self, at: Spot) -> bool:
         """Whether several links have points at a place."""
-        here = [name for name, spot in self.spots.items() if math.dist(spot, at) < NEAR]
-        return len({link for name in here for link in self.scene.links_of[name]}) > 1
+        names = [name for name, spot in self.spots.items() if math.dist(spot, at) < NEAR]
+        return len({link for name in names for link in self.scene.links_of[name]}) > 1
 
     def _ground(self, name: str) -> Vector:
         """Downwards, unless a link goes there."""
-        here = self.spots[name]
-        ways = [unit_vector(here, other) for other in self.neighbours(name)]
+        pivot = self.spots[name]
+        directions = [unit_vector(pivot, end) for end in self.neighbours(name)]
 
         def cost(choice: tuple[int, Vector]) -> float:
             rank, (x, y) = choice
-            closest = max((x * u + y * v for u, v in ways), default=-1.0)
+            closest = max((x * u + y * v for u, v in directions), default=-1.0)
             return 0.3 * rank + (2.0 + closest if closest > 0.6 else 0.0)
 
         return min(enumerate((DOWN, LEFT, RIGHT, UP)), key=cost)[1]
@@ -170,7 +170,7 @@ class DrawnMechanism:
 
     def _free_guide_side(self, slide: Slide, at: Spot, along: Vector) -> float:
         """The side of a guide that the mechanism leaves free."""
-        lean = sum(turn(at, offset(at, along, 1.0), other) for other in self._link_ends_around(at))
+        lean = sum(turn(at, offset(at, along, 1.0), end) for end in self._link_ends_around(at))
         if abs(lean) > LEAN_TOL:
             return -1.0 if lean > 0 else 1.0
         return -1.0 if along[0] > 0 or (along[0] == 0 and along[1] < 0) else 1.0
@@ -205,9 +205,9 @@ class DrawnMechanism:
             items = symbols.rack(at, self.direction(gear), self._nearest_point(link, at))
             yield Figure(tuple(items), self.scene.links[link] or gear.centres, "" if link == FRAME else link)
         elif gear.belt and (radii := gear.pitch_radii(points)):
-            one, other = (self.spots[centre] for centre in gear.centres)
+            first, second = (self.spots[centre] for centre in gear.centres)
             r, s = (radius * self.view.scale for radius in radii)
-            yield Figure(tuple(symbols.belt(one, r, other, s, gear.belt == "crossed")), gear.centres)
+            yield Figure(tuple(symbols.belt(first, r, second, s, gear.belt == "crossed")), gear.centres)
 
     def _profiles(self, contact: Contact) -> Iterator[Figure]:
         """Both profiles of a contact, each with its link."""
@@ -245,7 +245,7 @@ class DrawnMechanism:
 
     def direction(self, pair: Slide | Gear | Contact) -> Vector:
         """The direction of a slide's guide, of a rack's pitch line or of a straight profile."""
-        x, y = (float(part) for part in pair.direction or (1, 0))
+        x, y = (float(component) for component in pair.direction or (1, 0))
         return unit_vector((0.0, 0.0), (x, y))
 
     def seat(self, slide: Slide) -> Spot:
@@ -305,18 +305,18 @@ class DrawnMechanism:
     def _free_side(self, inner: Spot, along: Vector) -> float:
         """The side of a bar that the other links at an inner joint leave free."""
         ahead = offset(inner, along, 1.0)
-        lean = sum(turn(inner, ahead, other) / math.dist(inner, other) for other in self._link_ends_around(inner))
+        lean = sum(turn(inner, ahead, end) / math.dist(inner, end) for end in self._link_ends_around(inner))
         return -1.0 if lean > 0 else 1.0
 
     def drive_symbol(self, drive: Drive) -> Iterator[Item]:
         """The sense of turning, about the pair of the driving link."""
         pairs = [p for p in self.scene.links[drive.link] if p in self.scene.links.get(drive.on, ())]
-        others = [p for p in self.scene.links[drive.link] if p not in pairs]
-        if pairs and others:
-            here = self.spots[pairs[0]]
+        ends = [p for p in self.scene.links[drive.link] if p not in pairs]
+        if pairs and ends:
+            pivot = self.spots[pairs[0]]
             ground = self._ground(pairs[0]) if pairs[0] in self._pivots else None
             sign = 1.0 if drive.rate > 0 else -1.0
-            yield from symbols.drive(here, unit_vector(here, self.spots[others[0]]), sign, ground)
+            yield from symbols.drive(pivot, unit_vector(pivot, self.spots[ends[0]]), sign, ground)
 
     # ---- letters ---------------------------------------------------------------------------------------------------
 
@@ -338,9 +338,9 @@ class DrawnMechanism:
 
     def letters(self) -> dict[Spot, tuple[tuple[TextRun, ...], str]]:
         """What stands at each joint: one name, or all the names of coincident points."""
-        found: dict[Spot, list[str]] = {}
+        names_at: dict[Spot, list[str]] = {}
         for name, spot in self.visible_points.items():
-            key = next((other for other in found if math.dist(other, spot) < NEAR), spot)
-            found.setdefault(key, []).append(name)
-        runs = {spot: sentence_runs(" ≡ ".join(names), tuple(names)) for spot, names in found.items()}
-        return {spot: (runs[spot], ",".join(names)) for spot, names in found.items()}
+            key = next((known for known in names_at if math.dist(known, spot) < NEAR), spot)
+            names_at.setdefault(key, []).append(name)
+        runs = {spot: sentence_runs(" ≡ ".join(names), tuple(names)) for spot, names in names_at.items()}
+        return {spot: (runs[spot], ",".join(names)) for spot, names in names_at.items()}

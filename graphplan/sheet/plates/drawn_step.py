@@ -71,8 +71,8 @@ class DrawnStep:
     def direction(self) -> Spot:
         """One mm the way a line runs."""
         a, b, _ = self.value
-        size = math.hypot(a, b) or 1.0
-        return b / size, -a / size
+        length = math.hypot(a, b) or 1.0
+        return b / length, -a / length
 
     def paper(self, height: float) -> tuple[float, ...]:
         """Its place in mm of a page so high, from the upper left corner, y down: a point x, y; a line a, b, c with

@@ -102,4 +102,4 @@ def rgb(colour: str) -> tuple[int, int, int]:
 def _lighter(colour: str) -> str:
     if not colour.startswith("#"):
         return colour
-    return "#" + "".join(f"{255 - (255 - part) // 2:02x}" for part in rgb(colour))
+    return "#" + "".join(f"{255 - (255 - channel) // 2:02x}" for channel in rgb(colour))

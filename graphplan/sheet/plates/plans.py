@@ -70,9 +70,9 @@ class Plans:
     @cached_property
     def panels(self) -> list[Panel]:
         """The plans in drawing order, the mechanism's first."""
-        drawn = dict.fromkeys(self.plan_of_step)
-        mechanism = next((panel for panel in drawn if panel == MECHANISM), MECHANISM)
-        return list(dict.fromkeys([mechanism, *drawn]))
+        panels = dict.fromkeys(self.plan_of_step)
+        mechanism = next((panel for panel in panels if panel == MECHANISM), MECHANISM)
+        return list(dict.fromkeys([mechanism, *panels]))
 
     @cached_property
     def sentences(self) -> list[str]:
@@ -87,24 +87,24 @@ class Plans:
     @cached_property
     def carry_overs(self) -> list[tuple[Panel, Panel]]:
         """The plans from which lengths are carried over to others, with those, in drawing order."""
-        plan, found = self.plan_of_step, dict[tuple[Panel, Panel], None]()
+        plan, carried = self.plan_of_step, dict[tuple[Panel, Panel], None]()
         for step in self.drawing.drawn.steps:
             if step.op.afar and step.op.movement in CARRIED and not step.quantity:
-                found[plan[step.args[step.op.afar[0][0]]], plan[step.index]] = None
-        return [(source, own) for source, own in found if source != own]
+                carried[plan[step.args[step.op.afar[0][0]]], plan[step.index]] = None
+        return [(source, target) for source, target in carried if source != target]
 
     @cached_property
     def marks_on(self) -> dict[int, tuple[int, ...]]:
         """For each line and each arc, the marks that lie on it by construction."""
         steps = self.drawing.drawn.steps
-        found: dict[int, list[int]] = {step.index: [] for step in steps if step.op.gives in (LINE, CIRCLE)}
+        marks_of: dict[int, list[int]] = {step.index: [] for step in steps if step.op.gives in (LINE, CIRCLE)}
         for step in steps:
             for place in step.op.claimed("on"):
                 pair = step.index, step.args[place]
                 curve, mark = pair if steps[pair[1]].op.gives == POINT else pair[::-1]
-                if curve in found and steps[mark].op.gives == POINT:
-                    found[curve].append(mark)
-        return {curve: tuple(dict.fromkeys(marks)) for curve, marks in found.items()}
+                if curve in marks_of and steps[mark].op.gives == POINT:
+                    marks_of[curve].append(mark)
+        return {curve: tuple(dict.fromkeys(marks)) for curve, marks in marks_of.items()}
 
     def points(self, panel: str) -> list[int]:
         """The points that lie on a plan, by step."""
@@ -151,13 +151,13 @@ class Plans:
 
     def apexes(self, panel: str) -> dict[int, Spot]:
         """The highest points of the half circles on a plan, by step."""
-        found = {}
+        apexes = {}
         for step in self.drawing.drawn.steps:
             if step.op.gives == CIRCLE and self.plan_of_step[step.index] == panel:
                 end, crossings = self.diameter(step), self.marks_on[step.index]
                 if end is not None and crossings:
-                    found[step.index] = _apex(self.spot(step.args[0]), self.spot(end), self.spot(crossings[0]))
-        return found
+                    apexes[step.index] = _apex(self.spot(step.args[0]), self.spot(end), self.spot(crossings[0]))
+        return apexes
 
     def extent(self, panel: str) -> Extent:
         """How large a plan is: the mechanism and the vectors are its core, auxiliary marks come if they may."""
@@ -177,28 +177,28 @@ class Plans:
 
     def _longest(self, panel: str) -> float:
         """The longest vector that is laid off on a plan or taken from it, or the largest radius of an arc."""
-        found, plan = [0.0], self.plan_of_step
+        lengths, plan = [0.0], self.plan_of_step
         for step in self.drawing.drawn.steps:
             if step.op.gives == CIRCLE and plan[step.index] == panel:
-                found.append(math.sqrt(float(self.drawing.values[step.index][2])))
+                lengths.append(math.sqrt(float(self.drawing.values[step.index][2])))
             ends = [(step.root, step.index)] if step.root is not None and step.op.gives == POINT else []
             ends += [(step.args[0], step.args[1])] if step.op.movement in CARRIED[:2] else []
-            found += [math.dist(self.spot(p), self.spot(q)) for p, q in ends if plan[p] == plan[q] == panel]
-        return max(filter(math.isfinite, found))
+            lengths += [math.dist(self.spot(p), self.spot(q)) for p, q in ends if plan[p] == plan[q] == panel]
+        return max(filter(math.isfinite, lengths))
 
     def _with_paths(self, box: Rect, motion: TracedMotion) -> Rect:
         """The box with the paths of points, where that makes it but a bit larger and no scale is given."""
         sheet, larger = self.drawing.scene.sheet, reduce(extend_box, motion.path_ends, box)
-        given = sheet.k_s or sheet.k_v or sheet.k_a or sheet.k_F
-        return box if given or larger.width + larger.height > A_BIT * (box.width + box.height) else larger
+        scale_given = sheet.k_s or sheet.k_v or sheet.k_a or sheet.k_F
+        return box if scale_given or larger.width + larger.height > A_BIT * (box.width + box.height) else larger
 
     def ends(self, panel: str) -> Iterator[int]:
         """The marks between which vectors are drawn: those asked for, those given; of forces all that have letters."""
-        drawn, forces = self.drawing.drawn, self.kinds(panel) & FORCES
+        program, forces = self.drawing.drawn, self.kinds(panel) & FORCES
         for vector in self.vectors(panel):
             yield from (vector.start, vector.end)
-        for step in (drawn.steps[index] for index in self.points(panel)):
-            if step.root is not None and drawn.given_vector(step):
+        for step in (program.steps[index] for index in self.points(panel)):
+            if step.root is not None and program.given_vector(step):
                 yield from (step.root, step.index)
             elif forces and panel != MECHANISM and step.name:
                 yield step.index

@@ -51,37 +51,38 @@ class Plates:
     def steps(self) -> list[DrawnStep]:
         """The drawn program, by index: those that are given, and the steps."""
         drawing = self.plans.drawing
-        found: list[DrawnStep] = []
-        told = zip(drawing.drawn.steps, drawing.values, self.plans.sentences, self.plans.plan_of_step, strict=True)
-        for step, value, sentence, panel in told:
-            args, number = tuple(found[arg] for arg in step.args), max(0, drawing.drawn.number(step.index))
+        marks: list[DrawnStep] = []
+        rows = zip(drawing.drawn.steps, drawing.values, self.plans.sentences, self.plans.plan_of_step, strict=True)
+        for step, value, sentence, panel in rows:
+            args, number = tuple(marks[arg] for arg in step.args), max(0, drawing.drawn.number(step.index))
             floats = tuple(map(float, value))
-            found.append(DrawnStep(step, number, panel, self.views[panel], args, floats, sentence))
-        return found
+            marks.append(DrawnStep(step, number, panel, self.views[panel], args, floats, sentence))
+        return marks
 
     @cached_property
     def pose(self) -> dict[str, DrawnStep]:
         """Every point of the scene, those that no step reads or that are constructed among them."""
-        found = {drawn.name: drawn for drawn in self.steps if not drawn.number or drawn.name in self.scene.points}
+        points = {mark.name: mark for mark in self.steps if not mark.number or mark.name in self.scene.points}
         for name in self.scene.points:
-            if name not in found:
-                (x, y), index = self.plans.place(name), min((0, *(drawn.index for drawn in found.values()))) - 1
+            if name not in points:
+                (x, y), index = self.plans.place(name), min((0, *(mark.index for mark in points.values()))) - 1
                 step = Step(index, name, made_by(Movement.GIVEN), (), {"x": x, "y": y}, MECHANISM)
-                told = step.op.spoken((), out=name, x=digits(x, 6), y=digits(y, 6))
-                found[name] = DrawnStep(step, 0, MECHANISM, self.views[MECHANISM], (), (x, y), self.plans.tongue(told))
-        return found
+                sentence = step.op.spoken((), out=name, x=digits(x, 6), y=digits(y, 6))
+                points[name] = DrawnStep(step, 0, MECHANISM, self.views[MECHANISM], (), (x, y),
+                                         self.plans.tongue(sentence))
+        return points
 
     @property
     def all_marks(self) -> list[DrawnStep]:
         """All marks, each after those that it depends on: the pose, then the steps."""
-        given = (drawn for drawn in self.pose.values() if not drawn.number)
-        return [*given, *(drawn for drawn in self.steps if drawn.number)]
+        pose = (mark for mark in self.pose.values() if not mark.number)
+        return [*pose, *(mark for mark in self.steps if mark.number)]
 
     @property
     def firsts(self) -> dict[DrawnStep, Plate]:
         """The first step that is drawn on each plan, with the plan."""
-        found = {drawn.panel: drawn for drawn in reversed(self.steps) if drawn.number}
-        return {drawn: self[panel] for panel, drawn in found.items()}
+        firsts = {mark.panel: mark for mark in reversed(self.steps) if mark.number}
+        return {mark: self[panel] for panel, mark in firsts.items()}
 
     @property
     def box(self) -> Rect:
@@ -123,12 +124,12 @@ class Plate:
     @cached_property
     def steps(self) -> list[DrawnStep]:
         """The steps that are drawn here, in order, after what is given here."""
-        return [drawn for drawn in self.plates.steps if drawn.panel == self.panel]
+        return [mark for mark in self.plates.steps if mark.panel == self.panel]
 
     @property
     def beginnings(self) -> list[DrawnStep]:
         """The marks that are chosen freely: where the plan begins."""
-        return [drawn for drawn in self.steps if drawn.free and drawn.number]
+        return [mark for mark in self.steps if mark.free and mark.number]
 
     def is_on_panel(self, mark: DrawnStep) -> bool:
         """Whether a point lies on the panel."""
@@ -150,8 +151,8 @@ class Plate:
         if self.panel != MECHANISM:
             return []
         motion = self.plans.motion
-        shown = [*(motion.items(self.view, self.plates.scene) if motion else ()), *self.drawn_mechanism.items()]
-        return [cut for item in shown for cut in clip_item(item, self.view.rect)]
+        items = [*(motion.items(self.view, self.plates.scene) if motion else ()), *self.drawn_mechanism.items()]
+        return [cut for item in items for cut in clip_item(item, self.view.rect)]
 
     def positions(self, letters: Iterable[Item]) -> Iterator[Item]:
         """Other positions of the mechanism in faint lines, which break off at letters."""
@@ -162,12 +163,12 @@ class Plate:
 
     def items(self) -> Iterator[Item]:
         """Every stroke of the plan as it lies, cut off at the panel's edge, in drawing order."""
-        for drawn in self.steps:
-            yield from (stroke.item for stroke in self.strokes(drawn))
-            for arc in self.arcs(drawn):
+        for mark in self.steps:
+            yield from (stroke.item for stroke in self.strokes(mark))
+            for arc in self.arcs(mark):
                 yield from clip_item(arc.item, self.view.rect)
-            if pen := self.dot(drawn):
-                yield Circle(pen, LAYER, drawn.index, drawn.spot, self.dot_radius(drawn))
+            if pen := self.dot(mark):
+                yield Circle(pen, LAYER, mark.index, mark.spot, self.dot_radius(mark))
         yield from (stroke.item for stroke in self.vectors)
 
     def dot(self, drawn: DrawnStep) -> Pen | None:
@@ -207,10 +208,10 @@ class Plate:
         lines and arcs of which nothing is needed but their way."""
         yield from (force.end for force in self.wanted_vectors if force.kind in pens.FORCES
                     and force not in self.vectors)
-        for drawn in self.steps:
-            seen = {POINT: self.is_on_panel, CIRCLE: self.arcs, LINE: self._is_drawn}.get(drawn.kind)
-            if seen and not seen(drawn):
-                yield drawn
+        for mark in self.steps:
+            is_visible = {POINT: self.is_on_panel, CIRCLE: self.arcs, LINE: self._is_drawn}.get(mark.kind)
+            if is_visible and not is_visible(mark):
+                yield mark
 
     def _is_drawn(self, line: DrawnStep) -> bool:
         """Whether a line is drawn somewhere, or lies along what is."""
@@ -219,13 +220,14 @@ class Plate:
     @cached_property
     def wanted_vectors(self) -> list[Stroke]:
         """All vectors that are asked for on this plan; each is there when both its ends are."""
-        found = []
+        strokes = []
         for vector in self.plans.vectors(self.panel):
             start, end = (self.plates.steps[mark] for mark in (vector.start, vector.end))
             last = max(start, end, key=lambda mark: mark.index)
             head = min(pens.HEADS[vector.kind], 0.6 * math.dist(start.spot, end.spot))
-            found.append(Stroke(last, start, end, 0.0, 1.0, pens.VECTORS[vector.kind], False, head, "vectors", vector))
-        return found
+            strokes.append(Stroke(last, start, end, 0.0, 1.0, pens.VECTORS[vector.kind], False, head, "vectors",
+                                  vector))
+        return strokes
 
     # ---- strokes ---------------------------------------------------------------------------------------------------
 
@@ -251,9 +253,9 @@ class Plate:
 
     def _laid_off(self, drawn: DrawnStep, root: DrawnStep) -> Iterator[Stroke]:
         """A vector that is given has a head; one brought from another plan is a firm stroke; all else is thin."""
-        stroke, given = Stroke(drawn, root, drawn), self.given_pen(drawn)
-        if given and stroke.length > SHORT:
-            yield replace(stroke, pen=given, head=min(GIVEN_HEAD, 0.6 * stroke.length), layer="vectors")
+        stroke, given_pen = Stroke(drawn, root, drawn), self.given_pen(drawn)
+        if given_pen and stroke.length > SHORT:
+            yield replace(stroke, pen=given_pen, head=min(GIVEN_HEAD, 0.6 * stroke.length), layer="vectors")
         elif inside := self._clip_to_panel(replace(stroke, pen=self.laid_pen(drawn))):
             yield from self._uncovered_parts(inside)
 
@@ -277,8 +279,8 @@ class Plate:
     @cached_property
     def stretches(self) -> dict[int, Stroke]:
         """What of each line lies in the panel, links and forces along it or not."""
-        found = {drawn.index: self._stretch(drawn) for drawn in self.steps if drawn.kind == LINE}
-        return {index: stretch for index, stretch in found.items() if stretch is not None}
+        stretches = {line.index: self._stretch(line) for line in self.steps if line.kind == LINE}
+        return {index: stretch for index, stretch in stretches.items() if stretch is not None}
 
     def _stretch(self, line: DrawnStep) -> Stroke | None:
         """From the first mark on a line to the last and a little beyond, as far as the panel goes."""
@@ -312,8 +314,8 @@ class Plate:
 
     def breaks(self, stretch: Stroke) -> Iterator[tuple[Stroke, DrawnStep]]:
         """The arrows at the ends where a line breaks off, each with the mark outside the panel that it points to."""
-        part = BREAK / stretch.length
-        for mark, low, high in ((stretch.start, part, 0.0), (stretch.end, 1.0 - part, 1.0)):
+        fraction = BREAK / stretch.length
+        for mark, low, high in ((stretch.start, fraction, 0.0), (stretch.end, 1.0 - fraction, 1.0)):
             if not self.is_on_panel(mark):
                 pen = pens.THIN.with_fill(pens.GREY)
                 yield replace(stretch.sub_stroke(low, high), pen=pen, head=BREAK_HEAD), mark

@@ -152,11 +152,11 @@ def turn(a: Spot, b: Spot, c: Spot) -> float:
 
 def distinct_spots(spots: Iterable[Spot]) -> list[Spot]:
     """The spots in order, coincident ones once."""
-    found: list[Spot] = []
+    distinct: list[Spot] = []
     for spot in spots:
-        if all(math.dist(spot, other) > NEAR for other in found):
-            found.append(spot)
-    return found
+        if all(math.dist(spot, known) > NEAR for known in distinct):
+            distinct.append(spot)
+    return distinct
 
 
 def are_collinear(spots: Sequence[Spot]) -> bool:
@@ -237,13 +237,13 @@ def _tied_line(at: Spot, along: Vector, half: float, seat: Spot) -> tuple[Spot, 
 
 def belt(one: Spot, r: float, two: Spot, s: float, crossed: bool) -> Iterator[Item]:
     """The two straight parts of a belt or chain about two wheels."""
-    way, far = unit_vector(one, two), math.dist(one, two)
+    direction, far = unit_vector(one, two), math.dist(one, two)
     lean = (r + s if crossed else r - s) / far
     if abs(lean) >= 1.0:
         return
     for side in (1.0, -1.0):
-        normal = (lean * way[0] - side * math.sqrt(1 - lean * lean) * way[1],
-                  lean * way[1] + side * math.sqrt(1 - lean * lean) * way[0])  # fmt: skip
+        normal = (lean * direction[0] - side * math.sqrt(1 - lean * lean) * direction[1],
+                  lean * direction[1] + side * math.sqrt(1 - lean * lean) * direction[0])  # fmt: skip
         ends = offset(one, normal, r), offset(two, normal, -s if crossed else s)
         yield Polyline(pens.LINK, LAYER, None, ends)
 
@@ -272,21 +272,21 @@ def face(at: Spot, along: Vector, seat: Spot) -> Iterator[Item]:
 def wheels(scene: Scene) -> dict[tuple[str, str, float], tuple[int, ...]]:
     """Each pitch circle once, by its link, its centre and its radius in the scene's lengths: the places of its gears.
     """
-    found: dict[tuple[str, str, float], tuple[int, ...]] = {}
+    gears_of: dict[tuple[str, str, float], tuple[int, ...]] = {}
     for i, gear in enumerate(scene.gears):
         for link, centre, radius in zip(gear.links, gear.centres, gear.pitch_radii(scene.points) or (), strict=False):
             key = link, centre, float(f"{radius:.9g}")
-            found[key] = (*found.get(key, ()), i)
-    return found
+            gears_of[key] = (*gears_of.get(key, ()), i)
+    return gears_of
 
 
 def disc(scene: Scene, contact: Contact, centre: str) -> float:
     """The radius of a profile that bulges and is no larger than the mechanism, in the scene's lengths; else 0."""
-    other = contact.centres[contact.centres[0] == centre]
+    other_centre = contact.centres[contact.centres[0] == centre]
     (kx, ky), (x, y) = (map(float, scene.points[name]) for name in (contact.at, centre))
     radius = math.hypot(x - kx, y - ky)
-    if other is not None:
-        u, v = map(float, scene.points[other])
+    if other_centre is not None:
+        u, v = map(float, scene.points[other_centre])
         if (x - kx) * (u - kx) + (y - ky) * (v - ky) > ARC_TOL * radius * radius:
             return 0.0
     return radius if radius <= scene.extent else 0.0
@@ -295,8 +295,8 @@ def disc(scene: Scene, contact: Contact, centre: str) -> float:
 def reach(scene: Scene) -> Iterator[Spot]:
     """How far pitch circles and discs go, in the scene's lengths: the corners of the squares about them."""
     circles = [(centre, radius) for _, centre, radius in wheels(scene)]
-    circles += [(centre, disc(scene, one, centre)) for contact in scene.contacts for one in (contact, contact.beyond)
-                if one for centre in filter(None, one.centres)]
+    circles += [(centre, disc(scene, pair, centre)) for contact in scene.contacts for pair in (contact, contact.beyond)
+                if pair for centre in filter(None, pair.centres)]
     for centre, radius in circles:
         x, y = map(float, scene.points[centre])
         yield from ((x - radius, y - radius), (x + radius, y + radius))

@@ -125,7 +125,7 @@ class TracedMotion:
     @property
     def centrode_ends(self) -> tuple[Spot, ...]:
         """The corners of the box of all centrodes."""
-        return _corners([spot for one in self.centrodes for branch in one.branches for spot in branch])
+        return _corners([spot for centrode in self.centrodes for branch in centrode.branches for spot in branch])
 
     @property
     def position_ends(self) -> tuple[Spot, ...]:
@@ -141,8 +141,8 @@ class TracedMotion:
 
     def items(self, view: View, scene: Scene) -> Iterator[Item]:
         """The centrodes in the pose of a scene, and what stays where it is."""
-        for one in self.centrodes:
-            yield from one.items(view, scene)
+        for centrode in self.centrodes:
+            yield from centrode.items(view, scene)
         yield from self.path_items(view)
 
     def path_items(self, view: View) -> Iterator[Item]:
@@ -183,9 +183,9 @@ def simplify_chain(spots: Sequence[Spot]) -> tuple[Spot, ...]:
         turns = [k for k, spot in enumerate(ring) if _turns_back(ring[k - 1], spot, ring[k + 1 - len(ring)])]
         if len(turns) == 2:
             (first, last), ring = turns, ring + ring
-            ways = [shapely.LineString(ring[a : b + 1]) for a, b in ((first, last), (last, first + len(ring) // 2))]
-            if shapely.hausdorff_distance(*ways) < AGAIN:
-                return tuple(ways[0].simplify(FINE).coords)
+            halves = [shapely.LineString(ring[a : b + 1]) for a, b in ((first, last), (last, first + len(ring) // 2))]
+            if shapely.hausdorff_distance(*halves) < AGAIN:
+                return tuple(halves[0].simplify(FINE).coords)
     return tuple(shapely.LineString(spots).simplify(FINE).coords)
 
 
@@ -196,5 +196,6 @@ def _turns_back(before: Spot, here: Spot, after: Spot) -> bool:
 
 def _stop(spots: Sequence[Spot]) -> Item:
     """The stroke across the first end of a chain."""
-    way = next((unit_vector(p, q) for p, q in pairwise(spots) if math.dist(p, q) > FINE), (1.0, 0.0))
-    return Polyline(pens.PATH_END, LAYER, None, (offset(spots[0], way, 0.0, STOP), offset(spots[0], way, 0.0, -STOP)))
+    direction = next((unit_vector(p, q) for p, q in pairwise(spots) if math.dist(p, q) > FINE), (1.0, 0.0))
+    return Polyline(pens.PATH_END, LAYER, None,
+                    (offset(spots[0], direction, 0.0, STOP), offset(spots[0], direction, 0.0, -STOP)))

@@ -55,10 +55,10 @@ class ForceTables:
         for name, force in forces.items():
             letter, sign = letters[name]
             moment = self.values.get(kinds.SLIDE_MOMENT, {}).get(name)
-            told = () if moment is None else self._figure(sign * moment, largest)
+            moment_runs = () if moment is None else self._figure(sign * moment, largest)
             sizes = sign * force[0], sign * force[1], magnitude(*force)
-            table.append([letter, *(self._figure(part, largest) for part in sizes)])
-            column.append((*told, *self._deviation_runs(kinds.SLIDE_MOMENT, name)))
+            table.append([letter, *(self._figure(component, largest) for component in sizes)])
+            column.append((*moment_runs, *self._deviation_runs(kinds.SLIDE_MOMENT, name)))
         table = with_deviations(self.tongue, table, list(forces), self.pencil.of_kinds(*kinds.REACTIONS))
         if slides:
             table = [[*row, cell] for row, cell in zip(table, column, strict=True)]
@@ -83,9 +83,9 @@ class ForceTables:
     def _letter_at(self, one: str, other: str, point: str = "") -> tuple[Runs, int]:
         """The letter of the force of one link on another, at a point or between teeth; its answer, with the sign -1, if
         that is drawn."""
-        drawn = {vector.label for vector in self.drawing.arrows}
+        letters = {vector.label for vector in self.drawing.arrows}
         letter, answer = pair_letter(one, other), pair_letter(other, one)
-        sign = -1 if answer in drawn and letter not in drawn else 1
+        sign = -1 if answer in letters and letter not in letters else 1
         place = self.tongue(said("at {0}", point) if point else said("in mesh"))
         return (*name_runs(letter if sign > 0 else answer), *sentence_runs(f" {place}", (point,))), sign
 
@@ -93,10 +93,10 @@ class ForceTables:
         """Where the reactions of slides act, in words."""
         for name, (x, y) in self.values.get(kinds.SLIDE_ARM, {}).items():
             slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
-            at = [float(part) for part in self.drawing.scene.points[slide.at]]
+            at = [float(coordinate) for coordinate in self.drawing.scene.points[slide.at]]
             spot, off = coordinates((at[0] + x, at[1] + y)), self.pencil.of_kinds(kinds.SLIDE_ARM).get(name)
-            told = [spot, unit(self.drawing.scene.units.length), *([arranged("±{0}", off.text)] if off else [])]
-            yield said("The reaction of the slide {0} acts at {1}.", slide_named(slide), joined(told, " "))
+            place = [spot, unit(self.drawing.scene.units.length), *([arranged("±{0}", off.text)] if off else [])]
+            yield said("The reaction of the slide {0} acts at {1}.", slide_named(slide), joined(place, " "))
 
     # ---- balance ---------------------------------------------------------------------------------------------------
 
@@ -105,13 +105,13 @@ class ForceTables:
         loads = self.drawing.scene.loads
         table: Table = []
         for name, balance in loads.named_balances.items() if loads else ():
-            told = {words: kinds.balance_kind(way, balance) for words, way in WAYS.items()}
-            found = {words: self.values.get(kind, {}).get(name) for words, kind in told.items()}
-            ways = {words: value for words, value in found.items() if value is not None}
-            off = [self._deviation_runs(told[words], name) for words in ways]
-            heads = (said("balance"), *(words() for words in ways))
+            kind_of = {words: kinds.balance_kind(method, balance) for words, method in WAYS.items()}
+            readings = {words: self.values.get(kind, {}).get(name) for words, kind in kind_of.items()}
+            values = {words: value for words, value in readings.items() if value is not None}
+            off = [self._deviation_runs(kind_of[words], name) for words in values]
+            heads = (said("balance"), *(words() for words in values))
             table = table or [[sentence_runs(self.tongue(head)) for head in heads]]
-            table += self._force(balance, ways, off) if balance.at else self._moment(balance, ways, off)
+            table += self._force(balance, values, off) if balance.at else self._moment(balance, values, off)
         return table if table and len(table[0]) > 1 else []
 
     def _moment(self, balance: Balance, ways: Mapping[Phrase, float], off: list[Runs]) -> Table:
@@ -121,8 +121,8 @@ class ForceTables:
 
     def _force(self, balance: Balance, ways: Mapping[Phrase, Pair], off: list[Runs]) -> Table:
         largest, letter, units = largest_size(ways), f"F_{balance.link}", sentence_runs(f" {self.unit}")
-        parts = [[(*name_runs(f"{letter}{axis}"), *units), *(self._figure(v[i], largest) for v in ways.values())]
+        rows = [[(*name_runs(f"{letter}{axis}"), *units), *(self._figure(v[i], largest) for v in ways.values())]
                  for i, axis in enumerate("xy")]  # fmt: skip
-        found = zip(ways.values(), off, strict=True)
-        sizes = [(*self._figure(magnitude(*v), largest), *within) for v, within in found]
-        return [*parts, [(*sentence_runs(f"|{letter}|"), *units), *sizes]]
+        values = zip(ways.values(), off, strict=True)
+        sizes = [(*self._figure(magnitude(*v), largest), *within) for v, within in values]
+        return [*rows, [(*sentence_runs(f"|{letter}|"), *units), *sizes]]

@@ -56,8 +56,8 @@ class Length(NamedTuple):
 def magnitude(x: Any, y: Any) -> float:
     """How long a vector is; its numbers may be unknown."""
     if isinstance(x, Unknown) or isinstance(y, Unknown):
-        found: float = x.hypot(y) if isinstance(x, Unknown) else y.hypot(x)
-        return found
+        length: float = x.hypot(y) if isinstance(x, Unknown) else y.hypot(x)
+        return length
     return math.hypot(x, y)
 
 
@@ -78,16 +78,16 @@ class Lengths:
         """What of a compound is laid off later, as its part on another plan has found it."""
         match compound.step.op.sizing, compound.step.args, dict(compound.inner):
             case Sizing.SQUARE, (K, A, m, w, _), {"E": E}:
-                speed, arm, found = self.distance(m, w), self.distance(K, A), self.distance(E, A)
+                speed, arm, laid = self.distance(m, w), self.distance(K, A), self.distance(E, A)
                 times = self.times(w, A)
                 if times is None:
-                    total = Sum("Mdm", (speed.mm, arm.mm, found.mm))
+                    total = Sum("Mdm", (speed.mm, arm.mm, laid.mm))
                     v = total[0]
                 else:
-                    total = Sum("MFdm", (speed.mm, times, arm.mm, found.mm))
+                    total = Sum("MFdm", (speed.mm, times, arm.mm, laid.mm))
                     v = arranged("({0} · {1})", total[0], total[1])
-                told = arranged("v²/{0} = {1}² : {2} = {3}", self.side(K, A), v, total[-2], in_mm(total[-1]))
-                return (Length(told, (speed, arm, found)),)
+                text = arranged("v²/{0} = {1}² : {2} = {3}", self.side(K, A), v, total[-2], in_mm(total[-1]))
+                return (Length(text, (speed, arm, laid)),)
             case Sizing.DOUBLE, (_, B, *_), {"K": K}:
                 half = self.distance(K, B)
                 return (Length(half.text, (half,)),)
@@ -150,15 +150,15 @@ class Lengths:
     def _laid_vector(self, step: Step, laid: PaperDistance) -> Length:
         """A vector: a given one with its components, or one that is drawn on this plan or another, and how often."""
         if step.op.movement in COMPONENTS:
-            told = self._given_quantity(step.quantity or LENGTH, laid, step.index)
-            parts = (tenths(part / self.per_mm(step.index)) for part in self.vector(*laid.marks))
-            return Length(said("{0} (x {1}, y {2})", told, *parts), (laid,))
+            text = self._given_quantity(step.quantity or LENGTH, laid, step.index)
+            components = (tenths(component / self.per_mm(step.index)) for component in self.vector(*laid.marks))
+            return Length(said("{0} (x {1}, y {2})", text, *components), (laid,))
         if step.quantity:
-            found = Length(self._given_quantity(step.quantity, laid, step.index), (laid,))
+            length = Length(self._given_quantity(step.quantity, laid, step.index), (laid,))
         else:
-            found = self._carry_over(self.distance(*step.args[:2]), laid)
+            length = self._carry_over(self.distance(*step.args[:2]), laid)
         against = step.params.get("ratio", 1) < 0
-        return found._replace(text=said("{0}, against that vector", found.text)) if against else found
+        return length._replace(text=said("{0}, against that vector", length.text)) if against else length
 
     def _carry_over(self, source: PaperDistance, laid: PaperDistance) -> Length:
         """A length, and where it is another where it is taken from, how it follows from that one."""
@@ -167,8 +167,8 @@ class Lengths:
         factors = _factors(laid.mm / source.mm)
         product = Sum(f"m{'f' * len(factors)}m", (source.mm, *factors, laid.mm))
         times = joined((product[k + 1] for k in range(len(factors))), " · ")
-        told = arranged("{0} · {1} = {2}", in_mm(product[0]), times, in_mm(product[-1]))
-        return Length(told, (source, laid))
+        text = arranged("{0} · {1} = {2}", in_mm(product[0]), times, in_mm(product[-1]))
+        return Length(text, (source, laid))
 
     def _as_long(self, one: PaperDistance, other: PaperDistance) -> bool:
         return abs(one.mm - other.mm) <= LENGTH_TOL * (one.mm + other.mm) / 2
@@ -176,11 +176,12 @@ class Lengths:
     def _given_quantity(self, quantity: Quantity, laid: PaperDistance, where: int) -> Said:
         """A quantity with its value, over the scale of its plan."""
         per, symbol = self.scale(quantity.kind, where)
-        drawn = self.scales.convention == "drawn"
-        quotient = Sum("ffm" if drawn else "fgm", (laid.mm * per, 1 / per if drawn else per, laid.mm))
+        drawn_per_real = self.scales.convention == "drawn"
+        quotient = Sum("ffm" if drawn_per_real else "fgm", (laid.mm * per, 1 / per if drawn_per_real else per, laid.mm))
         value = joined((quotient[0], unit(symbol)), " ")
-        told = arranged("{0} · {1} = {2}" if drawn else "{0} : {1} = {2}", value, quotient[1], in_mm(quotient[-1]))
-        return arranged("{0}: {1}", quantity.written, told) if quantity.written else told
+        text = arranged("{0} · {1} = {2}" if drawn_per_real else "{0} : {1} = {2}", value, quotient[1],
+                        in_mm(quotient[-1]))
+        return arranged("{0}: {1}", quantity.written, text) if quantity.written else text
 
     def scale(self, kind: str, where: int) -> tuple[float, str]:
         """What a mm stands for where a step is drawn, of one kind of quantity, and its unit."""
@@ -200,41 +201,42 @@ class Lengths:
         """A force from the moment of another about a point."""
         Y, X, C, p, q, m = step.args
         force, lever, arm = self.distance(p, q), self.arm(Y, C, p, q), self.distance(Y, X)
-        found = self.distance(m, step.index)
+        laid = self.distance(m, step.index)
         per, symbol = self.scale("force", step.index)
         times = self.times(q, m)
         if times is None:
-            total = Sum("mmdm", (force.mm, lever.mm, arm.mm, found.mm))
+            total = Sum("mmdm", (force.mm, lever.mm, arm.mm, laid.mm))
             taken = total[0]
         else:
-            total = Sum("mfmdm", (force.mm, times, lever.mm, arm.mm, found.mm))
+            total = Sum("mfmdm", (force.mm, times, lever.mm, arm.mm, laid.mm))
             taken = arranged("{0} · {1}", total[0], total[1])
-        told = arranged("P·h/{0} = {1} · {2} : {3} = {4} ({5})", self.side(Y, X), taken, total[-3], total[-2],
-                        in_mm(total[-1]), joined((digits(found.mm * per), unit(symbol)), " "))
-        return Length(told, (force, lever, arm, found))
+        text = arranged("P·h/{0} = {1} · {2} : {3} = {4} ({5})", self.side(Y, X), taken, total[-3], total[-2],
+                        in_mm(total[-1]), joined((digits(laid.mm * per), unit(symbol)), " "))
+        return Length(text, (force, lever, arm, laid))
 
     def _couple(self, step: Step) -> Length:
         """A force whose pair is a given couple."""
         P, R, m = step.args
-        found = self._couple_force(step, P, R, m)
+        length = self._couple_force(step, P, R, m)
         clockwise = step.params["moment"] < 0
-        return found._replace(text=said("{0}, clockwise", found.text) if clockwise else
-                              said("{0}, counter-clockwise", found.text))
+        return length._replace(text=said("{0}, clockwise", length.text) if clockwise else
+                              said("{0}, counter-clockwise", length.text))
 
     def _inertia(self, step: Step) -> Length:
         """A force whose pair is the couple of inertia."""
         P, R, a, b, m = step.args
         u, v = self.vector(P, R), self.vector(a, b)
-        part = PaperDistance(abs(u[0] * v[1] - u[1] * v[0]) / (magnitude(*u) or 1.0) / self.per_mm(b), (a, P, R, a, b))
-        found = self._couple_force(step, P, R, m)
-        return Length(said("Tangential part {0}, {1}", part.text, found.text), (part, *found.measures))
+        tangential = PaperDistance(abs(u[0] * v[1] - u[1] * v[0]) / (magnitude(*u) or 1.0) / self.per_mm(b),
+                                   (a, P, R, a, b))
+        length = self._couple_force(step, P, R, m)
+        return Length(said("Tangential part {0}, {1}", tangential.text, length.text), (tangential, *length.measures))
 
     def _couple_force(self, step: Step, P: int, R: int, m: int) -> Length:
         """The force of a couple's pair, by the distance of its points."""
-        arm, found, names = self.distance(P, R), self.distance(m, step.index), self.side(P, R)
-        force = found.text if step.quantity is None else self._given_quantity(
-            Quantity(arranged("{0}/{1}", step.quantity.written, names), "force"), found, step.index)
-        return Length(arranged("{0} = {1}, {2}", names, arm.text, force), (arm, found))
+        arm, laid, names = self.distance(P, R), self.distance(m, step.index), self.side(P, R)
+        force = laid.text if step.quantity is None else self._given_quantity(
+            Quantity(arranged("{0}/{1}", step.quantity.written, names), "force"), laid, step.index)
+        return Length(arranged("{0} = {1}, {2}", names, arm.text, force), (arm, laid))
 
     def _friction(self, step: Step) -> Length:
         """The radius of a friction circle."""
@@ -247,13 +249,13 @@ class Lengths:
         measures = self.distance(a, b), self.arm(P, R, a, b), self.distance(p, q), self.distance(C, step.index)
         times = self.times(b, q)
         if times is None:
-            total = Sum("mmdm", tuple(one.mm for one in measures))
+            total = Sum("mmdm", tuple(measure.mm for measure in measures))
             taken = total[0]
         else:
-            total = Sum("mfmdm", (measures[0].mm, times, *(one.mm for one in measures[1:])))
+            total = Sum("mfmdm", (measures[0].mm, times, *(measure.mm for measure in measures[1:])))
             taken = arranged("{0} · {1}", total[0], total[1])
-        told = arranged("{0} · {1} : {2} = {3}", taken, total[-3], total[-2], in_mm(total[-1]))
-        return Length(told, measures)
+        text = arranged("{0} · {1} : {2} = {3}", taken, total[-3], total[-2], in_mm(total[-1]))
+        return Length(text, measures)
 
     def _known_length(self, step: Step) -> Length:
         """What was found beforehand, as it is laid off here."""

@@ -123,19 +123,19 @@ class Protocol:
     @cached_property
     def steps(self) -> tuple[SpokenStep, ...]:
         """Every step, in drawing order."""
-        drawn, found = self._program, list[SpokenStep]()
-        for step in drawn.steps[drawn.givens :]:
+        program, spoken = self._program, list[SpokenStep]()
+        for step in program.steps[program.givens :]:
             measuring = partial(self.lengths.for_step, step) if self.lengths else tuple
-            told = with_lengths(drawn.sentence(step.index), measuring)
-            found.append(SpokenStep(step, drawn.number(step.index), told, step.why, measuring))
-        return tuple(found)
+            sentence = with_lengths(program.sentence(step.index), measuring)
+            spoken.append(SpokenStep(step, program.number(step.index), sentence, step.why, measuring))
+        return tuple(spoken)
 
     @property
     def sentences(self) -> Iterator[Said]:
         """Every step of the program in a sentence, with its reason; those that are given first."""
-        drawn = self._program
-        yield from (drawn.told(index) for index in range(drawn.givens))
-        yield from (with_reason(one.sentence, one.why) for one in self.steps)
+        program = self._program
+        yield from (program.told(index) for index in range(program.givens))
+        yield from (with_reason(step.sentence, step.why) for step in self.steps)
 
     @cached_property
     def lengths(self) -> Lengths | None:
@@ -145,26 +145,27 @@ class Protocol:
     @cached_property
     def stages(self) -> tuple[tuple[Stage, ...], Mapping[int, int]]:
         """The stages, each once, and by step which of them it is a part of."""
-        told: dict[Stage, int] = {}
-        of = {step.index: told.setdefault(stage, len(told)) for stage, steps in self._program.stages for step in steps}
-        return tuple(told), of
+        numbers: dict[Stage, int] = {}
+        of = {step.index: numbers.setdefault(stage, len(numbers)) for stage, steps in self._program.stages
+              for step in steps}
+        return tuple(numbers), of
 
     @cached_property
     def passages(self) -> tuple[Passage, ...]:
         """All that is drawn, in drawing order."""
-        (stages, of), found = self.stages, list[Passage]()
-        seen, laws, plan = set[int](), set[str](), None
+        (stages, of), passages = self.stages, list[Passage]()
+        told_stages, laws, plan = set[int](), set[str](), None
         for (home, number), steps in groupby(self.steps, lambda one: (one.step.panel, of.get(one.index))):
             laws, plan = (laws if home == plan else set()), home
             stage = None if number is None else stages[number]
             law = stage.law if stage and stage.law not in laws else ""
             entries = tuple(self._entries([*steps], stage))
-            controls = tuple(told for entry in entries for one in entry.movements
-                             for told in self._controls_at(one.index))
-            found.append(Passage(home, stage, number, number in seen, law, entries, controls))
+            controls = tuple(control for entry in entries for one in entry.movements
+                             for control in self._controls_at(one.index))
+            passages.append(Passage(home, stage, number, number in told_stages, law, entries, controls))
             laws.add(law)
-            seen.update([] if number is None else [number])
-        return tuple(found)
+            told_stages.update([] if number is None else [number])
+        return tuple(passages)
 
     def _controls_at(self, step: int) -> Iterator[Said]:
         """The controls of which this step draws the last mark."""
@@ -218,5 +219,5 @@ def with_lengths(sentence: Said, measuring: Measuring) -> Said:
 
 def _reason(step: SpokenStep, stage: Stage | None) -> str:
     """Why a step is drawn, where its stage does not say it."""
-    said = f"{stage.title} {stage.law}".lower() if stage else ""
-    return "" if step.why.lower() in said else step.why
+    stage_text = f"{stage.title} {stage.law}".lower() if stage else ""
+    return "" if step.why.lower() in stage_text else step.why

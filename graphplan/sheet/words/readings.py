@@ -98,15 +98,15 @@ class Readings:
 
     def _read(self, reading: Reading, name: Said, read: ReadSum, symbol: Said, computed: float) -> Measured:
         """What is read, beside what is computed."""
-        told = said("{0}: {1} = {2}; computed {3}", name, read.text, joined((read.total[-1], symbol), " "),
+        text = said("{0}: {1} = {2}; computed {3}", name, read.text, joined((read.total[-1], symbol), " "),
                     digits(computed))
-        return Measured(reading.kind, reading.of, Length(told, read.measures), read.total.value, computed)
+        return Measured(reading.kind, reading.of, Length(text, read.measures), read.total.value, computed)
 
     def _no_moment(self, reading: Reading, computed: float) -> Measured:
         """The moment of no force."""
-        told = said("{0}: no force has an arm about it, so the moment is 0; computed {1}",
+        text = said("{0}: no force has an arm about it, so the moment is 0; computed {1}",
                     self._name(reading.kind, reading.of), digits(computed))
-        return Measured(reading.kind, reading.of, Length(told, ()), 0.0, computed)
+        return Measured(reading.kind, reading.of, Length(text, ()), 0.0, computed)
 
     def _name(self, kind: ResultKind, of: str) -> Said:
         """What a result is called: v_B, omega_3; of pairs and balances in words."""
@@ -120,8 +120,8 @@ class Readings:
         group = group if dimension != units.LENGTH else "length"
         per, _ = self.lengths.scale(group, end)
         total, text = Sum("mff", (length.mm, per, length.mm * per)), self.lengths.program.text
-        told = said("from {0} to {1}: {2}", text(start), text(end), in_mm(total[0]))
-        return ReadSum(arranged("{0} · {1}", told, total[1]), (length,), total)
+        description = said("from {0} to {1}: {2}", text(start), text(end), in_mm(total[0]))
+        return ReadSum(arranged("{0} · {1}", description, total[1]), (length,), total)
 
     def _turning(self, reading: Reading, marks: Sequence[int]) -> ReadSum:
         """How a link turns, by the difference of two points' vectors over their distance.
@@ -140,36 +140,36 @@ class Readings:
             rate = (1 - sign * image.mm / side.mm) * tempo + excess
             total = Sum(("-" if sign > 0 else "+") + "mdf" + tail, (image.mm, side.mm, tempo, *more, rate))
             ratio = arranged("(1 − {0}/{1})" if sign > 0 else "(1 + {0}/{1})", total[0], total[1])
-            told = said("from {0} to {1}: {2}, {3} = {4}: {5}", lengths.program.text(p1), lengths.program.text(r1),
+            text = said("from {0} to {1}: {2}, {3} = {4}: {5}", lengths.program.text(p1), lengths.program.text(r1),
                         in_mm(total[0]), names, in_mm(total[1]), arranged("{0} · {1}", ratio, total[2]))
-            return ReadSum(_add_excess(told, excess, total), (image, side), total)
-        one, two = lengths.vector(p0, p1), lengths.vector(r0, r1)
-        w = two[0] - one[0], two[1] - one[1]
+            return ReadSum(_add_excess(text, excess, total), (image, side), total)
+        first, second = lengths.vector(p0, p1), lengths.vector(r0, r1)
+        w = second[0] - first[0], second[1] - first[1]
         across = u[0] * w[1] - u[1] * w[0]
         across = across if not (drawing.turned and reading.kind == kinds.OMEGA) else -(u[0] * w[0] + u[1] * w[1])
         mm = across / magnitude(*u) / lengths.per_mm(r1)
-        part = PaperDistance(abs(mm), (P, R, p0, p1, r0, r1))
+        tangential = PaperDistance(abs(mm), (P, R, p0, p1, r0, r1))
         (per, _), link = lengths.scale(reading.kind.group, r1), lengths.per_mm(R)
         total = Sum("mfdg" + tail, (mm, per, side.mm, link, *more, mm * per / (side.mm * link) + excess))
-        told = said("tangential part over {0}: {1}", names, arranged(
+        text = said("tangential part over {0}: {1}", names, arranged(
             "{0} · {1} : ({2} · {3})", in_mm(total[0]), total[1], in_mm(total[2]), total[3]))
-        return ReadSum(_add_excess(told, excess, total), (part, side), total)
+        return ReadSum(_add_excess(text, excess, total), (tangential, side), total)
 
     def _moment(self, marks: Sequence[int]) -> ReadSum:
         """The moment of forces about a point, each in mm times its arm."""
-        pole, *rest = marks
+        pole, *force_marks = marks
         lengths, metre = self.lengths, float(units.metre(self.drawing.scene.units))
         measures, numbers = list[PaperDistance](), list[float]()
-        for C, tail, head in zip(*[iter(rest)] * 3, strict=True):
+        for C, tail, head in zip(*[iter(force_marks)] * 3, strict=True):
             force, lever = lengths.distance(tail, head), lengths.lever(pole, C, tail, head)
             measures += [force, lengths.arm(pole, C, tail, head)]
             numbers += [force.mm, lever]
-        per = lengths.scale(kinds.FORCES, rest[-1])[0] * lengths.per_mm(rest[-3]) / metre
+        per = lengths.scale(kinds.FORCES, force_marks[-1])[0] * lengths.per_mm(force_marks[-3]) / metre
         whole = sum(numbers[k] * numbers[k + 1] for k in range(0, len(numbers), 2)) * per
         total = Sum("Σ" + "m" * len(numbers) + "ff", (*numbers, per, whole))
         terms = [in_any_case(partial(_term, total, k)) for k in range(0, len(numbers), 2)]
-        told = said("forces times arms ({0}) mm² · {1}", joined(terms, " "), total[-2])
-        return ReadSum(told, tuple(measures), total)
+        text = said("forces times arms ({0}) mm² · {1}", joined(terms, " "), total[-2])
+        return ReadSum(text, tuple(measures), total)
 
 
 class ReadSum(NamedTuple):

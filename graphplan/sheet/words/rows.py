@@ -101,7 +101,7 @@ Placed = tuple[TextRow, float, float]
 
 def fill(rows: Sequence[TextRow], columns: Sequence[Rect]) -> list[Placed] | None:
     """Every row with its left edge and base line, running down the columns; none if they do not hold them."""
-    placed: list[Placed] = []
+    placed_rows: list[Placed] = []
     places = iter(columns)
     column = next(places, None)
     y = column.top if column else 0.0
@@ -113,8 +113,8 @@ def fill(rows: Sequence[TextRow], columns: Sequence[Rect]) -> list[Placed] | Non
         if column is None:
             return None
         y -= _gap(row, y, column) + row.height
-        placed.append((row, column.left, y + row.size * (LEADING - 1)))
-    return placed
+        placed_rows.append((row, column.left, y + row.size * (LEADING - 1)))
+    return placed_rows
 
 
 def _block_end(rows: Sequence[TextRow], first: int) -> int:
@@ -136,8 +136,8 @@ def row_items(placed: Sequence[Placed]) -> Iterator[Item]:
         foot = y - row.size * (LEADING - 1)
         yield from (move_item(item, x, foot) for item in row.figure)
         for box in row.boxes:
-            there = Rect(x + box.left, foot + box.bottom, x + box.right, foot + box.top)
-            yield Polygon(BORDER, "blanks", row.step, there.corners)
+            rect = Rect(x + box.left, foot + box.bottom, x + box.right, foot + box.top)
+            yield Polygon(BORDER, "blanks", row.step, rect.corners)
         base = foot + (row.tall - CAPS * row.size) / 2 if row.tall else y
         for cell in row.cells:
             yield Text(LETTERS, row.layer, row.step, (x + cell.x, base), cell.runs, row.size, cell.anchor, cell.bold)
@@ -190,8 +190,8 @@ def vector_table(say: Tongue, what: str, letter: str, unit: str, values: Mapping
     The head tells what has them, their letter and their unit; names may be `spoken` in another way.
     """
     head = [sentence_runs(text) for text in (what, f"{letter}_x", f"{letter}_y", f"|{letter}| {unit}")]
-    found = {name: (*values[name], magnitude(*values[name])) for name in order if name in values}
-    return _table(say, head, found, _larger(largest_size(values), largest_size(beside)), off, spoken)
+    components = {name: (*values[name], magnitude(*values[name])) for name in order if name in values}
+    return _table(say, head, components, _larger(largest_size(values), largest_size(beside)), off, spoken)
 
 
 def coordinate_table(say: Tongue, head: Sequence[str], values: Mapping[str, Any], off: Off,
@@ -204,8 +204,8 @@ def scalar_table(say: Tongue, what: str, name: str, unit: str, values: Mapping[s
             off: Off) -> Table:
     """Single numbers with their deviations, each row with its name first; nothing if there are none."""
     head = [sentence_runs(what), (*name_runs(name), *sentence_runs(f" {unit}"))]
-    found = {name: (values[name],) for name in order if name in values}
-    return _table(say, head, found, reduce(_larger, map(abs, values.values()), 0.0), off)
+    numbers = {name: (values[name],) for name in order if name in values}
+    return _table(say, head, numbers, reduce(_larger, map(abs, values.values()), 0.0), off)
 
 
 def zero_rounding(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict[str, dict[str, Any]]:
@@ -213,30 +213,31 @@ def zero_rounding(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict
 
     What is unknown is not weighed.
     """
-    found = {kind: {**named} for kind, named in values.items()}
+    results = {kind: {**named} for kind, named in values.items()}
     fastest = reduce(_larger, map(abs, values.get("omega", {}).values()), 0.0)
-    for turning, kind, other in (("omega", "velocity", fastest), ("alpha", "acceleration", fastest * fastest)):
-        least = ZERO_TOL * _larger(largest_size(values.get(kind, {})) / reach, other)
-        found |= {turning: {name: rate if isinstance(least, Unknown) or isinstance(rate, Unknown) or abs(rate) > least
+    for turning, kind, scale in (("omega", "velocity", fastest), ("alpha", "acceleration", fastest * fastest)):
+        least = ZERO_TOL * _larger(largest_size(values.get(kind, {})) / reach, scale)
+        results |= {turning: {name: rate if isinstance(least, Unknown) or isinstance(rate, Unknown) or abs(rate) > least
                             else 0.0 for name, rate in values[turning].items()}} if turning in values else {}
-    return found
+    return results
 
 
 def _table(say: Tongue, head: list[Runs], values: Mapping[str, tuple[float, ...]], largest: float, off: Off,
            spoken: Callable[[str], str] = str) -> Table:
     """Numbers, of which the largest of their kind is told, under their head."""
-    rows = [[name_runs(spoken(name)), *(number_runs(say, x, largest) for x in found)] for name, found in values.items()]
+    rows = [[name_runs(spoken(name)), *(number_runs(say, x, largest) for x in numbers)] for name,
+            numbers in values.items()]
     return with_deviations(say, [head, *rows], list(values), off) if rows else []
 
 
 def with_deviations(say: Tongue, table: Table, names: Sequence[str], off: Off) -> Table:
     """A table with a last column for the deviations of its rows, where they are told."""
-    told = [off.get(name) for name in names]
-    if not any(told):
+    deviations = [off.get(name) for name in names]
+    if not any(deviations):
         return table
-    on_paper = any(deviation is not None and deviation.mm is not None for deviation in told)
+    on_paper = any(deviation is not None and deviation.mm is not None for deviation in deviations)
     head = say(arranged("± ({0})", unit("mm"))) if on_paper else "±"
-    column = [head, *("" if deviation is None else say(deviation.text) for deviation in told)]
+    column = [head, *("" if deviation is None else say(deviation.text) for deviation in deviations)]
     return [[*row, sentence_runs(cell)] for row, cell in zip(table, column, strict=True)]
 
 
@@ -258,9 +259,9 @@ def number_runs(say: Tongue, value: float, largest: float) -> Runs:
 def join_tables(one: Table, two: Table, fits: Callable[[Table], bool]) -> list[Table]:
     """Two tables as one where the names are the same and it fits, else those of the two that say anything."""
     if one and two and [row[0] for row in one] == [row[0] for row in two]:
-        both = [[*left, *right[1:]] for left, right in zip(one, two, strict=True)]
-        if fits(both):
-            return [both]
+        joined = [[*left, *right[1:]] for left, right in zip(one, two, strict=True)]
+        if fits(joined):
+            return [joined]
     return [table for table in (one, two) if table]
 
 

@@ -83,9 +83,10 @@ def result_at(level: int, kinds: str, numbers: Sequence[float]) -> float:
     """The result, or what the printed numbers come to."""
     if level < PRINTED:
         return numbers[-1]
-    form, own = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
-    value = _value(form, own,
-                   [round_as_printed(number, kind, level) for number, kind in zip(numbers[:-1], own, strict=False)])
+    form, number_kinds = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
+    value = _value(form, number_kinds,
+                   [round_as_printed(number, kind, level) for number,
+                    kind in zip(numbers[:-1], number_kinds, strict=False)])
     return value if math.isfinite(value) else numbers[-1]
 
 
@@ -95,10 +96,10 @@ def holding(kinds: str, numbers: Sequence[float]) -> int:
         return READ
     form, kinds = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
     for level in range(PRINTED):
-        told = [round_as_printed(number, kind, level) for number, kind in zip(numbers[:-1], kinds[:-1], strict=True)]
+        printed = [round_as_printed(number, kind, level) for number, kind in zip(numbers[:-1], kinds[:-1], strict=True)]
         result = round_as_printed(numbers[-1], kinds[-1], level, result=True)
-        found = _value(form, kinds, told)
-        if abs(found - result) <= HALF * 10.0 ** -LEVELS[level][1]:
+        value = _value(form, kinds, printed)
+        if abs(value - result) <= HALF * 10.0 ** -LEVELS[level][1]:
             return level
     return PRINTED
 
@@ -136,8 +137,8 @@ def round_as_printed(number: float, kind: str, level: int, *, result: bool = Fal
 def decimals_of(number: float, kind: str, level: int) -> int:
     """In how many decimals mm are printed: in more where nothing would be left to multiply or to divide by."""
     count = LEVELS[level][0]
-    kept = level == PRINTED or (kind == "d" and level == READ)
-    return 1 - _power(number) if kept and 0 < abs(number) < 0.5 * 10.0**-count else count
+    keeps_figures = level == PRINTED or (kind == "d" and level == READ)
+    return 1 - _power(number) if keeps_figures and 0 < abs(number) < 0.5 * 10.0**-count else count
 
 
 def result_figures(number: float, level: int) -> int:

@@ -71,9 +71,9 @@ class TaskWords(SheetWords):
         for sentence in data(scene):
             yield from self._hanging_rows(sentence_runs(self.plans.tongue(sentence)), wide)  # alpha_1 is no locus alpha
         yield from table_rows(self._masses())
-        asked = list(question(scene, self.values))
-        yield from [self._heading(said("To find"))] if asked else []
-        for sentence in asked:
+        questions = list(question(scene, self.values))
+        yield from [self._heading(said("To find"))] if questions else []
+        for sentence in questions:
             yield from self.paragraph(sentence, wide)
 
     def _masses(self) -> Table:
@@ -85,17 +85,17 @@ class TaskWords(SheetWords):
                  said("mass centre"))
         table = [[sentence_runs(say(head)) for head in heads]]
         for link, body in loads.masses.items():
-            told = (link, _figure(body.mass), _figure(body.inertia))
-            table.append([*(sentence_runs(say(cell)) for cell in told), name_runs(body.centre)])
+            cells = (link, _figure(body.mass), _figure(body.inertia))
+            table.append([*(sentence_runs(say(cell)) for cell in cells), name_runs(body.centre)])
         return table
 
     def _plans(self, wide: float) -> Iterator[TextRow]:
         """The scale of each plan, and where it begins."""
         yield self._heading(said("Scales"))
         for plate in self.composition.plates:
-            told = self.composition.scales.scale_texts(plate.panel, self.plans.kinds(plate.panel))
-            told += [said("origin {0}", drawn.name) for drawn in plate.beginnings if drawn.name]
-            yield from self.paragraph(arranged("{0:capital}: {1}.", plate.panel.words, joined(told)), wide)
+            texts = self.composition.scales.scale_texts(plate.panel, self.plans.kinds(plate.panel))
+            texts += [said("origin {0}", mark.name) for mark in plate.beginnings if mark.name]
+            yield from self.paragraph(arranged("{0:capital}: {1}.", plate.panel.words, joined(texts)), wide)
 
     def _row_with_number(self, row: TextRow) -> TextRow:
         """The row with a box to tick before its number."""
@@ -103,8 +103,8 @@ class TaskWords(SheetWords):
 
     def _hints(self, wide: float) -> Iterator[TextRow]:
         """What is needed: instruments, and how many steps."""
-        drawn = self.drawing.drawn
-        steps = drawn.steps[drawn.givens:]
+        program = self.drawing.drawn
+        steps = program.steps[program.givens:]
         used = {step.op.instrument for step in steps}
         yield self._heading(said("Hints"))
         named = joined(name() for instrument, name in INSTRUMENTS.items() if instrument in used)
@@ -117,8 +117,8 @@ class TaskWords(SheetWords):
         """A box for every number that the construction gives, in the order of the solution."""
         pairs = [pair for pair in self._pairs() if any(pair)]
         yield from [self._heading(said("Results"))] if pairs else []
-        for one, two in pairs:
-            for table in join_tables(one, two, partial(boxes_fit, wide=wide)):
+        for first, second in pairs:
+            for table in join_tables(first, second, partial(boxes_fit, wide=wide)):
                 yield from answer_rows(table, wide)
 
     def _pairs(self) -> Iterator[tuple[Table, Table]]:
@@ -151,9 +151,9 @@ ASKED = {  # how kinds of results are asked for, and how those that have them ar
 
 def data(scene: Scene) -> Iterator[Said]:
     """The mechanism in its pose, what drives it and what loads it, a sentence each."""
-    given = scene if scene.assembly is None else scene.assembly.given
+    start = scene if scene.assembly is None else scene.assembly.given
     yield said("Points, in {0}: {1}.", unit(scene.units.length),
-               joined(joined((name, _pair(at)), " ") for name, at in given.points.items()))
+               joined(joined((name, _pair(at)), " ") for name, at in start.points.items()))
     yield said("Links: {0}.", joined(joined((link_named(link), f"({' '.join(names)})"), " ")
                                      for link, names in scene.links.items()))
     for kind in dict.fromkeys(type(slide) for slide in scene.slides):
@@ -191,16 +191,16 @@ def _gear_text(gear: Gear) -> Said:
 
 def _touching(contact: Contact) -> Said:
     """Two links that touch: where, and how each is curved there."""
-    told = [said("{0} with the centre of curvature {1}", link_named(link), centre) if centre
+    links = [said("{0} with the centre of curvature {1}", link_named(link), centre) if centre
             else said("{0} straight along {1}", link_named(link), _pair(contact.direction or (0, 0)))
             for link, centre in zip(contact.links, contact.centres, strict=True)]
-    return joined((said("at {0}", contact.at), *told, *([said("without slipping")] if contact.rolling else [])))
+    return joined((said("at {0}", contact.at), *links, *([said("without slipping")] if contact.rolling else [])))
 
 
 def _moved_on(drive: Drive, travel: Fraction, length: str) -> Said:
     """How far a drive has gone in the pose that is to be constructed."""
-    told = joined((_figure(travel), unit(length)), " ") if drive.slides else said("{0}°", _figure(travel))
-    return said("Construct the pose in which {0} has gone on by {1} relative to {2}.", link_named(drive.link), told,
+    distance = joined((_figure(travel), unit(length)), " ") if drive.slides else said("{0}°", _figure(travel))
+    return said("Construct the pose in which {0} has gone on by {1} relative to {2}.", link_named(drive.link), distance,
                 link_named(drive.on))
 
 
@@ -233,10 +233,10 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
         yield said("Moment on {0}: {1}.", link_named(moment.on), _value_text(value, moment))
     slides = {(slide.link, slide.along): slide for slide in scene.slides}
     for friction in loads.frictions:
-        where = (slide_named(slides[friction.slide]) if friction.slide
+        place = (slide_named(slides[friction.slide]) if friction.slide
                  else both(friction.links) if friction.links else said("at {0}", friction.at))
         radius = [] if friction.links else [_with_unit("r", friction.radius, units.length)]
-        yield said("Friction {0}: {1}.", where, joined((arranged("mu = {0}", _figure(friction.coefficient)), *radius)))
+        yield said("Friction {0}: {1}.", place, joined((arranged("mu = {0}", _figure(friction.coefficient)), *radius)))
 
 
 def _value_text(value: Said, load: Force | Moment) -> Said:
@@ -246,9 +246,9 @@ def _value_text(value: Said, load: Force | Moment) -> Said:
 
 def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[Said]:
     """What a construction gives, as a task: `values` are its readings by kind and name."""
-    for kind, (asked, enumerated) in ASKED.items():
+    for kind, (ask, enumerated) in ASKED.items():
         if values.get(kind):
-            yield asked(enumerated([*values[kind]]))
+            yield ask(enumerated([*values[kind]]))
     slides = {slide.name: slide_named(slide) for slide in scene.slides}
     if values.get("slide velocity") or values.get("slide acceleration"):
         moving = dict.fromkeys((*values.get("slide velocity", ()), *values.get("slide acceleration", ())))
@@ -261,11 +261,11 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
         yield said("Inflection circles of: {0}.", listed(circles))
     forces = values.get(REACTION, ())
     joints = [p for p in scene.joints if any(JointForce(p, link).name in forces for link in scene.links_of[p])]
-    told = [*joints, *(slides[name] for name in values.get(SLIDE_REACTION, ()))]
-    told += [both(pair.links) for kind, pairs in ((GEAR_REACTION, scene.gears), (CONTACT_REACTION, scene.contacts))
+    reactions = [*joints, *(slides[name] for name in values.get(SLIDE_REACTION, ()))]
+    reactions += [both(pair.links) for kind, pairs in ((GEAR_REACTION, scene.gears), (CONTACT_REACTION, scene.contacts))
              for pair in pairs if pair.name in values.get(kind, {})]
-    if told:
-        yield said("Reactions: {0}.", joined(told))
+    if reactions:
+        yield said("Reactions: {0}.", joined(reactions))
     if scene.loads and any(kind_of(kind).way for kind in values):
         yield from map(_keeping, scene.loads.balances)
     if wish := scene.flywheel:

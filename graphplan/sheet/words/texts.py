@@ -94,8 +94,8 @@ class SheetWords:
             self._set[wide] = (scales, steps, [*self._readings(wide, scales)],
                                [*self._check(wide), *self._forms(wide)])
         _, before, read, after = self._set[wide]
-        found = [*read, *self._results(wide, pencil), *self._errors(wide, pencil.text), *after]
-        return [*before, *(replace(row, layer=RESULTS) for row in found)]
+        results = [*read, *self._results(wide, pencil), *self._errors(wide, pencil.text), *after]
+        return [*before, *(replace(row, layer=RESULTS) for row in results)]
 
     def _runs(self, text: str) -> Runs:
         """A text in the tongue of the sheet, with the names of marks as they are set."""
@@ -119,10 +119,10 @@ class SheetWords:
 
     def _steps(self, wide: float, scales: Scales) -> Iterator[TextRow]:
         """The protocol, plan by plan and stage by stage."""
-        drawn = self.drawing.drawn
+        program = self.drawing.drawn
         yield self._heading(said("Construction"))
-        given = ", ".join(step.name for step in drawn.steps[: drawn.givens])
-        yield from self.paragraph(said("Given, on the mechanism plan: {0}.", given), wide)
+        names = ", ".join(step.name for step in program.steps[: program.givens])
+        yield from self.paragraph(said("Given, on the mechanism plan: {0}.", names), wide)
         plan = ""
         for passage in self._protocol(scales).passages:
             first = passage.entries[0].movements[0].index
@@ -140,10 +140,10 @@ class SheetWords:
         if circle := self.drawing.circle:
             yield self._heading(said("Circle diagram"))
             yield circle_diagram_row(circle)
-            found = ", ".join(f"{side.number} {pole_letter(side.links)}" for side in circle.sides if side.number)
-            told = said("A side joins two links whose pole is known, thick those of pins, guides and pitch points; 0 "
-                        "is the frame. Found in this order: {0}.", found)
-            yield from self.paragraph(told, wide)
+            poles = ", ".join(f"{side.number} {pole_letter(side.links)}" for side in circle.sides if side.number)
+            text = said("A side joins two links whose pole is known, thick those of pins, guides and pitch points; 0 "
+                        "is the frame. Found in this order: {0}.", poles)
+            yield from self.paragraph(text, wide)
 
     def _protocol(self, scales: Scales) -> Protocol:
         """The protocol at these scales, told once for columns of any width."""
@@ -182,20 +182,20 @@ class SheetWords:
         apart = self.unfolded and entry.is_compound
         yield from self._hanging_rows(self._runs(entry.text), wide, entry.movements[0].index, "" if apart
                                       else entry.number)
-        for one in entry.movements if apart else ():
-            yield from self._hanging_rows(self._runs(one.sentence), wide, one.index, str(one.number))
+        for movement in entry.movements if apart else ():
+            yield from self._hanging_rows(self._runs(movement.sentence), wide, movement.index, str(movement.number))
 
     def _readings(self, wide: float, scales: Scales) -> Iterator[TextRow]:
         """What is measured on the finished sheet, and what it means."""
-        found = list(Readings(self.drawing, lengths_of(self.plans, scales), self.values))
-        yield from [self._heading(said("Measured on the sheet"))] if found else []
-        for reading in found:
+        readings = list(Readings(self.drawing, lengths_of(self.plans, scales), self.values))
+        yield from [self._heading(said("Measured on the sheet"))] if readings else []
+        for reading in readings:
             yield from self.paragraph(reading.text, wide)
 
     def _results(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
         yield self._heading(said("Results"))
-        for one, two in self._motion(pencil):
-            for table in join_tables(one, two, partial(is_narrow, wide=wide)):
+        for first, second in self._motion(pencil):
+            for table in join_tables(first, second, partial(is_narrow, wide=wide)):
                 yield from table_rows(table)
         if self.drawing.scene.loads:
             yield from self._forces(wide, pencil)
@@ -225,20 +225,20 @@ class SheetWords:
         say, scene = self.plans.tongue, self.drawing.scene
         long = say(unit(scene.units.length))
         heads = {POLE: (say(said("pole")), "x", f"y {long}"), POLE_HEADING: (say(said("pole at infinity")), "dx", "dy")}
-        one, two = (coordinate_table(say, head, self.values.get(kind, {}), pencil.of_kinds(kind),
+        finite, infinite = (coordinate_table(say, head, self.values.get(kind, {}), pencil.of_kinds(kind),
                            lambda name: pole_letter(scene.link_pair(name))) for kind, head in heads.items())
-        return one, two
+        return finite, infinite
 
     def _curvatures(self, pencil: Deviations) -> Iterator[tuple[Table, Table]]:
         """The tables of centres of curvature, and of inflection circles by their two poles."""
         say, long = self.plans.tongue, self.plans.tongue(unit(self.drawing.scene.units.length))
         heads = {CENTRE: say(said("centre of curvature")), MOTION_POLE: say(said("pole of link")),
                  INFLECTION: say(said("inflection pole of link"))}
-        centres, one, two = (coordinate_table(say, (head, "x", f"y {long}"), self.values.get(kind, {}),
+        centres, poles, inflection = (coordinate_table(say, (head, "x", f"y {long}"), self.values.get(kind, {}),
                                               pencil.of_kinds(kind), str)
                              for kind, head in heads.items())
         yield centres, []
-        yield one, two
+        yield poles, inflection
 
     def _vectors(self, what: str, kinds: tuple[str, str], order: Iterable[str], pencil: Deviations,
                  spoken: Callable[[str], str] = str) -> tuple[Table, Table]:
@@ -246,11 +246,11 @@ class SheetWords:
         """
         speed = self.plans.tongue(unit(f"{self.drawing.scene.units.length}/s"))
         heads = ("v", speed, "velocity"), ("a", f"{speed}²", "acceleration")
-        one, two = (vector_table(self.plans.tongue, what, letter, symbol, self.values.get(kind, {}), order,
+        first, second = (vector_table(self.plans.tongue, what, letter, symbol, self.values.get(kind, {}), order,
                                  pencil.of_kinds(kind),
                             self.values.get(beside, {}), spoken)
                     for kind, (letter, symbol, beside) in zip(kinds, heads, strict=True))
-        return one, two
+        return first, second
 
     def _forces(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
         tables = self._force_tables(pencil)
@@ -272,14 +272,14 @@ class SheetWords:
     def _check(self, wide: float) -> Iterator[TextRow]:
         if self.check:
             yield self._heading(said("Check"))
-            parts = joined(joined((WORDS[kind], _gap_text(float(gap))), " ") for kind, gap in self.check.items())
+            differences = joined(joined((WORDS[kind], _gap_text(float(gap))), " ") for kind, gap in self.check.items())
             yield from self.paragraph(said("Largest difference from the analytic solver, relative to the number's own "
-                                       "size: {0}.", parts), wide)
+                                       "size: {0}.", differences), wide)
 
     def _forms(self, wide: float) -> Iterator[TextRow]:
         yield self._heading(said("Method and forms"))
-        for kind, ways in self.drawing.method.items():
-            yield from self.paragraph(arranged("{0:capital}: {1}.", WORDS[kind], joined(ways)), wide)
+        for kind, methods in self.drawing.method.items():
+            yield from self.paragraph(arranged("{0:capital}: {1}.", WORDS[kind], joined(methods)), wide)
         for form in self.drawing.brief_forms:
             yield from self.paragraph(form, wide)
 
@@ -320,8 +320,8 @@ def circle_diagram_row(circle: DrawnCircle) -> TextRow:
         items.append(Polyline(pen, "text", None, tuple(spots[link] for link in side.links)))
     for side in circle.sides:
         if side.number:
-            one, two = side.links
-            name, spot = str(side.number), interpolate(spots[one], spots[two], NUMBER_AT)
+            start, end = side.links
+            name, spot = str(side.number), interpolate(spots[start], spots[end], NUMBER_AT)
             room = 0.7 * max(width(name_runs(name), NUMBER_SIZE), NUMBER_SIZE)
             add_name(name, NUMBER_SIZE, Circle(BARE, "text", None, spot, room))
     for link, spot in spots.items():

@@ -16,9 +16,9 @@ import graphplan as gp
 from graphplan.commands import main
 from graphplan.mechanism.model import Scene
 from graphplan.output.text import steps
-from graphplan.sheet.layout.composition import USUAL, windows
-from graphplan.sheet.layout.given_scales import given_scales
+from graphplan.sheet.layout.composition import USUAL
 from graphplan.sheet.layout.paper import room
+from graphplan.sheet.layout.plan_scales import given_scales, windows
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates

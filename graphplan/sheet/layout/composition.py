@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cached_property, partial
 from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
-from graphplan.mechanism.model import Number
 from graphplan.mechanism.sections import ASIDE, PROTOCOLS
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import SheetFrame, frame_of
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.given_scales import FREE, GivenScales, given_scales
 from graphplan.sheet.layout.paper import (
     MOST_OF_PAGE,
-    SIDE,
     Arrangement,
     Demand,
     Measure,
@@ -34,26 +30,19 @@ from graphplan.sheet.layout.paper import (
     sheet_size,
     words_page,
 )
-from graphplan.sheet.layout.scales import Scales, lengths_of, ratio, round_up
-from graphplan.sheet.lettering.lettering import letter_sizes, sentence_runs, two_line_width
+from graphplan.sheet.layout.plan_scales import FREE, GivenScales, choose_scales, given_scales, panel_demands, windows
+from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.letters import LetteredPlate, letter_plates
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.plans import Extent, Plans, bounding_box
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.plates.view import (
-    COARSER,
-    MUCH_COARSER,
     View,
     fit_scale,
-    plan_box,
-    plan_scale,
-    view,
-    wanted_box,
     whole_plan_scale,
 )
 from graphplan.sheet.tolerances import AREA_TOL, MIN_VECTOR, SCALE_TOL
-from graphplan.sheet.words.lengths import LARGEST
 from graphplan.sheet.words.rows import Deviations, Placed, TextRow
 from graphplan.sheet.words.texts import RESULTS, SheetWords
 from graphplan.words.tongue import Tongue
@@ -64,7 +53,6 @@ SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
 MEASURED = 5.0  # mm: the shortest vector that can be measured
 SHORT = 0.2  # by so much smaller, as a logarithm, a plan may be for a vector that can be measured
 CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
-SHRUNK = 10.0  # times as small the mechanism may be for arcs that would be longer than the sheet
 ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
 POOR = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of all letters may find no good place
 UNREADABLE = 0.4  # of them, on paper that is named
@@ -176,7 +164,7 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
     tried: list[Composition] = []
     for name in [frame.paper(paper)] if paper else frame.papers:
         for words in (choices := _word_choices(protocol, rows)):
-            wants = [_demands(plans, extents, scales, name)
+            wants = [panel_demands(plans, extents, scales, name)
                      for scales in ((scene_scales, FREE) if scene_scales[0] else (FREE,))]
             candidates = list(arrangements(name, partial(_divide_region, wants, plans), words, frame, title))
             if words and protocol != ASIDE:
@@ -234,68 +222,12 @@ def _too_large(tried: Sequence[Composition]) -> Refused:
                    f"{most}, or a larger sheet")  # fmt: skip
 
 
-def _demands(plans: Plans, extents: Mapping[str, Extent], given: GivenScales, paper: str) -> dict[str, Demand]:
-    """What each plan wants of its panel on a paper."""
-    demands, (k_s, multiples), size = dict[str, Demand](), given, letter_sizes(paper).text
-    for panel in plans.panels:
-        head = sentence_runs(plans.tongue(panel.caption(plans.kinds(panel))))
-        box = wanted_box(extents[panel], COARSER if panel == MECHANISM else MUCH_COARSER)
-        scale = k_s if panel == MECHANISM else k_s / float(multiples[panel]) if k_s and panel in multiples else None
-        demands[panel] = Demand(box.width, box.height, max(1, len(plans.points(panel))), _lengths(plans, panel),
-                              two_line_width(head, size) + 2 * SIDE, scale)
-    return demands
-
-
-def _lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
-    """How many lengths long a unit is drawn of all that has a scale on a plan or its twin."""
-    drawing, kinds = plans.drawing, plans.kinds(panel) | plans.kinds(plans.twins[panel])
-    return (*([1] if panel == MECHANISM else []), *lengths_of(kinds, drawing.tempo.kappa, drawing.phi)) or (1,)
-
-
 def _windows(arrangement: Arrangement, extents: Mapping[str, Extent], needs: Mapping[str, float], plans: Plans,
              given: GivenScales) -> Composition:
     """The scales, round if they are not given, and the windows for one arrangement."""
     rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
     scales, views = windows(rooms, extents, plans, given)
     return Composition(arrangement, scales, views, needs, extents, plans)
-
-
-def windows(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans,
-            given: GivenScales = FREE) -> tuple[Scales, dict[str, View]]:
-    """The scales, round if they are not given, and the windows of plans in their rooms."""
-    scales = _scales({panel: room_for_marks(rect) for panel, rect in rooms.items()}, extents, plans, given)
-    boxes = {panel: plan_box(extent, room_for_marks(rooms[panel]), scales.lengths_per_mm(panel)) for panel,
-             extent in extents.items()}
-    return scales, {panel: view(box, rooms[panel], scales.lengths_per_mm(panel)) for panel, box in boxes.items()}
-
-
-def _scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans, given: GivenScales) -> Scales:
-    """The scales, round if they are not given, for so much room for the marks of each plan; twins have one."""
-    drawing, names, (k_s, given_multiples) = plans.drawing, plans.drawing.scene.units, given
-    side, lengths = max(*_sides(rooms.values())), _lengths(plans, MECHANISM)
-    mechanism_scale = Fraction(k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM], COARSER, lengths))
-    if not k_s and (times := extents[MECHANISM].longest / side / float(mechanism_scale)) <= SHRUNK:
-        mechanism_scale = max(mechanism_scale, round_up(times * float(mechanism_scale), lengths))
-    most: dict[str, Fraction] = {}
-    for panel in plans.panels[1:]:
-        twin, lengths = plans.twins[panel], _lengths(plans, panel)
-        scale = max(plan_scale(extents[panel], rooms[panel], MUCH_COARSER, lengths),
-                    round_up(extents[panel].longest / side, lengths))
-        most[twin] = max(scale, most.get(twin, scale))
-    for source, panel in plans.carry_overs:
-        if panel != MECHANISM:
-            twin, taken = plans.twins[panel], most.get(plans.twins[source], mechanism_scale)
-            most[twin] = max(most[twin], round_up(float(taken) / LARGEST, _lengths(plans, panel)))
-    multiples: dict[str, Fraction] = {panel: mechanism_scale / most[plans.twins[panel]] for panel in plans.panels[1:]}
-    return Scales(float(mechanism_scale), drawing.kappa, names.length, multiples | given_multiples, float(drawing.phi),
-                  names.force,
-                  drawing.scene.sheet.convention)
-
-
-def _sides(rects: Iterable[Rect]) -> tuple[float, float]:
-    """How wide and how high it is what some rooms take up."""
-    box = bounding_box([corner for rect in rects for corner in rect.corners])
-    return box.width, box.height
 
 
 def _legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:
@@ -351,7 +283,7 @@ class Composer:
         """The scales on panels of a usual size."""
         rooms: dict[str, Rect] = dict.fromkeys(self.plans.panels, room_for_marks(room(Rect(0.0, 0.0, *USUAL))))
         extents: dict[str, Extent] = {panel: self.plans.extent(panel) for panel in self.plans.panels}
-        return _scales(rooms, extents, self.plans, given_scales(self.plans))
+        return choose_scales(rooms, extents, self.plans, given_scales(self.plans))
 
     def compose(self, pencil: Deviations | None = None, worded: bool = True) -> Composition:
         """The composition with these drawing errors told on it, or without any words where these are not `worded` yet;

@@ -1,0 +1,132 @@
+"""The scales and windows of all plans: round ones for the room that there is, and those that the scene gives.
+
+Given scales hold whatever room there is, or are refused.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+
+from graphplan.errors import Refused
+from graphplan.kernel.program import Panel
+from graphplan.mechanism.model import Number
+from graphplan.methods.construction import Construction
+from graphplan.methods.panels import MECHANISM, ForcePlan
+from graphplan.sheet.layout.paper import SIDE, Demand, room_for_marks
+from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, lengths_of, round_up
+from graphplan.sheet.lettering.lettering import letter_sizes, sentence_runs, two_line_width
+from graphplan.sheet.plates.display import Rect
+from graphplan.sheet.plates.pens import FORCES
+from graphplan.sheet.plates.plans import Extent, Plans, bounding_box
+from graphplan.sheet.plates.view import COARSER, MUCH_COARSER, View, plan_box, plan_scale, view, wanted_box
+from graphplan.sheet.tolerances import SCALE_TOL
+from graphplan.sheet.words.lengths import LARGEST
+
+GivenScales = tuple[float | None, dict[str, Fraction]]
+FREE: GivenScales = (None, {})
+SHRUNK = 10.0  # times as small the mechanism may be for arcs that would be longer than the sheet
+
+
+def given_scales(plans: Plans) -> GivenScales:
+    """The mechanism plan's scale in lengths per mm, where it is given, and the multiples of the plans that have one.
+
+    All plans are constructed in lengths of the mechanism plan, so one scale of any kind fixes that of the mechanism
+    plan, and its kind of plan has no multiple but a given one. Fails with `Refused` where scales do not go together.
+    """
+    k_s = _mechanism_scale(plans.drawing)
+    multiples = {panel: _multiple(plans, panel) for panel in plans.panels if panel != MECHANISM}
+    _check_force_plans(plans)
+    return k_s, {panel: multiple for panel, multiple in multiples.items() if multiple is not None}
+
+
+def _mechanism_scale(drawing: Construction) -> float | None:
+    """The one scale of the mechanism plan that all given scales lead to; none where none is given."""
+    first: float | None = None
+    for name, scale, lengths in _scales_of_scene(drawing):
+        if first is not None and not math.isclose(scale * lengths, first, rel_tol=SCALE_TOL):
+            raise Refused(f"sheet.{name} = {scale:g}", "the other scales of the scene's sheet do not go with it",
+                          f"{name} = {first / lengths:.6g}, or leave one of them out")  # fmt: skip
+        first = first or scale * lengths
+    return first
+
+
+def _scales_of_scene(drawing: Construction) -> Iterator[tuple[str, float, float]]:
+    """The given scales: each with its name, and how many lengths one of its kind is drawn long."""
+    sheet = drawing.scene.sheet
+    if sheet.k_F and drawing.scene.loads is None:
+        raise Refused("sheet.k_F", "the scene has no forces to draw", "leave it out")
+    kinds = (("k_s", sheet.k_s, 1.0), ("k_v", sheet.k_v, drawing.kappa), ("k_a", sheet.k_a, drawing.kappa**2),
+             ("k_F", sheet.k_F, float(drawing.phi)))  # fmt: skip
+    yield from ((name, float(scale), lengths) for name, scale, lengths in kinds if scale is not None)
+
+
+def _multiple(plans: Plans, panel: Panel) -> Fraction | None:
+    """The multiple given for a plan, or 1 where a scale of its vectors is given."""
+    sheet, kinds = plans.drawing.scene.sheet, plans.kinds(panel)
+    plan = panel.whole
+    multiple = sheet.multiples.get(plan, sheet.multiples.get(plan.twin))
+    scaled = ((sheet.k_v, VELOCITIES), (sheet.k_a, ACCELERATIONS), (sheet.k_F, FORCES))
+    return multiple or (Fraction(1) if any(scale and kinds & of for scale, of in scaled) else None)
+
+
+def _check_force_plans(plans: Plans) -> None:
+    """Every force plan that is spoken of is one that is drawn, unless none is."""
+    force_plans = [panel for panel in plans.panels if isinstance(panel, ForcePlan)]
+    for plan in plans.drawing.scene.sheet.multiples:
+        if force_plans and ForcePlan.names(plan) and plan not in force_plans:
+            raise Refused(f"sheet.multiples.{plan}", "there is no such plan", f"one of {', '.join(force_plans)}")
+
+
+# ---- scales and windows for the room that there is -------------------------------------------------------------------
+
+
+def windows(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans,
+            given: GivenScales = FREE) -> tuple[Scales, dict[str, View]]:
+    """The scales, round if they are not given, and the windows of plans in their rooms."""
+    scales = choose_scales({panel: room_for_marks(rect) for panel, rect in rooms.items()}, extents, plans, given)
+    boxes = {panel: plan_box(extent, room_for_marks(rooms[panel]), scales.lengths_per_mm(panel)) for panel,
+             extent in extents.items()}
+    return scales, {panel: view(box, rooms[panel], scales.lengths_per_mm(panel)) for panel, box in boxes.items()}
+
+
+def choose_scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans, given: GivenScales) -> Scales:
+    """The scales, round if they are not given, for so much room for the marks of each plan; twins have one."""
+    drawing, names, (k_s, given_multiples) = plans.drawing, plans.drawing.scene.units, given
+    box = bounding_box([corner for rect in rooms.values() for corner in rect.corners])
+    side, lengths = max(box.width, box.height), unit_lengths(plans, MECHANISM)
+    mechanism_scale = Fraction(k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM], COARSER, lengths))
+    if not k_s and (times := extents[MECHANISM].longest / side / float(mechanism_scale)) <= SHRUNK:
+        mechanism_scale = max(mechanism_scale, round_up(times * float(mechanism_scale), lengths))
+    most: dict[str, Fraction] = {}
+    for panel in plans.panels[1:]:
+        twin, lengths = plans.twins[panel], unit_lengths(plans, panel)
+        scale = max(plan_scale(extents[panel], rooms[panel], MUCH_COARSER, lengths),
+                    round_up(extents[panel].longest / side, lengths))
+        most[twin] = max(scale, most.get(twin, scale))
+    for source, panel in plans.carry_overs:
+        if panel != MECHANISM:
+            twin, taken = plans.twins[panel], most.get(plans.twins[source], mechanism_scale)
+            most[twin] = max(most[twin], round_up(float(taken) / LARGEST, unit_lengths(plans, panel)))
+    multiples: dict[str, Fraction] = {panel: mechanism_scale / most[plans.twins[panel]] for panel in plans.panels[1:]}
+    return Scales(float(mechanism_scale), drawing.kappa, names.length, multiples | given_multiples, float(drawing.phi),
+                  names.force, drawing.scene.sheet.convention)
+
+
+def unit_lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
+    """How many lengths long a unit is drawn of all that has a scale on a plan or its twin."""
+    drawing, kinds = plans.drawing, plans.kinds(panel) | plans.kinds(plans.twins[panel])
+    return (*([1] if panel == MECHANISM else []), *lengths_of(kinds, drawing.tempo.kappa, drawing.phi)) or (1,)
+
+
+def panel_demands(plans: Plans, extents: Mapping[str, Extent], given: GivenScales, paper: str) -> dict[str, Demand]:
+    """What each plan wants of its panel on a paper."""
+    demands, (k_s, multiples), size = dict[str, Demand](), given, letter_sizes(paper).text
+    for panel in plans.panels:
+        head = sentence_runs(plans.tongue(panel.caption(plans.kinds(panel))))
+        box = wanted_box(extents[panel], COARSER if panel == MECHANISM else MUCH_COARSER)
+        scale = k_s if panel == MECHANISM else k_s / float(multiples[panel]) if k_s and panel in multiples else None
+        demands[panel] = Demand(box.width, box.height, max(1, len(plans.points(panel))), unit_lengths(plans, panel),
+                              two_line_width(head, size) + 2 * SIDE, scale)
+    return demands

@@ -230,7 +230,7 @@ def test_levers_are_named_in_the_language() -> None:
 def test_a_preference_is_told_in_the_language(code: str) -> None:
     """What speaks for the forms, and why one cannot be drawn, has no English word left."""
     refused = [ConstructionError("lines-parallel", 3, "q", "why", "do"),
-               Refused(said("point {0}", "A"), said("no construction known here reaches it"), "do")]
+               Refused(said("point {0}", "A"), said("no known construction determines it"), "do")]
     told = choose_form([Form(("", "auxiliary", "poles"), draft(drawing_of("four-bar"), Pencil())),
                         *(Form(("trial",), None, refusal) for refusal in refused)], "balanced").told
     english = {"pose", "own", "auxiliary", "trial", "poles", "preferred", "drawn", "step", "lines", "point", "balanced"}

@@ -246,7 +246,7 @@ def read_deviation(name: str, text: str) -> float:
     size, most = decimal(text), 45.0 if name == "angle" else MAX_DEVIATION_MM
     if not 0 <= size < most:
         right = f"a standard deviation in {UNITS[name]}, from 0 to below {most:g}"
-        raise Refused(f"--pencil {name}={text}", "this is no size of an error", right)
+        raise Refused(f"--pencil {name}={text}", "not a size of an error", right)
     return size
 
 
@@ -262,7 +262,7 @@ def read_settings(option: str, text: str, known: Collection[str], unknown: str,
         if name not in known:
             raise Refused(f"{option} {entry}", unknown, f"one of {', '.join(known)}")
         if name in found:
-            raise Refused(f"{option} {text}", f"{name} is told twice", "tell it once")
+            raise Refused(f"{option} {text}", f"{name} is given twice", "give it once")
         found[name] = size(name, given)
     return found
 

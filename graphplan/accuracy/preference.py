@@ -143,9 +143,9 @@ def preferred_form(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "
     Fails with `Refused` where a method is named as well, and as the pose's own form does where none can be drawn.
     """
     if prefer not in WEIGHED:
-        raise Refused(f"--prefer {prefer}", "nothing is weighed so", f"one of {', '.join(WEIGHED)}")
+        raise Refused(f"--prefer {prefer}", "unknown preference", f"choose one of {', '.join(WEIGHED)}")
     if method:
-        raise Refused(f"--prefer {prefer}", f"--method {method} names the form already", "leave out one of the two")
+        raise Refused(f"--prefer {prefer}", f"--method {method} already names the form", "leave out one of the two")
     found = _on_one_paper(forms(scene, pencil, plan=plan, strict=strict, inertia=inertia, paper=paper,
                                 construct=construct, sheets=plans_alone))
     if found[0].refusal is not None and all(form.refusal for form in found):

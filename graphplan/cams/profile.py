@@ -276,7 +276,7 @@ def _undercut(cam: Cam, faults: Faults) -> None:
     angle, size = cam.narrowest
     if size <= cam.roller + LENGTH_TOL * cam.pair.base:
         faults.add("follower.radius", f"at {shown(angle)} degrees the path of the roller's centre has the radius of "
-                   f"curvature {shown(size)}: a roller of {shown(cam.roller)} cuts the profile under",
+                   f"curvature {shown(size)}: a roller of {shown(cam.roller)} undercuts the profile",
                    f"half of it, {shown(size / 2)}, or a larger base circle")
     elif size - cam.roller < least - LENGTH_TOL * cam.pair.base:
         faults.add("cam.least_radius", f"at {shown(angle)} degrees the profile's radius of curvature is "

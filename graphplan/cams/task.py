@@ -100,7 +100,7 @@ def _rows(item: Item, names: Names) -> tuple[tuple[Fraction, Fraction], ...] | N
     for row in item.value:
         if (pair := item.instead(row).vector()) is not None:
             if found and pair[0] <= found[-1][0]:
-                item.fault(f"the angle {shown(pair[0])} stands after {shown(found[-1][0])}", "angles that grow")
+                item.fault(f"the angle {shown(pair[0])} comes after {shown(found[-1][0])}", "increasing angles")
             found.append(pair)
     if found and any(found[0]):
         item.fault("its first pair is not [0, 0]", "degrees and lifts from the beginning of the stage")
@@ -151,13 +151,14 @@ def _follower(row: Row) -> Follower | None:
     moves, contact, values = row["moves"], row["contact"], row.values
     wanted = {"radius": contact == ROLLER, "arm": moves == OSCILLATING and contact != FLAT,
               "centre_distance": moves == OSCILLATING}
+    unused = f"it does not apply to a follower that is {moves} with a {contact} contact"
     for key, has in wanted.items():
         if has and key not in row.items:
             row.item.fault(f"{key} is missing", f"a length, such as {key} = 10")
         elif key in row.items and not has:
-            row.items[key].fault(f"a follower that is {moves} with a {contact} contact has none", "leave it out")
+            row.items[key].fault(unused, "leave it out")
     if "offset" in row.items and (moves == OSCILLATING) != (contact == FLAT):
-        row.items["offset"].fault(f"a follower that is {moves} with a {contact} contact has none", "leave it out")
+        row.items["offset"].fault(unused, "leave it out")
     none = Fraction(0)
     return Follower(moves, contact, values.get("radius", none), values.get("offset", none), values.get("arm", none),
                     values.get("centre_distance", none))
@@ -191,7 +192,7 @@ def _angle(item: Item, names: Names) -> Fraction | None:
 def _divisions(item: Item, names: Names) -> int | None:
     number = item.number()
     if number is not None and (number.denominator != 1 or not LEAST <= number <= MOST):
-        return item.fault(f"{shown(number)} is no number of divisions", f"a whole number from {LEAST} to {MOST}")
+        return item.fault(f"{shown(number)} is not a number of divisions", f"a whole number from {LEAST} to {MOST}")
     return None if number is None else int(number)
 
 
@@ -272,7 +273,7 @@ def _checked(task: Task, faults: Faults) -> None:
 def _fitting(follower: Follower, cam: Wheel, faults: Faults) -> None:
     """Note where cam and follower do not fit each other."""
     if cam.base == PRESSURE and follower.flat:
-        faults.add("cam.base", "the pressure angle of a flat face does not hang on it", f'a radius, or "{CONVEX}"')
+        faults.add("cam.base", "the pressure angle of a flat face does not depend on it", f'a radius, or "{CONVEX}"')
     if cam.base == CONVEX and not follower.flat:
         faults.add("cam.base", f"only a flat face needs a {CONVEX} profile", f'a radius, or "{PRESSURE}"')
     if follower.offset == SMALLEST and (cam.base != PRESSURE or cam.limits is None or cam.limits.back is None):

@@ -140,7 +140,7 @@ def _counterweights(scene: Scene, way: str, keep: Sequence[str], radii: Mapping[
         return along_guide(scene, keep, radii)
     if way == SHARED:
         if found is None:
-            raise Refused(f"{scene.name}: counterweights", "this is no slider-crank with its mass centres on the lines "
+            raise Refused(f"{scene.name}: counterweights", "not a slider-crank with its mass centres on the lines "
                           "of its joints", "--counterweights full or partial")
         return (found.share(scene, share, radii.get(found.crank)),)
     return ()

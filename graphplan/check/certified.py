@@ -158,7 +158,7 @@ def certify(scene: Scene, digits: int, *, method: str = "", plan: str = "", iner
     for are not among 1 to 10000.
     """
     if not 1 <= digits <= MAX_DIGITS:
-        raise Refused(f"--digits {digits}", "there are no such digits", f"a number from 1 to {MAX_DIGITS}")
+        raise Refused(f"--digits {digits}", "out of range", f"a number from 1 to {MAX_DIGITS}")
     for load in changing_loads(scene.loads).values():
         where = load.table.where if load.table else ""
         if digits > FLOAT_DIGITS and IRRATIONAL.format(where) in scene.irrational:

@@ -172,11 +172,11 @@ def quantities(scene: Scene, names: Sequence[str]) -> tuple[PlotQuantity, ...]:
     """What these names mean: links, slides, coordinates such as `B.x`; without names what the mechanism drives.
 
     Fails with `Refused` where a name means nothing, where there are too many, or where the first drive has no constant
-    rate, so that nothing can be told over time.
+    rate, so that there are no diagrams over time.
     """
     drive = scene.drives[0] if scene.drives else None
     if drive is None or not drive.rate or drive.change:
-        raise Refused("diagrams", "the first drive has no constant rate: nothing can be told over time",
+        raise Refused("diagrams", "the first drive has no constant rate: there are no diagrams over time",
                       "a [[drive]] with a rate and without acceleration")
     names = names or _output_names(scene)
     if len(names) > MAX_DIAGRAMS:
@@ -228,7 +228,7 @@ def _plot_quantity(scene: Scene, name: str) -> PlotQuantity:
         return PlotQuantity(name, said("{0} of {1}", axis, point), length, (point,))
     links = [link for link in scene.moving if len(scene.links[link]) > 1]
     known = [*links, *(s.name for s in scene.slides), *(f"{p}.x" for p in scene.points)]
-    raise Refused(f"diagram of {name}", "the scene has no such thing", f"one of {', '.join(known)}")
+    raise Refused(f"diagram of {name}", "unknown quantity", f"one of {', '.join(known)}")
 
 
 def _side(scene: Scene, link: str) -> tuple[str, str]:

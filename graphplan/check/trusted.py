@@ -152,7 +152,7 @@ class Bench:
         """The error where no arithmetic at hand tells anything: what floats say of it."""
         if self._singular is not None:
             return SingularPose(self._singular.why, self._singular.links, missed_crossing(drawing, Floats()))
-        return Refused(f"{self.scene.name}: the pose", "it is too near to a singular one for floats",
+        return Refused(f"{self.scene.name}: the pose", "it is too close to a singular pose for floats",
                        "install graphplan[certified], or give its points as coordinates")
 
     def _same_construction(self, known: Scene, drawing: Construction) -> Construction | None:

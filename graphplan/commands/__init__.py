@@ -81,7 +81,7 @@ def _called(word: str) -> Sequence[str]:
         return SUBCOMMANDS
     from graphplan.mechanism.items import perhaps
 
-    raise Refused(f"graphplan {word}", "there is no such command", perhaps(word, SUBCOMMANDS, "command"))
+    raise Refused(f"graphplan {word}", "unknown command", perhaps(word, SUBCOMMANDS, "command"))
 
 
 class Parser(argparse.ArgumentParser):
@@ -89,7 +89,7 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Tell what is wrong with the words, and end."""
-        error(f"{self.prog}: {message}; {self.prog} --help tells what there is")
+        error(f"{self.prog}: {message}; {self.prog} --help lists the options")
         raise SystemExit(2)
 
 

@@ -37,12 +37,12 @@ def asked(options: argparse.Namespace) -> None:
     ending = kind(options.animate, ENDINGS, "animation", "--animate")
     for name in ("seconds", "width"):
         if getattr(options, name) and not options.animate:
-            raise Refused(f"--{name}", "there is no animation", "add --animate FILE.gif, or leave it out")
+            raise Refused(f"--{name}", "only an animation uses it", "add --animate FILE.gif, or leave it out")
     if options.positions is None and (options.output or options.plot or not (options.animate or options.paths)):
-        raise Refused("--positions", "it is not said how many poses are wanted", "such as --positions 36")
+        raise Refused("--positions", "the number of poses is missing", "such as --positions 36")
     poses, width = options.positions or POSES, options.width or WIDTH
     if options.animate and poses > MOST_POSES:
-        raise Refused(f"--positions {poses}", "no animation is so long", f"at most {MOST_POSES}")
+        raise Refused(f"--positions {poses}", "too many poses", f"at most {MOST_POSES}")
     if ending == ".gif" and options.animate and poses * width**2 > MOST:
         raise Refused(f"--animate {options.animate}", f"{poses} pictures of {width} pixels in width are too many",
                       f"--width {int((MOST / poses) ** 0.5)}, fewer --positions, or an .svg")

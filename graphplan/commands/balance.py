@@ -69,14 +69,14 @@ def run(options: argparse.Namespace) -> int:
     drawn_alone(options, ending)
     refuse_steps(options, ending)
     if options.pencil:
-        raise Refused("--pencil", "this is a linkage, whose numbers are not drawn", "leave it out")
+        raise Refused("--pencil", "a linkage is computed, not drawn", "leave it out")
     if ending == ".toml":
         from graphplan.check.balance import check_added_dyads
 
         write(check_added_dyads(scene)[0].text, options.output)
         return 0
     if options.share is not None and (options.counterweights != "share" or not 0 <= options.share <= 1):
-        raise Refused(f"--share {options.share:g}", "this is no part of the reciprocating mass", "give 0 to 1, with "
+        raise Refused(f"--share {options.share:g}", "not a fraction of the reciprocating mass", "give 0 to 1, with "
                       "--counterweights share")
     found = balancing(scene, options.positions or POSITIONS, options.counterweights, options.keep,
                       _radii(options.radius), SHARE if options.share is None else options.share)
@@ -100,7 +100,7 @@ def drawn_alone(options: argparse.Namespace, ending: str) -> None:
     """Refuse options of sheets where none is drawn."""
     for name, fits in (("dpi", ending == ".png"), ("paper", ending in SHEETS), ("frame", ending in SHEETS)):
         if getattr(options, name) and not fits:
-            raise Refused(f"--{name} {getattr(options, name)}", f"a {ending} has no use for it",
+            raise Refused(f"--{name} {getattr(options, name)}", f"it does not apply to a {ending}",
                           "leave it out, or -o FILE.png")
 
 
@@ -114,5 +114,5 @@ def _radii(given: list[str]) -> dict[str, float]:
         except ValueError:
             found[link.strip()] = -1.0
         if not 0 < found[link.strip()] < float("inf"):
-            raise Refused(f"--radius {text}", "this is no link with a length above 0", "such as --radius 1=60")
+            raise Refused(f"--radius {text}", "not a link with a length above 0", "such as --radius 1=60")
     return found

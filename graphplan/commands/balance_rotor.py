@@ -45,5 +45,5 @@ def _asked(options: argparse.Namespace, ending: str) -> None:
     """Refuse options of linkages, and those of another kind of output."""
     for name in ("positions", "counterweights", "radius", "keep", "share"):
         if getattr(options, name):
-            raise Refused(f"--{name}", "this is a rotor, which has no use for it", "leave it out")
+            raise Refused(f"--{name}", "it does not apply to a rotor", "leave it out")
     drawn_alone(options, ending)

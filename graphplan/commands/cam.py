@@ -111,10 +111,10 @@ def _asked(options: argparse.Namespace, ending: str) -> None:
             "positions": ("json",), "tolerance": ("json", "dxf")}
     for name, endings in only.items():
         if getattr(options, name) is not None and ending not in endings:
-            raise Refused(f"--{name} {getattr(options, name)}", f"a .{ending} has no use for it",
+            raise Refused(f"--{name} {getattr(options, name)}", f"it does not apply to a .{ending}",
                           f"leave it out, or -o FILE.{endings[0]}")
     if options.output not in (None, STANDARD) and os.path.realpath(options.output) == os.path.realpath(options.task):
-        raise Refused(f"-o {options.output}", "this is the task itself", "another name")
+        raise Refused(f"-o {options.output}", "the task file would be overwritten", "another name")
     if options.tolerance is not None and not 1e-9 <= options.tolerance < float("inf"):
         raise Refused("--tolerance", f"{options.tolerance:g}", "give a length above 0, 1e-9 at least")
     if options.at is not None and not abs(options.at) < float("inf"):

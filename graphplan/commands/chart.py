@@ -69,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
 
     for name in options.names:
         if name not in CHARTS:
-            raise Refused(f"chart {name}", "there is no such chart", f"one of {', '.join(CHARTS)}")
+            raise Refused(f"chart {name}", "unknown chart", f"choose one of {', '.join(CHARTS)}")
     folder_at(options.folder)
     beside = _rival_rows(options.beside, options.names or CHARTS) if options.beside else []
     scenes, messages, hand = [load(name) for name in options.scenes], Messages(options.quiet), pencil(options)
@@ -94,14 +94,14 @@ def _rival_rows(file: Path, names: Collection[str]) -> list[Any]:
     from graphplan.accuracy.survey.picture import read
 
     if "machine" not in names:
-        raise Refused("--beside", "only machine has other programs beside it", "name machine, or leave it out")
+        raise Refused("--beside", "only the chart machine compares other programs", "name machine, or leave it out")
     try:
         return read(MachineMeasure, file.read_text(encoding="utf-8"))
     except OSError as error:
         raise Refused(f"--beside {file}", str(error.strerror), "a file that can be read") from None
     except (KeyError, ValueError):
         columns = ", ".join(field.name for field in fields(MachineMeasure))
-        raise Refused(f"--beside {file}", "it is no table of machine", f"the columns {columns}") from None
+        raise Refused(f"--beside {file}", "not a table of the chart machine", f"the columns {columns}") from None
 
 
 def _rows(name: str, module: Any, scenes: list[Scene], hand: object, messages: Messages) -> Iterator[Any]:

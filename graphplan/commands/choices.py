@@ -61,7 +61,7 @@ def with_steps(options: argparse.Namespace, data: dict[str, Any],
 def refuse_steps(options: argparse.Namespace, ending: str) -> None:
     """Refuse steps in what is no JSON."""
     if options.steps and ending not in ("", ".json"):
-        raise Refused("--steps", f"a {ending} has no use for it", "leave it out, or -o FILE.json")
+        raise Refused("--steps", f"it does not apply to a {ending}", "leave it out, or -o FILE.json")
 
 
 # --- declared ------------------------------------------------------------------------------------------------------
@@ -194,7 +194,7 @@ def _travels(text: str) -> list[Fraction] | str:
     try:
         return [Fraction(part.strip()) for part in text.split(",")]
     except (ValueError, ZeroDivisionError):
-        raise Refused(f"--at {text}", "this is no travel", "degrees or lengths, such as 60, or 60,-30") from None
+        raise Refused(f"--at {text}", "not a travel", "degrees or lengths, such as 60, or 60,-30") from None
 
 
 def presented(options: argparse.Namespace, scene: Scene | None = None) -> Scene:

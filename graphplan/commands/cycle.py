@@ -63,7 +63,7 @@ def run(options: argparse.Namespace) -> int:
     if (options.start is None) != (options.end is None):
         raise Refused("range", "only one of --from and --to is given", "both, or neither for a full turn")
     if options.strips is not None and not options.plot:
-        raise Refused("--strips", "there is no plot to divide", "add --plot FILE.svg")
+        raise Refused("--strips", "only a plot is divided into strips", "add --plot FILE.svg")
     ending = kind(options.output, ENDINGS, "table")
     kind(options.plot, PLOT_ENDINGS, "plot", "--plot")
     kind(options.paths, PLOT_ENDINGS, "drawing", "--paths")
@@ -113,7 +113,7 @@ def _paths(options: argparse.Namespace) -> str:
 
     scene = presented(options)
     if not (scene.sheet.curves or scene.sheet.centrodes):
-        raise Refused("--paths", "it is not said whose", 'such as --curves M, or --centrodes "2 frame"')
+        raise Refused("--paths", "no point or link is named", 'such as --curves M, or --centrodes "2 frame"')
     nothing = replace(scene.find, velocity=(), acceleration=(), links=(), slides=(), reactions=())
     drawing = construct(replace(scene, find=nothing, loads=None))
     composition = compose(drawing, tongue=tongue(scene.sheet.language), protocol="none", motion=traced_motion(scene))

@@ -105,5 +105,5 @@ def asked(options: argparse.Namespace) -> str:
     """The format that is asked for."""
     name = kind(options.output, ENDINGS, "sheet").removeprefix(".")
     if options.dpi and name != "png":
-        raise Refused(f"--dpi {options.dpi}", "only a .png has dots", "leave it out, or -o SHEET.png")
+        raise Refused(f"--dpi {options.dpi}", "only a .png has a resolution", "leave it out, or -o SHEET.png")
     return name

@@ -76,7 +76,7 @@ def format_of(output: str, named: str | None) -> str:
         return named
     endings = tuple(dict.fromkeys(format.suffix for format in FORMATS.values()))
     if not Path(output).suffix:
-        raise Refused(f"{output}: output", "a name without a suffix is no format",
+        raise Refused(f"{output}: output", "the name has no suffix that tells the format",
                       f"a name in {', '.join(endings)}, or --format {'|'.join(FORMATS)}")
     if Path(output).suffix.lower() == ".html":
         raise Refused(f"{output}: output", "pages are written by another command", f"graphplan live SCENE -o {output}")
@@ -88,7 +88,7 @@ def _more(name: str, options: argparse.Namespace) -> Mapping[str, Any]:
     """What a back end reads besides the construction, of which it has a use for all that is given."""
     given = {option: value for option in LATEX if (value := getattr(options, option))}
     if given and FORMATS[name].suffix != ".tex":
-        raise Refused(f"--{next(iter(given))}", f"{name} has no use for it", "leave it out, or export LaTeX, .tex")
+        raise Refused(f"--{next(iter(given))}", f"it does not apply to {name}", "leave it out, or export LaTeX, .tex")
     if options.width and options.overlays:
         raise Refused(f"--width {options.width:g}", "slides are as large as the screen", "leave it out, or --overlays")
     return given

@@ -121,7 +121,7 @@ def _amount(name: str, text: str) -> Fraction:
     try:
         found = Fraction(text)
     except (ValueError, ZeroDivisionError):
-        raise Refused(f"--{name} {text}", "this is no number", "such as 0.02") from None
+        raise Refused(f"--{name} {text}", "not a number", "such as 0.02") from None
     most = 2 if name == "unevenness" else None
     if found < 0 or (found == 0 and name != "inertia") or (most and found >= most):
         raise Refused(f"--{name} {text}", "out of range", "more than 0 and less than 2" if most else "more than 0")

@@ -65,7 +65,8 @@ def _refuse_foreign_readme(folder: Path) -> None:
 
     page = folder / README
     if page.is_file() and not page.read_bytes().startswith(MARK.encode()):
-        raise Refused(f"{page}", "graphplan gallery would replace this file of another's", "choose another folder")
+        raise Refused(f"{page}", "graphplan gallery would replace this file, which it did not write",
+                      "choose another folder")
 
 
 def _checked(folder: Path, site: Mapping[str, str | bytes]) -> int:

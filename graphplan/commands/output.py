@@ -58,7 +58,7 @@ def apart(*paths: str | None) -> None:
     """Refuse one name for two results, of which one would replace the other."""
     named = [path if path == STANDARD else os.path.realpath(path) for path in paths if path]
     if twice := next((name for name in named if named.count(name) > 1), ""):
-        raise Refused(f"{twice}: output", "two results go to one place", "a name for each")
+        raise Refused(f"{twice}: output", "two results would be written to one file", "a name for each")
 
 
 def folder_at(path: str | os.PathLike[str]) -> None:

@@ -55,7 +55,7 @@ def run(options: argparse.Namespace) -> int:
 def _run_certified(options: argparse.Namespace) -> int:
     """The same between proven bounds."""
     if options.exact:
-        raise Refused("--digits", "with --exact every digit is there", "leave out one of the two")
+        raise Refused("--digits", "--exact already gives every digit", "leave out one of the two")
     if find_spec("flint") is None:
         raise Refused("--digits", "proven digits need python-flint", "install graphplan[certified]")
     from graphplan.check.answerable import report_regular_part

@@ -107,7 +107,7 @@ def _students(options: argparse.Namespace, messages: Messages) -> list[str]:
         for line in found.remarks:
             messages.remark(line)
     elif not options.count:
-        raise Refused("-n", "nobody says how many tasks", "-n 30, or --names CLASS.csv")
+        raise Refused("-n", "the number of tasks is missing", "-n 30, or --names CLASS.csv")
     wanted = options.count or len(names)
     if wanted < len(names):
         raise Refused(f"-n {wanted}", f"there are {len(names)} names in {options.names}", f"-n {len(names)}, or no -n")

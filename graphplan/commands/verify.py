@@ -118,8 +118,8 @@ def _no_stack(options: argparse.Namespace) -> None:
     """Refuse options that only a stack of a class has."""
     for name, value in (("--assign", options.assign), ("--jobs", options.jobs), ("--output", options.output)):
         if value:
-            raise Refused(name, "this is for a stack of scans of a class", "verify FOLDER STACK, with the folder that "
-                          "graphplan variants wrote")
+            raise Refused(name, "it applies only to a class's stack of scans",
+                          "verify FOLDER STACK, with the folder that graphplan variants wrote")
 
 
 class Findings(NamedTuple):
@@ -150,7 +150,7 @@ class Desk:
         except GraphplanError:
             raise
         except MemoryError:
-            raise Refused(f"{path}", "could not be judged: there is not enough memory", "a smaller drawing") from None
+            raise Refused(f"{path}", "not judged: there is not enough memory", "a smaller drawing") from None
         except Exception as fault:  # one bad file never stops a class
             raise Refused(f"{path}", f"could not be judged: {type(fault).__name__}",
                           "judge it by hand, and report the fault with this file") from fault
@@ -303,7 +303,7 @@ def _files(folder: Path, report: str | None) -> list[Path]:
         raise Refused(f"{folder}", f"it cannot be read ({fault.strerror})", "a readable folder") from None
     found = [path for path in held if not path.name.startswith(".") and not (report and _same(report, path))]
     if not found:
-        raise Refused(f"{folder}", "there is no drawing in it", "a folder of drawings, each a file of its own")
+        raise Refused(f"{folder}", "it contains no drawing", "a folder of drawings, each a file of its own")
     return found
 
 
@@ -312,4 +312,4 @@ def _enclosed(path: Path) -> None:
     if os.path.isdir(path):
         raise Refused(f"{path}", "this is a folder within the folder", "move its drawings out of it")
     if not os.path.exists(path):
-        raise Refused(f"{path}", "this link leads nowhere", "the drawing itself")
+        raise Refused(f"{path}", "the target of this link does not exist", "the drawing itself")

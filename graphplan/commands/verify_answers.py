@@ -34,11 +34,11 @@ def _judge(options: argparse.Namespace, choices: Sequence[Sequence[Expected]], l
     from graphplan.words.tongue import tongue
 
     if options.report:
-        raise Refused(f"--report {options.report}", "answers are judged in a few lines", "--json")
+        raise Refused(f"--report {options.report}", "there is no report of answers", "--json")
     path = Path(options.drawing)
     files = sorted(path.glob("*.csv")) if path.is_dir() else [path]
     if not files:
-        raise Refused(f"{path}", "there is no table of answers in it", "files that end in .csv")
+        raise Refused(f"{path}", "it contains no table of answers", "files that end in .csv")
     verdicts = {file.name: _judged(choices, file) for file in files}
     if options.json:
         write(as_json([_record(name, each) for name, each in verdicts.items()] if path.is_dir() else

@@ -45,7 +45,7 @@ def run(options: argparse.Namespace) -> int:
     folder, stack = Path(options.scene), Path(options.drawing)
     weighed, register = weights(options.weights), load(folder)
     if not find_spec("cv2"):
-        raise Refused(f"{stack}", "scans are read by OpenCV, which is not installed", "pip install 'graphplan[scan]'")
+        raise Refused(f"{stack}", "reading scans needs OpenCV, which is not installed", "pip install 'graphplan[scan]'")
     if stack.is_dir() and is_class(stack):
         raise Refused(f"{stack}", f"this folder has a {FILE}, and no scans", "the file or the folder of the scans")
     into = Path(options.output or folder / "results")

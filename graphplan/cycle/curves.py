@@ -45,7 +45,7 @@ class KinematicCurve:
         if len(shapes) > 1 or len(next(iter(shapes))) != 1:
             raise Refused(self._label, f"its arrays have the shapes {sorted(shapes)}", "give five of one shape (n,)")
         if len(self.time) < 3 or not (np.diff(self.time) > 0).all():
-            raise Refused(self._label, "its time does not grow from each position to the next", "give three or more")
+            raise Refused(self._label, "its times do not increase from position to position", "give three or more")
         if not self.is_known.any():
             raise Refused(self._label, "no position of the range can be drawn", "choose another range")
 

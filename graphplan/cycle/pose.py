@@ -113,7 +113,7 @@ def extreme_position(scene: Scene, asked: str) -> tuple[Extreme, Fraction]:
     """
     way, _, link = asked.strip().partition(" ")
     if way not in WAYS:
-        raise Refused(f"--at {asked}", "this is no position", "degrees or lengths, or outer or inner, such as outer 3")
+        raise Refused(f"--at {asked}", "not a position", "degrees or lengths, or outer or inner, such as outer 3")
     found = [one for one in _swung_links(scene, way) if link.strip() in ("", one.link)]
     if len(found) != 1:
         links = ", ".join(one.link for one in found or _swung_links(scene, way))
@@ -226,7 +226,8 @@ def driven_by_gears(scene: Scene, shifts: tuple[Fraction, ...]) -> tuple[Scene, 
     more, led = _gear_drives(scene, turns)
     plain = not scene.contacts and all(_ratio_row(scene, gear) and {*gear.links} <= led for gear in scene.gears)
     if not plain or any(name and name not in turns for row in rows for name in row):
-        raise Refused(f"{scene.name}: the pose", said("no steps are known that find where these gears or contacts go"),
+        raise Refused(f"{scene.name}: the pose",
+                      said("no construction is known for the positions of these gears or contacts"),
                       "the pose as it is given")
     others = replace(scene, written=tuple(pair for pair in scene.written if pair not in scene.gears), redundant=(),
                      repeating=())

@@ -27,7 +27,7 @@ def travels(scene: Scene, positions: int, span: tuple[float, float] | None) -> A
     """
     check_drives(scene)
     if positions < 1:
-        raise Refused("the cycle", f"{positions} positions are none", "at least 1")
+        raise Refused("the cycle", f"{positions} positions", "give at least 1")
     afford("the cycle", positions, "positions", POSE_BYTES)
     sliding = scene.drives[0].slides
     if span is None:

@@ -38,7 +38,7 @@ def imported(path: Path) -> str:
             parse(carried, f"{path}")
         except SceneError as error:
             wrong = error.faults[0]
-            raise Refused(f"{path}", f"the scene that it carries has a fault at {wrong.where}: {wrong.what}",
+            raise Refused(f"{path}", f"the scene in it has a fault at {wrong.where}: {wrong.what}",
                           wrong.instead) from None
         return carried
     sketch = _reader(path, data)()
@@ -75,7 +75,7 @@ def _reader(path: Path, data: bytes) -> Callable[[], Sketch]:
         text = data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
         if pmks.knows(text):
             return lambda: pmks.read(path, text)
-    raise Refused(f"{path}", "this is no linkage of a program that is known", f"a file of these: {KINDS}")
+    raise Refused(f"{path}", "not a linkage file of a known program", f"a file of these: {KINDS}")
 
 
 def _dxf(path: Path, data: bytes) -> Sketch:

@@ -30,7 +30,7 @@ def read(path: Path, data: bytes) -> Sketch:
     """The linkage of a file."""
     root = tree(path, data)
     if root.tag != "linkage2":
-        raise Refused(f"{path}", "this is no file of the program Linkage", "a file that it saved, .linkage2")
+        raise Refused(f"{path}", "not a file of the program Linkage", "a file that it saved, .linkage2")
     try:
         return _Linkage(root).sketch
     except ValueError as error:

@@ -89,7 +89,7 @@ def read(path: Path, text: str) -> Sketch:
         return _sketch(found)
     except (ValueError, IndexError, KeyError, TypeError, AttributeError, csv.Error, RecursionError) as error:
         told = " ".join(str(error).split())[:80]
-        raise Refused(f"{path}", f"this is no whole linkage of PMKS ({told})", "save or copy it anew") from None
+        raise Refused(f"{path}", f"not a complete linkage of PMKS ({told})", "save or copy it anew") from None
 
 
 def _read(text: str) -> Read:
@@ -186,7 +186,7 @@ def _short(query: str) -> Read:
     """Settings, joints, links, in letters of base 64; the last letter is the length, as a check."""
     whole, check = query[:-1], query[-1:]
     if not check or DIGITS[len(whole) % 62] != check:
-        raise ValueError("its letters do not fit its check: it is not whole")
+        raise ValueError("its letters do not match its checksum: it is incomplete")
     flags, _, integers, choices, rest = whole.split(".", 4)
     joints_part, _, rest = rest.partition("..")
     links_part = rest.partition("..")[0]

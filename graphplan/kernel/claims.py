@@ -315,7 +315,7 @@ def _residual(claim: Claim, drawn: Drawn) -> float:
 
 def unmet(step: Step, values: Sequence[Any], tolerance: float = CLAIM_TOL,
           extent: float = 0.0, blur: float = 1.0) -> list[tuple[Claim, float]]:
-    """The claims that a step breaks, with their residuals; one that is no number breaks its claim.
+    """The claims that a step breaks, with their residuals; one that is not a number breaks its claim.
 
     In a figure of an `extent` what is smaller than a thousandth of it counts beside that. What the rounding of the
     numbers alone, which are known `blur` times worse, makes of a residual breaks nothing, as where two points all but

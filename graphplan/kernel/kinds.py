@@ -163,7 +163,7 @@ class Primitive:
     before: dict[str, Phrase] = field(default_factory=dict, repr=False)
 
     def __reduce__(self) -> tuple[Callable[[str], Primitive], tuple[str]]:
-        """Copied and sent elsewhere by name: there is one table."""
+        """Pickled by name; the table is a singleton."""
         return named, (self.name,)
 
     @property

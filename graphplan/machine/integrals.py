@@ -144,7 +144,7 @@ def settled(function: Callable[[Reals], Reals], breaks: Sequence[float], size: n
         if count > MOST:
             break
         waiting = _split(rough)
-    raise Refused(f"travel {rough[0].mean():.6g}", "the moments or inertias have no limit there",
+    raise Refused(f"travel {rough[0].mean():.6g}", "the reduced moment or inertia diverges there (limit position)",
                   "a range without a limit position")
 
 
@@ -169,7 +169,8 @@ def _series(function: Callable[[Reals], Reals], panels: Reals) -> Reals:
     values = np.asarray(function(places.ravel()), dtype=float)
     if not np.isfinite(values).all():
         bad = places.ravel()[~np.isfinite(values).reshape(-1, places.size).all(axis=0)][0]
-        raise Refused(f"travel {bad:.6g}", "the moments or inertias are unknown there", "a range that can be reached")
+        raise Refused(f"travel {bad:.6g}", "the reduced moment or inertia is unknown there",
+                      "a range that can be reached")
     found: Reals = values.reshape(*values.shape[:-1], *places.shape) @ matrix
     return found
 

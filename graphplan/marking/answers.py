@@ -41,7 +41,7 @@ class Expected:
         """The number of an answer in SI or degrees; fails with `ValueError` where its unit is of something else."""
         if self.dimension is None:
             if answer.unit not in ("", "°", "deg"):
-                raise ValueError(f"{answer.unit!r} is no degree")
+                raise ValueError(f"{answer.unit!r} is not a unit of angle")
             return answer.value
         return answer.value * (factor(answer.unit, self.dimension, SI) if answer.unit else self.one)
 

@@ -39,7 +39,7 @@ def read(path: Path, panels: Collection[str], frames: Frames,
                       f"give one of {' '.join([*FILES, *IMAGES])}")
     found = _read(path, suffix, panels, frames, size)
     if not found.traces and not found.numbers:
-        raise Refused(f"{path}", "nothing is measured in it, no mark and no result", "fill it in")
+        raise Refused(f"{path}", "it contains no mark and no result", "fill it in")
     return found
 
 
@@ -49,7 +49,8 @@ def _scanned(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, co
         raise Refused(f"{path}", "a picture is read beside the sheet that was printed, and none is named",
                       "measured points or a CAD file")
     if not find_spec("cv2"):
-        raise Refused(f"{path}", "pictures are read by OpenCV, which is not installed", "pip install 'graphplan[scan]'")
+        raise Refused(f"{path}", "reading pictures needs OpenCV, which is not installed",
+                      "pip install 'graphplan[scan]'")
     from graphplan.marking.scans.scan import read_scan
 
     with hushed():

@@ -26,7 +26,7 @@ def check_use(scene: Scene, elsewhere: Collection[str], faults: Faults) -> None:
     """Every point is a point of a link, or serves to place a point or to give a direction."""
     for point, links in scene.links_of.items():
         if not links and point not in elsewhere:
-            faults.add(f"points.{quoted(point)}", "no link has this point", "its name in a link, or no such point")
+            faults.add(f"points.{quoted(point)}", "no link has this point", "name it in a link, or remove it")
 
 
 def check_joints(scene: Scene, placed: Mapping[str, Pair], faults: Faults) -> None:
@@ -75,7 +75,7 @@ def check_connections(scene: Scene, faults: Faults) -> None:
     for link in scene.moving:
         if held and link not in held:
             lonely = "shares no joint or slide with any other"
-            told = "hangs on neither the frame nor a given motion" if link in joined else lonely
+            told = "is connected to neither the frame nor a given motion" if link in joined else lonely
             instead = "a point that it shares with another link, or a slide"
             faults.add(f"links.{quoted(link)}", f"link {link} {told}", instead)
 
@@ -185,7 +185,7 @@ def check_loads(scene: Scene, faults: Faults, by_drive: bool = False) -> None:
         return
     counts = f"{_count(len(loads.balances), 'balance')} for {_count(len(scene.drives), 'drive')}"
     if scene.motions:
-        faults.add("motion", "what moves these points is no link, so nothing is known of its force",
+        faults.add("motion", "these points are moved by no link, so the force on them is unknown",
                    "drives, where forces are asked for")
     elif by_drive and scene.drives and not loads.balances:
         return

@@ -236,5 +236,5 @@ def on_link(row: Row, link: str, what: str = "link") -> bool:
     key = "at" if "at" in row.items else "centre"
     if own and row[key] not in own:
         instead = "one of " + ", ".join(sorted(own, key=by_name))
-        row.items[key].fault(f"{row[key]} is no point of {what} {link}", instead)
+        row.items[key].fault(f"{row[key]} is not a point of {what} {link}", instead)
     return row[key] in own

@@ -91,7 +91,7 @@ class Item:
         if isinstance(value, Fraction):
             return value
         if isinstance(value, Unusable):
-            return self.fault(f"{value.text} is no usable number", "a finite number between 1e-60 and 1e60 in size")
+            return self.fault(f"{value.text} is not a usable number", "a finite number between 1e-60 and 1e60 in size")
         return self.fault(*(self.slip() or (f"{described(value)} where a number is wanted", "a number such as 12.5")))
 
     def slip(self) -> tuple[str, str] | None:

@@ -61,7 +61,8 @@ def _file(item: Item, names: Names) -> Pairs | None:
     if name is None:
         return None
     if os.path.isabs(name) or ".." in name.replace("\\", "/").split("/") or not name.endswith((".csv", ".txt")):
-        return item.fault(f"{described(name)} is no table beside the scene", "a file .csv or .txt in its folder")
+        return item.fault(f"{described(name)} is not the name of a table beside the scene",
+                          "a file .csv or .txt in its folder")
     try:
         with open(os.path.join(names.folder, name), "rb") as file:
             text = file.read(LARGEST + 1).decode("utf-8-sig")
@@ -87,7 +88,7 @@ def _columns(item: Item, text: str) -> Pairs | None:
         if len(row) == 2 and row[0] is not None and row[1] is not None:
             found.append((row[0], row[1]))
         elif found or number > lines[0][0] or any(cell is not None for cell in row):
-            return item.fault(f"{item.value}, line {number}: {described(line)} is no place and value", COLUMNS)
+            return item.fault(f"{item.value}, line {number}: {described(line)} is not a place and a value", COLUMNS)
         if len(found) > MOST:
             return item.fault(f"{item.value} has more than {MOST} rows", f"at most {MOST}")
     return tuple(found)
@@ -130,13 +131,13 @@ def table(row: Row) -> LoadTable | None:
     over, given = row.values.get("over"), [key for key in ("values", "file", "powers") if key in row.items]
     if over is None:
         for key in given[:1]:
-            row.items[key].fault(f"{key} says nothing without over", 'over = "travel"')
+            row.items[key].fault(f"{key} needs the key over", 'over = "travel"')
         return None
     if len(given) != 1:
         what = f"{' and '.join(given)} are both given" if given else "values is missing"
         return row.item.fault(what, f"one of values, file or powers, such as {SUCH}")
     if over == "travel" and not any(isinstance(pair, Drive) for pair in row.names.pairs):
-        return row.items["over"].fault("no drive leads", "a slide, or a scene with a [[drive]]")
+        return row.items["over"].fault("the scene has no drive", "a slide, or a scene with a [[drive]]")
     item, where = row.items[given[0]], row.item.where
     if given == ["powers"]:
         found = LoadTable(over, powers=row["powers"], where=where)
@@ -266,7 +267,7 @@ BALANCE = Rows(Either((Table("a moment", (
 def _journal(row: Row) -> Friction | None:
     at = row["at"]
     if row.names.held[at] < 2 and row.item.faults.none_in("links"):
-        return row.items["at"].fault(f"{at} is no joint of two links", "a joint")
+        return row.items["at"].fault(f"{at} is not a joint of two links", "a joint")
     return Friction(at, None, row["radius"], row["coefficient"])
 
 

@@ -56,7 +56,7 @@ ROOT_BITS = 200
 
 @dataclass(frozen=True)
 class Unusable:
-    """A numeral that is no usable number: nan, inf, or of an absurd size."""
+    """A numeral that is not a usable number: nan, inf, or of an absurd size."""
 
     text: str
 
@@ -74,7 +74,7 @@ def decimal(text: str) -> Fraction | Unusable:
 def integer(value: int) -> Fraction | Unusable:
     """The number that a TOML integer says, if it is of a usable size."""
     if value.bit_length() > _DECADES * 10 // 3:
-        return Unusable("an integer of absurd size")
+        return Unusable("an integer that is too large")
     return Fraction(value)
 
 

@@ -130,7 +130,7 @@ def parse(text: str, name: str, by_drive: bool = False) -> Scene:
     if len(faults):
         for key, command in TASKS.items():
             if key in tables:
-                fault = Fault(key, "this is a task, no scene", f"graphplan {command} {name}")
+                fault = Fault(key, "this is a task, not a scene", f"graphplan {command} {name}")
                 raise SceneError(name, (fault,))
         from graphplan.mechanism.slips import slips_in_vectors  # few scenes have faults
 
@@ -165,7 +165,7 @@ def _no_toml(text: str, message: str) -> Fault:
     if line and (doubled := doubled_key(text, what, int(line[1]))):
         return Fault(*doubled)
     slip = slip_in_line(text.splitlines()[int(line[1]) - 1]) if line else None
-    return Fault(where, *(slip or (f"this is no TOML: {what}", "text that follows toml.io")))
+    return Fault(where, *(slip or (f"not TOML: {what}", "text that follows toml.io")))
 
 
 def _read(tables: dict[str, object], name: str, faults: Faults,

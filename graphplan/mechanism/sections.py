@@ -117,7 +117,7 @@ def _untraced(name: object, item: Item, names: Names) -> bool:
         item.fault(f"{point} is a point of the frame, which stands still", "a moving point of a link, such as M on 2")
     elif point not in names.links[link]:
         instead = "one of " + ", ".join(sorted(names.links[link], key=by_name))
-        item.fault(f"{point} is no point of link {link}", instead)
+        item.fault(f"{point} is not a point of link {link}", instead)
     else:
         return False
     return True
@@ -193,7 +193,7 @@ def _flywheel(row: Row) -> Flywheel | None:
     if speed is None:
         return None
     if speed <= 0:
-        return row.item.fault(f"a mean speed of {shown(speed)}", "a speed above 0; which way it runs its drive says")
+        return row.item.fault(f"a mean speed of {shown(speed)}", "a speed above 0; its drive tells the sense")
     return Flywheel(speed, uneven, row.values.get("inertia"), row["closes"])
 
 
@@ -211,7 +211,7 @@ def _run(row: Row) -> Run | None:
     if "speed" in row.items and "rpm" in row.items:
         return row.item.fault("speed and rpm are both given", "either speed in rad/s or rpm")
     if row.values.get("travel") == 0:
-        return row.items["travel"].fault("a travel of 0 goes nowhere", "degrees or lengths, such as travel = 720")
+        return row.items["travel"].fault("the travel is 0", "degrees or lengths, such as travel = 720")
     return Run(_speed(row), row.values.get("travel"), row["stops"])
 
 
@@ -250,15 +250,15 @@ def _ratio(item: Item, names: Names) -> Fraction | None:
     """The scene's lengths in a millimetre of paper, from a ratio such as 1:2."""
     ratio = re.fullmatch(RATIO, item.value) if isinstance(item.value, str) else None
     if ratio is None:
-        return item.fault(f"{described(item.value)} is no ratio",
+        return item.fault(f"{described(item.value)} is not a ratio",
                           'a length on paper to a length of the scene, such as "1:2"')
     return Fraction(ratio[2]) / Fraction(ratio[1]) / 1000 / METRES[names.units.length]
 
 
 def _plan(name: str, item: Item, names: Names) -> None:
-    """A fault where there is no such plan; which force plans there are only the drawing tells."""
+    """A fault where unknown plan; which force plans there are only the drawing tells."""
     if name not in PLANS and not name.startswith(("force plan ", "lever ")):
-        item.fault("there is no such plan", perhaps(name, (*PLANS, "force plan 2, 3"), "plan"))
+        item.fault("unknown plan", perhaps(name, (*PLANS, "force plan 2, 3"), "plan"))
 
 
 def _stands_still(point: object, item: Item, names: Names) -> bool:
@@ -279,7 +279,7 @@ def _count(item: Item, names: Names) -> int | None:
     if number is None:
         return None
     if number.denominator != 1 or not 1 <= number <= MOST_POSITIONS:
-        return item.fault(f"{shown(number)} is no number of positions", f"a whole number from 1 to {MOST_POSITIONS}")
+        return item.fault(f"{shown(number)} is not a number of positions", f"a whole number from 1 to {MOST_POSITIONS}")
     return int(number)
 
 
@@ -288,7 +288,7 @@ def _presentation(row: Row) -> Presentation | None:
     values = {key: row[key] for key in row.items}
     if "scale" in values:
         if "k_s" in values:
-            row.items["scale"].fault("k_s tells the scale already", "scale or k_s, not both")
+            row.items["scale"].fault("k_s and scale are both given", "give one of the two")
         values["k_s"] = values.pop("scale")
     k_s, k_v, k_a = (values.get(key) for key in ("k_s", "k_v", "k_a"))
     if k_s and k_v and k_a and shown(k_a) != shown(k_v**2 / k_s):

@@ -78,7 +78,7 @@ def centres_on(row: Row, *wanted: tuple[str, str]) -> bool:
     for centre, link in astray:
         if own := row.names.links.get(link, ()):
             instead = "one of " + ", ".join(sorted(own, key=by_name))
-            row.items["centres"].fault(f"{centre} is no point of link {link}", instead)
+            row.items["centres"].fault(f"{centre} is not a point of link {link}", instead)
     return not astray
 
 

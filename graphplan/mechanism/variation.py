@@ -58,7 +58,7 @@ def _path(name: str, item: Item, names: Names) -> None:
         item.faults.unknown(item.where, "number", name, varying)
     elif isinstance(value, Mapping | list) or not any(numbers(value)):
         such = next((one for one in varying if one.startswith(f"{name}.")), "drive.0.omega")
-        item.fault(f"{described(value)} stands there, and no number", f"the path of a number, such as {such}")
+        item.fault(f"{described(value)} is not a number", f"the path of a number, such as {such}")
 
 
 def _range(row: Row) -> tuple[Fraction, ...] | None:

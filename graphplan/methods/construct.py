@@ -50,7 +50,7 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
     """
     forms = METHODS | OF_PATHS
     if method not in ("", *forms):
-        raise Refused(f"method {method}", "there is no such form", f"one of {', '.join(forms)}")
+        raise Refused(f"method {method}", "unknown method", f"choose one of {', '.join(forms)}")
     chosen = style(plan, inertia)
     try:
         for found in _by_plans(scene, method, chosen):

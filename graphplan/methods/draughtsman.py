@@ -197,7 +197,7 @@ class Draughtsman:
         for name in (point for point in ordered_points(self.scene) if point in asked):
             place = (self.net.name(name), "")
             if place not in plan.ends:
-                why = said("no construction known here reaches it")
+                why = said("no known construction determines it")
                 raise Refused(said("point {0}", name), why, "ask for other points")
             motion = self.scene.motions.get(name)
             given = getattr(motion, kind) if motion else None
@@ -240,7 +240,7 @@ class Draughtsman:
         one of its own points, then the longest."""
         found = _sides(plan, self.net.turnings.alike(link))
         if not found:
-            why = said("no construction known here reaches it")
+            why = said("no known construction determines it")
             raise Refused(link_named(link), why, "ask for other links")
         return min(found, key=lambda side: (len(needed_steps(self.board, side.marks, needed)), not side.own,
                                             -side.length))

@@ -55,7 +55,7 @@ def _shared_out(executor: Executor, hands: int, work: Callable[[Any], Any], part
 def _processes(workers: int) -> Iterator[tuple[Executor, int]]:
     """Processes of this machine, and how many they are."""
     if workers < 1:
-        raise Refused(f"workers {workers}", "nobody would do the work", "at least 1")
+        raise Refused(f"workers {workers}", "no worker", "give at least 1")
     pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
     try:
         yield pool, workers
@@ -73,7 +73,7 @@ def _cluster(address: str) -> Iterator[tuple[Executor, int]]:
     try:
         client: Any = cast(Any, Client)(address, timeout=PATIENCE)
     except (OSError, ValueError) as error:
-        raise Refused(f"workers {address}", f"no dask scheduler answers there ({error})",
+        raise Refused(f"workers {address}", f"no dask scheduler answers ({error})",
                       "a number of processes, or an address such as tcp://host:8786") from None
     try:
         yield client.get_executor(), max(1, sum(client.nthreads().values()))

@@ -67,7 +67,7 @@ class Placing:
     def _home(self, point: str) -> Body:
         """The first body placed of those that have a point; `Refused` of one that a lever thinks in."""
         if point not in self.given.links_of:
-            why = said("no construction known here reaches it")
+            why = said("no known construction determines it")
             raise Refused(said("point {0}", point), why, "the pose as it is given")
         bodies = [self.bodies[self.net.body[link]] for link in self.given.links_of[point]] or [self.ground]
         return next(body for body in self.placed if any(body is one for one in bodies))

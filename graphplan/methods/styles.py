@@ -38,11 +38,11 @@ class Style:
 def style(plan: str, inertia: str) -> Style:
     """The style that `plan` names: one word for the motion, one for the forces, or both with a comma between them."""
     if inertia not in INERTIA:
-        raise Refused(f"inertia {inertia}", "there is no such form", f"one of {', '.join(INERTIA)}")
+        raise Refused(f"inertia {inertia}", "unknown method of inertia", f"choose one of {', '.join(INERTIA)}")
     words = plan.split(",") if plan else []
     for word in words:
         if word not in PLANS:
-            raise Refused(f"plan {word}", "there is no such plan", f"one of {', '.join(PLANS)}")
+            raise Refused(f"plan {word}", "unknown plan", f"choose one of {', '.join(PLANS)}")
     lever, polygons = "lever" in words, "polygons" in words
     both = "both" in words or not (lever or polygons)
     free = not {*MOTION_PLANS} & {*words}

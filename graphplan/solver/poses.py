@@ -58,7 +58,7 @@ class Sized:
 
     def __truediv__(self, other: Any) -> Sized:
         two = sized(other)
-        with np.errstate(divide="ignore", invalid="ignore"):  # in a pose where it divides by nothing it is no number
+        with np.errstate(divide="ignore", invalid="ignore"):  # in a pose where it divides by nothing it is not a number
             value, least = self.value / two.value, np.abs(two.value)
             return Sized(value, np.maximum(self.size, np.abs(value) * two.size) / least)
 

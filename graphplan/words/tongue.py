@@ -88,7 +88,7 @@ def tongue(code: str) -> Tongue:
     if code == "en":
         return ENGLISH
     if code not in LANGUAGES:
-        raise Refused(f"language {code}", "there is no catalogue of it", f"one of {', '.join(LANGUAGES)}")
+        raise Refused(f"language {code}", "unknown language", f"choose one of {', '.join(LANGUAGES)}")
     return Tongue(code, catalogue(code))
 
 

@@ -10,9 +10,9 @@ from graphplan.accuracy.hand import Pencil, pencil
 from graphplan.errors import Refused
 
 FAULTS = [
-    ("width=0.2", "no such error"), ("point", "no size"), ("point=", "no size"), ("point=thick", "no size"),
-    ("point=-0.1", "no size"), ("edge=nan", "no size"), ("opening=inf", "no size"), ("angle=60", "no size"),
-    ("point=0.1,point=0.2", "told twice"), ("=0.1", "no such error"),
+    ("width=0.2", "no such error"), ("point", "not a size"), ("point=", "not a size"), ("point=thick", "not a size"),
+    ("point=-0.1", "not a size"), ("edge=nan", "not a size"), ("opening=inf", "not a size"), ("angle=60", "not a size"),
+    ("point=0.1,point=0.2", "given twice"), ("=0.1", "no such error"),
 ]
 
 

@@ -124,12 +124,12 @@ def test_chart_writes_picture_and_table(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("arguments", "told"), [
-    (("speed", "."), "chart speed: there is no such chart"),
+    (("speed", "."), "chart speed: unknown chart"),
     (("growth", "nowhere"), "nowhere: folder: there is no such folder"),
     (("machine", ".", "--scenes", "no-such"), "no-such"),
-    (("growth", ".", "--beside", "rivals.csv"), "--beside: only machine has other programs beside it"),
+    (("growth", ".", "--beside", "rivals.csv"), "--beside: only the chart machine compares other programs"),
     (("machine", ".", "--beside", "rivals.csv"), "--beside rivals.csv: No such file"),
-    (("machine", ".", "--beside", __file__), "it is no table of machine; the columns scene, asked"),
+    (("machine", ".", "--beside", __file__), "not a table of the chart machine; the columns scene, asked"),
     (("growth", ".", "--pencil", "nib=1"), "--pencil nib=1: a pencil has no such error"),
 ])
 def test_bad_names_are_one_line(arguments: tuple[str, ...], told: str, tmp_path: Path,

@@ -76,8 +76,8 @@ def test_what_was_weighed_is_told(found: list[Form], drawn: dict[str, Drafted]) 
 def test_preference_and_method_exclude_each_other(capsys: pytest.CaptureFixture[str]) -> None:
     """A form that is named needs no preference: asked for both, the command refuses."""
     assert main(["draw", "four-bar", "--prefer", "quick", "--method", "trial"]) == 2
-    assert capsys.readouterr().err.startswith("--prefer quick: --method trial names the form already")
-    with pytest.raises(Refused, match="nothing is weighed so"):
+    assert capsys.readouterr().err.startswith("--prefer quick: --method trial already names the form")
+    with pytest.raises(Refused, match="unknown preference"):
         preferred_form(SCENE, "cheap", Pencil())
 
 

@@ -86,7 +86,7 @@ FAULTS = [
     (("radius = 4\n", ""), "follower: radius is missing"),
     (("rpm = 300\n", ""), "cam: omega is missing; one of them, such as rpm = 300"),
     (("base = 40", 'base = "pressure angle"'), "cam: pressure_angle is missing"),
-    (("angle = 120", "table = [[0, 0], [60, 10], [50, 25]]"), "law.1.table: the angle 50 stands after 60"),
+    (("angle = 120", "table = [[0, 0], [60, 10], [50, 25]]"), "law.1.table: the angle 50 comes after 60"),
     (("stroke = 25\n", ""), "law.1: a harmonic motion without a stroke"),
 ]  # fmt: skip
 

@@ -95,7 +95,7 @@ def test_poses_are_solved(written: Callable[..., Path], capsys: pytest.CaptureFi
 @pytest.mark.parametrize(("options", "line"), [
     (["-o", "made.gif"],
      "-o made.gif: no cam is written as .gif; a name in .svg, .pdf, .png, .tex, .dxf, .json, .toml"),
-    (["--at", "30"], "--at 30.0: a .svg has no use for it; leave it out, or -o FILE.toml"),
+    (["--at", "30"], "--at 30.0: it does not apply to a .svg; leave it out, or -o FILE.toml"),
     (["-o", "made.dxf", "--tolerance", "0"], "--tolerance: 0; give a length above 0, 1e-9 at least"),
 ])  # fmt: skip
 def test_bad_options_are_refused(task: Path, options: list[str], line: str, capsys: pytest.CaptureFixture[str],

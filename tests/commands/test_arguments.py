@@ -37,7 +37,7 @@ def test_a_pose_of_two_drives_is_asked_for_in_any_spelling(words: list[str],
 
 
 def test_what_is_no_travel_is_one_clear_line(capsys: pytest.CaptureFixture[str]) -> None:
-    """A word that is no number, and more travels than drives, are named."""
+    """A word that is not a number, and more travels than drives, are named."""
     assert run("solve", "four-bar", "--at", "-3", "-x") == 2
     assert run("solve", "four-bar", "--at", "-3", "5") == 2
     option, travels = capsys.readouterr().err.splitlines()

@@ -63,7 +63,7 @@ def test_help_tells_every_format() -> None:
 
 @pytest.mark.parametrize(("arguments", "said"), [
     (["-o", "{tmp}/a.dwg"], "a name in .ggb, .gcl"),
-    (["-o", "{tmp}/a"], "a name without a suffix is no format"),
+    (["-o", "{tmp}/a"], "the name has no suffix that tells the format"),
     (["-o", "{tmp}/a.html"], "graphplan live SCENE -o"),
     (["-o", "{tmp}/none/a.ggb"], "cannot be written"),
     (["-o", "{tmp}/a.ggb", "--method", "poles", "--plan", "nonsense"], "nonsense"),

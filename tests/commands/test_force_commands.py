@@ -190,7 +190,7 @@ def test_unknown_plan_is_refused(monkeypatch: pytest.MonkeyPatch, capsys: pytest
     """A plan that does not exist is refused with exit status 2."""
     assert ran(["solve", "--plan", "levers"], REST, monkeypatch) == 2
     known = "orthogonal, polar, triangles, lever, polygons, both"
-    assert f"there is no such plan; one of {known}" in capsys.readouterr().err
+    assert f"unknown plan; choose one of {known}" in capsys.readouterr().err
 
 
 def test_check_shows_three_opinions(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

@@ -126,7 +126,7 @@ def test_an_empty_folder_is_taken_and_a_full_one_refused(tmp_path: Path, capsys:
 def refusals(tmp_path: Path) -> Iterator[tuple[list[str], str]]:
     """What is refused: the arguments, and what is told."""
     (tmp_path / "names.csv").write_text(CLASS)
-    yield ["four-bar"], "-n: nobody says how many tasks; -n 30, or --names CLASS.csv"
+    yield ["four-bar"], "-n: the number of tasks is missing; -n 30, or --names CLASS.csv"
     yield ["slider-crank", "-n", "2"], "slider-crank: vary: the scene does not say what varies; a table"
     yield ["four-bar", "-n", "2", "--names", str(tmp_path / "names.csv")], "-n 2: there are 3 names in .*; -n 3, or no"
     (tmp_path / "far.csv").write_text("name\n学生\n", encoding="utf-8")

@@ -169,7 +169,7 @@ def test_a_class_has_a_page(folder: Path, tmp_path: Path) -> None:
 def test_a_class_of_which_nothing_can_be_read_is_bad_input(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A folder without a drawing, or with bad files alone, ends with status 2."""
     assert main(["verify", "four-bar", str(tmp_path)]) == 2
-    assert "there is no drawing in it" in capsys.readouterr().err
+    assert "it contains no drawing" in capsys.readouterr().err
     (tmp_path / "a.txt").write_text("none")
     assert main(["verify", "four-bar", str(tmp_path)]) == 2
 
@@ -177,7 +177,7 @@ def test_a_class_of_which_nothing_can_be_read_is_bad_input(tmp_path: Path, capsy
 @pytest.mark.parametrize(("arguments", "why"), [
     (["--report", "report.txt"], "no report is written as .txt"),
     (["--weights", "wright=1"], "nothing of this name is weighed"),
-    (["--pencil", "point=-1"], "this is no size of an error"),
+    (["--pencil", "point=-1"], "not a size of an error"),
 ])
 def test_what_makes_no_sense_is_refused(arguments: list[str], why: str, good: Path, monkeypatch: pytest.MonkeyPatch,
                                         capsys: pytest.CaptureFixture[str]) -> None:
@@ -228,7 +228,7 @@ def test_what_in_a_class_is_no_file_is_told(folder: Path, capsys: pytest.Capture
     told = {one["file"]: one["why"] for one in printed(capsys, str(folder))["not_judged"]}
     assert list(told) == ["c.txt", "later", "lost.csv"]
     assert told["later"].startswith("this is a folder within the folder")
-    assert told["lost.csv"].startswith("this link leads nowhere")
+    assert told["lost.csv"].startswith("the target of this link does not exist")
 
 
 @pytest.mark.parametrize("seen", [True, False])

@@ -202,7 +202,7 @@ def test_what_stands_still_has_no_errors() -> None:
 
 
 @pytest.mark.parametrize(("change", "says"), [
-    ({"time": np.zeros(49)}, "time does not grow"),
+    ({"time": np.zeros(49)}, "times do not increase"),
     ({"v": np.zeros(3)}, "shapes"),
     ({"a": np.full(49, np.nan)}, "no position"),
 ])

@@ -61,7 +61,7 @@ def test_unmet_claim_is_named() -> None:
 
 
 def test_nan_keeps_no_claim() -> None:
-    """A value that is no number does not pass."""
+    """A value that is not a number does not pass."""
     b = Board()
     program = freeze(b, [b.midpoint(b.given(x=0, y=0), b.given(x=2, y=0))])
     assert unmet(program.steps[2], [(0.0, 0.0), (2.0, 0.0), (float("nan"), 0.0)])

@@ -98,7 +98,7 @@ def test_a_wrong_flywheel_is_a_disagreement() -> None:
 
 @pytest.mark.parametrize(("wish", "why"), [
     ({"unevenness": Fraction(1, 2)}, "needs no flywheel"),
-    ({"speed": Fraction(1, 100), "unevenness": None, "inertia": Fraction(0)}, "does not come round"),
+    ({"speed": Fraction(1, 100), "unevenness": None, "inertia": Fraction(0)}, "makes no full turn"),
     ({"closes": "load"}, "do no work"),
 ])
 def test_what_is_refused(wish: dict[str, object], why: str) -> None:

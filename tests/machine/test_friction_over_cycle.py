@@ -115,7 +115,7 @@ def test_the_mean_efficiency_of_a_piston() -> None:
     slide = found.losses
     assert slide.lost > 0
     assert slide.pairs == {"3 along frame": pytest.approx(slide.lost, rel=1e-10)}
-    with pytest.raises(Refused, match="friction: the scene has none"):
+    with pytest.raises(Refused, match="friction: the scene has no friction"):
         _ = reduction(gp.load("ozols-10-1")).losses
 
 

@@ -166,7 +166,7 @@ def test_any_mechanism(tmp_path: Path, name: str, travel: float) -> None:
 @pytest.mark.parametrize(("loads", "options", "why"), [
     ("[balance]", [], "does not start"),
     (DRIVEN.format(400), ["--speed", "-3"], "below 0"),
-    (DRIVEN.format(400), ["--travel", "0"], "leads nowhere"),
+    (DRIVEN.format(400), ["--travel", "0"], "is not greater than 0"),
     (DRIVEN.format(400), ["--steady", "--speed", "9"], "does not close"),
     ('[[moments]]\non = "1"\nover = "speed"\nvalues = [[0, 1000], [5, 900]]\n[balance]', [], "from 0 to 5"),
 ])

@@ -190,7 +190,7 @@ def test_rotors_are_no_linkages(tmp_path: Path, capsys: pytest.CaptureFixture[st
     task = tmp_path / "rotor.toml"
     task.write_text(THREE)
     assert main(["solve", str(task)]) == 2
-    assert "rotor: this is a task, no scene; graphplan balance" in capsys.readouterr().err
+    assert "rotor: this is a task, not a scene; graphplan balance" in capsys.readouterr().err
     for given in (["--positions", "12"], ["--paper", "A2"], ["-o", "rotor.gif"]):
         assert main(["balance", str(task), *given]) == 2
         assert len(capsys.readouterr().err.splitlines()) == 1
@@ -211,10 +211,10 @@ def test_rotors_are_no_linkages(tmp_path: Path, capsys: pytest.CaptureFixture[st
     ("[rotor]\nplanes = [0, 2]\n[trial]\namplitudes = [1, 2, 3]\nmass_radius = 1\n", "trial: trials: 1, planes: 2"),
     (f"{ONE}amplitudes = [3, 1, 1]\nmass_radius = 1\n", "trial: the amplitudes 3, 1, 1: A² ="),
     (f"{ONE}amplitudes = [3, 3, 3]\nmass_radius = 1\n",
-     "trial: the amplitudes 3, 3, 3: the trial mass has next to no effect"),
+     "trial: the amplitudes 3, 3, 3: the trial mass has almost no effect"),
     (f"{ONE}amplitudes = [1, 5, 1]\nmass_radius = 1\n", "trial: the amplitudes 1, 5, 1: no parallelogram"),
     (f"{ONE}amplitudes = [3, 4, 3.5]\nmass_radius = 1\nfourth = {{ amplitude = 3.5, angle = 180 }}\n",
-     "trial.fourth: both answers foretell the same"),
+     "trial.fourth: both solutions predict the same"),
 ])  # fmt: skip
 def test_what_cannot_be_is_refused(text: str, line: str) -> None:
     """What no rotor is and no measurement gives is one line with the reason."""

@@ -52,11 +52,11 @@ def test_numbers_are_judged(task: str, rows: tuple[str, ...], wrong: dict[str, s
 
 @pytest.mark.parametrize(("row", "line"), [
     ("speed,I,3,", "'speed' of 'I' is not asked for"),
-    ("correction,I,3,mm", "'mm' is no such unit"),
+    ("correction,I,3,mm", "'mm' is not a unit such as"),
     ("correction,I,three,kg·mm", "line 2: value"),
 ])  # fmt: skip
 def test_other_answers_are_refused(row: str, line: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """What is not asked for, has a wrong unit, or is no number is one line and exit 2."""
+    """What is not asked for, has a wrong unit, or is not a number is one line and exit 2."""
     assert judge(tmp_path, TASK, row) == 2
     told = capsys.readouterr().err
     assert line in told

@@ -69,4 +69,4 @@ def test_an_inertia_is_no_moment(tmp_path: Path, capsys: pytest.CaptureFixture[s
     """A number in a unit of another quantity is refused in one line."""
     (tmp_path / "results.csv").write_text("quantity,of,value,unit\nreduced inertia,0,13,N m\n")
     assert main(["verify", SCENE, str(tmp_path / "results.csv")]) == 2
-    assert "no such unit as kg·m^2" in capsys.readouterr().err
+    assert "not a unit such as kg·m^2" in capsys.readouterr().err

@@ -58,7 +58,7 @@ def test_no_place_of_a_mark_stops_the_judge(name: str, way: str) -> None:
     try:
         assert len(judge(drawing, sheet, submission, Pencil()).verdicts) == len(drawing.drawn.steps)
     except Refused as refused:
-        assert "not two of its points" in str(refused)
+        assert "fewer than two of its points" in str(refused)
 
 
 @pytest.mark.parametrize(("name", "mark", "begin", "told"), [

@@ -105,23 +105,23 @@ HOSTILE = {
     "many lines": ("x.svg", SVG.format(f'<path stroke="#000" d="M0 0{" 9 9 0 0" * 40_000}"/>').encode(), "more than"),
     "many curves": ("x.svg", SVG.format(f'<path stroke="#000" d="M0 0{"C1 1 2 1 3 0" * 10**5}"/>').encode(), "letters"),
     "copies of a long style": ("x.svg", SVG.format(LONG).encode(), "more than 400000 letters"),
-    "no numbers": ("x.svg", SVG.format('<circle r="nan" cx="1"/>').encode(), "'nan' is no length"),
+    "no numbers": ("x.svg", SVG.format('<circle r="nan" cx="1"/>').encode(), "'nan' is not a length"),
     "far away": ("x.svg", SVG.format('<circle r="1" cx="1e300"/>').encode(), "farther away than 1e"),
     "infinite scale": ("x.svg", SVG.format('<circle r="1" cx="9" transform="scale(1e308)"/>').encode(), "a transform"),
-    "no path": ("x.svg", SVG.format('<path stroke="#000" d="M 0 0 L 1"/>').encode(), "'M 0 0 L 1' is no path"),
+    "no path": ("x.svg", SVG.format('<path stroke="#000" d="M 0 0 L 1"/>').encode(), "'M 0 0 L 1' is not a path"),
     "other XML": ("x.svg", b"<html/>", "XML of another kind"),
-    "nothing drawn": ("x.svg", SVG.format("<g/>").encode(), "nothing is drawn"),
+    "nothing drawn": ("x.svg", SVG.format("<g/>").encode(), "it contains no point, line or circle"),
     "zip bomb": ("x.ggb", archive({"geogebra.xml": BOMB}), "unpacks to more than 16 MB"),
     "zip bomb that lies": ("x.ggb", shrunk(archive({"geogebra.xml": BOMB})), "damaged|no well-formed"),
     "paths in an archive": ("x.ggb", archive({"../geogebra.xml": b"x", "/tmp/x": b"x"}), "has no geogebra.xml"),
     "another archive": ("x.ggb", archive({"word/document.xml": b"<a/>"}), "has no geogebra.xml"),
-    "no coordinate": ("x.ggb", ggb(point("1e400")), "'1e400' is no number"),
-    "undefined alone": ("x.ggb", ggb(point("NaN")), "nothing is drawn"),
-    "deep term": ("x.ggb", ggb(term("(" * 9000)), "nothing is drawn"),
-    "great power": ("x.ggb", ggb(term("9^9^9^9^9")), "nothing is drawn"),
-    "code": ("x.ggb", ggb(term("__import__('os').system('touch x')")), "nothing is drawn"),
+    "no coordinate": ("x.ggb", ggb(point("1e400")), "'1e400' is not a number"),
+    "undefined alone": ("x.ggb", ggb(point("NaN")), "it contains no point, line or circle"),
+    "deep term": ("x.ggb", ggb(term("(" * 9000)), "it contains no point, line or circle"),
+    "great power": ("x.ggb", ggb(term("9^9^9^9^9")), "it contains no point, line or circle"),
+    "code": ("x.ggb", ggb(term("__import__('os').system('touch x')")), "it contains no point, line or circle"),
     "blocks of blocks": ("x.dxf", dxf(nested), "more than 40000 entities|nested"),
-    "a block of itself": ("x.dxf", dxf(itself), "nested|nothing is drawn"),
+    "a block of itself": ("x.dxf", dxf(itself), "nested|it contains no point"),
     "rows of blocks": ("x.dxf", dxf(rows), "more than 40000 entities"),
     "many tags": ("x.dxf", b"  0\nSECTION\n" + b"  0\nLINE\n" * 400_000, "more than 300000 lines"),
     "many entities": ("x.dxf", b"  0\nSECTION\n" + b"  0\nLINE\n" * 30_000, "more than 20000 entities"),
@@ -130,14 +130,14 @@ HOSTILE = {
     "many rows": ("x.csv", b"mark,x,y\n" + b"A,1,2\n" * 30_000, "more than 20000 lines"),
     "empty rows": ("x.csv", b"mark,x,y\n" + b",,\n" * 10**6, "more than 20000 lines"),
     "one long row": ("x.csv", b"mark,x,y\n" + b"A," * 10**6, "columns"),
-    "long cell": ("x.csv", b"mark,x,y\n" + b"A" * 10**6 + b",1,2", "no row of a table"),
-    "long numeral": ("x.csv", b"mark,x,y\nA,1," + b"9" * 5000, "is no number"),
-    "lists in lists": ("x.toml", b"marks = " + b"[" * 10**5, "no TOML|nested too deeply"),
+    "long cell": ("x.csv", b"mark,x,y\n" + b"A" * 10**6 + b",1,2", "not a row of a table"),
+    "long numeral": ("x.csv", b"mark,x,y\nA,1," + b"9" * 5000, "is not a number"),
+    "lists in lists": ("x.toml", b"marks = " + b"[" * 10**5, "not TOML|nested too deeply"),
     "dots in dots": ("x.toml", b"a." * 10**5 + b"a = 1", "too many dots"),
     "many dotted names": ("x.toml", b"[marks]\n" + (b"a." * 900 + b"b = 1\n") * 250, "too many dots"),
-    "huge integer": ("x.toml", b"[marks]\nA = [1, " + b"9" * 5000 + b"]", "no TOML|no number"),
-    "infinite mark": ("x.toml", b"[marks]\nA = [1, -inf]", "no number"),
-    "name of lines": ("x.toml", b'[marks]\n"A\\nB" = 3', "marks.A B: this is no point"),
+    "huge integer": ("x.toml", b"[marks]\nA = [1, " + b"9" * 5000 + b"]", "not TOML|not a number"),
+    "infinite mark": ("x.toml", b"[marks]\nA = [1, -inf]", "not a number"),
+    "name of lines": ("x.toml", b'[marks]\n"A\\nB" = 3', "marks.A B: not a point"),
 }  # fmt: skip
 
 
@@ -180,7 +180,7 @@ def test_files_that_are_none(tmp_path: Path, name: str) -> None:
     assert "this is a directory" in refused(path)
     path.rmdir()
     os.mkfifo(path)
-    assert "no ordinary file" in refused(path)
+    assert "not a regular file" in refused(path)
 
 
 SEEN = point("3") + point("4").replace('"A"', '"B"')

@@ -196,7 +196,7 @@ def test_a_sheet_without_the_mechanism_is_refused() -> None:
     """Marks that lie nowhere on the mechanism cannot be judged."""
     drawing, sheet = composed("four-bar")
     submission = Submission("x.csv", (Trace(POINT, ((1.0, 2.0),), "Z"),), shows=frozenset({POINT}))
-    with pytest.raises(Refused, match="not two of its points"):
+    with pytest.raises(Refused, match="fewer than two of its points"):
         judge(drawing, sheet, submission, PENCIL)
 
 
@@ -225,7 +225,7 @@ def test_noise_is_no_drawing() -> None:
     drawing, sheet = composed("four-bar")
     spots = np.random.default_rng(1).uniform(0, 300, (60, 2)).tolist()
     submission = Submission("x.csv", tuple(Trace(POINT, ((x, y),)) for x, y in spots), shows=frozenset({POINT}))
-    with pytest.raises(Refused, match="not two of its points"):
+    with pytest.raises(Refused, match="fewer than two of its points"):
         judge(drawing, sheet, submission, PENCIL)
 
 

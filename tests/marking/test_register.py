@@ -37,7 +37,7 @@ ROW = SHEETS[0].__dict__
 BROKEN: dict[str, Any] = {
     "no list": [], "no sheets": {"title": "", "seed": 1, "options": {}},
     "a text for a number": {**REGISTER.data, "seed": "1"},
-    "an option that is no text": {**REGISTER.data, "options": {"paper": 4}},
+    "an option that is not text": {**REGISTER.data, "options": {"paper": 4}},
     "a row without a code": {**REGISTER.data, "sheets": [{"variant": 1}]},
     "a row that is no table": {**REGISTER.data, "sheets": [1]},
     "a scene elsewhere": {**REGISTER.data, "sheets": [{**ROW, "scene": "../other.toml"}]},
@@ -52,7 +52,7 @@ TEXTS = {"empty": b"", "half": b"{", "no UTF-8": b"\xff", "deep": b"[" * 100_000
 def test_a_broken_register_is_refused(tmp_path: Path, text: bytes) -> None:
     """What is no register is one line that says what is wrong."""
     (tmp_path / FILE).write_bytes(text)
-    with pytest.raises(Refused, match=r"class\.json: this is no .*; the class\.json that graphplan variants wrote$"):
+    with pytest.raises(Refused, match=r"class\.json: not .*; the class\.json that graphplan variants wrote$"):
         load(tmp_path)
 
 

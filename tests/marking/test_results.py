@@ -106,7 +106,7 @@ def test_other_units_are_refused(tmp_path: Path, unit: str) -> None:
 
 
 WRONG = {
-    "quantity,of,x,y\nspeed,A,1,2": "line 2: 'speed' is no quantity; one of velocity, acceleration",
+    "quantity,of,x,y\nspeed,A,1,2": "line 2: 'speed' is not a quantity; one of velocity, acceleration",
     "quantity,of,value\nvelocity,A,3": "line 2: velocity is a vector; x and y",
     "quantity,of,x,y\nomega,3,1,2": "line 2: omega is one number; value",
     "quantity,of,x,y,value\nomega,3,1,2,3": "line 2: the result is given twice",

@@ -353,7 +353,7 @@ def test_missing_files_are_refused(tmp_path: Path) -> None:
     """A file that is not there, a folder and a pipe are refused in one line, and nothing waits for them."""
     os.mkfifo(tmp_path / "pipe.png")
     for path, why in ((tmp_path / "none.png", "no such file"), (tmp_path, "a directory"),
-                      (tmp_path / "pipe.png", "no ordinary file")):
+                      (tmp_path / "pipe.png", "not a regular file")):
         with pytest.raises(Refused, match=why) as refused:
             read_page(path, page(), CODE)
         assert str(refused.value).startswith(f"{path}: ")

@@ -150,16 +150,16 @@ def test_weights_are_read() -> None:
 
 @pytest.mark.parametrize(("text", "why"), [
     ("wright=1", "nothing of this name is weighed"),
-    ("wrong=0,wrong=1", "wrong is told twice"),
-    ("right=0", "this is no weight; a number from 0.001 to 1000"),
-    ("numbers=-1", "this is no weight; a number from 0 to 1000"),
-    ("right=1e308,numbers=1e308", "this is no weight"),
-    ("wrong=-inf", "this is no weight; a number from -1000"),
-    ("missing=nan", "this is no weight"),
-    ("wrong=much", "this is no weight"),
-    ("wrong=2", "earns more than what is right"),
-    ("reversed=-1", "this is no weight; a number from 0 to 100"),
-    ("reversed=101", "this is no weight; a number from 0 to 100"),
+    ("wrong=0,wrong=1", "wrong is given twice"),
+    ("right=0", "not a weight; a number from 0.001 to 1000"),
+    ("numbers=-1", "not a weight; a number from 0 to 1000"),
+    ("right=1e308,numbers=1e308", "not a weight"),
+    ("wrong=-inf", "not a weight; a number from -1000"),
+    ("missing=nan", "not a weight"),
+    ("wrong=much", "not a weight"),
+    ("wrong=2", "a weight is greater than that of right"),
+    ("reversed=-1", "not a weight; a number from 0 to 100"),
+    ("reversed=101", "not a weight; a number from 0 to 100"),
     ("revered=10", "one of right, .*reversed"),
 ])
 def test_bad_weights_are_refused(text: str, why: str) -> None:

@@ -31,10 +31,10 @@ BALANCE = '[balance] with link = "1" for a moment, or with at, on and direction 
 FAULTS: list[tuple[str, str]] = [
     # the text
     ("", "file: it is empty; a scene with [points], [links] and [[drive]]"),
-    ("a = ", "end of file: this is no TOML: Invalid value; text that follows toml.io"),
+    ("a = ", "end of file: not TOML: Invalid value; text that follows toml.io"),
     (
         "\n a b",
-        "line 2, column 4: this is no TOML: Expected '=' after a key in a key/value pair; text that follows toml.io",
+        "line 2, column 4: not TOML: Expected '=' after a key in a key/value pair; text that follows toml.io",
     ),
     ("a = " + "[" * 9999, "file: tables or lists are nested too deeply; a scene as the manual shows it"),
     ("[points]\n[links]", "points: the scene has no points; [points] with entries such as A = [0, 0]"),
@@ -64,15 +64,15 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (
         changed(PRESS, ("O = [0, 0]", "O = [0, nan]")),
-        "points.O: nan is no usable number; a finite number between 1e-60 and 1e60 in size",
+        "points.O: nan is not a usable number; a finite number between 1e-60 and 1e60 in size",
     ),
     (
         changed(PRESS, ("O = [0, 0]", "O = [0, -1e999999999]")),
-        "points.O: -1e999999999 is no usable number; a finite number between 1e-60 and 1e60 in size",
+        "points.O: -1e999999999 is not a usable number; a finite number between 1e-60 and 1e60 in size",
     ),
     (
         changed(PRESS, ("O = [0, 0]", f"O = [0, {'9' * 4000}]")),
-        "points.O: an integer of absurd size is no usable number; a finite number between 1e-60 and 1e60 in size",
+        "points.O: an integer that is too large is not a usable number; a finite number between 1e-60 and 1e60 in size",
     ),
     (
         changed(PRESS, ("O = [0, 0]", "O = [0, 1, 2]")),
@@ -145,7 +145,7 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (
         changed(PRESS, ("M = {", "Z = [1, 1]\nM = {")),
-        "points.Z: no link has this point; its name in a link, or no such point",
+        "points.Z: no link has this point; name it in a link, or remove it",
     ),
     # links
     (
@@ -165,7 +165,7 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (
         changed(PRESS, ('3 = "B"', "3 = 'B'\n4 = 'N P'\n5 = 'N'"), ("M = {", "N = [5, 5]\nP = [0, 9]\nM = {")),
-        "links.4: link 4 hangs on neither the frame nor a given motion; "
+        "links.4: link 4 is connected to neither the frame nor a given motion; "
         "a point that it shares with another link, or a slide",
     ),
     (
@@ -185,7 +185,7 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (changed(PRESS, ('link = "3"', 'link = "5"')), "slides.1.link: there is no link 5; one of 1, 2, 3, frame"),
     (changed(PRESS, ('along = "frame"', 'along = "3"')), "slides.1: link 3 slides along itself; two different links"),
-    (changed(PRESS, ('at = "B"', 'at = "A"')), "slides.1.at: A is no point of the sliding link 3; one of B"),
+    (changed(PRESS, ('at = "B"', 'at = "A"')), "slides.1.at: A is not a point of the sliding link 3; one of B"),
     (
         changed(PRESS, ("direction = [1, 0]\n\n", 'direction = "O"\n\n')),
         'slides.1.direction: the string "O" where two points are wanted; two points such as "O A"',
@@ -317,10 +317,10 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (
         changed(LOADED, ("inertia = 0.01", "inertia = inf")),
-        "masses.2.inertia: inf is no usable number; a finite number between 1e-60 and 1e60 in size",
+        "masses.2.inertia: inf is not a usable number; a finite number between 1e-60 and 1e60 in size",
     ),
     (changed(LOADED, ('centre = "M"', 'centre = "S"')), "masses.2.centre: there is no point S; one of A, B, M, O"),
-    (changed(LOADED, ('centre = "M"', 'centre = "O"')), "masses.2.centre: O is no point of link 2; one of A, B, M"),
+    (changed(LOADED, ('centre = "M"', 'centre = "O"')), "masses.2.centre: O is not a point of link 2; one of A, B, M"),
     (
         changed(LOADED, ('centre = "M"', "centre = [45, 20]")),
         'masses.2.centre: a list of 2 where the name of a point is wanted; a name in quotes, such as "3"',
@@ -339,7 +339,7 @@ FAULTS: list[tuple[str, str]] = [
     (changed(LOADED, ('on = "3"', 'on = "5"')), "forces.1.on: there is no link 5; one of 1, 2, 3, frame"),
     (changed(LOADED, ('on = "3"', 'on = "frame"')), "forces.1.on: a load on the frame moves nothing; a moving link"),
     (changed(LOADED, ('at = "B"\nvalue', 'at = "C"\nvalue')), "forces.1.at: there is no point C; one of A, B, M, O"),
-    (changed(LOADED, ('on = "3"', 'on = "1"')), "forces.1.at: B is no point of link 1; one of A, O"),
+    (changed(LOADED, ('on = "3"', 'on = "1"')), "forces.1.at: B is not a point of link 1; one of A, O"),
     (
         changed(LOADED, ("[-150, 0.5]", "-150")),
         "forces.1.value: the number -150 where two numbers are wanted; two numbers such as [10, 5]",
@@ -380,7 +380,7 @@ FAULTS: list[tuple[str, str]] = [
         balanced('at = "A"\non = "1"'),
         "balance: direction is missing; the force's direction: a vector, an angle in degrees, or two points",
     ),
-    (balanced('at = "B"\non = "1"\ndirection = [0, 1]'), "balance.at: B is no point of link 1; one of A, O"),
+    (balanced('at = "B"\non = "1"\ndirection = [0, 1]'), "balance.at: B is not a point of link 1; one of A, O"),
     (
         balanced('at = "A"\non = "1"\ndirection = [0, 0]'),
         "balance.direction: the direction is zero; a vector that is not [0, 0]",
@@ -421,7 +421,7 @@ FAULTS: list[tuple[str, str]] = [
     ],
     (
         OPEN + '[[forces]]\non = "2"\nat = "A"\nvalue = [0, -1]\n[balance]\nlink = "2"',
-        "motion: what moves these points is no link, so nothing is known of its force; "
+        "motion: these points are moved by no link, so the force on them is unknown; "
         "drives, where forces are asked for",
     ),
     (
@@ -459,7 +459,7 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (
         changed(LOADED, ('at = "A"\nradius', 'at = "M"\nradius')),
-        "friction.1.at: M is no joint of two links; a joint",
+        "friction.1.at: M is not a joint of two links; a joint",
     ),
     (
         changed(LOADED, ("coefficient = 0.08", "coefficient = 0.08\nradius = 2")),

@@ -28,7 +28,7 @@ FAULTS: list[tuple[str, str, str, str]] = [  # scene, what is written, what in i
      "gears.1.teeth: the number of teeth 0 is not positive; a number of teeth above 0"),
     ("planet", "teeth = [30, 20]", "teeth = 30",
      "gears.1.teeth: the number 30 where two teeth are wanted; two numbers such as [24, 36]"),
-    ("planet", "['O', 'B']", "['B', 'B']", "gears.1.centres: B is no point of link 1; one of O"),
+    ("planet", "['O', 'B']", "['B', 'B']", "gears.1.centres: B is not a point of link 1; one of O"),
     ("planet", "['O', 'B']", "['O']", "gears.1.centres: 1 centre; the centre of each link's pitch circle"),
     ("planet", "['O', 'B']", "'O B'",
      'gears.1.centres: the string "O B" where centres are wanted; points such as ["B", "C"]'),
@@ -56,7 +56,7 @@ FAULTS: list[tuple[str, str, str, str]] = [  # scene, what is written, what in i
      "gears.1.centres: 2 centres; the gear's centre alone: a rack has none"),
     ("cam", "[12, 16]", "[12, 17]", "contacts.1.at: K is not in line with the centres B and C; "
      f'{ON_NORMAL}, such as K = {{ on = "B C", distance = ... }}'),
-    ("cam", '["B", "C"]', '["B", "K"]', "contacts.1.centres: K is no point of link 2; one of C, M"),
+    ("cam", '["B", "C"]', '["B", "K"]', "contacts.1.centres: K is not a point of link 2; one of C, M"),
     ("cam", "C = [90, 120]", "C = [30, 40]",
      "contacts.1.centres: the centres B and C coincide: two profiles of the same curvature; centres that lie apart"),
     ("cam", '["B", "C"]', '["B"]', "contacts.1.centres: a list of 1 where two centres are wanted; two centres such as "

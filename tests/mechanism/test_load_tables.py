@@ -138,10 +138,10 @@ def test_faults_of_tables(tmp_path: Path) -> None:
         (ALONG.replace("3 along", "4 along") + ROUND, "forces.1.over: there is no slide 4 along frame"),
         (ALONG.replace("3 along frame", "travel") + "values = [[0, 1], [9, 1], [8, 2]]", "row 3 goes back to 8"),
         (ALONG.replace("3 along frame", "travel") + "values = [[1, 1], [9, 1]]", "from 1 to 9, and 0 is asked for"),
-        ("value = [1, 2]\npowers = [1]", "forces.1.powers: powers says nothing without over"),
+        ("value = [1, 2]\npowers = [1]", "forces.1.powers: powers needs the key over"),
         ("value = [1, 2]\ndirection = [1, 0]", "forces.1.direction: a constant force has its direction in its value"),
         (ALONG + "file = 'none.csv'", "forces.1.file: none.csv cannot be read (No such file or directory)"),
-        (ALONG + "file = '../x.csv'", "is no table beside the scene"),
+        (ALONG + "file = '../x.csv'", "is not the name of a table beside the scene"),
         (ALONG + "file = 'bytes.txt'", "it is no text in UTF-8"),
         (ALONG + "file = 'words.csv'", "words.csv, line 2"),
     ]:

@@ -83,22 +83,23 @@ def test_two_scales_tie_how_long_vectors_are_drawn() -> None:
     ('language = "xx"', f'sheet.language: the string "xx" is not known here; one of {", ".join(LANGUAGES)}'),
     ('curves = ["A", "Z"]', "sheet.curves: there is no point Z; one of A, B, M, O"),
     ('curves = ["O"]', "sheet.curves: O does not move; a point of moving links only"),
-    ("positions = 2.5", "sheet.positions: 2.5 is no number of positions; a whole number from 1 to 72"),
-    ("positions = 100", "sheet.positions: 100 is no number of positions; a whole number from 1 to 72"),
+    ("positions = 2.5", "sheet.positions: 2.5 is not a number of positions; a whole number from 1 to 72"),
+    ("positions = 100", "sheet.positions: 100 is not a number of positions; a whole number from 1 to 72"),
     ('convention = "paper"', 'sheet.convention: the string "paper" is not known here; one of real, drawn'),
     ("date = 1939-05-01", "sheet.date: a date or time where a text is wanted; a text in quotes"),
     ('owner = "two\\nlines"', "sheet.owner: a text with line breaks or characters that cannot be printed; a text on "
      "one line"),
     ("k_s = 0", "sheet.k_s: the scale 0 is not positive; a scale above 0"),
     ('k_v = "2"', 'sheet.k_v: the string "2" where a number is wanted; a number such as 12.5'),
-    ('scale = "0:2"', 'sheet.scale: the string "0:2" is no ratio; a length on paper to a length of the scene, such as '
-     '"1:2"'),
-    ("scale = 2", 'sheet.scale: the number 2 is no ratio; a length on paper to a length of the scene, such as "1:2"'),
-    ('k_s = 2\nscale = "1:2"', "sheet.scale: k_s tells the scale already; scale or k_s, not both"),
+    ('scale = "0:2"',
+     'sheet.scale: the string "0:2" is not a ratio; a length on paper to a length of the scene, such as "1:2"'),
+    ("scale = 2",
+     'sheet.scale: the number 2 is not a ratio; a length on paper to a length of the scene, such as "1:2"'),
+    ('k_s = 2\nscale = "1:2"', "sheet.scale: k_s and scale are both given; give one of the two"),
     ("k_s = 2\nk_v = 8\nk_a = 30", "sheet.k_a: 30 does not fit k_s and k_v; k_v^2/k_s, which is 32"),
     ("multiples = 2", "sheet.multiples: the number 2 where a table is wanted; a table of keys and values"),
     ("multiples = { N-plan = -1 }", "sheet.multiples.N-plan: the multiple -1 is not positive; a multiple above 0"),
-    ("multiples = { n-plan = 1 }", "sheet.multiples.n-plan: there is no such plan; perhaps N-plan"),
+    ("multiples = { n-plan = 1 }", "sheet.multiples.n-plan: unknown plan; perhaps N-plan"),
 ])  # fmt: skip
 def test_faults(lines: str, line: str) -> None:
     """A wish that cannot be fulfilled is one line: where, what is wrong, what would be right."""

@@ -101,6 +101,6 @@ def test_commas_in_vectors(vector: str) -> None:
 
 @each("text", ["high", "2.5", "12 apples", "1,2,3", "", "mm", "12.5.6"])
 def test_other_texts_are_no_slips(text: str) -> None:
-    """What is no number at all is told as before."""
+    """What is not a number at all is told as before."""
     (line,) = told(SCENE.replace("omega = 2", f'omega = "{text}"'))
     assert line == f'scene: drive.1.omega: the string "{text}" where a number is wanted; a number such as 12.5'

@@ -273,5 +273,5 @@ omega = 1
 
 def test_a_guide_by_a_faulty_point_is_told_by_the_point() -> None:
     """What special geometry would say of a scene with faults does not hide them."""
-    with pytest.raises(SceneError, match=r"points\.C: 1e308 is no usable number"):
+    with pytest.raises(SceneError, match=r"points\.C: 1e308 is not a usable number"):
         parse(SPOILED, "spoiled")

@@ -32,8 +32,8 @@ FAULTS = {
     '"points.A.angel" = [1]': 'vary."points.A.angel": there is no number points.A.angel; perhaps points.A.angle',
     '"drive.1.omega" = [1]': 'vary."drive.1.omega": there is no number drive.1.omega; perhaps drive.0.omega',
     '"drive.omega" = [1]': 'vary."drive.omega": there is no number drive.omega; perhaps drive.0.omega',
-    '"points.A.from" = [1]': 'vary."points.A.from": the string "O" stands there, and no number; the path of a number',
-    '"points.O" = [1]': 'vary."points.O": a list of 2 stands there, and no number; the path of a number, such as '
+    '"points.A.from" = [1]': 'vary."points.A.from": the string "O" is not a number; the path of a number',
+    '"points.O" = [1]': 'vary."points.O": a list of 2 is not a number; the path of a number, such as '
                         'points.O.0',
     '"sheet.k_s" = [1]': 'vary."sheet.k_s": this is the same for all variants; the path of a number of the mechanism',
     '"" = [1]': 'vary."": a table with',

@@ -201,7 +201,7 @@ def test_other_poses_by_the_same_steps() -> None:
 
 
 @pytest.mark.parametrize(("find", "fault"), [
-    ('curvature = ["B on 1"]', "B is no point of link 1; one of A, O"),
+    ('curvature = ["B on 1"]', "B is not a point of link 1; one of A, O"),
     ('curvature = ["O on 1"]', "O is a point of the frame, which stands still"),
     ('curvature = ["M on frame"]', "M is a point of the frame, which stands still"),
     ('curvature = ["M"]', "point on a link"),

@@ -234,9 +234,9 @@ def test_scenes_without_loads_have_no_forces() -> None:
 def test_words_of_a_plan() -> None:
     """A plan or a form of inertia that does not exist is refused with those that do."""
     scene = load("jaanimets-10")
-    with pytest.raises(Refused, match="plan levers: there is no such plan; one of orthogonal, polar, triangles, lever"):
+    with pytest.raises(Refused, match="plan levers: unknown plan; choose one of orthogonal, polar, triangles, lever"):
         construct(scene, plan="polar,levers")
-    with pytest.raises(Refused, match="inertia springs: there is no such form; one of couple, shifted, points"):
+    with pytest.raises(Refused, match="inertia springs: unknown method of inertia; choose one of couple, shifted"):
         construct(scene, inertia="springs")
 
 

@@ -254,7 +254,7 @@ def test_the_suffix_says_what_is_drawn(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("name", "more", "said"), [
     ("sheet.jpg", [], "no sheet is written as .jpg; a name in .svg, .pdf, .png, .dxf"),
-    ("sheet.svg", ["--dpi", "300"], "only a .png has dots"),
+    ("sheet.svg", ["--dpi", "300"], "only a .png has a resolution"),
     ("sheet.png", ["--dpi", "5000"], "--dpi: 5000; give 20 to 600"),
     ("sheet.dxf", [], "ezdxf is not installed; pip install 'graphplan[dxf]'"),
 ])  # fmt: skip

@@ -113,7 +113,7 @@ def test_a_named_paper_is_used() -> None:
     assert (sheet_of("four-bar", "A3 portrait").width, sheet_of("four-bar", "A3 portrait").height) == (297, 420)
 
 
-@pytest.mark.parametrize(("paper", "why"), [("A9", "no such sheet"), ("A4", "do not fit")])
+@pytest.mark.parametrize(("paper", "why"), [("A9", "unknown sheet"), ("A4", "do not fit")])
 def test_paper_that_cannot_serve_is_refused(paper: str, why: str) -> None:
     """A sheet that does not exist, or is too small for the words, is refused with the reason."""
     with pytest.raises(Refused, match=why):

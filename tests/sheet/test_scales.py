@@ -86,7 +86,7 @@ def test_scales_that_do_not_go_together_are_refused() -> None:
         scales_of("four-bar", k_s=Fraction(4), k_v=Fraction(7))
     with pytest.raises(Refused, match=r"sheet.k_F: the scene has no forces"):
         scales_of("four-bar", k_F=Fraction(4))
-    with pytest.raises(Refused, match=r"sheet.multiples.force plan 9: there is no such plan; one of force plan"):
+    with pytest.raises(Refused, match=r"sheet.multiples.force plan 9: unknown plan; choose one of force plan"):
         scales_of("jaanimets-10", multiples={"force plan 9": Fraction(4)})
 
 

@@ -107,7 +107,7 @@ def _run_of_form(arithmetic: Callable[[Construction], TimedRun], drawn: Drawn, l
     if isinstance(drawn, GraphplanError):
         raise drawn
     if left_out:
-        raise Refused(COMPILED, "compiling takes seconds a form", "name the scene with --scenes")
+        raise Refused(COMPILED, "compiling takes seconds for each form", "name the scene with --scenes")
     return arithmetic(drawn)
 
 

@@ -127,13 +127,13 @@ class TestedPose:
             return largest_error(bounded, self.truth.truth(bounded, rounds)), told
         except GraphplanError as refusal:
             return None, refusal.lines[0]
-        except (ValueError, OverflowError):  # of what is no number, or beyond all
+        except (ValueError, OverflowError):  # of what is not a number, or beyond all
             return None, "beyond floats"
 
     def _solver_results(self) -> Results:
         """What the solver says in floats."""
         if self.floats is None:
-            raise Refused(self.scene.name, "floats hold it for singular", "fractions")
+            raise Refused(self.scene.name, "the pose is singular in floats", "fractions")
         return self.floats.truth({})
 
     def _answer(self) -> tuple[Results, int, str]:

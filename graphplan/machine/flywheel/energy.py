@@ -92,7 +92,7 @@ def steady(reduction: Reduction, speed: float, closes: str = DRIVE, changing: Co
     if not reduction.closed:
         low, high = (math.degrees(end) for end in reduction.ends)
         raise Refused(what, f"the cycle does not close: its first drive goes from {low:.4g}° to {high:.4g}°",
-                      "a first drive that goes round")
+                      "a first drive that makes full turns")
     inertia, slope, loads = _reduced(reduction, speed)
     works = {name: float(moment.whole) for name, moment in loads.items()}
     closing, factor, span = 0.0, 1.0, float(inertia.edges[-1] - inertia.edges[0])
@@ -134,7 +134,7 @@ def _weights(works: Mapping[str, float], size: float, what: str) -> None:
     for name, work in works.items():
         if name.startswith(WEIGHT) and abs(work) > WORK_TOL * size:
             raise Refused(what, f"the weight {name} does the work {work:.3g} over a turn, so that the machine "
-                          "does not come back to where it began", "a drive whose turn is a whole cycle")
+                          "does not come back to where it began", "a drive of which one turn is a whole cycle")
 
 
 def _to_and_fro(moment: Piecewise) -> float:

@@ -119,12 +119,12 @@ def flywheel(scene: Scene, positions: int | None = None, *, what: str = "flywhee
     """
     wish = scene.flywheel
     if wish is None:
-        raise Refused(what, "the scene does not say how evenly it is to run",
+        raise Refused(what, "the unevenness is missing",
                       "a table [flywheel] with speed and unevenness, or --speed and --unevenness")
     try:
         reduced = reduction(scene)
     except Refused as fault:
-        raise Refused(what, f"the cycle does not close: {fault.why}", "a first drive that goes round") from None
+        raise Refused(what, f"the cycle does not close: {fault.why}", "a first drive that makes full turns") from None
     cycle = steady(reduced, float(wish.speed), wish.closes, reduced.changing, what)
     if wish.inertia is not None:
         wheel = turning(cycle, float(wish.inertia) * float(KILOGRAMS[scene.units.mass]), what)

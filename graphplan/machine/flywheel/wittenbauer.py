@@ -112,7 +112,7 @@ def turning(cycle: SteadyCycle, inertia: float, what: str = "flywheel") -> Flywh
         upper, lower = touch(cycle, upper.slope, above=True), touch(cycle, lower.slope, above=False)
         fast, slow = _speeds(cycle.speed, upper, lower, inertia)
         if not 0 < slow <= fast * (1 + EVENNESS_TOL):
-            raise Refused(f"{what}: inertia {inertia:g}", f"the machine does not come round with a mean speed of "
+            raise Refused(f"{what}: inertia {inertia:g}", f"the machine makes no full turn at a mean speed of "
                           f"{cycle.speed:g}", "a heavier flywheel, or a higher speed")
         upper, lower = upper._replace(slope=fast**2 / 2), lower._replace(slope=slow**2 / 2)
         if abs(upper.slope - before) <= SPEED_TOL * before:

@@ -172,8 +172,8 @@ class _Balancing:
                 before, weights = weights, {one.link: one.mass for one in found}
                 if all(abs(mass - before[link]) <= WEIGHT_TOL * mass for link, mass in weights.items()):
                     return tuple(one for one in found if abs(one.moment) > BALANCED_TOL * self.size)
-        raise Refused(f"{self.scene.name}: counterweights", said("their own masses ask for ever more of them"),
-                      said("a larger radius"))
+        raise Refused(f"{self.scene.name}: counterweights",
+                      said("their own masses would need ever larger counterweights"), said("a larger radius"))
 
     def left_over(self, links: Sequence[str], weights: Mapping[str, float]) -> list[str]:
         """What of the first moment counterweights on these links cannot balance, by turnings and slidings."""

@@ -54,8 +54,8 @@ def nominal(machine: Driven, near: float) -> float:
     works = work(machine, speeds)[0]
     falling = np.flatnonzero((works[:-1] > 0) & (works[1:] <= 0))
     if not len(falling):
-        raise Refused("the steady motion", "the characteristics of the loads do not intersect: at no speed do they "
-                      "give over a cycle what they take", "a driver whose moment falls with the speed")
+        raise Refused("the steady motion", "the characteristics of the loads do not intersect: at no speed is their "
+                      "work over a cycle zero", "a driver whose moment falls with the speed")
     k = min(falling, key=lambda k: abs(math.log(speeds[k] * speeds[k + 1] / near**2)))
     low, high = float(speeds[k]), float(speeds[k + 1])
     for _ in range(52):
@@ -70,9 +70,10 @@ def steady(machine: Driven, speed: float) -> TrueMotion:
     Fails with `Refused` where the machine does not turn, or its cycle does not close at any speed.
     """
     if not machine.closed:
-        raise Refused("the steady motion", "the machine is not back after a turn", "a first drive that goes round")
+        raise Refused("the steady motion", "the mechanism does not return to its pose after a turn",
+                      "a first drive that makes full turns")
     if not speed > 0:
-        raise Refused("the steady motion", "no speed is said", "--speed, or the omega of the first [[drive]]")
+        raise Refused("the steady motion", "the speed is missing", "--speed, or the omega of the first [[drive]]")
     if machine.laws:
         return limit_cycle(machine, nominal(machine, speed))
     over, size = (float(one[0]) for one in work(machine, np.array([speed])))
@@ -104,7 +105,7 @@ def limit_cycle(machine: Driven, omega: float) -> TrueMotion:
             return motion
         steeper = (miss - last) / (energy - before) if round_ else -1.0
         before, energy = energy, max(energy - miss / (steeper if steeper < 0 else -1.0), energy / 4)
-    raise Refused("the steady motion", "no cycle repeats itself", "a driver whose moment falls with the speed")
+    raise Refused("the steady motion", "no periodic motion was found", "a driver whose moment falls with the speed")
 
 
 def _with_mean(machine: Driven, speed: float) -> TrueMotion:

@@ -148,5 +148,5 @@ def _heavy(inertia: Piecewise, reduction: Reduction) -> None:
     least = int(np.argmin(values))
     if not values[least] > INERTIA_TOL * values.max():
         where = travel_text(reduction.scene, float(travel[least] / reduction.unit))
-        raise Refused("the machine", f"its reduced inertia is nothing at {where}",
+        raise Refused("the machine", f"its reduced inertia is zero at {where}",
                       "[masses] with the inertia of the first drive's link")

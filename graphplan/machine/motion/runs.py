@@ -79,11 +79,11 @@ def _reduced(scene: Scene, travel: float | None) -> Reduction:
     """The masses and loads of the scene: over a whole cycle where there is one and the travel is a turn or more, or not
     said, or where a flywheel is asked for; else over the travel."""
     if travel is not None and travel <= 0:
-        raise Refused("--travel", f"{travel:g} leads nowhere", "degrees (lengths of a sliding drive) above 0")
+        raise Refused("--travel", f"{travel:g} is not greater than 0", "give degrees (lengths of a sliding drive)")
     if travel is not None and travel > FARTHEST * TURN_TOLD and not (scene.drives and scene.drives[0].slides):
         raise Refused("--travel", f"{travel:g} degrees are more than {FARTHEST} turns", "a shorter travel, or --steady")
     if scene.drives and scene.drives[0].slides and travel is None:
-        raise Refused("the motion", "the first drive slides, and how far is not said", "--travel, or travel in [run]")
+        raise Refused("the motion", "the first drive slides, and the travel is missing", "--travel, or travel in [run]")
     whole = scene.flywheel is not None or travel is None or travel >= TURN_TOLD
     if scene.drives and not scene.drives[0].slides and whole:
         try:

@@ -143,7 +143,7 @@ class Reduction:
     def losses(self) -> CycleLosses:
         """What friction takes over the cycle; fails with `Refused` where nothing rubs."""
         if self.friction is None:
-            raise Refused("friction", said("the scene has none"), "[[friction]] in a joint or a slide")
+            raise Refused("friction", said("the scene has no friction"), "[[friction]] in a joint or a slide")
 
         def moments(travel: Array) -> dict[str, Array]:
             return {name: moment for name, moment in self.at(travel).by.items() if name != M_F}

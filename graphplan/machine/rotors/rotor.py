@@ -116,7 +116,7 @@ def direction(x: Fraction | float, y: Fraction | float) -> float:
 def _name(item: Item, names: Names) -> str | None:
     text = item.text("a name", 'a name in quotes, such as "fan"')
     if text is not None and not (text.isprintable() and 0 < len(text.strip()) <= LONGEST):
-        return item.fault(f"{described(text)} is no name", f"a name of {LONGEST} letters or less")
+        return item.fault(f"{described(text)} is not a name", f"a name of {LONGEST} letters or less")
     return text
 
 
@@ -180,7 +180,7 @@ def _rotor(row: Row) -> Rotor | None:
         return row.items["planes"].fault(f"both planes stand at {shown(planes[0])}", "two places, or one plane alone")
     speed = math.pi * float(values["rpm"]) / 30 if "rpm" in values else float(values.get("omega", 0))
     if "rpm" in values and "omega" in values:
-        row.items["rpm"].fault("omega tells the speed already", "omega or rpm, not both")
+        row.items["rpm"].fault("omega and rpm are both given", "omega or rpm, not both")
     bearings = values.get("bearings", ())
     if bool(speed) != bool(bearings):
         row.item.fault("bearings and a speed belong together", "bearings = [-50, 650] with rpm = 1500, or neither")
@@ -264,5 +264,5 @@ def _fitting(rotor: Rotor, trials: tuple[Trial, ...], faults: Faults) -> None:
     elif trials and len(trials) != len(rotor.planes):
         faults.add("trial", f"trials: {len(trials)}, planes: {len(rotor.planes)}", "one [[trial]] for each plane")
     elif rotor.dynamic and any(isinstance(trial, TrialWeights) for trial in trials):
-        faults.add("trial", "trial weights tell nothing of moments, which two planes balance",
+        faults.add("trial", "trial weights do not determine moments, which two planes balance",
                    "one plane, or amplitudes")

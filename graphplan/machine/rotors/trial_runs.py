@@ -82,7 +82,7 @@ def _three_runs(trial: ThreeRuns, where: str) -> Effect:
     square = (second**2 + third**2) / 2 - first**2
     told = f"the amplitudes {', '.join(f'{float(one):g}' for one in trial.amplitudes)}"
     if square < 0 or square <= first**2 * Fraction(MIN_EFFECT) ** 2:
-        why = "A² = (A_2² + A_3²)/2 - A_1² is below 0" if square < 0 else "the trial mass has next to no effect"
+        why = "A² = (A_2² + A_3²)/2 - A_1² is below 0" if square < 0 else "the trial mass has almost no effect"
         raise Refused(where, f"{told}: {why}", "measure again, with a larger trial mass")
     over, under = (third**2 - second**2) / 4, first**2 * square  # cos alpha = over / sqrt(under)
     if over**2 > under:
@@ -96,7 +96,7 @@ def _three_runs(trial: ThreeRuns, where: str) -> Effect:
         return Effect(trial, A, ratio, turns)
     foretold = [_foretold(trial, trial.fourth, A, turn) for turn in turns]
     if abs(foretold[0] - foretold[1]) <= PREDICTION_TOL * max(foretold):
-        raise Refused(f"{where}.fourth", "both answers foretell the same amplitude there",
+        raise Refused(f"{where}.fourth", "both solutions predict the same amplitude there",
                       "a fourth run with the trial mass at another angle, not opposite to the second")
     order = sorted((0, 1), key=lambda k: abs(foretold[k] - float(trial.fourth.amplitude)))  # type: ignore[union-attr]
     return Effect(trial, A, ratio, (turns[order[0]],), tuple(foretold[k] for k in order))
@@ -114,7 +114,7 @@ def _marked(trial: Marked, where: str) -> Effect:
                      for one in (trial.first, trial.second))
     A = second - first
     if abs(A) <= MIN_EFFECT * abs(first):
-        raise Refused(where, "both vibrations are the same: the trial mass has next to no effect",
+        raise Refused(where, "both vibrations are the same: the trial mass has almost no effect",
                       "measure again, with a larger trial mass")
     if abs(first) <= VIBRATION_TOL * abs(A):
         return Effect(trial, abs(A), 0.0, (0.0,))

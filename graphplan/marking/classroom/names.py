@@ -35,9 +35,9 @@ def read(path: Path) -> Names:
     rows = [row for row in rows if any(row)]
     names = [name for row in _named(rows) if (name := " ".join(filter(None, row)))]
     if not names:
-        raise Refused(f"{path}", "there is no name in it", "a line for each student, such as: name")
+        raise Refused(f"{path}", "it contains no name", "a line for each student, such as: name")
     if len(names) > MOST:
-        raise Refused(f"{path}", f"there are {len(names)} names in it", f"at most {MOST}")
+        raise Refused(f"{path}", f"it contains {len(names)} names", f"at most {MOST}")
     students = _told_apart(names)
     remarks += [f"{path}: {name} is named {count} times; the others are {name} (2) ..."
                 for name, count in Counter(names).items() if count > 1]
@@ -52,7 +52,7 @@ def _text(path: Path) -> tuple[str, list[str]]:
     except OSError as error:
         raise Refused(f"{path}", f"it cannot be read ({error.strerror})", "a list of names, a .csv") from None
     if len(data) > LARGEST or b"\0" in data.removeprefix(b"\xff\xfe"):
-        raise Refused(f"{path}", "this is no list of names", "a .csv, saved as UTF-8")
+        raise Refused(f"{path}", "not a list of names", "a .csv, saved as UTF-8")
     try:
         return data.decode("utf-8-sig"), []
     except UnicodeDecodeError:

@@ -85,7 +85,7 @@ def _files(stack: Path) -> list[Path]:
     except OSError as fault:
         raise Refused(f"{stack}", f"it cannot be read ({fault.strerror})", "a readable folder") from None
     if not held:
-        raise Refused(f"{stack}", "there is no scan in it", "a folder of scans, PDF, PNG or JPEG")
+        raise Refused(f"{stack}", "it contains no scan", "a folder of scans, PDF, PNG or JPEG")
     return sorted(held, key=lambda path: by_name(path.name))
 
 
@@ -96,7 +96,7 @@ def _numbered(path: Path, name: str) -> Iterator[StackPage]:
     if not path.is_file():
         raise Refused(f"{path}", "no such file", "a scan, or a folder of scans")
     if path.suffix.casefold() not in IMAGES:
-        raise Refused(f"{path}", "this is no scan", f"one of {' '.join(IMAGES)}")
+        raise Refused(f"{path}", "not a scan", f"one of {' '.join(IMAGES)}")
     from graphplan.marking.scans.image import count
 
     many = path.suffix.casefold() == ".pdf"

@@ -89,9 +89,9 @@ def load(folder: Path) -> Register:
         raise Refused(f"{path}", f"it cannot be read ({error.strerror})", "a folder that graphplan variants wrote"
                       ) from None
     except (ValueError, RecursionError):  # no UTF-8, or no JSON
-        raise Refused(f"{path}", "this is no JSON", REMEDY) from None
+        raise Refused(f"{path}", "not JSON", REMEDY) from None
     except (KeyError, TypeError):
-        raise Refused(f"{path}", "this is no register of a class", REMEDY) from None
+        raise Refused(f"{path}", "not a register of a class", REMEDY) from None
 
 
 KINDS = {"code": int, "variant": int, "student": str, "scene": str, "page": int}

@@ -135,7 +135,7 @@ def _called(name: str, arguments: list[Any]) -> Any:
 
 def _number(value: Any) -> float:
     if not isinstance(value, NUMBER):
-        raise ValueError("a number is meant")
+        raise ValueError("a number is expected")
     return float(value)
 
 

@@ -129,7 +129,7 @@ def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], fra
             raise Refused(f"{path}", f"a {trace.kind} lies farther away than {FARTHEST:g} mm, or nowhere",
                           "millimetres of paper as unit of the drawing")
     if not once:
-        raise Refused(f"{path}", "nothing is drawn in it, no point, line or circle", "give the drawing itself")
+        raise Refused(f"{path}", "it contains no point, line or circle", "give the drawing itself")
     sound = [word for word in words if word.size > 0 and on_paper(*word.at, word.size, word.long)]
     letters, found = led(joined(sound), once, leaders)
     shows = frozenset({LINE, *(trace.kind for trace in found)})

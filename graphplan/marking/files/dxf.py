@@ -78,7 +78,7 @@ def _bounded(path: Path, data: bytes) -> bytes:
     if data.startswith(b"AutoCAD Binary DXF"):
         raise Refused(f"{path}", "it is a binary DXF", "save it as DXF in text (ASCII)")
     if b"SECTION" not in data[:4096]:
-        raise Refused(f"{path}", "this is no DXF", "give a DXF drawing")
+        raise Refused(f"{path}", "not a DXF file", "give a DXF drawing")
     for pattern, most, things in ((rb"\n", LINES, "lines"), (rb"\n *0\r?\n", ENTITIES, "entities")):
         if sum(1 for _ in re.finditer(pattern, data)) > most:
             raise Refused(f"{path}", f"it has more than {most} {things}", "a file of the drawing alone")

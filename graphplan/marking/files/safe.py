@@ -34,7 +34,7 @@ def contents(path: Path, most: int) -> bytes:
         if not path.exists():
             raise Refused(f"{path}", "no such file", "the path of a drawing")
         if not path.is_file():
-            raise Refused(f"{path}", "this is no ordinary file", "give a drawing")
+            raise Refused(f"{path}", "not a regular file", "give a drawing")
         with path.open("rb") as file:
             data = file.read(most + 1)
     except (OSError, ValueError) as error:  # ValueError: a path that no file system has
@@ -53,7 +53,7 @@ def text(path: Path, most: int) -> str:
     try:
         return data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
     except UnicodeDecodeError as error:
-        raise Refused(f"{path}", f"byte {error.start + 1} is no text", "save it as text in UTF-8") from None
+        raise Refused(f"{path}", f"byte {error.start + 1} is not text", "save it as text in UTF-8") from None
 
 
 def unpacked(path: Path, data: bytes, name: str, most: int) -> bytes:
@@ -78,7 +78,7 @@ def tree(path: Path, data: bytes) -> Element:
     try:
         return _TreeReader(path).read(data)
     except (expat.ExpatError, LookupError, ValueError) as error:
-        raise Refused(f"{path}", f"this is no well-formed XML ({error})", "save the drawing anew") from None
+        raise Refused(f"{path}", f"not well-formed XML ({error})", "save the drawing anew") from None
 
 
 class _TreeReader:
@@ -143,7 +143,7 @@ def number(written: str) -> float:
     """
     bare = written.strip().replace("−", "-")
     if len(bare) > LONGEST or not NUMERAL.fullmatch(bare) or not math.isfinite(float(bare)):
-        raise ValueError(f"{bare[:LONGEST]!r} is no number" if bare else "a number is missing")
+        raise ValueError(f"{bare[:LONGEST]!r} is not a number" if bare else "a number is missing")
     return float(bare)
 
 

@@ -66,10 +66,10 @@ def length(written: str | None, whole: float = 0.0, otherwise: float = 0.0) -> f
         return otherwise
     found = LENGTH.fullmatch(written)
     if found is None:
-        raise ValueError(f"{written[:40]!r} is no length")
+        raise ValueError(f"{written[:40]!r} is not a length")
     sizes = {"": 1.0, "%": whole / 100, "em": 16.0, "rem": 16.0, "ex": 8.0} | {u: mm / MM["px"] for u, mm in MM.items()}
     if (unit := found[2].lower()) not in sizes:
-        raise ValueError(f"{unit!r} is no unit of length")
+        raise ValueError(f"{unit!r} is not a unit of length")
     return float(found[1]) * sizes[unit]
 
 
@@ -107,7 +107,7 @@ def transform(written: str | None) -> Matrix:
         found = Matrix(written or "")
         return Matrix(*(float(getattr(found, part)) for part in "abcdef"))
     except (ValueError, TypeError, IndexError):
-        raise ValueError(f"{str(written)[:40]!r} is no transform") from None
+        raise ValueError(f"{str(written)[:40]!r} is not a transform") from None
 
 
 def spot(onto: Matrix, z: Any) -> Spot:
@@ -126,7 +126,7 @@ def segments(data: str) -> Path:
             return Path(data)
     except (ValueError, TypeError, AttributeError, ArithmeticError):
         pass
-    raise ValueError(f"{data.strip()[:20]!r} is no path")
+    raise ValueError(f"{data.strip()[:20]!r} is not a path")
 
 
 def chains(drawn: Path, onto: Matrix) -> Iterator[tuple[bool, list[Spot]]]:

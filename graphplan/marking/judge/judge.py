@@ -50,7 +50,7 @@ ALARM = 0.002  # how often a faultless drawing may be called wrong
 def judge(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil) -> Judgement:
     """What is said of a drawing, by the marks on it; `composition` is the sheet that the task was set on.
 
-    Fails with `Refused` where the mechanism is not to be found on it, or a hand without errors has no tolerance.
+    Fails with `Refused` where the mechanism is not to be found on it, or a size of an error is 0.
     """
     submission, unit = in_mm(drawing, composition, submission, pencil)
     return Judge(Reading(drawing, composition, submission, unit), assumed(pencil, submission)).steadied.judgement
@@ -62,7 +62,7 @@ class Judge:
     def __init__(self, reading: Reading, hand: SeenPencil):
         self.hand, pencil = hand, hand.pencil
         if not all(size > 0 for size in pencil.model.values()):
-            raise Refused(f"--pencil {pencil.description}", "a hand without errors has no tolerance", "sizes above 0")
+            raise Refused(f"--pencil {pencil.description}", "a size is 0", "give sizes greater than 0")
         self.reading, self.drawing, self.pencil = reading, reading.drawing, pencil
         self.named = lettered(self.drawing, reading.task, reading.submission, pencil)
         self.submission = blurred(self.named, hand)
@@ -163,7 +163,7 @@ class Judge:
             else set()
 
     def _told(self) -> Iterator[Said]:
-        """As what it is read, and at which scale."""
+        """How the drawing was interpreted, and its scale."""
         yield from self.reading.told
         if self.reading.scaled:
             scene, unit = self.drawing.scene, self.fits[self.reading.scaled].frame.unit

@@ -60,7 +60,8 @@ class Register:
             self.drawing.scene.points)] if step.op.movement is Movement.GIVEN])
         if found is None:
             names = ", ".join(list(self.drawing.scene.points)[:4])
-            raise Refused(f"{self.submission.name}: mechanism", "not two of its points are there, so it lies nowhere",
+            raise Refused(f"{self.submission.name}: mechanism",
+                          "fewer than two of its points are drawn, so its position is unknown",
                           f"label them, as {names}")
         return found
 

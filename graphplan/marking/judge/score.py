@@ -66,7 +66,7 @@ def weights(text: str) -> Weights:
     costs = {kind: told.get(kind, cost) for kind, cost in Weights().costs.items()}
     found = Weights(right, follows, missing, wrong, numbers, costs)
     if found.right < max(found.follows, found.missing, found.wrong):
-        raise Refused(f"--weights {text}", "something earns more than what is right", "no weight above that of right")
+        raise Refused(f"--weights {text}", "a weight is greater than that of right", "no weight above that of right")
     return found
 
 
@@ -76,7 +76,7 @@ def _size(name: str, text: str) -> float:
     if name in KINDS:
         least, most = 0.0, ALL
     if not least <= size <= most:
-        raise Refused(f"--weights {name}={text}", "this is no weight", f"a number from {least:g} to {most:g}")
+        raise Refused(f"--weights {name}={text}", "not a weight", f"a number from {least:g} to {most:g}")
     return size
 
 

@@ -47,13 +47,13 @@ def pictures(path: Path) -> Iterator[Grey]:
     elif data.startswith(JPEG):
         yield _decoded(path, data, _jpeg_size(data))
     else:
-        raise Refused(f"{path}", "this is no PNG, JPEG or PDF", DO)
+        raise Refused(f"{path}", "not a PNG, JPEG or PDF file", DO)
 
 
 def _bounded(path: Path, size: tuple[int, int] | None) -> None:
     """Refuse a picture that is too large, too small, or does not say how large it is."""
     if size is None:
-        raise Refused(f"{path}", "the picture is broken: it does not say how large it is", DO)
+        raise Refused(f"{path}", "the picture is damaged: it does not say how large it is", DO)
     if size[0] * size[1] > MOST:
         raise Refused(f"{path}", f"{size[0]} by {size[1]} pixels are more than {MOST // 10**6} megapixels", DO)
     if min(size) < FEWEST:
@@ -91,7 +91,7 @@ def _decoded(path: Path, data: bytes, size: tuple[int, int] | None) -> Grey:
     except cv2.error:
         image = None
     if image is None:
-        raise Refused(f"{path}", "the picture is broken", DO)
+        raise Refused(f"{path}", "the picture is damaged", DO)
     return np.asarray(image, np.uint8)
 
 
@@ -151,12 +151,12 @@ def _opened(path: Path, source: bytes | Path) -> Iterator[Any]:
     try:
         import pypdfium2 as pdfium
     except ImportError as error:
-        raise Refused(f"{path}", "pages of a PDF are opened by pypdfium2, which is not installed",
+        raise Refused(f"{path}", "reading a PDF needs pypdfium2, which is not installed",
                       "pip install 'graphplan[scan]', or hand in a PNG or JPEG") from error
     try:
         document = pdfium.PdfDocument(source)
     except (pdfium.PdfiumError, OSError) as error:
-        raise Refused(f"{path}", "the document is broken, or locked by a password", DO) from error
+        raise Refused(f"{path}", "the document is damaged, or locked by a password", DO) from error
     with closing(document):
         yield document
 

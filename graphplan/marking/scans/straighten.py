@@ -326,10 +326,10 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
     """
     result = _laid(image, sheet, light, scale, find(image, code, name))
     if result is None:
-        raise Refused(name, "neither the corner marks nor the frame of this task are found in it",
+        raise Refused(name, "neither the corner marks nor the frame of this task was found",
                       "photograph the whole sheet with its four corner marks, lying flat, in even light")
     if result.own < OWN:
-        raise Refused(name, "what is printed on it is not found where this task has it",
+        raise Refused(name, "the print of this task was not found on it",
                       "verify it against its own scene, plan and paper, and photograph the sheet lying flat")
     _whole(result.warp, image, sheet, name)
     columns, rows = result.warp.maps(scale)

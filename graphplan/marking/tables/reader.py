@@ -77,7 +77,7 @@ def read_toml(path: Path, panels: Collection[str]) -> Submission:
     except RecursionError:
         raise Refused(f"{path}", "tables or lists are nested too deeply", "[marks] with A = [x, y]") from None
     except ValueError as error:
-        raise Refused(f"{path}", f"this is no TOML: {error}", "text that follows toml.io") from None
+        raise Refused(f"{path}", f"not TOML: {error}", "text that follows toml.io") from None
     return _TomlReader(path, panels).read(tables)
 
 
@@ -100,23 +100,23 @@ class _Reader:
 
     def number(self, where: str, value: Any) -> float:
         if isinstance(value, bool) or not isinstance(value, int | float) or not -1e300 < value < 1e300:
-            raise self.fault(where, "this is no number", "a decimal number such as 12.5")
+            raise self.fault(where, "not a number", "a decimal number such as 12.5")
         return value if isinstance(value, Written) else float(value)
 
     def length(self, where: str, value: Any) -> float:
         found = self.number(where, value)
         if not on_paper(found):
-            raise self.fault(where, f"{found:g} mm is on no sheet of paper", "millimetres as measured")
+            raise self.fault(where, f"{found:g} mm lies outside any sheet of paper", "millimetres as measured")
         return found
 
     def pair(self, where: str, value: Any) -> Spot:
         if not isinstance(value, list) or len(value) != 2:
-            raise self.fault(where, "this is no point", "[x, y] in mm")
+            raise self.fault(where, "not a point", "[x, y] in mm")
         return self.length(where, value[0]), self.length(where, value[1])
 
     def precision(self, where: str, blur: float, of: str = "") -> float:
         if not 0 <= blur <= COARSEST:
-            raise self.fault(where, f"{of}{blur:g} mm is none of a ruler", f"0 to {COARSEST:g} mm")
+            raise self.fault(where, f"{of}{blur:g} mm is not the error of a ruler", f"0 to {COARSEST:g} mm")
         return blur
 
     def label(self, where: str, name: str, why: str) -> str:
@@ -188,14 +188,14 @@ class _CsvReader(_Reader):
         if "quantity" in header:
             numbers = [found for where, row in rows if (found := self._result(where, row))]
             return Submission(self.path.name, numbers=tuple(numbers))
-        raise Refused(f"{self.path}", "its first line names no columns that are read",
+        raise Refused(f"{self.path}", "its first line names no known columns",
                       "mark,x,y for measured points or quantity,of,x,y,unit for results")
 
     def rows(self, wanted: Collection[str]) -> Iterator[tuple[str, Mapping[str, str]]]:
         """The rows of a table that has these columns, with their places."""
         header, rows = self._table()
         if not {*wanted} <= {*header}:
-            raise Refused(f"{self.path}", "its first line names no columns that are read",
+            raise Refused(f"{self.path}", "its first line names no known columns",
                           "quantity,of,value,unit for answers")
         for where, row in rows:
             decimal = row if self.separator == "," else {name: cell.replace(",", ".", 1) if name in NUMBERED else cell
@@ -221,7 +221,7 @@ class _CsvReader(_Reader):
             try:
                 row = next(csv.reader([line], delimiter=self.separator, skipinitialspace=True))
             except (csv.Error, StopIteration) as error:
-                raise self.fault(where, f"this is no row of a table ({error})",
+                raise self.fault(where, f"not a row of a table ({error})",
                                  "values with , ; or tabs between them") from None
             if any(cells := [cell.strip() for cell in row]):
                 yield where, cells
@@ -260,7 +260,7 @@ class _CsvReader(_Reader):
             self.left_out.append(label)
             return None
         value = [] if end and radius else [at, end] if end else [*at, *radius]
-        fault = self.fault(where, "this is no mark", "x and y, for a line also x2 and y2 elsewhere, for a circle r, in "
+        fault = self.fault(where, "not a mark", "x and y, for a line also x2 and y2 elsewhere, for a circle r, in "
                            f"mm that paper shows ({SHORT:g} at least)")
         return Trace(kind, self.spots(where, kind, value, fault), label, panel, unsure)
 
@@ -287,7 +287,7 @@ class _TomlReader(_Reader):
     def read(self, tables: Mapping[str, Any]) -> Submission:
         known = [*TABLES, "precision", "results", "frames"]
         if unknown := [key for key in tables if key not in known]:
-            raise self.fault(unknown[0], "there is no such entry", f"one of {', '.join(known)}")
+            raise self.fault(unknown[0], "unknown entry", f"choose one of {', '.join(known)}")
         self.blur = self.precision("precision", self.length("precision", tables.get("precision", 0.0)))
         self.budget = Budget(self.path, TRACES, "marks")
         traces = [trace for key, kind in TABLES.items()
@@ -302,7 +302,7 @@ class _TomlReader(_Reader):
 
     def _table(self, where: str, value: Any) -> Mapping[str, Any]:
         if not isinstance(value, dict):
-            raise self.fault(where, "this is no table", f"[{where}] with an entry a line")
+            raise self.fault(where, "not a table", f"[{where}] with an entry a line")
         return value
 
     def _traces(self, where: str, kind: str, table: Mapping[str, Any], panel: str) -> Iterable[Trace]:
@@ -313,7 +313,7 @@ class _TomlReader(_Reader):
                 yield from self._traces(f"{where}.{name}", kind, value, self.panel(where, name))
             else:
                 at = f"{where}.{name}"
-                spots = self.spots(at, kind, value, self.fault(at, f"this is no {kind}", SHAPES[kind]))
+                spots = self.spots(at, kind, value, self.fault(at, f"not a {kind}", SHAPES[kind]))
                 yield Trace(kind, spots, self.label(where, name, "it has an entry that is"), panel, self.blur)
 
     def _results(self, kind: str, table: Mapping[str, Any]) -> Iterable[Number]:
@@ -339,5 +339,5 @@ class _TomlReader(_Reader):
         scale = self.length(f"{where}.scale", entries.get("scale", 1.0))
         turn = self.length(f"{where}.turn", entries.get("turn", 0.0))
         if scale <= 0:
-            raise self.fault(f"{where}.scale", "a plan has a size", "mm for one unit of the plan")
+            raise self.fault(f"{where}.scale", "the scale must be greater than 0", "mm for one unit of the plan")
         return PlanFrame(complex(*origin), cmath.rect(scale, math.radians(turn)))

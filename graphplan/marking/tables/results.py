@@ -36,7 +36,7 @@ def entry(quantity: str, of: str, value: Sequence[float], unit: str, rounding: f
     """
     kind, of = _named(quantity, of)
     if kind not in QUANTITIES:
-        raise ValueError(f"{quantity!r} is no quantity")
+        raise ValueError(f"{quantity!r} is not a quantity")
     if len(value) != (1 if QUANTITIES[kind].single else 2):
         raise ValueError(f"{kind} is {'one number' if QUANTITIES[kind].single else 'a vector'}")
     if any(abs(part) > LARGEST for part in value):
@@ -113,7 +113,7 @@ def factor(written: str, dimension: Dimension, units: Units) -> float:
         size *= one**power
         powers = [total + power * base for total, base in zip(powers, bases, strict=True)]
     if tuple(powers) != dimension[:3]:
-        raise ValueError(f"{written!r} is no such unit as {example(dimension)}")
+        raise ValueError(f"{written!r} is not a unit such as {example(dimension)}")
     if dimension == INERTIA:
         return size / float(KILOGRAMS[units.mass])
     force = float(NEWTONS[units.force]) ** dimension.force  # the scene's; its moments are in forces times metres
@@ -123,7 +123,7 @@ def factor(written: str, dimension: Dimension, units: Units) -> float:
 def _factors(written: str) -> list[tuple[str, int]]:
     """The factors of a unit with their powers; all that stands after a slash divides."""
     if len(written) > LONGEST:
-        raise ValueError(f"{written[:LONGEST]!r}... is no unit that is known")
+        raise ValueError(f"{written[:LONGEST]!r}... is not a known unit")
     found = []
     for place, part in enumerate(written.translate(RAISED).split("/")):
         for piece in re.split(r"[\s·*⋅×.]+", part.strip(" ()·*⋅×.")):
@@ -134,7 +134,7 @@ def _factors(written: str) -> list[tuple[str, int]]:
             fits = FACTOR.fullmatch(piece)
             names = _unit_names(fits[1]) if fits else []
             if not (fits and names):
-                raise ValueError(f"{written!r} is no unit that is known")
+                raise ValueError(f"{written!r} is not a known unit")
             found += [(name, 1 * sign) for name in names[:-1]] + [(names[-1], int(fits[2] or 1) * sign)]
     return found
 

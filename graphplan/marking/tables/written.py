@@ -55,7 +55,7 @@ def toml_float(text: str) -> float:
 
 
 def unit_of(value: float) -> float:
-    """What one of a number's last digit is: of a whole number 1."""
+    """Unit of the last written digit (1 for integers)."""
     return value.unit if isinstance(value, Written) else 1.0
 
 

@@ -147,7 +147,7 @@ class Equilibrium:
                 self._enter(move)
             elif not self._assume():
                 loose = dict.fromkeys(link for link in self.group.links)
-                raise Refused(f"reactions of links {', '.join(loose)}", "no construction known here reaches them",
+                raise Refused(f"reactions of links {', '.join(loose)}", "no known construction determines them",
                               "ask for the balance alone, with --plan lever")
         return self.moves
 

@@ -68,7 +68,7 @@ class Planner(Facts):
                 return self.moves
             if not self._break(loose):
                 stuck = loose or [body for (place, _), _ in self.open for body in self._at(place)]
-                raise Refused(f"links {', '.join(stuck)}", "no construction known here reaches them",
+                raise Refused(f"links {', '.join(stuck)}", "no known construction determines them",
                               "check the drives, or ask for points of other links")
 
     def _centre(self, body: str, spot: Pair) -> None:

@@ -152,12 +152,12 @@ class Poles:
     # ---- what others ask ----------------------------------------------------------------------------------------
 
     def find(self, one: str, two: str) -> DrawnPole:
-        """The pole of two links; fails with `Refused` where no construction known here reaches it."""
+        """The pole of two links; fails with `Refused` where no known construction determines it."""
         sides = self.diagram.sides(one, two)
         while sides not in self.diagram.found and self._seed(sides):
             self.diagram.close()
         if sides not in self.diagram.found:
-            raise Refused(said("the pole of {0}", listed(sides)), said("no construction known here reaches it"),
+            raise Refused(said("the pole of {0}", listed(sides)), said("no known construction determines it"),
                           "ask for other poles")
         return self._draw(sides)
 

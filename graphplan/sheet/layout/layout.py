@@ -151,7 +151,7 @@ def step_range(drawn: Program, text: str) -> tuple[int, int]:
     first, _, last = text.partition("-")
     most = len(drawn) - drawn.givens
     if not (first.isdecimal() and (last or first).isdecimal() and 1 <= int(first) <= int(last or first) <= most):
-        raise Refused(f"steps {text}", "there are no such steps", f"numbers from 1 to {most}, such as 1-{most}")
+        raise Refused(f"steps {text}", "out of range", f"numbers from 1 to {most}, such as 1-{most}")
     return int(first) - 1 + drawn.givens, int(last or first) - 1 + drawn.givens
 
 

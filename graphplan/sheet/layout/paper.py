@@ -228,7 +228,7 @@ def sheet_size(paper: str) -> tuple[float, float]:
     """Width and height of a sheet such as `A3` or `A4 portrait`."""
     name, _, orientation = paper.partition(" ")
     if name.upper() not in SIZES or orientation not in ("", "landscape", "portrait"):
-        raise Refused(f"paper {paper!r}", "there is no such sheet", f"one of {', '.join(SIZES)}, or 'A4 portrait'")
+        raise Refused(f"paper {paper!r}", "unknown sheet", f"choose one of {', '.join(SIZES)}, or 'A4 portrait'")
     wide, high = SIZES[name.upper()]
     return (high, wide) if orientation == "portrait" else (wide, high)
 

@@ -76,7 +76,7 @@ def _check_force_plans(plans: Plans) -> None:
     force_plans = [panel for panel in plans.panels if isinstance(panel, ForcePlan)]
     for plan in plans.drawing.scene.sheet.multiples:
         if force_plans and ForcePlan.names(plan) and plan not in force_plans:
-            raise Refused(f"sheet.multiples.{plan}", "there is no such plan", f"one of {', '.join(force_plans)}")
+            raise Refused(f"sheet.multiples.{plan}", "unknown plan", f"choose one of {', '.join(force_plans)}")
 
 
 # ---- scales and windows for the room that there is -------------------------------------------------------------------

@@ -21,7 +21,7 @@ from functools import cached_property
 from graphplan.phrases import Said, Unknown, decimals, digits
 from graphplan.sheet.tolerances import FIGURE_TOL
 
-# By level: decimals of mm, decimals of a result in mm, figures of another result, figures of what is no length.
+# By level: decimals of mm, decimals of a result in mm, figures of another result, figures of what is not a length.
 LEVELS = ((1, 1, 4, 4), (2, 1, 4, 5), (2, 1, 4, 6), (1, 1, 4, 5))
 PRINTED, READ = 2, 3  # levels from the first of which on a result is what the printed numbers come to; of what is read
 HALF = 0.499  # of the last printed digit: how far off what the printed numbers come to may be

@@ -32,7 +32,7 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     from pathlib import Path
 
-    from graphplan.importing.files import imported
+    from graphplan.importing import imported
 
     kind(options.output, (".toml",), "scene")
     apart(options.file, options.output)

@@ -1,5 +1,90 @@
 """Linkages of other programs become scenes: GeoGebra, DXF, Linkage and PMKS.
 
-A reader a format makes a sketch (sketch.py), which is tidied alike for all; written.py says it as a scene, and
-proposed.py sees to it that the scene moves, or that a comment or the refusal says why not.
+What kind of file it is, its suffix and its content tell. A reader a format makes a sketch (sketch.py), which is tidied
+alike for all; written.py says it as a scene and sees to it that the scene moves, or that a comment or the refusal says
+why not.
+
+A file that graphplan wrote itself carries its scene as text: in a .ggb as a member of the archive, in DXF as comments,
+in a page as a script that is none, in SVG as metadata. GeoGebra and CAD programs drop that when they save such a file
+anew, and then the drawing is read.
 """
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from contextlib import suppress
+from html import unescape
+from pathlib import Path
+
+from graphplan.errors import Refused, SceneError
+from graphplan.importing import linkage2, pmks
+from graphplan.importing.sketch import Sketch
+from graphplan.importing.written import proposed
+from graphplan.marking.files.safe import MB, contents, unpacked
+from graphplan.mechanism.scene import parse
+
+LARGEST = 16 * MB
+SCENE = "scene.toml"  # the member of an archive
+KINDS = ".ggb (GeoGebra), .dxf, .linkage2 (Linkage), or a .csv, .pmks or address of PMKS+"
+COMMENT = re.compile(rb"^ *999\r?\nscene: ?([^\r\n]*)", re.MULTILINE)
+SCRIPT = re.compile(r'<(script|metadata)\b[^>]*\bid="scene"[^>]*>(.*?)</\1>', re.DOTALL)
+
+
+def imported(path: Path) -> str:
+    """The scene in a file, as TOML.
+
+    Fails with `Refused` where the file is of no kind that is known, is damaged, or nothing in it moves.
+    """
+    data = contents(path, LARGEST)
+    if carried := _carried(path, data):
+        try:
+            parse(carried, f"{path}")
+        except SceneError as error:
+            wrong = error.faults[0]
+            raise Refused(f"{path}", f"the scene in it has a fault at {wrong.where}: {wrong.what}",
+                          wrong.instead) from None
+        return carried
+    sketch = _reader(path, data)()
+    if not sketch.title:
+        sketch.title = path.stem
+    return proposed(sketch, f"{path}", f"imported from {path.name} ({sketch.program})")
+
+
+def _carried(path: Path, data: bytes) -> str:
+    """The scene that one of graphplan's own files carries."""
+    found = ""
+    with suppress(Refused, UnicodeDecodeError):
+        if data.startswith(b"PK"):
+            found = unpacked(path, data, SCENE, LARGEST).decode()
+        elif lines := COMMENT.findall(data):
+            found = b"\n".join(lines).decode() + "\n"
+        elif data.lstrip()[:1] == b"<" and (held := SCRIPT.search(data.decode())):
+            found = unescape(held[2]) if held[1] == "metadata" else held[2]
+    return found
+
+
+def _reader(path: Path, data: bytes) -> Callable[[], Sketch]:
+    """What reads a file."""
+    start = data[:4096].lstrip(b"\xef\xbb\xbf \t\r\n")
+    if data.startswith(b"PK"):
+        from graphplan.importing import geogebra
+
+        return lambda: geogebra.read(path, data)
+    if start.startswith(b"<") and (b"<linkage2" in start or path.suffix.lower() == ".linkage2"):
+        return lambda: linkage2.read(path, data)
+    if data.startswith(b"AutoCAD Binary DXF") or (b"SECTION" in start and re.match(rb"\d+\r?\n", start)):
+        return lambda: _dxf(path, data)
+    with suppress(UnicodeDecodeError):
+        text = data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
+        if pmks.knows(text):
+            return lambda: pmks.read(path, text)
+    raise Refused(f"{path}", "not a linkage file of a known program", f"a file of these: {KINDS}")
+
+
+def _dxf(path: Path, data: bytes) -> Sketch:
+    try:
+        from graphplan.importing import dxf
+    except ModuleNotFoundError as missing:
+        raise Refused(f"{path}", f"{missing.name} is not installed", "pip install 'graphplan[dxf]'") from None
+    return dxf.read(path, data)

@@ -12,7 +12,7 @@ Joints are revolute (R), sliding (P: along the ground, or along the first of the
 first of their links (RP). A piston of PMKS+ is a link of a revolute joint and a sliding one in the same place.
 
 Sources: M. Campbell, PMKS file format 1.0 (2019), and the joints of PMKS; PMKS+, its writers and readers of addresses
-and tables (2022, 2023, 2025).
+and tables (2022, 2023, 2025); P. Jeney, lz-string; Ziv and Lempel, IEEE Trans. Inf. Theory 24 (1978).
 """
 
 from __future__ import annotations
@@ -21,22 +21,24 @@ import csv
 import json
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
+from itertools import islice
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
 from graphplan.errors import Refused
-from graphplan.importing.packed import unpacked
 from graphplan.importing.sketch import Driven, Guide, Sketch, Slot
 from graphplan.importing.tolerances import PISTON_TOL
 from graphplan.importing.written import number as shown
 from graphplan.marking.files.safe import Budget, number
 from graphplan.mechanism.model import FRAME
 
-MOST = 2_000_000  # characters of what an address unpacks to
-JOINTS = 600
+MAX_LENGTH = 2_000_000  # characters of what an address unpacks to
+MAX_JOINTS = 600
 ADDRESS = re.compile(r"https?://[^\s?]*\?(\S+)")
 STARTS = re.compile(r"^---\s*\w+\s*---|^joints\b|^mech\s*=|^\s*[\w ]+,[\w ]+,\s*(R|P|RP)\s*,", re.MULTILINE)
 DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
@@ -85,7 +87,7 @@ def read(path: Path, text: str) -> Sketch:
     """
     try:
         found = _read(text)
-        Budget(path, JOINTS, "joints").spend(len(found.joints))
+        Budget(path, MAX_JOINTS, "joints").spend(len(found.joints))
         return _sketch(found)
     except (ValueError, IndexError, KeyError, TypeError, AttributeError, csv.Error, RecursionError) as error:
         told = " ".join(str(error).split())[:80]
@@ -144,16 +146,22 @@ def _lines(text: str) -> Read:
 
 
 def _tables(text: str) -> Read:
-    rows: dict[str, list[list[str]]] = {}
-    section, heads = "", False
+    rows = _by_section(text, lambda row: row[0].strip() if sum(map(bool, row)) == 1 else "")
+    return _rows(rows["joints"], ",", (rows["settings"] or [[]])[0])
+
+
+def _by_section(text: str, title: Callable[[list[str]], str]) -> Mapping[str, list[list[str]]]:
+    """The rows under each title, without the heads of their columns."""
+    rows = defaultdict[str, list[list[str]]](list)
+    section, is_head = "", False
     for row in csv.reader(text.splitlines()):
-        if len([part for part in row if part]) == 1:
-            section, heads = row[0].strip(), True
-        elif heads:
-            heads = False
-        elif row:
-            rows.setdefault(section, []).append(row)
-    return _rows(rows["joints"], ",", (rows.get("settings") or [[]])[0])
+        if name := title(row):
+            section, is_head = name, True
+        elif is_head:
+            is_head = False
+        elif any(row):
+            rows[section].append(row)
+    return rows
 
 
 def _long_address(query: str) -> Read:
@@ -193,8 +201,8 @@ def _short(query: str) -> Read:
     joints, kinds = [], {}
     for row in joints_part.split("."):
         bits, (key, name, x, y, angle) = DIGITS.index(row[0]), row[1:].split(",")[:5]
-        joints.append(Joint(key, name, complex(_thousandths(x), _thousandths(y)), "P" if bits & 1 else "R", [],
-                            _thousandths(angle), bool(bits & 4), bool(bits & 2), welded=bool(bits & 8)))
+        joints.append(Joint(key, name, complex(_integer(x), _integer(y)) / 1000, "P" if bits & 1 else "R", [],
+                            _integer(angle) / 1000, bool(bits & 4), bool(bits & 2), welded=bool(bits & 8)))
     of = {joint.key: joint for joint in joints}
     for row in filter(None, links_part.split(".")):
         head, *parts = row.split(",")
@@ -202,25 +210,16 @@ def _short(query: str) -> Read:
         if head[0] == "Y":
             for key in parts[6 : parts.index("", 6)]:
                 of[key].links.append(head[2:])
-    clockwise = _based("".join(("1", flags))) & 1 if flags else 0
+    clockwise = DIGITS.index(flags[-1]) & 1 if flags else 0
     speed = _integer(integers.split(",")[0])
     unit = LENGTHS[DIGITS.index(choices[0])] if choices[:1] in ("0", "1", "2", "3") else ""
     return Read(joints, rate=f"rpm = {'-' if clockwise else ''}{speed}" if speed else "", unit=unit)
 
 
-def _based(letters: str) -> int:
-    found = 0
-    for letter in letters:
-        found = 64 * found + DIGITS.index(letter)
-    return found
-
-
 def _integer(letters: str) -> int:
-    return -_based(letters[1:]) if letters[:1] == "0" else _based(letters)
-
-
-def _thousandths(letters: str) -> float:
-    return _integer(letters) / 1000
+    """A whole number in letters of base 64; a 0 before it is its minus."""
+    value = reduce(lambda value, letter: 64 * value + DIGITS.index(letter), letters, 0)
+    return -value if letters[:1] == "0" else value
 
 
 # ---- PMKS+, 2025: sections, and packed addresses ---------------------------------------------------------------------
@@ -228,32 +227,24 @@ def _thousandths(letters: str) -> float:
 
 def _packed(letters: str) -> Read:
     """JSON in which separators are shortened, whole numbers are hexadecimal texts, and truths are y and n."""
-    text = unpacked(letters, MOST)
+    text = unpack(letters, MAX_LENGTH)
     for short, long in (("--", '"]_["'), ("RP", "Reference Point"), ("_", ","), ("~", '","')):
         text = text.replace(short, long)
     data = json.loads(text)
 
-    def value(part: Any) -> str:
+    def decode(part: Any) -> str:
         return str(int(part, 16)) if isinstance(part, str) and re.fullmatch("-?[0-9a-f]+", part) else str(part)
 
     def rows(what: str, *numeric: int) -> list[list[str]]:
-        return [[value(part) if place in numeric else str(part) for place, part in enumerate(row)]
+        return [[decode(part) if place in numeric else str(part) for place, part in enumerate(row)]
                 for row in data.get(what) or ()]
 
     return _late(rows("j", 0, 2, 3, 4, 5, 8), rows("l", 0), rows("c", 0))
 
 
 def _sections(text: str) -> Read:
-    rows: dict[str, list[list[str]]] = {}
-    section, heads = "", False
-    for row in csv.reader(text.splitlines()):
-        if row and (title := re.fullmatch(r"\s*---\s*(\w+)\s*---\s*", row[0])):
-            section, heads = title[1], True
-        elif heads:
-            heads = False
-        elif any(row):
-            rows.setdefault(section, []).append(row)
-    return _late(rows["j"], rows["l"], rows.get("c", []))
+    rows = _by_section(text, lambda row: "".join(re.findall(r"^\s*---\s*(\w+)\s*---\s*$", row[0])) if row else "")
+    return _late(rows["j"], rows["l"], rows["c"])
 
 
 def _late(joints: Sequence[Sequence[str]], links: Sequence[Sequence[str]], welds: Sequence[Sequence[str]]) -> Read:
@@ -357,3 +348,53 @@ def _drives(sketch: Sketch, found: Read, joint: Joint) -> Iterator[Driven]:
         yield Driven(links[1], "omega = 1" if guess else rate, guess, links[0])
     else:
         sketch.note(f"the input at {joint.name or 'a joint'} between {len(links)} links: left out")
+
+
+# --- packed addresses ------------------------------------------------------------------------------------------------
+
+
+ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-$"
+BYTE, WORD, END = 0, 1, 2
+
+
+def unpack(packed: str, max_length: int) -> str:
+    """The text that LZ-string packed into an address.
+
+    Lempel and Ziv's code of 1978: a stream of bits, six in each letter, first bit first, each code with its lowest bit
+    first and as wide as the dictionary has grown. Codes 0 and 1 bring a new character of 8 or 16 bits, 2 ends the text,
+    others are pieces of it that came before. Fails with `ValueError` where it is no such text, or one that is too long.
+    """
+    bits = _bits(packed.replace(" ", "+").rstrip("="))
+    pieces = ["", "", ""]
+    text, last = "", ""
+    while (code := _next_number(bits, len(pieces).bit_length())) != END:
+        if code in (BYTE, WORD):
+            piece = chr(_next_number(bits, 16 if code == WORD else 8))
+            pieces.append(piece)
+        elif code < len(pieces):
+            piece = pieces[code]
+        elif code == len(pieces) and last:
+            piece = last + last[0]
+        else:
+            raise ValueError("a code that was not packed")
+        if last:
+            pieces.append(last + piece[0])
+        text, last = text + piece, piece
+        if len(text) > max_length:
+            raise ValueError("it is too long")
+    return text
+
+
+def _bits(letters: str) -> Iterator[int]:
+    for letter in letters:
+        if letter not in ALPHABET:
+            raise ValueError("a letter that is not packed text")
+        yield from (ALPHABET.index(letter) >> place & 1 for place in reversed(range(6)))
+
+
+def _next_number(bits: Iterator[int], width: int) -> int:
+    """The next number, of so many bits."""
+    digits = [*islice(bits, width)]
+    if len(digits) < width:
+        raise ValueError("its end is missing")
+    return sum(bit << place for place, bit in enumerate(digits))

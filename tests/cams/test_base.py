@@ -82,7 +82,7 @@ FAULTS = [
     (('motion = "dwell"', 'motion = "swell"'), 'law.2.motion: the string "swell" is not known here; perhaps dwell'),
     (("base = 40", 'base = "convex"'), "cam.base: only a flat face needs a convex profile"),
     (("base = 40", "base = 3"), "follower.radius: 4 is no less than the radius of the base circle"),
-    (("radius = 4", "radius = 4\narm = 8"), "follower.arm: a follower that is translating with a roller"),
+    (("radius = 4", "radius = 4\narm = 8"), "follower.arm: it does not apply to a follower that is translating"),
     (("radius = 4\n", ""), "follower: radius is missing"),
     (("rpm = 300\n", ""), "cam: omega is missing; one of them, such as rpm = 300"),
     (("base = 40", 'base = "pressure angle"'), "cam: pressure_angle is missing"),

@@ -167,7 +167,7 @@ def test_the_time_ratio_is_of_the_turns_between() -> None:
 
 def test_what_has_no_extreme_position_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     """A word that is none, a link not swung, several that are, a crank that stops before, none: one line and exit 2."""
-    for name, way, why in (("four-bar", "utmost", "no position"), ("four-bar", "outer 2", "no extreme position"),
+    for name, way, why in (("four-bar", "utmost", "not a position"), ("four-bar", "outer 2", "no extreme position"),
                            ("rosenauer-example-2", "outer", "3, 10"),
                            ("rosenauer-example-2", "inner 10", "comes to no position"),
                            ("triad", "outer", "no link is swung")):
@@ -189,5 +189,5 @@ def test_gears_turn_by_their_ratio(capsys: pytest.CaptureFixture[str]) -> None:
     assert "the ratio of the gears" in capsys.readouterr().out
     assert report(gp.at(gp.load("geared-five-bar"), 30)).numbers_agree  # read in enclosures, too
     for name in ("gear-linkage", "racks", "roller-cam"):
-        with pytest.raises(Refused, match="no steps are known"):
+        with pytest.raises(Refused, match="no construction is known"):
             gp.at(gp.load(name), 10)

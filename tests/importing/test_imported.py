@@ -13,8 +13,8 @@ from samples import SAMPLES, as_drawing, as_linkage, as_pmks, geogebra, packed, 
 
 import graphplan as gp
 from graphplan.commands import main
-from graphplan.importing.files import imported
-from graphplan.importing.packed import unpacked
+from graphplan.importing import imported
+from graphplan.importing.pmks import unpack
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.scene import parse
 
@@ -254,7 +254,7 @@ def test_what_is_no_linkage_is_refused_in_a_line(name: str, tmp_path: Path, caps
 def test_packed_text_is_unpacked() -> None:
     """What was packed comes back; what was not has no end, or unknown letters."""
     text = '{"j": [1.5, "αβ"]} ' * 3
-    assert unpacked(packed(text.replace("αβ", "ab")), 1000) == text.replace("αβ", "ab")
+    assert unpack(packed(text.replace("αβ", "ab")), 1000) == text.replace("αβ", "ab")
     for wrong in ("", "N4IgViBc", "N4Ig*"):
         with pytest.raises(ValueError, match=r"missing|packed"):
-            unpacked(wrong, 1000)
+            unpack(wrong, 1000)

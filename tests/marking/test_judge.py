@@ -232,7 +232,7 @@ def test_noise_is_no_drawing() -> None:
 def test_a_hand_without_errors_has_no_tolerance() -> None:
     """A pencil that never errs cannot be judged by."""
     drawing, sheet = composed("four-bar")
-    with pytest.raises(Refused, match="no tolerance"):
+    with pytest.raises(Refused, match="a size is 0"):
         judge(drawing, sheet, points(draw(drawing, frames(drawing, sheet), PENCIL, 1)), Pencil(point=0.0))
 
 

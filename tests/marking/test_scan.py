@@ -318,10 +318,10 @@ BAD = {
     "bomb.png": (_png(60000, 60000, zlib.compress(bytes(10**6))), "megapixels"),
     "huge.jpg": (b"\xff\xd8\xff\xe0\x00\x04ab\xff\xc0\x00\x11\x08\xff\xff\xff\xff\x03" + bytes(40), "megapixels"),
     "tiny.png": (_png(20, 20, zlib.compress(bytes(420))), "too few"),
-    "broken.png": (_png(1000, 1000, b"no"), "broken"),
-    "headless.jpg": (b"\xff\xd8\xff\xe0\x00\x10JFIF", "broken"),
-    "broken.pdf": (b"%PDF-1.7\nnothing", "broken"),
-    "words.png": (b"these are words", "no PNG"),
+    "broken.png": (_png(1000, 1000, b"no"), "damaged"),
+    "headless.jpg": (b"\xff\xd8\xff\xe0\x00\x10JFIF", "damaged"),
+    "broken.pdf": (b"%PDF-1.7\nnothing", "damaged"),
+    "words.png": (b"these are words", "not a PNG"),
     "empty.png": (b"", "it is empty"),
 }
 

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.check.compared import require_agreement
 from graphplan.check.cycle import cycle
 from graphplan.check.tolerances import SUM_TOL
 from graphplan.check.trusted import construct
@@ -82,9 +83,7 @@ def mass_motion(scene: Scene, positions: int, links: LinkMotion | None = None) -
     motion = MassMotion(centre, links, {**links.points, **places}, path, velocity, acceleration,
                         shaking(centre, places, rates[1], links.alpha), {})
     check = _solver_gaps(motion)
-    for what, gap in check.items():
-        if not gap <= SUM_TOL:
-            raise Disagreement(scene.name, what, "otherwise", "by the solver", gap)
+    require_agreement(scene.name, check, SUM_TOL)
     return replace(motion, check=check)
 
 
@@ -125,9 +124,7 @@ def balancing(scene: Scene, positions: int, way: str = "", keep: Sequence[str] =
     driven = found if found and found.omega else None
     check = {**before.check, **_counterweight_gap(after or before, way),
              **(_orders_gap(before, driven) if driven else {})}
-    for what, gap in check.items():
-        if not gap <= SUM_TOL:
-            raise Disagreement(scene.name, what, "otherwise", "by the solver", gap)
+    require_agreement(scene.name, check, SUM_TOL)
     return Balancing(before, way, weights, after, driven, check, note)
 
 
@@ -274,9 +271,8 @@ def check_added_dyads(scene: Scene) -> tuple[Dyads, dict[str, float]]:
     found = {kind: _gap(ours[added.point], [part * complex(*map(float, theirs[point])) for part, point in parts])
              for kind, ours, theirs in (("velocity", drawn.velocity, rates.velocity),
                                         ("acceleration", drawn.acceleration, rates.acceleration))}
-    for what, gap in found.items():
-        if not gap <= SUM_TOL:
-            raise Disagreement(scene.name, f"{what} of the mass centre", "by added dyads", "by the solver", gap)
+    require_agreement(scene.name, {f"{quantity} of the mass centre": gap for quantity, gap in found.items()}, SUM_TOL,
+                      "by added dyads")
     return added, found
 
 

@@ -13,9 +13,8 @@ from graphplan.cams.law import Stretch
 from graphplan.cams.motions import ORDERS
 from graphplan.cams.pose import END, FOLLOWER, motion, scene_text
 from graphplan.cams.profile import Cam
+from graphplan.check.compared import require_agreement, require_claims
 from graphplan.check.tolerances import CAM_STEP, CAM_TOL
-from graphplan.errors import BrokenClaim, Disagreement
-from graphplan.kernel.claims import broken
 from graphplan.mechanism.scene import parse
 from graphplan.solver import solve
 
@@ -30,15 +29,13 @@ def check_cam(drawing: CamDrawing) -> dict[str, float]:
     than rounding or numerical differentiation.
     """
     cam = drawing.cam
-    if fault := next(broken(drawing.program, drawing.values), ""):
-        raise BrokenClaim(cam.task.name, fault)
+    require_claims(cam.task.name, drawing)
     angles = np.array([one.angle for one in drawing.divisions])
     found = {"points": float(max(abs(np.array(drawing.at("K")) - cam.on_cam(angles)))) / cam.pair.base,
              "motion": max(_motion_gap(cam, float(angle)) for angle in angles),
              "curvature": _curvature_gap(cam), "law": _law_gap(cam)}
-    for what, size in found.items():
-        if not size <= CAM_TOL[what]:
-            raise Disagreement(cam.task.name, what, "otherwise", "by the second opinion", size)
+    for quantity, gap in found.items():
+        require_agreement(cam.task.name, {quantity: gap}, CAM_TOL[quantity], by="by the second opinion")
     return found
 
 

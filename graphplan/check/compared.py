@@ -12,6 +12,8 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from graphplan.check.tolerances import PROVEN_TOL, PROVEN_ZERO, ROUNDING_TOL
+from graphplan.errors import BrokenClaim, Disagreement
+from graphplan.kernel.claims import broken
 from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
@@ -178,3 +180,20 @@ def printed_results(results: Results, numbers: Numbers, plain: Callable[[Any], A
         return values if isinstance(one, tuple) else values[0]
 
     return {part: {name: value(part, name, one) for name, one in named.items()} for part, named in results.items()}
+
+
+# ---- what every subject's check asks of its results ------------------------------------------------------------------
+
+
+def require_claims(name: str, drawing: Any) -> None:
+    """Fail with `BrokenClaim` where a drawn step breaks one of its claims."""
+    if fault := next(broken(drawing.program, drawing.values), ""):
+        raise BrokenClaim(name, fault)
+
+
+def require_agreement(name: str, gaps: Mapping[str, float], tolerance: float, one: str = "otherwise",
+                      by: str = "by the solver") -> None:
+    """Fail with `Disagreement` where independent results differ by more than a tolerance, or cannot be compared."""
+    for quantity, gap in gaps.items():
+        if not gap <= tolerance:
+            raise Disagreement(name, quantity, one, by, gap)

@@ -1,8 +1,9 @@
-"""A motion beside a second opinion: the equation of motion integrated over time, with the solver's energies and powers.
+"""The independent check of a motion and of a flywheel: the equation of motion integrated over time, from the solver.
 
-I omega' + omega^2/2 dI/dphi = M is integrated by the pair of Dormand and Prince, of order five, with the work beside
-it; inertia, slope and moments are the solver's at the points of Chebyshev between the breaks. Neither the scheme nor
-the variable nor the numbers are those of the motion.
+I omega' + omega^2/2 dI/dphi = M is integrated by the pair of Dormand and Prince, of order five, with the work as a
+third unknown; inertia, slope and moments are the solver's at the points of Chebyshev between the breaks. Neither the
+scheme nor the variable nor the numbers are those of the motion. With a flywheel it starts at the speed at which the
+cycle is said to begin: the extreme speeds have to be those asked for, and the cycle has to close.
 
 Source of the pair: Dormand and Prince 1980, A family of embedded Runge-Kutta formulae.
 """
@@ -17,7 +18,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.check import reduction as solved
+from graphplan.check.compared import require_agreement, require_claims
+from graphplan.check.reduction import ReferenceReduction, check_reduction
 from graphplan.check.tolerances import (
     BREAK_DISTANCE,
     END_TOL,
@@ -25,10 +27,11 @@ from graphplan.check.tolerances import (
     LEAST_ERROR,
     LEAST_SPEED,
     MOTION_TOL,
+    SPEED_TOL,
     STEP_TOL,
 )
-from graphplan.errors import BrokenClaim, Disagreement
-from graphplan.kernel.claims import broken
+from graphplan.errors import Disagreement
+from graphplan.machine.flywheel.found import FlywheelResult
 from graphplan.machine.integrals import Reals
 from graphplan.machine.motion.drawing import MotionDrawing
 from graphplan.machine.motion.runs import Run
@@ -38,9 +41,12 @@ from graphplan.mechanism.model import FRAME, Force
 from graphplan.mechanism.units import NEWTONS
 
 CHEBYSHEV_POINTS, MAX_CHEBYSHEV_POINTS = 24, 192  # of Chebyshev, between two breaks
-MAX_STEPS = 20_000  # that an opinion may take
+MAX_STEPS = 20_000  # of an integration between two travels
 COMPARED_TRAVELS = 13  # travels at which speeds and times are compared
 COMPARED_CYCLES = 2.0  # cycles that are integrated anew
+FLYWHEEL_POSES = 12  # in which a flywheel's reduction is compared
+SPEED_SAMPLES = 6  # between two edges, of which a cycle has eight at least: an extreme speed lies near one
+EXTREME_ROUNDS = 3  # each with travels a quarter as far apart
 
 RUNGE_KUTTA_STAGES = ((1 / 5,), (3 / 40, 9 / 40), (44 / 45, -56 / 15, 32 / 9),
                       (19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729),
@@ -49,39 +55,73 @@ RUNGE_KUTTA_STAGES = ((1 / 5,), (3 / 40, 9 / 40), (44 / 45, -56 / 15, 32 / 9),
 ERROR_WEIGHTS = np.array((71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40))
 
 
-def check_motion(found: Run, drawing: MotionDrawing | None = None) -> dict[str, float]:
-    """The largest differences from the second opinion, relative: of the reduction, and of speed, time and energy.
+def check_motion(run: Run, drawing: MotionDrawing | None = None) -> dict[str, float]:
+    """The largest relative differences from the solver: of the reduction, and of speed, time and energy.
 
     Fails with `Disagreement` where the motion differs by more than `MOTION_TOL`, or the reduction by more than
     rounding, and with `BrokenClaim` where a drawn step is not what it should be.
     """
-    if drawing is not None and (fault := next(broken(drawing.program, drawing.values), "")):
-        raise BrokenClaim(found.scene.name, fault)
-    motion, machine = found.motion, found.machine
+    name, motion, machine = run.scene.name, run.motion, run.machine
+    if drawing is not None:
+        require_claims(name, drawing)
     last = min(motion.last, motion.start + COMPARED_CYCLES * machine.period)
     places = np.linspace(motion.start, last, COMPARED_TRAVELS)
-    inside = places[1:-1] / found.reduction.unit
-    gaps = solved.check_reduction(found.reduction, _wrap_to_cycle(found.reduction, inside))
-    opinion = ReferenceMotion(found)
+    gaps = check_reduction(run.reduction, _wrap_to_cycle(run.reduction, places[1:-1] / run.reduction.unit))
+    reference = ReferenceMotion(run.reduction, machine.wheel, machine.closing)
     state = motion.at(places)
     compared = places[1:] if motion.stop is None or last < motion.last else places[1:-1]
-    omegas, times, works = opinion.integrate(motion.start, float(state.omega[0]), compared)
+    omegas, times, works = reference.integrate(motion.start, float(state.omega[0]), compared)
     count = len(compared) + 1
-    own, speed, time = state.energy[1:count], float(state.omega.max()), float(state.time[count - 1])
-    gaps["omega"] = float(abs(omegas - state.omega[1:count]).max()) / speed
-    gaps["time"] = float(abs(times - state.time[1:count]).max()) / time
-    gaps["energy"] = float(abs(works + state.energy[0] - own).max() / state.energy.max())
-    for what in ("omega", "time", "energy"):
-        if not gaps[what] <= MOTION_TOL:
-            raise Disagreement(found.scene.name, f"{what} of the motion", "by the energy",
-                               "by the equation of motion", gaps[what])
-    return gaps
+    energies, speed, time = state.energy[1:count], float(state.omega.max()), float(state.time[count - 1])
+    differences = {"omega": float(abs(omegas - state.omega[1:count]).max()) / speed,
+                   "time": float(abs(times - state.time[1:count]).max()) / time,
+                   "energy": float(abs(works + state.energy[0] - energies).max() / state.energy.max())}
+    require_agreement(name, {f"{quantity} of the motion": gap for quantity, gap in differences.items()}, MOTION_TOL,
+                      "by the energy", "by the equation of motion")
+    return gaps | differences
 
 
-def _wrap_to_cycle(found: Reduction, travel: Reals) -> Reals:
+def check_flywheel(result: FlywheelResult) -> dict[str, float]:
+    """By how much the independent results differ, relative to what is compared.
+
+    Fails with `BrokenClaim` where a drawn step breaks a claim, and with `Disagreement` where the integrated motion is
+    another one, or methods that neglect nothing find different flywheels.
+    """
+    name, wheel, cycle = result.scene.name, result.wheel, result.cycle
+    require_claims(name, result.drawing)
+    poses = np.linspace(*cycle.ends, FLYWHEEL_POSES, endpoint=False)
+    reduced = {f"reduced {quantity}": gap for quantity, gap in check_reduction(result.reduction, poses).items()}
+    gaps = _flywheel_motion_gaps(result)
+    if result.reduction.friction:
+        gaps["friction"] = result.reduction.losses.apart
+    gutjahr = next((method.inertia for method in result.methods if method.name == "gutjahr"), None)
+    if gutjahr is not None and not result.given:
+        inertia = wheel.inertia + float(abs(cycle.inertia.terms[:, 0]).max())
+        gaps["gutjahr"] = abs(gutjahr - wheel.inertia) / inertia
+    require_agreement(name, gaps, SPEED_TOL, by="by the integrated equation of motion")
+    return reduced | gaps
+
+
+def _flywheel_motion_gaps(result: FlywheelResult) -> dict[str, float]:
+    """How far the integrated speeds are from those found, relative to the mean, and how far the cycle is from closed.
+    """
+    wheel, cycle = result.wheel, result.cycle
+    reference = ReferenceMotion(result.reduction.scaled(cycle.factor), wheel.inertia, cycle.closing, cycle.speed)
+    start = cycle.ends[0]
+    places = np.concatenate([[start], *(np.linspace(low, high, SPEED_SAMPLES + 1)[1:]
+                                        for low, high in pairwise(reference.edges))])
+    speeds = np.array([result.omega(start), *reference.integrate(start, float(result.omega(start)), places[1:])[0]])
+    high, low = (reference.extreme_speed(places, speeds, best) for best in (np.argmax, np.argmin))
+    return {"omega_max": abs(high - wheel.omega_max) / cycle.speed,
+            "omega_min": abs(low - wheel.omega_min) / cycle.speed,
+            "unevenness": abs((high - low) / ((high + low) / 2) - result.unevenness),
+            "closing": abs(float(speeds[-1] ** 2 - speeds[0] ** 2)) / cycle.speed**2}
+
+
+def _wrap_to_cycle(reduction: Reduction, travel: Reals) -> Reals:
     """Travels in the first cycle."""
-    first, last = found.ends
-    return first + np.mod(travel - first, last - first) if found.closed else travel
+    first, last = reduction.ends
+    return first + np.mod(travel - first, last - first) if reduction.closed else travel
 
 
 class _Law(NamedTuple):
@@ -114,13 +154,16 @@ class _Piece:
 
 
 class ReferenceMotion:
-    """The machine as the solver has it."""
+    """The machine as the solver has it, with a `wheel` of this inertia and a constant `closing` moment on the drive.
 
-    def __init__(self, found: Run):
-        self.found, self.machine = found, found.machine
-        self.first, self.last = found.reduction.ends
+    Loads over a speed are as they are at the `mean_speed`, if one is given, else at that of each moment.
+    """
+
+    def __init__(self, reduction: Reduction, wheel: float, closing: float, mean_speed: float | None = None):
+        self.reduction, self.wheel, self.closing, self.mean_speed = reduction, wheel, closing, mean_speed
+        self.first, self.last = reduction.ends
         least, wide = BREAK_DISTANCE * (self.last - self.first), (self.last - self.first) / 8
-        breaks = [x for x, before in zip(found.reduction.breaks, (self.first, *found.reduction.breaks), strict=False)
+        breaks = [x for x, before in zip(reduction.breaks, (self.first, *reduction.breaks), strict=False)
                   if x - before > least and self.last - x > least]
         self.edges = [float(x) for a, b in pairwise([self.first, *breaks, self.last])
                       for x in np.linspace(a, b, max(1, math.ceil((b - a) / wide)), endpoint=False)] + [self.last]
@@ -129,7 +172,7 @@ class ReferenceMotion:
 
     def _over_speeds(self) -> list[tuple[Any, LoadTable]]:
         """The loads over speeds."""
-        loads = self.found.scene.loads
+        loads = self.reduction.scene.loads
         assert loads is not None
         every: list[Any] = [*loads.forces, *loads.moments]
         return [(load, load.table) for load in every if load.table and load.table.over_speed and load.on != FRAME]
@@ -138,7 +181,7 @@ class ReferenceMotion:
 
     def _solve_at(self, travel: Reals) -> Reals:
         """Inertia, slope and moment, and of each load over a speed its arm and that speed, as rows."""
-        opinion = solved.ReferenceReduction(self.found.reduction, travel, 1)
+        opinion = ReferenceReduction(self.reduction, travel, 1)
         truth = opinion.truth
         rows = [truth[what].value + 0 * travel for what in ("inertia", "slope", "moment")]
         rows[2] += opinion.friction
@@ -146,9 +189,9 @@ class ReferenceMotion:
             rows += [self._arm(opinion, load) + 0 * travel, self._speed(opinion, table) + 0 * travel]
         return np.array(rows)
 
-    def _arm(self, opinion: solved.ReferenceReduction, load: Any) -> Any:
+    def _arm(self, opinion: ReferenceReduction, load: Any) -> Any:
         """The power of a unit of a load at a unit rate."""
-        newton = float(NEWTONS[self.found.scene.units.force])
+        newton = float(NEWTONS[self.reduction.scene.units.force])
         if not isinstance(load, Force):
             return opinion.rates.omega[load.on].value * newton / opinion.unit
         x, y = load.direction or (0, 0)
@@ -159,7 +202,7 @@ class ReferenceMotion:
         vx, vy = (part.value for part in opinion.rates.velocity[load.at])
         return (vx * x + vy * y) / length * newton * opinion.metres / opinion.unit
 
-    def _speed(self, opinion: solved.ReferenceReduction, table: LoadTable) -> Any:
+    def _speed(self, opinion: ReferenceReduction, table: LoadTable) -> Any:
         """The speed that a table is over, at a unit rate."""
         if table.over == SPEED:
             return 1.0 / opinion.unit
@@ -186,15 +229,16 @@ class ReferenceMotion:
 
     def equation_of_motion(self, piece: _Piece, shift: float) -> Callable[[Reals], Reals]:
         """How travel, speed and work change with time, between two edges."""
-        unit = self.found.reduction.unit
+        unit = self.reduction.unit
 
         def rates(state: Reals) -> Reals:
             travel, omega, _ = state
             inertia, slope, moment, *_ = values = piece.values_at((travel - shift) / unit)
-            moment = moment + self.machine.closing
+            speed = omega if self.mean_speed is None else self.mean_speed
+            moment = moment + self.closing
             for law in self.laws:
-                moment += values[law.row] * float(law.table.at(np.array([values[law.row + 1] * omega]))[0])
-            return np.array([omega, (moment - slope * omega**2 / 2) / (inertia + self.machine.wheel), moment * omega])
+                moment += values[law.row] * float(law.table.at(np.array([values[law.row + 1] * speed]))[0])
+            return np.array([omega, (moment - slope * omega**2 / 2) / (inertia + self.wheel), moment * omega])
 
         return rates
 
@@ -202,14 +246,14 @@ class ReferenceMotion:
 
     def integrate(self, start: float, omega: float, places: Reals) -> tuple[Reals, Reals, Reals]:
         """Speed, time and work at places, from one travel on."""
-        unit, period = self.found.reduction.unit, (self.last - self.first) * self.found.reduction.unit
+        unit, period = self.reduction.unit, (self.last - self.first) * self.reduction.unit
         stops = np.union1d(places, [edge * unit + turn * period for edge in self.edges
                                     for turn in range(math.ceil((places[-1] - start) / period) + 1)])
         state, time, rows = np.array([start, omega, 0.0]), 0.0, []
         size = np.array([places[-1] - start, max(omega, LEAST_SPEED), 1.0])
         for there in stops[(stops > start) & (stops <= places[-1])]:
             middle = (state[0] + there) / 2
-            turn = math.floor((middle / unit - self.first) / (self.last - self.first)) if self.machine.closed else 0
+            turn = math.floor((middle / unit - self.first) / (self.last - self.first)) if self.reduction.closed else 0
             k = int(np.searchsorted(self.edges, (middle - turn * period) / unit)) - 1
             state, spent, size = _integrate_to(self.equation_of_motion(self._piece(k), turn * period), state,
                                                float(there), size)
@@ -218,6 +262,21 @@ class ReferenceMotion:
                 rows.append((state[1], time, state[2]))
         omegas, times, works = np.array(rows).T
         return omegas, times, works
+
+    def extreme_speed(self, places: Reals, speeds: Reals, best: Callable[[Reals], Any]) -> float:
+        """The largest or the least speed, near the best of those at some places: between ever nearer ones, and at the
+        vertex of the parabola through the last three."""
+        for _ in range(EXTREME_ROUNDS):
+            k = min(max(int(best(speeds)), 1), len(places) - 2)
+            low, middle, high = places[k - 1:k + 2]
+            places = np.concatenate([np.linspace(low, middle, 5), np.linspace(middle, high, 5)[1:]])
+            speeds = np.array([speeds[k - 1], *self.integrate(low, speeds[k - 1], places[1:])[0]])
+        k = min(max(int(best(speeds)), 1), len(places) - 2)
+        square, slope, _ = np.polyfit(places[k - 1:k + 2] - places[k], speeds[k - 1:k + 2], 2)
+        vertex = places[k] - slope / (2 * square) if square else places[k]
+        if places[k - 1] < vertex < places[k + 1]:
+            speeds = np.append(speeds, self.integrate(places[k - 1], speeds[k - 1], np.array([vertex]))[0])
+        return float(speeds[best(speeds)])
 
 
 def _integrate_to(rates: Callable[[Reals], Reals], state: Reals, end: float, size: Reals) -> tuple[Reals, float, Reals]:

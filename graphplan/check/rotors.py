@@ -13,9 +13,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from graphplan.check.compared import require_agreement, require_claims
 from graphplan.check.tolerances import SUM_TOL
-from graphplan.errors import BrokenClaim, Disagreement
-from graphplan.kernel.claims import broken
 from graphplan.machine.rotors.polygons import Correction
 from graphplan.machine.rotors.rotor import Eccentric, Rotor
 from graphplan.machine.rotors.rotor_balance import Answer, Balanced
@@ -30,8 +29,7 @@ def check_rotor(found: Balanced) -> dict[str, float]:
 
     Fails with `BrokenClaim` where a drawn step breaks a claim, and with `Disagreement` where opinions differ.
     """
-    if fault := next(broken(found.drawing.program, found.drawing.values), ""):
-        raise BrokenClaim(found.task.name, fault)
+    require_claims(found.task.name, found.drawing)
     pairs = [*zip(found.unbalances, found.answers, strict=True)]
     gaps = {"corrections": max(_correction_gap(found.task.rotor, *pair) for pair in pairs),
             "residual_force": max(map(_residual_force, pairs))}
@@ -40,9 +38,8 @@ def check_rotor(found: Balanced) -> dict[str, float]:
     if found.effects:
         gaps["trials"] = max(_trial_gap(one, -vector(mass)) for masses, _ in pairs
                              for one, mass in zip(found.effects, masses, strict=True))
-    for what, size in gaps.items():
-        if not size <= SUM_TOL:
-            raise Disagreement(found.task.name, what.replace("_", " "), "otherwise", "by the second opinion", size)
+    require_agreement(found.task.name, {quantity.replace("_", " "): gap for quantity, gap in gaps.items()}, SUM_TOL,
+                      by="by the second opinion")
     return gaps
 
 

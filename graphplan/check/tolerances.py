@@ -15,7 +15,6 @@ COLLINEAR_TOL = 1e-9
 FRICTION_TOL = 1e-9  # of the balance: rounds of friction, drawn as many times in every pose, may leave so much
 # of what the drive makes at the mechanism's reach: a slide that is slower is at a dead point; rates carry some 1e-14
 DEAD_POINT_TOL = 1e-9
-HALVING_TOL = 1e-11  # of omega squared: what halved steps of the integration may change
 SPEED_TOL = 1e-9  # of speeds: by so much the construction and the integration may differ
 # of the largest speed, the whole time and the largest energy: so far apart independent motions may be
 MOTION_TOL = 1e-8

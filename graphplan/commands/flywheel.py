@@ -61,7 +61,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.check.flywheel import check_flywheel
+    from graphplan.check.motion import check_flywheel
     from graphplan.machine.flywheel.found import flywheel
     from graphplan.mechanism.scene import parse, source_text
     from graphplan.output.machine.flywheel_numbers import numbers, table

@@ -11,7 +11,7 @@ import jsonschema
 import numpy as np
 import pytest
 
-from graphplan.check.flywheel import check_flywheel
+from graphplan.check.motion import check_flywheel
 from graphplan.commands import main
 from graphplan.commands.result_schemas import printed
 from graphplan.errors import Disagreement, Refused

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from machines import Machine
 
-from graphplan.check import flywheel as of_flywheels
 from graphplan.check import motion as of_motions
 from graphplan.check.balance import balancing
 from graphplan.errors import Refused
@@ -44,7 +43,7 @@ def test_a_machine_runs_as_evenly_as_was_asked_for(seed: int) -> None:
         assert "needs no flywheel" in str(refused)
         assert uneven <= float(scene.flywheel.unevenness or 0)
     else:
-        assert max(of_flywheels.check_flywheel(wheel).values()) <= CLOSE
+        assert max(of_motions.check_flywheel(wheel).values()) <= CLOSE
         assert uneven == pytest.approx(float(scene.flywheel.unevenness or 0), rel=1e-6)
 
 

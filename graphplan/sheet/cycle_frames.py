@@ -28,7 +28,7 @@ from graphplan.sheet.layout.paper import MARGIN
 from graphplan.sheet.lettering.labels import place_letters
 from graphplan.sheet.lettering.letters import mechanism_wishes, wishes_inside
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import EDGE, Arrow, Item, Outline, Polyline, Rect, Sheet, Spot
+from graphplan.sheet.plates.display import EDGE_SLACK_MM, Arrow, Item, Outline, Polyline, Rect, Sheet, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
 from graphplan.sheet.plates.plate import Plate
@@ -158,8 +158,8 @@ def _enlarged(composition: Composition, links: Rect) -> Composition:
 
     views, rects = {str(MECHANISM): replace(window, rect=larger(window.rect))}, {str(MECHANISM): larger(own)}
     for panel in panels.keys() - {MECHANISM}:
-        right = wider if panels[panel].left >= own.right - EDGE else 0.0
-        down = higher if panels[panel].top <= own.bottom + EDGE else 0.0
+        right = wider if panels[panel].left >= own.right - EDGE_SLACK_MM else 0.0
+        down = higher if panels[panel].top <= own.bottom + EDGE_SLACK_MM else 0.0
         view = composition.views[panel]
         views[panel] = replace(view, rect=view.rect.inset(right, -down, -right, down),
                                origin=(view.origin[0] + right, view.origin[1] - down))

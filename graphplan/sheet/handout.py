@@ -31,9 +31,9 @@ from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 from graphplan.sheet.words.rows import fill
 from graphplan.sheet.words.task import TaskWords
 
-RULING, RULED, CROSS = Pen(0.13, GREY), 10.0, 0.5  # a cross every 10 mm, half so long
-LARGE = 1.4  # times: the words of one page that has room for it
-FREE = 4.0  # mm about a beginning without crosses
+RULING_PEN, RULING_PITCH, CROSS_ARM = Pen(0.13, GREY), 10.0, 0.5  # a cross every 10 mm, half so long
+ENLARGEMENT = 1.4  # times: the words of one page that has room for it
+CLEARANCE_MM = 4.0  # mm about a beginning without crosses
 
 
 def solution(composition: Composition) -> list[Sheet]:
@@ -82,7 +82,7 @@ def _with_task_words(composition: Composition, guided: bool) -> Composition:
     if rows and fill(rows, arrangement.columns) is not None:
         return replace(composition, arrangement=replace(arrangement, rows=rows), protocol=())
     page = words_page(frame.paper("A4"), frame, frame.block(scene, composition.plans.tongue))
-    filled = paginate_tightly(enlarge_words(words, LARGE)(page.further_columns[0].width), page)
+    filled = paginate_tightly(enlarge_words(words, ENLARGEMENT)(page.further_columns[0].width), page)
     if len(filled) > 1:
         filled = paginate_tightly(page.set(words), page)
     apart = tuple((page, placed_rows) for placed_rows in filled)
@@ -122,13 +122,13 @@ def _ruling(rect: Rect, spots: Sequence[Spot]) -> Iterator[Item]:
     x0, y0 = spots[0] if spots else rect.centre
     for y in _marks(y0, rect.bottom, rect.top):
         for x in _marks(x0, rect.left, rect.right):
-            if not any(abs(x - u) < FREE and abs(y - v) < FREE for u, v in spots):
-                yield Polyline(RULING, "ruling", None, ((x - CROSS, y), (x + CROSS, y)))
-                yield Polyline(RULING, "ruling", None, ((x, y - CROSS), (x, y + CROSS)))
+            if not any(abs(x - u) < CLEARANCE_MM and abs(y - v) < CLEARANCE_MM for u, v in spots):
+                yield Polyline(RULING_PEN, "ruling", None, ((x - CROSS_ARM, y), (x + CROSS_ARM, y)))
+                yield Polyline(RULING_PEN, "ruling", None, ((x, y - CROSS_ARM), (x, y + CROSS_ARM)))
 
 
 def _marks(start: float, low: float, high: float) -> Iterator[float]:
     """Places a centimetre apart, `start` among them, between two ends."""
-    first = int((low + CROSS - start) // RULED) + 1
-    last = int((high - CROSS - start) // RULED)
-    yield from (start + RULED * i for i in range(first, last + 1))
+    first = int((low + CROSS_ARM - start) // RULING_PITCH) + 1
+    last = int((high - CROSS_ARM - start) // RULING_PITCH)
+    yield from (start + RULING_PITCH * i for i in range(first, last + 1))

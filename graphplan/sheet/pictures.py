@@ -36,11 +36,11 @@ from graphplan.sheet.plates.view import fit_scale, view
 from graphplan.sheet.words.protocol import Entry, Passage, Protocol, SpokenStep
 
 MARGIN = 7.0  # mm about the marks, for their letters
-CONTEXT, ROUND = 0.08, 0.4  # of the plan: no window shows less of it; so much if it need not be smaller
-MORE = 1.5  # times as large a window may be for what else lies on its lines and arcs
-FLAT = 0.4  # of its width: how high a window is at least
-OPEN = 9.0  # mm: a mechanism with a shorter link is not shown where nothing is drawn on it
-FIRM = 0.25  # mm: no new stroke is thinner
+MIN_WINDOW, USUAL_WINDOW = 0.08, 0.4  # of the plan: no window shows less of it; so much if it need not be smaller
+MAX_ENLARGEMENT = 1.5  # times as large a window may be for what else lies on its lines and arcs
+MIN_HEIGHT = 0.4  # of its width: how high a window is at least
+MIN_LINK_MM = 9.0  # mm: a mechanism with a shorter link is not shown where nothing is drawn on it
+MIN_STROKE_MM = 0.25  # mm: no new stroke is thinner
 
 
 def marks_used(program: Program, own: Collection[int]) -> frozenset[int]:
@@ -72,7 +72,7 @@ class Excerpt(Plate):
     def drawn_mechanism(self) -> DrawnMechanism:
         """All the mechanism where its links are long enough to be no heap, else what the steps use of it."""
         scene, whole = self.plates.scene, super().drawn_mechanism
-        if all(math.dist(whole.spots[p], whole.spots[q]) >= OPEN for link in scene.moving
+        if all(math.dist(whole.spots[p], whole.spots[q]) >= MIN_LINK_MM for link in scene.moving
                for p, q in combinations(scene.links[link], 2) if scene.points[p] != scene.points[q]):
             return whole
         read = {step.name for step in self.plates.plans.drawing.drawn.steps if step.index in self.earlier and step.name}
@@ -118,7 +118,7 @@ class Excerpt(Plate):
         if isinstance(item, Text):
             return item if item.step in self.own else replace(item, pen=pens.FAINT)
         if item.step in self.own:
-            return replace(item, pen=pens.firm(item.pen, FIRM))
+            return replace(item, pen=pens.firm(item.pen, MIN_STROKE_MM))
         once = pens.pale(item.pen)
         return replace(item, pen=once if item.step is not None else pens.pale(once))
 
@@ -129,7 +129,7 @@ def excerpt(plans: Plans, own: Collection[int], wide: float, high: float) -> Exc
     panel, before = plans.plan_of_step[max(new)], marks_used(program, new)
     box = _box(plans, panel, new, before)
     inner = wide - 2 * MARGIN
-    rect = Rect(0.0, 0.0, wide, min(inner * max(box.height / box.width, FLAT) + 2 * MARGIN, high))
+    rect = Rect(0.0, 0.0, wide, min(inner * max(box.height / box.width, MIN_HEIGHT) + 2 * MARGIN, high))
     window = view(box, rect, fit_scale(box, rect.inset(MARGIN, MARGIN, MARGIN, MARGIN)))
     return Excerpt(Plates(plans, dict.fromkeys(plans.panels, window)), panel, new, before)
 
@@ -140,8 +140,8 @@ def _box(plans: Plans, panel: Panel, own: Collection[int], before: Collection[in
     core = bounding_box([*_spots(plans, panel, {*own, *before}), *halves] or [plans.extent(panel).core.centre])
     whole = plans.extent(panel).core
     size = max(whole.width, whole.height)
-    box = _at_least(core, CONTEXT * size or 1.0)
-    most = max(MORE * box.width, MORE * box.height, ROUND * size)
+    box = _at_least(core, MIN_WINDOW * size or 1.0)
+    most = max(MAX_ENLARGEMENT * box.width, MAX_ENLARGEMENT * box.height, USUAL_WINDOW * size)
     more = {mark for index in own for mark in plans.marks_on.get(index, ())}
     more |= {mark for index in before for mark in plans.marks_on.get(index, ()) if mark <= max(own)}
     x, y = core.centre
@@ -162,16 +162,16 @@ def _at_least(box: Rect, size: float) -> Rect:
     """A box made larger about its middle: one side is no smaller than `size`, and neither much smaller than the other.
     """
     (x, y), large = box.centre, max(box.width, box.height, size)
-    wide, high = max(box.width, FLAT * large), max(box.height, FLAT * large)
+    wide, high = max(box.width, MIN_HEIGHT * large), max(box.height, MIN_HEIGHT * large)
     wide = wide if max(wide, high) == large else large
     return Rect(x - wide / 2, y - high / 2, x + wide / 2, y + high / 2)
 
 
 MARK, STEP, STAGE = CUTS = "mark", "step", "stage"
-MOST = {MARK: 12, STEP: 1, STAGE: 14}  # movements in a picture
-LEAST = 3  # movements up to a mark, where more follow in their stage
-SHORT = 6  # movements of stages that stand together
-PARTED = 2.0  # the price of a further picture, in helping marks that are used in both
+MAX_MOVEMENTS = {MARK: 12, STEP: 1, STAGE: 14}  # movements in a picture
+MIN_MOVEMENTS = 3  # movements up to a mark, where more follow in their stage
+SHORT_STAGE = 6  # movements of stages that stand together
+PRICE_OF_PICTURE = 2.0  # the price of a further picture, in helping marks that are used in both
 
 
 @dataclass(frozen=True)
@@ -297,8 +297,8 @@ def _by_marks(protocol: Protocol) -> Iterator[list[Part]]:
         for _, movements in part.entries:
             steps = [movement.step for movement in movements]
             group += steps
-            marked = steps[-1].name and steps[-1].op.gives == POINT and len(group) >= LEAST
-            if marked or len(group) >= MOST[MARK]:
+            marked = steps[-1].name and steps[-1].op.gives == POINT and len(group) >= MIN_MOVEMENTS
+            if marked or len(group) >= MAX_MOVEMENTS[MARK]:
                 runs, group = [*runs, group], []
         for movement in part.cut([*runs, *([group] if group else [])]):
             yield [*begun, movement]
@@ -313,12 +313,13 @@ def _by_stages(protocol: Protocol) -> Iterator[list[Part]]:
     for part in _passage_parts(protocol):
         home = plans.plan_of_step[part.steps[0].index]
         count = sum(len(short_part.steps) for short_part in short)
-        if short and (count + len(part.steps) > SHORT or plans.plan_of_step[short[-1].steps[0].index] != home):
+        if short and (count + len(part.steps) > SHORT_STAGE or plans.plan_of_step[short[-1].steps[0].index] != home):
             yield short
             short = []
-        if len(part.steps) > SHORT:
+        if len(part.steps) > SHORT_STAGE:
             yield from ([short_part]
-                        for short_part in part.cut(cut_into_runs(plans.drawing.drawn, part.steps, MOST[STAGE])))
+                        for short_part in part.cut(cut_into_runs(plans.drawing.drawn, part.steps,
+                                                                 MAX_MOVEMENTS[STAGE])))
         else:
             short.append(part)
     if short:
@@ -331,7 +332,7 @@ def cut_into_runs(program: Program, steps: Sequence[Step], most: int) -> list[Se
     alive = [sum(last.get(step.index, -1) >= at.index for step in steps if step.index < at.index) for at in steps]
     cost, came = [0.0], [0]
     for end in range(1, len(steps) + 1):
-        price = alive[end] + PARTED if end < len(steps) else 0.0
+        price = alive[end] + PRICE_OF_PICTURE if end < len(steps) else 0.0
         came.append(min(range(max(0, end - most), end), key=lambda start: (cost[start], -start)))
         cost.append(cost[came[end]] + price)
     ends = [len(steps)]

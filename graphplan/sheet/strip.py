@@ -27,11 +27,11 @@ from graphplan.sheet.words.protocol import Protocol
 from graphplan.sheet.words.rows import LEADING, Cell, TextRow, row_items
 from graphplan.sheet.words.texts import SheetWords
 
-WANTED = {MARK: 84.0, STEP: 84.0, STAGE: 176.0}  # mm: about how wide columns are
-BESIDE = 0.58  # of a column has a picture that has its words beside it
-HIGH = {MARK: 0.7, STEP: 0.7, STAGE: 0.63}  # of its width: no picture is higher
-GAP, UNDER, BELOW = 4.0, 1.2, 5.0  # mm: beside pictures, above words and below them
-USUAL = "A3"  # paper
+COLUMN_WIDTHS = {MARK: 84.0, STEP: 84.0, STAGE: 176.0}  # mm: about how wide columns are
+PICTURE_SHARE = 0.58  # of a column has a picture that has its words beside it
+MAX_HEIGHT = {MARK: 0.7, STEP: 0.7, STAGE: 0.63}  # of its width: no picture is higher
+GAP, WORDS_GAP, PICTURE_GAP = 4.0, 1.2, 5.0  # mm: beside pictures, above words and below them
+USUAL_PAPER = "A3"  # paper
 NO_SCALE = "—"  # of a sheet with pictures in scales of their own
 
 
@@ -71,7 +71,7 @@ class Strip:
         By stages an A4 stands upright, as words are beside the pictures, and lengths are told: those of the sheet.
         """
         plans = replace(composition.plans, motion=None)
-        named = paper or plans.drawing.scene.sheet.paper or USUAL
+        named = paper or plans.drawing.scene.sheet.paper or USUAL_PAPER
         named = f"{named} portrait" if cut == STAGE and named == "A4" else named
         scales = composition.scales if cut == STAGE else None
         return cls(Protocol(plans, scales), cut, frame_of(plans.drawing.scene).paper(named))
@@ -109,7 +109,7 @@ class Strip:
     def columns(self) -> list[Rect]:
         """The columns of a page as they are set, those over the title block ending above it."""
         frame, block = self.frame.times(1 / self.times), self.block.times(1 / self.times)
-        count = max(1, round((frame.width - GAP) / (WANTED[self.cut] + GAP)))
+        count = max(1, round((frame.width - GAP) / (COLUMN_WIDTHS[self.cut] + GAP)))
         pitch = (frame.width - GAP) / count
         lefts = [frame.left + GAP + i * pitch for i in range(count)]
         feet = [block.top if left + pitch - GAP > block.left else frame.bottom for left in lefts]
@@ -119,7 +119,7 @@ class Strip:
     @cached_property
     def pictures(self) -> list[Picture]:
         tallest = max(column.height for column in self.columns)
-        cut_pictures = pictures(self.protocol, self.cut, (self.wide, HIGH[self.cut] * self.wide),
+        cut_pictures = pictures(self.protocol, self.cut, (self.wide, MAX_HEIGHT[self.cut] * self.wide),
                          lambda one: self._height(one) <= tallest)
         if max(map(self._height, cut_pictures), default=0.0) > tallest:
             raise Refused("film strip", "a picture with its words is larger than the sheet", "a larger --paper")
@@ -128,7 +128,7 @@ class Strip:
     @property
     def wide(self) -> float:
         """How wide a picture is: a column, or what of it is left by the words beside it."""
-        return self.columns[0].width * (BESIDE if self.cut == STAGE else 1.0)
+        return self.columns[0].width * (PICTURE_SHARE if self.cut == STAGE else 1.0)
 
     @property
     def words_wide(self) -> float:
@@ -163,7 +163,7 @@ class Strip:
                 place = places.pop(0)
                 y = place.top
             page.append((number, (place.left, y)))
-            y -= high + BELOW
+            y -= high + PICTURE_GAP
         yield page
 
     def _sheet(self, page: list[tuple[int, Spot]], number: int, of: int) -> Sheet:
@@ -190,14 +190,14 @@ class Strip:
                       picture.excerpt.panel)
         for item in picture.items:
             yield move_item(item, x, y - rect.height)
-        below = (0.0, rect.height + UNDER) if self.cut != STAGE else (rect.width + GAP, 0.0)
+        below = (0.0, rect.height + WORDS_GAP) if self.cut != STAGE else (rect.width + GAP, 0.0)
         yield from _stack_rows(words, x + below[0], y - below[1])
 
     def _height(self, one: Picture) -> float:
         """How far down a picture reaches with its words."""
         (heads, words_rows), high = self._rows(one), one.excerpt.view.rect.height
         words = sum(row.height + row.gap for row in words_rows)
-        return sum(row.height for row in heads) + (max(high, words) if self.cut == STAGE else high + UNDER + words)
+        return sum(row.height for row in heads) + (max(high, words) if self.cut == STAGE else high + WORDS_GAP + words)
 
     def _rows(self, one: Picture, number: int = 99) -> tuple[list[TextRow], list[TextRow]]:
         """What stands above a picture and below it: by stages also what these are."""

@@ -16,7 +16,7 @@ from graphplan.output.machine.lever_figures import LEVERS
 from graphplan.output.svg import svg
 from graphplan.phrases import digits
 from graphplan.sheet.lettering.lettering import plain
-from graphplan.sheet.plates.display import EDGE, Item, Polyline, Sheet, Text
+from graphplan.sheet.plates.display import EDGE_SLACK_MM, Item, Polyline, Sheet, Text
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +34,7 @@ def pages(result: FlywheelResult) -> list[Sheet]:
 def inside(sheet: Sheet, item: Item) -> bool:
     """Whether a stroke or letters lie in one panel."""
     spots = item.box.corners if isinstance(item, Text) else item.spots if isinstance(item, Polyline) else ()
-    return any(all(rect.holds(spot, EDGE) for spot in spots) for rect in sheet.panels.values())
+    return any(all(rect.holds(spot, EDGE_SLACK_MM) for spot in spots) for rect in sheet.panels.values())
 
 
 def test_panels_hold_what_is_drawn(pages: list[Sheet]) -> None:

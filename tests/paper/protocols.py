@@ -16,7 +16,7 @@ import graphplan as gp
 from graphplan.commands import main
 from graphplan.mechanism.model import Scene
 from graphplan.output.text import steps
-from graphplan.sheet.layout.composition import USUAL
+from graphplan.sheet.layout.composition import USUAL_PANEL
 from graphplan.sheet.layout.paper import room
 from graphplan.sheet.layout.plan_scales import given_scales, windows
 from graphplan.sheet.plates.display import Rect
@@ -30,11 +30,11 @@ def protocol(scene: Scene, **how: Any) -> dict[str, Any]:
     """The protocol of a scene, drawn in one of the ways of `gp.construct`, as `steps --json` has it but for the layout:
     plans lie over each other, each in a room of its own."""
     plans = Plans(gp.construct(scene, **how))
-    rooms = {panel: room(Rect(0.0, 0.0, *USUAL)) for panel in plans.panels}
+    rooms = {panel: room(Rect(0.0, 0.0, *USUAL_PANEL)) for panel in plans.panels}
     extents = {panel: plans.extent(panel) for panel in plans.panels}
     scales, views = windows(rooms, extents, plans, given_scales(plans))
     composition: Any = SimpleNamespace(plans=plans, scales=scales, plates=Plates(plans, views),
-                                       arrangement=SimpleNamespace(height=USUAL[1]))
+                                       arrangement=SimpleNamespace(height=USUAL_PANEL[1]))
     return {**steps(composition), "pencil": {"paper": PAPER}}
 
 

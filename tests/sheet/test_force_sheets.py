@@ -18,7 +18,7 @@ from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Circle, Sheet, Text
 from graphplan.sheet.plates.plans import MECHANISM
-from graphplan.sheet.plates.plate import HIDDEN, SHORT
+from graphplan.sheet.plates.plate import MIN_LOAD_MM, SHORT
 from graphplan.sheet.words.force_tables import ForceTables
 
 
@@ -55,7 +55,7 @@ def test_every_force_is_drawn_phi_lengths_long(name: str) -> None:
         true = math.hypot(u - x, v - y) / sheet.scales.lengths_per_mm(vector.panel)
         arrows = [item for item in sheet.items if isinstance(item, Arrow) and item.step == max(vector.start, vector.end)
                   and item.label == f"{vector.kind} {vector.point}"]  # fmt: skip
-        assert bool(arrows) == (true >= (HIDDEN if vector.panel == MECHANISM else SHORT))
+        assert bool(arrows) == (true >= (MIN_LOAD_MM if vector.panel == MECHANISM else SHORT))
         assert all(math.dist(arrow.start, arrow.end) == pytest.approx(true) for arrow in arrows)
 
 

@@ -18,7 +18,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import SIZES
 from graphplan.output.svg import svg
 from graphplan.sheet.frames.frame import BORDER, FRAMES, frame_of
-from graphplan.sheet.frames.title import DOCUMENTS, SOLUTION, TITLE, Page
+from graphplan.sheet.frames.title import DOCUMENTS, SOLUTION, TITLE_SIZE, Page
 from graphplan.sheet.handout import guided_task, solution, task
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
@@ -205,7 +205,7 @@ def test_long_titles_wrap_and_shrink(frame: str) -> None:
         wide = block.width(Rect(20.0, 10.0, 410.0, 287.0), 101.0)
         items = block.items(Rect(0.0, 0.0, wide, block.height(wide)), Page(SOLUTION, "A3", "1 : 1"))
         sizes.append({item.size for item in items if isinstance(item, Text) and "kinematic" in plain(item.runs)})
-    assert sizes == [{HEADING if frame == "iso" else TITLE}, {SIZE}]
+    assert sizes == [{HEADING if frame == "iso" else TITLE_SIZE}, {SIZE}]
     block = frame_of(scene).block(replace(scene, title="kinematic " * 99), ENGLISH)
     with pytest.raises(Refused, match=r"title: it is too long .*; fewer words"):
         list(block.items(Rect(0.0, 0.0, wide, block.height(wide)), Page(SOLUTION, "A3", "1 : 1")))

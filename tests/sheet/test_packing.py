@@ -16,7 +16,7 @@ from graphplan.sheet.lettering.lettering import TextRun, plain, sentence_runs
 from graphplan.sheet.plates import symbols
 from graphplan.sheet.plates.display import Arc, Rect
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.words.rows import TALL, TIGHT, Cell, TextRow, tighten
+from graphplan.sheet.words.rows import BOX_HEIGHT, TIGHT_BOX_HEIGHT, Cell, TextRow, tighten
 from graphplan.sheet.words.task import TaskWords
 
 
@@ -45,10 +45,10 @@ def test_a_page_ends_after_any_row_and_holds_no_row_that_is_higher() -> None:
 
 def test_a_box_for_a_number_gets_lower_but_not_narrower() -> None:
     """Closer rows keep their words and the widths of their boxes."""
-    blank = TextRow((Cell(0.0, (TextRun("A"),)),), gap=1.0, tall=TALL, boxes=(Rect(10.0, 0.0, 30.0, TALL),))
+    blank = TextRow((Cell(0.0, (TextRun("A"),)),), gap=1.0, tall=BOX_HEIGHT, boxes=(Rect(10.0, 0.0, 30.0, BOX_HEIGHT),))
     tight = tighten(blank)
-    assert (tight.cells, tight.gap, tight.height) == (blank.cells, 0.5, TIGHT)
-    assert tight.boxes == (Rect(10.0, 0.0, 30.0, TIGHT),)
+    assert (tight.cells, tight.gap, tight.height) == (blank.cells, 0.5, TIGHT_BOX_HEIGHT)
+    assert tight.boxes == (Rect(10.0, 0.0, 30.0, TIGHT_BOX_HEIGHT),)
     assert tighten(TextRow(blank.cells, gap=2.0)) == TextRow(blank.cells, gap=1.0)
 
 

@@ -14,7 +14,7 @@ from graphplan.sheet.pictures import MARK, STAGE, STEP, cut_into_runs, marks_use
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Text
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.strip import HIGH, Strip, by_stages, strip
+from graphplan.sheet.strip import MAX_HEIGHT, Strip, by_stages, strip
 from graphplan.sheet.words.texts import RESULTS
 
 
@@ -135,7 +135,7 @@ def test_long_stages_are_cut_where_little_is_carried_over() -> None:
 
 def test_a_strip_that_does_not_fit_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where one picture with its words is larger than the sheet, a larger one is advised."""
-    monkeypatch.setitem(HIGH, MARK, 4.0)
-    monkeypatch.setattr("graphplan.sheet.pictures.FLAT", 3.0)
+    monkeypatch.setitem(MAX_HEIGHT, MARK, 4.0)
+    monkeypatch.setattr("graphplan.sheet.pictures.MIN_HEIGHT", 3.0)
     with pytest.raises(Refused, match="larger --paper"):
         strip(composition_of("four-bar"), "A4")

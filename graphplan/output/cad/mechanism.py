@@ -18,7 +18,7 @@ from graphplan.output.cad.ink import STYLE, Ink
 from graphplan.output.cad.layers import FULL_SIZE, Layers
 from graphplan.sheet.lettering.lettering import CAPS, SMALL_SHEET, width
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.annotations import FIRST, LinkDimension, dimensions
+from graphplan.sheet.plates.annotations import FIRST_LEVEL_MM, LinkDimension, dimensions
 from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.plans import bounding_box
@@ -31,7 +31,7 @@ SYMBOLS = {"ground", "wheels", "blocks", "drive", "pairs"}  # layers of the shee
 DIMENSIONED, POINTS = f"{FULL_SIZE} dimensions", f"{FULL_SIZE} points"
 CLEAR = 2.2  # mm from a point to its letters
 DIGITS = 4  # of the longest dimension
-ROOM = 3 * FIRST  # mm about the points for symbols, letters and dimensions
+ROOM = 3 * FIRST_LEVEL_MM  # mm about the points for symbols, letters and dimensions
 DIMENSION_STYLE = {  # mm on paper, as ISO 129 has them
     "dimtxt": 2.5, "dimasz": 2.5, "dimexo": 1.0, "dimexe": 1.5, "dimgap": 0.8, "dimtad": 1, "dimtih": 0, "dimtoh": 0,
     "dimtix": 1, "dimtofl": 1, "dimzin": 8, "dimlwd": 18, "dimlwe": 18, "dimlfac": 1.0, "dimtxsty": STYLE,
@@ -101,7 +101,7 @@ class FullSize:
     def box(self) -> Rect:
         """What it takes up, in units of the scene."""
         sides = [abs(one.aside) for one in self.dimensions]
-        box, margin = bounding_box(list(self.drawn.spots.values())), max([ROOM, *sides]) + FIRST
+        box, margin = bounding_box(list(self.drawn.spots.values())), max([ROOM, *sides]) + FIRST_LEVEL_MM
         return box.inset(-margin, -margin, -margin, -margin).times(self.scale)
 
     def draw(self, space: Any, layers: Layers, decimal: str) -> None:

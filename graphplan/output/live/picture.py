@@ -58,7 +58,7 @@ MEASURES: dict[Any, tuple[str, ...]] = {  # of what is drawn: mm, degrees, price
     label_candidates: ("LED", "LEADER", "BALLOON", "AIR", "TASTE", "EDGE"),
     prices: ("FAULT", "MISTAKEN", "TOUCH", "BESIDE", "STRANGER", "THICK", "CLASH"),
 }  # fmt: skip
-TOGETHER = letters.NEAR  # mm: marks that lie so near to each other have their letters together
+TOGETHER = letters.SAME_PLACE_MM  # mm: marks that lie so near to each other have their letters together
 PENS = {  # by what they draw
     "arc": pens.ARC, "pair": pens.PAIR, "tracer": pens.DOT, "break": pens.THIN.with_fill(pens.GREY),
     "leader": pens.LEADER, "balloon": pens.BALLOON, "letters": pens.LETTERS, "faint": pens.FAINT,

@@ -32,7 +32,7 @@ from graphplan.words.tongue import Tongue
 BORDER = "border"  # the layer of what stands outside the frame
 BINDING, EDGE = 20.0, 10.0
 FIELD, STRIP, CAPITALS, DIVISION = 50.0, 5.0, 3.5, Pen(0.35)
-LETTERED = "ABCDEFGHJKLMNPQRSTUVWXYZ"  # without I and O, which are read as figures
+FIELD_LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ"  # without I and O, which are read as figures
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ def _fields(paper: str, space: Rect, tongue: Tongue) -> Iterator[Item]:
         yield from (_name(str(i), (middle, low + STRIP / 2)) for i, middle in enumerate(_middles(across), 1))
     for left in (space.right,) if small else (space.left - STRIP, space.right):
         yield from (_division((left, end), (left + STRIP, end)) for end in upwards[1:-1])
-        names = zip(LETTERED, reversed(_middles(upwards)), strict=False)
+        names = zip(FIELD_LETTERS, reversed(_middles(upwards)), strict=False)
         yield from (_name(name, (left + STRIP / 2, middle)) for name, middle in names)
     for start, end in (((outer.left, y), (space.left, y)), ((outer.right, y), (space.right, y)),
                        ((x, outer.bottom), (x, space.bottom)), ((x, outer.top), (x, space.top))):  # fmt: skip
@@ -133,9 +133,9 @@ FRAMES = {
 # ---- corner marks ----------------------------------------------------------------------------------------------------
 
 MARKS = "corner marks"  # the layer
-WORDS = "10000", "10111", "01001", "01110"  # how a row says two bits
+ROW_BITS = "10000", "10111", "01001", "01110"  # how a row says two bits
 CELLS = 7  # of a mark's side, its black border among them
-LARGEST, CLEAR, MIN_EDGE = 4.5, 0.75, 1.0  # mm: a mark's side; white beside it, towards the frame and the paper's edge
+MAX_MARK_MM, MARK_MARGIN_MM, EDGE_MARGIN_MM = 4.5, 0.75, 1.0  # a mark's side; white towards the frame, towards the edge
 BLACK, WHITE = Pen(0.0, INK, fill=INK), Pen(0.0, PAPER, fill=PAPER)
 
 
@@ -159,7 +159,7 @@ def corner_numbers(code: int) -> tuple[int, int, int, int]:
 def corner_rects(width: float, height: float, frame: Rect) -> tuple[Rect, Rect, Rect, Rect]:
     """Where the marks of a sheet lie, from the lower left corner, counter-clockwise."""
     border = min(frame.left, frame.bottom, width - frame.right, height - frame.top)
-    side, near = min(LARGEST, border - CLEAR - MIN_EDGE), CLEAR
+    side, near = min(MAX_MARK_MM, border - MARK_MARGIN_MM - EDGE_MARGIN_MM), MARK_MARGIN_MM
     left, right = frame.left - near - side, frame.right + near
     low, high = frame.bottom - near - side, frame.top + near
     corners = (left, low), (right, low), (right, high), (left, high)
@@ -175,13 +175,13 @@ def corner_marks(width: float, height: float, frame: Rect, code: int) -> list[It
 
 def mark_cells(number: int) -> tuple[str, ...]:
     """A mark without its border, row by row from above: 1 is white."""
-    return tuple(WORDS[number >> shift & 3] for shift in (8, 6, 4, 2, 0))
+    return tuple(ROW_BITS[number >> shift & 3] for shift in (8, 6, 4, 2, 0))
 
 
 def _mark(rect: Rect, number: int) -> Iterator[Item]:
     """White about it, black all over, and its white cells: as strips, so that no seam shows between neighbours."""
     cell = rect.width / CELLS
-    yield _block(WHITE, rect.inset(-CLEAR, -CLEAR, -CLEAR, -CLEAR))
+    yield _block(WHITE, rect.inset(-MARK_MARGIN_MM, -MARK_MARGIN_MM, -MARK_MARGIN_MM, -MARK_MARGIN_MM))
     yield _block(BLACK, rect)
     for row, bits in enumerate(mark_cells(number), 1):
         top = rect.top - row * cell

@@ -24,8 +24,8 @@ from graphplan.words.tongue import Tongue
 CONSTRUCTION, SOLUTION, STRIP = said("Construction sheet"), said("Solution"), said("Film strip")
 TASK, GUIDED = said("Task"), said("Guided construction")
 DOCUMENTS = (CONSTRUCTION, SOLUTION, TASK, GUIDED, STRIP)
-TITLE, LEADING = 3.5, 1.35
-SIDE = 1.0  # mm that lettering keeps from the edges of its cell
+TITLE_SIZE, LEADING = 3.5, 1.35
+CELL_PADDING_MM = 1.0  # mm that lettering keeps from the edges of its cell
 
 
 @dataclass(frozen=True)
@@ -87,12 +87,12 @@ def fit_text(rect: Rect, text: str, sizes: Sequence[float] = (SIZE,), *, what: s
     Fails with `Refused` where they have not.
     """
     for size in sizes:
-        lines = wrap(sentence_runs(text), size, rect.width - 2 * SIDE, bold)
+        lines = wrap(sentence_runs(text), size, rect.width - 2 * CELL_PADDING_MM, bold)
         if len(lines) == 1 or LEADING * size * len(lines) <= rect.height:
             break
     else:
         raise Refused(what, "it is too long for its place in the title block", "fewer words")
-    x, anchor = (rect.centre[0], "middle") if middle else (rect.left + SIDE, "start")
+    x, anchor = (rect.centre[0], "middle") if middle else (rect.left + CELL_PADDING_MM, "start")
     top = rect.centre[1] + (len(lines) - 1) * LEADING * size / 2 - CAPS * size / 2
     for i, runs in enumerate(lines):
         yield Text(LETTERS, "text", None, (x, top - i * LEADING * size), runs, size, anchor, bold)
@@ -100,22 +100,22 @@ def fit_text(rect: Rect, text: str, sizes: Sequence[float] = (SIZE,), *, what: s
 
 # ---- ISO 7200 ------------------------------------------------------------------------------------------------------
 
-WIDEST, PITCH = 180.0, 1.45
+MAX_BLOCK_WIDTH, PITCH = 180.0, 1.45
 PAD, CELL = 2.0, 1.2  # mm beside the title, and beside the lettering of a cell
 CELL_HIGH = 9.0  # mm: of a cell with one line
 FOOT, HEAD = 1.6, 3.2  # mm: the lowest base line of a cell above its edge, that of its heading below
-MOST = 3  # lines of a title in large letters; twice as many in small ones
-RATIO, PER_LENGTH = "1 : 0000", "mu_s = 0.000"  # the longest, as a rule
-OPTIONAL = (  # which stand where the scene says them
+MAX_TITLE_LINES = 3  # lines of a title in large letters; twice as many in small ones
+LONGEST_RATIO, LONGEST_PER_LENGTH = "1 : 0000", "mu_s = 0.000"  # the longest, as a rule
+OPTIONAL_CELLS = (  # which stand where the scene says them
     TitleCell(said("Legal owner"), "sheet.owner"), TitleCell(said("Number"), "sheet.number"),
     TitleCell(said("Date of issue"), "sheet.date"), TitleCell(said("Approved by"), "sheet.approved_by"),
 )  # fmt: skip
-ALWAYS = (
+STANDING_CELLS = (
     TitleCell(said("Document"), "document"), TitleCell(said("Drawn by"), "sheet.drawn_by"),
     TitleCell(said("Scale"), "sheet.k_s"), TitleCell(said("Format"), "format"), TitleCell(said("Sheet"), "page"),
     TitleCell(said("Language"), "language"),
 )  # fmt: skip
-BY_HAND = (  # each with mm to write in, where the scene does not say it
+CELLS_BY_HAND = (  # each with mm to write in, where the scene does not say it
     (TitleCell(said("Name"), "sheet.student"), 38.0), (TitleCell(said("Group")), 18.0), (TitleCell(said("Date")), 18.0),
     (TitleCell(said("Variant"), "sheet.variant"), 14.0),
 )  # fmt: skip
@@ -161,7 +161,7 @@ class IsoBlock:
 
     def width(self, frame: Rect, pitch: float) -> float:
         """The whole frame where the block has room for no more, else the pitch of the columns."""
-        return frame.width if frame.width <= WIDEST else min(pitch, WIDEST)
+        return frame.width if frame.width <= MAX_BLOCK_WIDTH else min(pitch, MAX_BLOCK_WIDTH)
 
     def height(self, wide: float) -> float:
         """The same for every page."""
@@ -203,14 +203,14 @@ class IsoBlock:
         On a page that is filled in by hand the rest of the cells stand in the place of the source.
         """
         room = wide - 2 * PAD
-        sizes = HEADING / self.times, TITLE, SIZE
+        sizes = HEADING / self.times, TITLE_SIZE, SIZE
         *large_lines, small = (wrap(sentence_runs(self.scene.title), size, room, bold=True) for size in sizes)
         subtitle = self.tongue(page.brief) if page.filled_by_hand else self.scene.source
         source = wrap(sentence_runs(subtitle), SIZE, room)
         for name, lines in (("title", small), ("source", source)):
-            if len(lines) > 2 * MOST:
+            if len(lines) > 2 * MAX_TITLE_LINES:
                 raise Refused(name, f"it is too long for a title block {wide:g} mm wide", "fewer words")
-        fitting = (pair for pair, most in zip(zip(large_lines, sizes, strict=False), (1, MOST), strict=True)
+        fitting = (pair for pair, most in zip(zip(large_lines, sizes, strict=False), (1, MAX_TITLE_LINES), strict=True)
                    if len(pair[0]) <= most)
         lines, size = next(fitting, (small, SIZE))
         return [*((runs, size, True) for runs in lines), *((runs, SIZE, False) for runs in source)]
@@ -221,9 +221,9 @@ class IsoBlock:
         """The cells in rows: first those that a scene fills or not, then those of every sheet."""
         texts, longest = values(self.scene, self.tongue, page), self._longest()
         optional, always = ([_FilledCell(self.tongue(cell.words), texts[cell.field], longest.get(cell.field, ""))
-                             for cell in cells] for cells in (OPTIONAL, ALWAYS))
+                             for cell in cells] for cells in (OPTIONAL_CELLS, STANDING_CELLS))
         by_hand = [_FilledCell(self.tongue(cell.words), texts.get(cell.field, ""), least=least) for cell,
-                   least in BY_HAND]
+                   least in CELLS_BY_HAND]
         for cells in ([cell for cell in optional if cell.text], by_hand if page.filled_by_hand else always):
             row: list[_FilledCell] = []
             for cell_text in cells:
@@ -236,9 +236,9 @@ class IsoBlock:
 
     def _longest(self) -> dict[str, str]:
         """The longest that fields have, as a rule, where they are not the same on every page."""
-        ratio, per_length = RATIO, joined((PER_LENGTH, unit(f"mm/{self.scene.units.length}")), " ")
+        ratio, per_length = LONGEST_RATIO, joined((LONGEST_PER_LENGTH, unit(f"mm/{self.scene.units.length}")), " ")
         if self.scene.sheet.convention == "drawn":
-            ratio = self.tongue(joined((RATIO, per_length), "; "))
+            ratio = self.tongue(joined((LONGEST_RATIO, per_length), "; "))
         document = max(map(self.tongue, DOCUMENTS), key=_long)
         return {"document": document, "sheet.k_s": ratio, "format": "A0", "page": "00/00"}
 
@@ -270,10 +270,10 @@ def _cells(row: list[_FilledCell], rect: Rect) -> Iterator[Item]:
 
 # ---- GOST 2.104 ----------------------------------------------------------------------------------------------------
 
-WIDE, HIGH, ROW = 185.0, 55.0, 5.0
+GOST_WIDTH, GOST_HEIGHT, GOST_ROW = 185.0, 55.0, 5.0
 CHANGES = (0.0, 7.0, 17.0, 40.0, 55.0, 65.0)  # the edges of the columns of changes; the first two make that of roles
-SMALL = (SIZE, 2.2, 1.8)  # of our own words, in narrow cells
-LIT, MASS, SCALE = (135.0, 35.0, 150.0, 40.0), (150.0, 35.0, 167.0, 40.0), (167.0, 35.0, WIDE, 40.0)
+SMALL_SIZES = (SIZE, 2.2, 1.8)  # of our own words, in narrow cells
+LIT, MASS, SCALE = (135.0, 35.0, 150.0, 40.0), (150.0, 35.0, 167.0, 40.0), (167.0, 35.0, GOST_WIDTH, 40.0)
 
 HEADS = said("Rev."), said("Sheet"), said("Doc. No."), said("Sign."), said("Date")
 ROLES = (said("Drawn"), "sheet.drawn_by"), (said("Checked"), ""), (said("Tech. check"), ""), ("", ""), (
@@ -281,28 +281,29 @@ ROLES = (said("Drawn"), "sheet.drawn_by"), (said("Checked"), ""), (said("Tech. c
 ROLES_BY_HAND = (said("Name"), "sheet.student"), (said("Checked"), ""), (said("Group"), ""), (
     said("Variant"), "sheet.variant"), *ROLES[4:]
 CELLS = (  # from left to right, by columns; those of the roles stand before them
-    *(TitleCell(head, "", (left, 30.0, right, 35.0), SMALL, middle=True)
+    *(TitleCell(head, "", (left, 30.0, right, 35.0), SMALL_SIZES, middle=True)
       for head, (left, right) in zip(HEADS, pairwise(CHANGES), strict=True)),
-    TitleCell("", "sheet.date", (55.0, 25.0, 65.0, 30.0), SMALL, middle=True),
-    TitleCell("", "sheet.number", (65.0, 40.0, WIDE, HIGH), (5.0, TITLE, SIZE), middle=True),
-    TitleCell("", "title", (65.0, 20.0, 135.0, 40.0), (TITLE, 3.0, SIZE), bold=True, middle=True),
+    TitleCell("", "sheet.date", (55.0, 25.0, 65.0, 30.0), SMALL_SIZES, middle=True),
+    TitleCell("", "sheet.number", (65.0, 40.0, GOST_WIDTH, GOST_HEIGHT), (5.0, TITLE_SIZE, SIZE), middle=True),
+    TitleCell("", "title", (65.0, 20.0, 135.0, 40.0), (TITLE_SIZE, 3.0, SIZE), bold=True, middle=True),
     TitleCell("", "source", (65.0, 0.0, 135.0, 15.0), middle=True),
-    TitleCell("", "sheet.owner", (135.0, 0.0, WIDE, 15.0), (TITLE, SIZE), middle=True),
-    TitleCell("", "document", (65.0, 15.0, 135.0, 20.0), SMALL, middle=True),
-    TitleCell(said("Lit."), "", LIT, SMALL, middle=True),
-    TitleCell(said("Mass"), "", MASS, SMALL, middle=True),
-    TitleCell(said("Scale"), "", SCALE, SMALL, middle=True),
-    TitleCell("", "sheet.k_s", (167.0, 20.0, WIDE, 35.0), SMALL, middle=True),
-    TitleCell(said("Sheet"), "number", (135.0, 15.0, 155.0, 20.0), SMALL),
-    TitleCell(said("Sheets"), "of", (155.0, 15.0, WIDE, 20.0), SMALL),
+    TitleCell("", "sheet.owner", (135.0, 0.0, GOST_WIDTH, 15.0), (TITLE_SIZE, SIZE), middle=True),
+    TitleCell("", "document", (65.0, 15.0, 135.0, 20.0), SMALL_SIZES, middle=True),
+    TitleCell(said("Lit."), "", LIT, SMALL_SIZES, middle=True),
+    TitleCell(said("Mass"), "", MASS, SMALL_SIZES, middle=True),
+    TitleCell(said("Scale"), "", SCALE, SMALL_SIZES, middle=True),
+    TitleCell("", "sheet.k_s", (167.0, 20.0, GOST_WIDTH, 35.0), SMALL_SIZES, middle=True),
+    TitleCell(said("Sheet"), "number", (135.0, 15.0, 155.0, 20.0), SMALL_SIZES),
+    TitleCell(said("Sheets"), "of", (155.0, 15.0, GOST_WIDTH, 20.0), SMALL_SIZES),
 )
-LEVEL = (  # the lines across: how high, from where to where, and whether they are wide
-    *((ROW * row, 0.0, 65.0, row in (6, 7)) for row in range(1, 11)),
-    (HIGH, 0.0, WIDE, True), (40.0, 65.0, WIDE, True), (15.0, 65.0, WIDE, True), (35.0, 135.0, WIDE, True),
-    (20.0, 135.0, WIDE, True),
+HORIZONTAL_LINES = (  # the lines across: how high, from where to where, and whether they are wide
+    *((GOST_ROW * row, 0.0, 65.0, row in (6, 7)) for row in range(1, 11)),
+    (GOST_HEIGHT, 0.0, GOST_WIDTH, True), (40.0, 65.0, GOST_WIDTH, True), (15.0, 65.0, GOST_WIDTH, True),
+    (35.0, 135.0, GOST_WIDTH, True),
+    (20.0, 135.0, GOST_WIDTH, True),
 )  # fmt: skip
-UPRIGHT = (  # the lines upwards: where, from how high to how high, and whether they are wide
-    (0.0, 0.0, HIGH, True), (7.0, 30.0, HIGH, True), *((x, 0.0, HIGH, True) for x in CHANGES[2:]),
+VERTICAL_LINES = (  # the lines upwards: where, from how high to how high, and whether they are wide
+    (0.0, 0.0, GOST_HEIGHT, True), (7.0, 30.0, GOST_HEIGHT, True), *((x, 0.0, GOST_HEIGHT, True) for x in CHANGES[2:]),
     (135.0, 0.0, 40.0, True), (140.0, 20.0, 35.0, False), (145.0, 20.0, 35.0, False), (150.0, 20.0, 40.0, True),
     (155.0, 15.0, 20.0, True), (167.0, 20.0, 40.0, True),
 )  # fmt: skip
@@ -321,18 +322,18 @@ class GostBlock:
 
     def width(self, frame: Rect, pitch: float) -> float:
         """The same whatever the frame."""
-        return WIDE
+        return GOST_WIDTH
 
     def height(self, wide: float) -> float:
         """The same whatever it says."""
-        return HIGH
+        return GOST_HEIGHT
 
     def items(self, rect: Rect, page: Page) -> Iterator[Item]:
         """The block in its rectangle."""
         x, y, texts = rect.left, rect.bottom, values(self.scene, self.tongue, page)
-        for at, start, end, wide in LEVEL:
+        for at, start, end, wide in HORIZONTAL_LINES:
             yield stroke((x + start, y + at), (x + end, y + at), wide)
-        for at, start, end, wide in UPRIGHT:
+        for at, start, end, wide in VERTICAL_LINES:
             yield stroke((x + at, y + start), (x + at, y + end), wide)
         for cell in (*_roles(ROLES_BY_HAND if page.filled_by_hand else ROLES), *CELLS):
             left, low, right, high = cell.place
@@ -345,9 +346,9 @@ class GostBlock:
 def _roles(roles: Sequence[tuple[Said | str, str]]) -> Iterator[TitleCell]:
     """The cells of those who have a part in the sheet, each role with its name."""
     for i, (role, name) in enumerate(roles):
-        low, high = 25.0 - ROW * i, 30.0 - ROW * i
-        yield TitleCell(role, "", (0.0, low, 17.0, high), SMALL)
-        yield TitleCell("", name, (17.0, low, 40.0, high), (*SMALL, 1.2))
+        low, high = 25.0 - GOST_ROW * i, 30.0 - GOST_ROW * i
+        yield TitleCell(role, "", (0.0, low, 17.0, high), SMALL_SIZES)
+        yield TitleCell("", name, (17.0, low, 40.0, high), (*SMALL_SIZES, 1.2))
 
 
 TitleBlock = IsoBlock | GostBlock  # its width follows from the frame and the pitch of columns, its height from that

@@ -17,7 +17,7 @@ from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import SheetFrame, frame_of
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.paper import (
-    MOST_OF_PAGE,
+    MIN_PLANS_SHARE,
     Arrangement,
     Demand,
     Measure,
@@ -30,7 +30,14 @@ from graphplan.sheet.layout.paper import (
     sheet_size,
     words_page,
 )
-from graphplan.sheet.layout.plan_scales import FREE, GivenScales, choose_scales, given_scales, panel_demands, windows
+from graphplan.sheet.layout.plan_scales import (
+    NO_GIVEN_SCALES,
+    GivenScales,
+    choose_scales,
+    given_scales,
+    panel_demands,
+    windows,
+)
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.letters import LetteredPlate, letter_plates
 from graphplan.sheet.plates.display import Rect
@@ -48,15 +55,16 @@ from graphplan.sheet.words.texts import RESULTS, SheetWords
 from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
 
-USUAL = 200.0, 150.0  # mm: a panel as there are many
-SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
-MEASURED = 5.0  # mm: the shortest vector that can be measured
-SHORT = 0.2  # by so much smaller, as a logarithm, a plan may be for a vector that can be measured
-CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
-ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
-POOR = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of all letters may find no good place
-UNREADABLE = 0.4  # of them, on paper that is named
-LARGE = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same on large sheets, of which the next is not taken so readily
+USUAL_PANEL = 200.0, 150.0  # mm: a panel as there are many
+MIN_LINK_MM = 4.5  # mm: a link shorter than this has no room for letters
+MIN_VECTOR_MM = 5.0  # mm: the shortest vector that can be measured
+SHORT_VECTOR_PRICE = 0.2  # by so much smaller, as a logarithm, a plan may be for a vector that can be measured
+MIN_AREA_PER_MARK = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
+MAX_ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
+MAX_POOR_SHARE = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of all letters may find no good place
+MAX_POOR_SHARE_ON_NAMED = 0.4  # of them, on paper that is named
+MIN_AREA_ON_LARGE_SHEETS = {"A2": 60.0, "A1": 0.0,
+                            "A0": 0.0}  # the same on large sheets, of which the next is not taken so readily
 
 
 @dataclass(frozen=True)
@@ -113,20 +121,20 @@ class Composition:
         weights[MECHANISM] = 1.0
         large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())
         fractions_of_need = (self._size_mm(panel) / need for panel, need in self.needs.items() if need)
-        return round(large - SHORT * len(self.short), 9), min(fractions_of_need, default=0.0)
+        return round(large - SHORT_VECTOR_PRICE * len(self.short), 9), min(fractions_of_need, default=0.0)
 
     @property
     def short(self) -> list[float]:
         """The mm of vectors that are too short for a ruler, without what is next to nothing beside its kind."""
         vectors = [(kind, length * self.views[panel].scale) for kind, panel, length in self.plans.lengths]
         largest = dict(sorted(vectors))
-        return [length for kind, length in vectors if MIN_VECTOR * largest[kind] <= length < MEASURED]
+        return [length for kind, length in vectors if MIN_VECTOR * largest[kind] <= length < MIN_VECTOR_MM]
 
     @property
     def legible(self) -> bool:
         """Whether it is large enough to be read, as is asked of a sheet that is chosen."""
         paper = self.arrangement.paper
-        return _legible(self.plans, self.views, paper) and self.poor <= POOR[paper[:2]]
+        return _legible(self.plans, self.views, paper) and self.poor <= MAX_POOR_SHARE[paper[:2]]
 
     @property
     def oversize_factors(self) -> dict[str, float]:
@@ -165,17 +173,17 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
     for name in [frame.paper(paper)] if paper else frame.papers:
         for words in (choices := _word_choices(protocol, rows)):
             wants = [panel_demands(plans, extents, scales, name)
-                     for scales in ((scene_scales, FREE) if scene_scales[0] else (FREE,))]
+                     for scales in ((scene_scales, NO_GIVEN_SCALES) if scene_scales[0] else (NO_GIVEN_SCALES,))]
             candidates = list(arrangements(name, partial(_divide_region, wants, plans), words, frame, title))
             if words and protocol != ASIDE:
-                candidates = [arrangement for arrangement in candidates if arrangement.share >= MOST_OF_PAGE]
+                candidates = [arrangement for arrangement in candidates if arrangement.share >= MIN_PLANS_SHARE]
             tried = [_windows(arrangement, extents, needs, plans, scene_scales) for arrangement in candidates] or tried
             fitting = [composition for composition in tried if not composition.oversize_factors]
             if not (candidates and fitting):
                 continue
             best, is_given = max(fitting, key=lambda c: c.score), scene_scales[0] or (paper and words is choices[-1])
-            if (not lettered or best.poor <= UNREADABLE) if is_given else (
-                    _legible(plans, best.views, name) and (not lettered or best.poor <= POOR[name[:2]])):
+            if (not lettered or best.poor <= MAX_POOR_SHARE_ON_NAMED) if is_given else (
+                    _legible(plans, best.views, name) and (not lettered or best.poor <= MAX_POOR_SHARE[name[:2]])):
                 return best
     if any(composition.oversize_factors for composition in tried):
         raise _too_large(tried)
@@ -236,9 +244,10 @@ def _legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:
         spots = [spot for spot in (window(plans.spot(i)) for i in plans.points(panel)) if window.rect.holds(spot)]
         box = bounding_box(spots or [(0.0, 0.0)])
         size = max(box.area, (box.width**2 + box.height**2) / 4)
-        if AREA_TOL < size < LARGE.get(paper, CROWDED) * len(spots):  # marks that all coincide are nowhere apart
+        needed = MIN_AREA_ON_LARGE_SHEETS.get(paper, MIN_AREA_PER_MARK) * len(spots)
+        if AREA_TOL < size < needed:  # marks that all coincide are nowhere apart
             return False
-    return paper in LARGE or _shortest(plans) * views[MECHANISM].scale >= SHORTEST
+    return paper in MIN_AREA_ON_LARGE_SHEETS or _shortest(plans) * views[MECHANISM].scale >= MIN_LINK_MM
 
 
 def _shortest(plans: Plans) -> float:
@@ -281,7 +290,7 @@ class Composer:
     @property
     def usual(self) -> Scales:
         """The scales on panels of a usual size."""
-        rooms: dict[str, Rect] = dict.fromkeys(self.plans.panels, room_for_marks(room(Rect(0.0, 0.0, *USUAL))))
+        rooms: dict[str, Rect] = dict.fromkeys(self.plans.panels, room_for_marks(room(Rect(0.0, 0.0, *USUAL_PANEL))))
         extents: dict[str, Extent] = {panel: self.plans.extent(panel) for panel in self.plans.panels}
         return choose_scales(rooms, extents, self.plans, given_scales(self.plans))
 
@@ -289,7 +298,7 @@ class Composer:
         """The composition with these drawing errors told on it, or without any words where these are not `worded` yet;
         what its words measure is so at its scales."""
         scales = self._composed[0].scales if self._composed else self.usual
-        for _ in range(ROUNDS):
+        for _ in range(MAX_ROUNDS):
             rows, composition = self._compose_at(scales, pencil or Deviations())
             if composition.scales == scales:
                 break

@@ -16,7 +16,7 @@ from graphplan.phrases import Said, joined, said
 from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
 from graphplan.sheet.layout.composition import Composition, compose
-from graphplan.sheet.layout.paper import SIDE
+from graphplan.sheet.layout.paper import CAPTION_SIDE
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Sheet, Text
@@ -28,8 +28,8 @@ from graphplan.sheet.words.rows import fill, row_items
 from graphplan.sheet.words.texts import RESULTS
 from graphplan.words.tongue import Tongue
 
-BACK = "paper", BORDER, "ruling", "plates", MOTION, "ground", "wheels", "links"
-FRONT = "blocks", "drive", "pairs", "letters", "blanks", "text", RESULTS
+BACK_LAYERS = "paper", BORDER, "ruling", "plates", MOTION, "ground", "wheels", "links"
+FRONT_LAYERS = "blocks", "drive", "pairs", "letters", "blanks", "text", RESULTS
 
 
 def layout(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
@@ -93,7 +93,8 @@ def title_items(composition: Composition, document: Said, number: int = 1, of: i
 
 def back_to_front(items: Iterable[Item]) -> list[Item]:
     """From back to front: paper, mechanism, each step with its letters and its sentence, pairs, the other letters."""
-    rank = {layer: i for i, layer in enumerate(BACK)} | {layer: 10**7 + i for i, layer in enumerate(FRONT)}
+    rank = {layer: i for i, layer in enumerate(BACK_LAYERS)} | {layer: 10**7 + i for i,
+                                                                layer in enumerate(FRONT_LAYERS)}
     return sorted(items, key=lambda item: 10**6 + item.step if item.step is not None else rank[item.layer])
 
 
@@ -105,7 +106,7 @@ def _description(composition: Composition, plans: Plans) -> str:
     return plans.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, joined(scales, "; ")))
 
 
-TOP, APART = 1.3, 1.2  # mm over a caption, and between its lines
+CAPTION_MARGIN, LINE_GAP = 1.3, 1.2  # mm over a caption, and between its lines
 
 
 def captions(composition: Composition) -> Iterator[Text]:
@@ -113,21 +114,21 @@ def captions(composition: Composition) -> Iterator[Text]:
     plans, letters, panels = composition.plans, composition.arrangement.letters, composition.arrangement.panels
     heads = {panel: sentence_runs(plans.tongue(panel.caption(plans.kinds(panel)))) for panel in plans.panels}
     fitting = {size: [panel for panel, head in heads.items()
-                      if width(head, size, bold=True) <= panels[panel].width - 2 * SIDE]
+                      if width(head, size, bold=True) <= panels[panel].width - 2 * CAPTION_SIDE]
                for size in (HEADING, letters.mark)}
     for panel, head in heads.items():
         large = HEADING if len(fitting[HEADING]) == len(heads) else letters.mark
-        size, room = large if panel in fitting[large] else letters.text, panels[panel].width - 2 * SIDE
+        size, room = large if panel in fitting[large] else letters.text, panels[panel].width - 2 * CAPTION_SIDE
         scales = [sentence_runs(plans.tongue(scale))
                 for scale in composition.scales.scale_texts(panel, plans.kinds(panel))]
         lines = [(line, size, True) for line in wrap(head, size, room, bold=True)[:2]]
         fine = letters.mark if len(lines) == 1 else letters.text
         lines += [(line, fine, False) for line in _scales(scales, fine, room)]
-        y = panels[panel].top - TOP
+        y = panels[panel].top - CAPTION_MARGIN
         for runs, high, bold in lines:
             y -= CAPS * high
-            yield Text(pens.LETTERS, "text", None, (panels[panel].left + SIDE, y), runs, high, bold=bold)
-            y -= APART
+            yield Text(pens.LETTERS, "text", None, (panels[panel].left + CAPTION_SIDE, y), runs, high, bold=bold)
+            y -= LINE_GAP
 
 
 def _scales(told: Sequence[Runs], size: float, room: float) -> list[Runs]:

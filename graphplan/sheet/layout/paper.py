@@ -30,11 +30,11 @@ from graphplan.sheet.tolerances import EDGE_TOL
 from graphplan.sheet.words.rows import Placed, TextRow, fill, tighten
 
 CAPTION, MARGIN = 11.0, 9.0  # mm: a panel's caption strip, and what is kept free for letters around its figure
-EDGE, SIDE = 0.5, 2.5  # mm of a panel on each side of its room, and of its caption
-MOST = 8  # shapes of a run that are kept
-FINER = 1.25, 1.6, 2.0, 2.5, 4.0, 5.0, 10.0  # how much finer a scale may be than the next coarser one
-SMALLER = 0.7  # by which the common size falls from try to try
-TRIES = 24
+PANEL_EDGE, CAPTION_SIDE = 0.5, 2.5  # mm of a panel on each side of its room, and of its caption
+MAX_SHAPES = 8  # shapes of a run that are kept
+FINER_STEPS = 1.25, 1.6, 2.0, 2.5, 4.0, 5.0, 10.0  # how much finer a scale may be than the next coarser one
+SIZE_STEP = 0.7  # by which the common size falls from try to try
+MAX_TRIES = 24
 
 
 @dataclass(frozen=True)
@@ -65,13 +65,13 @@ class Demand:
 
     def finer(self, scale: Fraction) -> Fraction | None:
         """The next larger scale; none where it is given."""
-        scales = (round_up(float(scale) / times, self.lengths) for times in FINER)
+        scales = (round_up(float(scale) / times, self.lengths) for times in FINER_STEPS)
         return None if self.given or not self.area else next((finer for finer in scales if finer < scale), None)
 
     def panel(self, scale: Fraction) -> tuple[float, float]:
         """How wide and high its panel is at least."""
-        margins = 2 * (EDGE + MARGIN)
-        wide, high = self.width / float(scale) + margins, self.height / float(scale) + margins - EDGE + CAPTION
+        margins = 2 * (PANEL_EDGE + MARGIN)
+        wide, high = self.width / float(scale) + margins, self.height / float(scale) + margins - PANEL_EDGE + CAPTION
         return max(wide, self.caption), high
 
 
@@ -94,11 +94,11 @@ def divide_among_plans(region: Rect, block: Rect | None, demands: Mapping[str, D
     for panel in demands:
         groups.setdefault(twins[panel], []).append(panel)
     size = region.area / sum(demand.marks for demand in demands.values())
-    for _ in range(TRIES):
+    for _ in range(MAX_TRIES):
         scales = {group: max(demands[panel].scale(size) for panel in panels) for group, panels in groups.items()}
         if best := _best(region, demands, twins, scales, corner):
             break
-        size *= SMALLER
+        size *= SIZE_STEP
     else:
         return None
     waiting = set(groups)
@@ -145,7 +145,7 @@ def _minimal_shapes(shapes: Sequence[Shape]) -> list[Shape]:
         if not minimal or shape.high < minimal[-1].high:
             minimal.append(shape)
     last = len(minimal) - 1
-    return [minimal[round(i * last / (MOST - 1))] for i in range(MOST)] if last >= MOST else minimal
+    return [minimal[round(i * last / (MAX_SHAPES - 1))] for i in range(MAX_SHAPES)] if last >= MAX_SHAPES else minimal
 
 
 def _places(shape: Shape, rect: Rect) -> dict[str, Rect]:
@@ -216,7 +216,7 @@ def enlarge_words(words: Measure[Sequence[TextRow]], times: float) -> Measure[tu
 
 def room(panel: Rect) -> Rect:
     """Where a panel's figure may lie: below the caption."""
-    return panel.inset(EDGE, EDGE, EDGE, CAPTION)
+    return panel.inset(PANEL_EDGE, PANEL_EDGE, PANEL_EDGE, CAPTION)
 
 
 def room_for_marks(room: Rect) -> Rect:
@@ -233,7 +233,7 @@ def sheet_size(paper: str) -> tuple[float, float]:
     return (high, wide) if orientation == "portrait" else (wide, high)
 
 
-MOST_OF_PAGE = 0.6  # what plans take of a page on which words stand
+MIN_PLANS_SHARE = 0.6  # what plans take of a page on which words stand
 
 
 def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | None, frame: SheetFrame,

@@ -14,7 +14,7 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Number
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM, ForcePlan
-from graphplan.sheet.layout.paper import SIDE, Demand, room_for_marks
+from graphplan.sheet.layout.paper import CAPTION_SIDE, Demand, room_for_marks
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, lengths_of, round_up
 from graphplan.sheet.lettering.lettering import letter_sizes, sentence_runs, two_line_width
 from graphplan.sheet.plates.display import Rect
@@ -22,11 +22,11 @@ from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.plans import Extent, Plans, bounding_box
 from graphplan.sheet.plates.view import COARSER, MUCH_COARSER, View, plan_box, plan_scale, view, wanted_box
 from graphplan.sheet.tolerances import SCALE_TOL
-from graphplan.sheet.words.lengths import LARGEST
+from graphplan.sheet.words.lengths import MAX_ENLARGEMENT
 
 GivenScales = tuple[float | None, dict[str, Fraction]]
-FREE: GivenScales = (None, {})
-SHRUNK = 10.0  # times as small the mechanism may be for arcs that would be longer than the sheet
+NO_GIVEN_SCALES: GivenScales = (None, {})
+MAX_REDUCTION_FOR_ARCS = 10.0  # times as small the mechanism may be for arcs that would be longer than the sheet
 
 
 def given_scales(plans: Plans) -> GivenScales:
@@ -83,7 +83,7 @@ def _check_force_plans(plans: Plans) -> None:
 
 
 def windows(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans,
-            given: GivenScales = FREE) -> tuple[Scales, dict[str, View]]:
+            given: GivenScales = NO_GIVEN_SCALES) -> tuple[Scales, dict[str, View]]:
     """The scales, round if they are not given, and the windows of plans in their rooms."""
     scales = choose_scales({panel: room_for_marks(rect) for panel, rect in rooms.items()}, extents, plans, given)
     boxes = {panel: plan_box(extent, room_for_marks(rooms[panel]), scales.lengths_per_mm(panel)) for panel,
@@ -97,7 +97,7 @@ def choose_scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plan
     box = bounding_box([corner for rect in rooms.values() for corner in rect.corners])
     side, lengths = max(box.width, box.height), unit_lengths(plans, MECHANISM)
     mechanism_scale = Fraction(k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM], COARSER, lengths))
-    if not k_s and (times := extents[MECHANISM].longest / side / float(mechanism_scale)) <= SHRUNK:
+    if not k_s and (times := extents[MECHANISM].longest / side / float(mechanism_scale)) <= MAX_REDUCTION_FOR_ARCS:
         mechanism_scale = max(mechanism_scale, round_up(times * float(mechanism_scale), lengths))
     most: dict[str, Fraction] = {}
     for panel in plans.panels[1:]:
@@ -108,7 +108,7 @@ def choose_scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plan
     for source, panel in plans.carry_overs:
         if panel != MECHANISM:
             twin, taken = plans.twins[panel], most.get(plans.twins[source], mechanism_scale)
-            most[twin] = max(most[twin], round_up(float(taken) / LARGEST, unit_lengths(plans, panel)))
+            most[twin] = max(most[twin], round_up(float(taken) / MAX_ENLARGEMENT, unit_lengths(plans, panel)))
     multiples: dict[str, Fraction] = {panel: mechanism_scale / most[plans.twins[panel]] for panel in plans.panels[1:]}
     return Scales(float(mechanism_scale), drawing.kappa, names.length, multiples | given_multiples, float(drawing.phi),
                   names.force, drawing.scene.sheet.convention)
@@ -128,5 +128,5 @@ def panel_demands(plans: Plans, extents: Mapping[str, Extent], given: GivenScale
         box = wanted_box(extents[panel], COARSER if panel == MECHANISM else MUCH_COARSER)
         scale = k_s if panel == MECHANISM else k_s / float(multiples[panel]) if k_s and panel in multiples else None
         demands[panel] = Demand(box.width, box.height, max(1, len(plans.points(panel))), unit_lengths(plans, panel),
-                              two_line_width(head, size) + 2 * SIDE, scale)
+                              two_line_width(head, size) + 2 * CAPTION_SIDE, scale)
     return demands

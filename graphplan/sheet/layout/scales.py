@@ -22,8 +22,8 @@ from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.tolerances import SCALE_TOL
 
 VELOCITIES, ACCELERATIONS = frozenset({"velocity", "relative"}), frozenset({"acceleration", "normal"})
-SPEED = phrase("k_v = {0} {1} per mm"), phrase("mu_v = {0} mm per {1}")
-SHARPNESS = phrase("k_a = {0} {1} per mm"), phrase("mu_a = {0} mm per {1}")
+SPEED_SCALE = phrase("k_v = {0} {1} per mm"), phrase("mu_v = {0} mm per {1}")
+ACCELERATION_SCALE = phrase("k_a = {0} {1} per mm"), phrase("mu_a = {0} mm per {1}")
 SERIES = Fraction(1), Fraction(2), Fraction(5, 2), Fraction(4), Fraction(5)
 
 
@@ -88,9 +88,9 @@ class Scales:
         """The scales of a panel with their units; `kinds` are the kinds of vector drawn on it."""
         texts = [] if panel in self.multiples else [self._static("s", self.k_s, self.length)]
         if kinds & VELOCITIES:
-            texts.append(self._moving(SPEED, self.speed(panel), f"{self.length}/s"))
+            texts.append(self._moving(SPEED_SCALE, self.speed(panel), f"{self.length}/s"))
         if kinds & ACCELERATIONS:
-            texts.append(self._moving(SHARPNESS, self.acceleration(panel), f"{self.length}/s²"))
+            texts.append(self._moving(ACCELERATION_SCALE, self.acceleration(panel), f"{self.length}/s²"))
         return [*texts, self._static("F", self.force(panel), self.unit)] if kinds & FORCES else texts
 
     def _static(self, letter: str, scale: float, of: str) -> Said:

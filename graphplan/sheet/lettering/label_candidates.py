@@ -15,13 +15,14 @@ from graphplan.sheet.plates.pens import Pen
 
 TASTE = 0.02  # among equals up and to the right, then on counter-clockwise: what a sixteenth of a turn costs
 RINGS = np.array([(0.7, 0.0), (1.6, 0.8), (2.8, 2.0), (4.5, 4.0), (7.0, 7.0), (10.0, 11.0), (14.0, 16.0), (20.0, 24.0)])
-FAR = np.array([0.7, 1.3, 2.0, 2.8, 3.6, 4.8, 6.2, 8.0, 10.5, 13.5, 17.0, 21.0, 26.0])  # mm
-FINE = np.stack([FAR, np.interp(FAR, *RINGS.T) + 1.5 * np.clip(FAR - 20.0, 0.0, None)], axis=1)  # for second thoughts
+FINE_DISTANCES = np.array([0.7, 1.3, 2.0, 2.8, 3.6, 4.8, 6.2, 8.0, 10.5, 13.5, 17.0, 21.0, 26.0])  # mm
+_FINE_COSTS = np.interp(FINE_DISTANCES, *RINGS.T) + 1.5 * np.clip(FINE_DISTANCES - 20.0, 0.0, None)
+FINE_RINGS = np.stack([FINE_DISTANCES, _FINE_COSTS], axis=1)  # for second thoughts
 LED, LEADER = 3.4, 30.0  # mm from which a thin leader ties a letter to its mark; its price where there are other spots
 EDGE = 5.0  # the price of standing at the panel's edge, where no ring fits
 AIR = 0.3  # mm free around a letter
 BALLOON = 0.84  # the radius of a circle about a number, beside the size of the number
-APART = 0.3  # mm between a letter and a raised number
+NUMBER_GAP = 0.3  # mm between a letter and a raised number
 
 Array = np.ndarray[Any, Any]
 OUTWARDS = np.array([-1.0, -1.0, 1.0, 1.0])  # each side of a box
@@ -69,7 +70,7 @@ class Wish:
     @property
     def tail(self) -> float:
         """Where the raised figures begin, beside the letters."""
-        return width(self.runs, self.letter_size, self.bold) + (APART if self.raised else 0.0)
+        return width(self.runs, self.letter_size, self.bold) + (NUMBER_GAP if self.raised else 0.0)
 
     @property
     def lift(self) -> float:

@@ -14,17 +14,17 @@ from functools import cached_property
 
 import numpy as np
 
-from graphplan.sheet.lettering.label_candidates import FINE, Array, LabelCandidates, Wish, candidates
+from graphplan.sheet.lettering.label_candidates import FINE_RINGS, Array, LabelCandidates, Wish, candidates
 from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes
 from graphplan.sheet.lettering.prices import CLASH, FAULT, Lines, Marks, Prices, Standing, Surfaces, overlap
 from graphplan.sheet.plates.display import Item, Rect, Spot
 
-ROUNDS = 4
-TRIES = 20  # places for which others are asked to move
-MOVED = 3  # so many others at most
-BETTER = 0.5  # what a move should save
-HEAP = 150_000  # places on a plan: among so many no second thought puts letters right
-WORK = 8e6  # places times letters: what asking others to move may take on a plan; each time looks at all of its places
+MAX_RELABELLINGS = 4
+MAX_TRIES = 20  # places for which others are asked to move
+MAX_NEIGHBOURS_MOVED = 3  # so many others at most
+MIN_SAVING = 0.5  # what a move should save
+MAX_PLACES = 150_000  # places on a plan: among so many no second thought puts letters right
+MAX_WORK = 8e6  # places times letters: what asking others to move, which looks at all places, may take on a plan
 
 
 class Relabelling:
@@ -38,7 +38,7 @@ class Relabelling:
     def __init__(self, prices: Prices, choice: Array):
         self.prices, self.choice, self.count = prices, choice.copy(), len(choice)
         self.spans, self.standing = prices.spans(self.count), Standing(self.count)
-        self.left = int(WORK // max(1, len(prices.found.boxes)))
+        self.left = int(MAX_WORK // max(1, len(prices.found.boxes)))
         for letter, place in enumerate(choice):
             self.standing.put(letter, prices.found[place])
 
@@ -52,7 +52,7 @@ class Relabelling:
 
     def relabel(self) -> Array:
         """The places when no letter with a fault finds a better one."""
-        for _ in range(ROUNDS if len(self.prices.found.boxes) < HEAP else 0):
+        for _ in range(MAX_RELABELLINGS if len(self.prices.found.boxes) < MAX_PLACES else 0):
             if not sum([self._improve(letter) for letter in self.faulty]):
                 break
         return self.choice
@@ -69,25 +69,25 @@ class Relabelling:
         span, candidates, before = self.spans[letter], self.prices.found, self._cost(letter)
         places = np.arange(span.start, span.stop)
         alone = self.prices.total(places, before)
-        places, alone = places[alone < before - BETTER], alone[alone < before - BETTER]
+        places, alone = places[alone < before - MIN_SAVING], alone[alone < before - MIN_SAVING]
         if not len(places):
             return False
         self.standing.put(letter, None)
         cost = alone + self.standing.clash_costs(candidates[places])
         self.standing.put(letter, candidates[self.choice[letter]])
-        improved = bool((cost < before - BETTER).any())
+        improved = bool((cost < before - MIN_SAVING).any())
         if improved:
             self._move(letter, int(places[cost.argmin()]))
             before = float(cost.min())
         if before - candidates.cost[self.choice[letter]] < FAULT:
             return improved
-        tempting = [int(places[k]) for k in alone.argsort(kind="stable")[:TRIES] if alone[k] < before - BETTER]
+        tempting = [int(places[k]) for k in alone.argsort(kind="stable")[:MAX_TRIES] if alone[k] < before - MIN_SAVING]
         return any(self._make_room(letter, place, before) for place in tempting) or improved
 
     def _make_room(self, letter: int, place: int, before: float) -> bool:
         """Whether a letter takes a place because those that stand there pay less elsewhere than it saves."""
         neighbours = [neighbour for neighbour in self._in_the_way(place) if neighbour != letter]
-        if not 0 < len(neighbours) <= MOVED or self.left <= 0:
+        if not 0 < len(neighbours) <= MAX_NEIGHBOURS_MOVED or self.left <= 0:
             return False
         self.left -= 1
         was = {moved: int(self.choice[moved]) for moved in (letter, *neighbours)}
@@ -98,7 +98,7 @@ class Relabelling:
         for neighbour in neighbours:
             span = self.spans[neighbour]
             self._move(neighbour, self.prices.cheapest(span, self.standing.clash_costs(self.prices.found[span])))
-        if sum(self._cost(moved) for moved in was) < paid - BETTER:
+        if sum(self._cost(moved) for moved in was) < paid - MIN_SAVING:
             return True
         for moved, old in was.items():
             self._move(moved, old)
@@ -119,9 +119,9 @@ class Relabelling:
         self.standing.put(letter, self.prices.found[place])
 
 
-SWEEPS = 8
-WAYS = 24  # from a mark to the places for second thoughts
-POOR = 2.0  # the price of what a letter covers, from which on it can hardly be read
+MAX_SWEEPS = 8
+FINE_DIRECTIONS = 24  # from a mark to the places for second thoughts
+POOR_PRICE = 2.0  # the price of what a letter covers, from which on it can hardly be read
 
 
 def place_letters(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,
@@ -144,7 +144,7 @@ class PlacedLetters:
         """How many letters find no good place: they could hardly be read there, or need a leader."""
         if self.prices is None or self.choice is None:
             return 0
-        return int((self.prices.found.led[self.choice] | (self.prices.faults(self.choice) > POOR)).sum())
+        return int((self.prices.found.led[self.choice] | (self.prices.faults(self.choice) > POOR_PRICE)).sum())
 
     @property
     def items(self) -> list[Item]:
@@ -158,7 +158,8 @@ class PlacedLetters:
             return []
         prices, choice = self.prices, self.choice
         if faulty := sorted(Relabelling(prices, choice).faulty):
-            more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE, WAYS).for_letters(faulty)
+            more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE_RINGS,
+                              FINE_DIRECTIONS).for_letters(faulty)
             prices, new_index = prices.with_more_places(more)
             choice = Relabelling(prices, new_index[choice]).relabel()
         return [(wish, prices.found[place]) for wish, place in zip(self.wishes, choice, strict=True)]
@@ -180,7 +181,7 @@ def _choose_places(prices: Prices, count: int) -> Array:
     choices, least = prices.choices(np.array([span.start for span in spans]))
     choice = np.full(count, -1)
     taken = np.full((count, 4), np.nan)  # the boxes of the letters that stand; nothing meets nan
-    for _ in range(SWEEPS):
+    for _ in range(MAX_SWEEPS):
         before = choice.copy()
         for letter in np.lexsort((-least, choices)):
             taken[letter] = np.nan

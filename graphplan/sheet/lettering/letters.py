@@ -26,10 +26,10 @@ from graphplan.sheet.plates.view import interpolate
 
 ALONG = 0.97, 0.03, 0.9, 0.1, 0.8, 0.2, 0.65, 0.35, 0.5  # where along a line its letter may stand
 MIDDLE, NEAR_HEAD = (0.5, 0.4, 0.6, 0.3, 0.7), (0.7, 0.65, 0.75, 0.6, 0.8)  # the same along a vector
-NEAR = 0.25
-NUMBERED = 0.5, 0.4, 0.6, 0.3, 0.7  # the same of the number of a line that ends at its marks
+SAME_PLACE_MM = 0.25
+NUMBER_FRACTIONS = 0.5, 0.4, 0.6, 0.3, 0.7  # the same of the number of a line that ends at its marks
 PATH_PLACES = 24  # along a path, where its letters may stand
-STRUCK = 1.0, 0.0, 0.85, 0.15, 0.7, 0.3, 0.5  # the same along an arc
+ARC_FRACTIONS = 1.0, 0.0, 0.85, 0.15, 0.7, 0.3, 0.5  # the same along an arc
 
 Span = tuple[Spot, Spot]
 
@@ -158,7 +158,7 @@ class PlateLetters:
         for mark in self.plate.steps:
             is_lettered_here = not self._of_pose(mark) or self.plate.numbers(mark)
             if mark.number and is_lettered_here and self.plate.is_on_panel(mark) and self.is_mentioned(mark):
-                key = next((place for place in places if math.dist(place, mark.spot) < NEAR), mark.spot)
+                key = next((place for place in places if math.dist(place, mark.spot) < SAME_PLACE_MM), mark.spot)
                 places.setdefault(key, []).append(mark)
         return places
 
@@ -199,7 +199,7 @@ class PlateLetters:
         if not self.plate.numbers(line):
             return ALONG
         if self.plate.directs(line):
-            return NUMBERED
+            return NUMBER_FRACTIONS
         start, end = stretch.ends
         out = math.dist(end, self._middle) >= math.dist(start, self._middle)
         return (1.0, 0.0, *ALONG) if out else (0.0, 1.0, *(1.0 - t for t in ALONG))
@@ -212,7 +212,7 @@ class PlateLetters:
     def _arc_number(self, circle: DrawnStep) -> Iterator[Wish]:
         """An arc's number, near an end of it."""
         arcs = [arc.item for arc in self.plate.arcs(circle)]
-        spots = [arc.spot_at(arc.start + (arc.end - arc.start) * t) for t in STRUCK for arc in arcs]
+        spots = [arc.spot_at(arc.start + (arc.end - arc.start) * t) for t in ARC_FRACTIONS for arc in arcs]
         if inside := tuple(filter(self.plate.view.rect.holds, spots)):
             number = _numbers(circle)
             yield Wish(sentence_runs(number), inside, 0.5, True, pens.FAINT, circle.index, f"arc {number}", free=True)
@@ -244,4 +244,4 @@ def _numbers(*marks: DrawnStep) -> str:
 
 def _coincide(one: Span, other: Span) -> bool:
     """Whether two spans are one on paper."""
-    return all(math.dist(p, q) < NEAR for p, q in zip(one, other, strict=True))
+    return all(math.dist(p, q) < SAME_PLACE_MM for p, q in zip(one, other, strict=True))

@@ -152,7 +152,7 @@ def surfaces(items: Iterable[Item]) -> Iterator[tuple[Any, float]]:
 
 
 CLASH = 400.0  # the price of standing on another letter, and of each mm^2 of that
-NEXT = 1.5  # a place dearer by no more than this is a choice as well
+CHOICE_MARGIN = 1.5  # a place dearer by no more than this is a choice as well
 
 
 class Prices:
@@ -173,13 +173,13 @@ class Prices:
             best = int(price.argmin())
             if self.known[letter][best] == len(self.parts):
                 return int(letter.start) + best
-            self._look(letter.start + np.flatnonzero(price <= price[best] + NEXT))
+            self._look(letter.start + np.flatnonzero(price <= price[best] + CHOICE_MARGIN))
 
     def choices(self, starts: Array) -> tuple[Array, Array]:
         """For each letter how many places are almost as good as the cheapest, and what that costs."""
         while True:
             least = np.minimum.reduceat(self.cost, starts)
-            good = self.cost < (least + NEXT)[self.found.letters]
+            good = self.cost < (least + CHOICE_MARGIN)[self.found.letters]
             if (self.known[good] == len(self.parts)).all():
                 return np.bincount(self.found.letters[good]), least
             self._look(np.flatnonzero(good))

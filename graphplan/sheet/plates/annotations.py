@@ -26,10 +26,10 @@ from graphplan.sheet.plates.symbols import NEAR, Vector, are_collinear, distinct
 from graphplan.sheet.plates.view import interpolate
 from graphplan.words.tongue import Tongue
 
-FIRST, APART, LEVELS = 9.0, 6.0, 7  # mm: from the points to the nearest dimension line, to the next, and how many
-LETTERS = 2.5  # mm: the height of its number
-FIGURES = 9.0  # mm: about as long is its number
-ACROSS, PER_MM = 4.0, 0.5  # what is paid for what it crosses, and for each mm along it; a level costs 1
+FIRST_LEVEL_MM, LEVEL_PITCH_MM, MAX_LEVELS = 9.0, 6.0, 7  # from the points to the nearest dimension line, to the next
+NUMBER_HEIGHT = 2.5  # mm: the height of its number
+NUMBER_LENGTH = 9.0  # mm: about as long is its number
+CROSSING_PRICE, OVERLAP_PRICE_PER_MM = 4.0, 0.5  # of what it crosses, and of each mm along it; a level costs 1
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,8 @@ def dimensions(scene: Scene, spots: Mapping[str, Spot], obstacles: Iterable[Item
     placed: list[LinkDimension] = []
     for p, q in sorted(_measured_pairs(scene, spots),
                        key=lambda pair: (math.dist(spots[pair[0]], spots[pair[1]]), pair)):
-        aside, figure = min((_price_place(spots[p], spots[q], level, side, obstacle_shapes) for level in range(LEVELS)
+        aside, figure = min((_price_place(spots[p], spots[q], level, side, obstacle_shapes)
+                             for level in range(MAX_LEVELS)
                              for side in (1, -1)), key=lambda tried: tried[0])[1:]
         placed.append(LinkDimension(p, q, aside))
         obstacle_shapes.append(figure)
@@ -118,29 +119,29 @@ def _price_place(p: Spot, q: Spot, level: int, side: int, drawn: Sequence[Any]) 
     lead to it."""
     import shapely
 
-    along, aside = unit_vector(p, q), side * (FIRST + APART * level)
+    along, aside = unit_vector(p, q), side * (FIRST_LEVEL_MM + LEVEL_PITCH_MM * level)
     start, end = offset(p, along, 0.0, aside), offset(q, along, 0.0, aside)
-    middle = offset(((start[0] + end[0]) / 2, (start[1] + end[1]) / 2), along, 0.0, LETTERS)
-    number = shapely.LineString([offset(middle, along, -FIGURES / 2),
-                                 offset(middle, along, FIGURES / 2)]).buffer(LETTERS / 2)
+    middle = offset(((start[0] + end[0]) / 2, (start[1] + end[1]) / 2), along, 0.0, NUMBER_HEIGHT)
+    number = shapely.LineString([offset(middle, along, -NUMBER_LENGTH / 2),
+                                 offset(middle, along, NUMBER_LENGTH / 2)]).buffer(NUMBER_HEIGHT / 2)
     line = shapely.union_all([shapely.LineString([start, end]).buffer(1.0), number])
     leading = shapely.MultiLineString([(offset(foot, along, 0.0, side * 1.0), top) for foot,
                                        top in ((p, start), (q, end))])
     cost = float(level)
     for obstacle in drawn:
         if line.intersects(obstacle):
-            cost += ACROSS + PER_MM * shapely.intersection(line, obstacle).length
+            cost += CROSSING_PRICE + OVERLAP_PRICE_PER_MM * shapely.intersection(line, obstacle).length
         if leading.intersects(obstacle):
-            cost += ACROSS / 2
+            cost += CROSSING_PRICE / 2
     return cost, aside, shapely.union_all([line, leading])
 
 
 # ---- what drives and loads it --------------------------------------------------------------------------------------
 
 LAYER = "drive"
-LENGTHS = 15.0, 12.0, 9.0  # mm: of an arrow, the longest that stays on the panel
-ASIDE = 4.0  # mm from a block to the arrow of its drive
-ALONG = 1.0, 0.85, 0.7, 0.5  # where along an arrow its value may stand
+ARROW_LENGTHS = 15.0, 12.0, 9.0  # mm: of an arrow, the longest that stays on the panel
+DRIVE_ARROW_OFFSET = 4.0  # mm from a block to the arrow of its drive
+VALUE_FRACTIONS = 1.0, 0.85, 0.7, 0.5  # where along an arrow its value may stand
 
 Marked = tuple[list[Item], Wish]  # an arrow, and its value beside it
 
@@ -188,13 +189,13 @@ class GivenArrows:
         """A vector from the point where it acts, or to it where only that way it stays on the panel."""
         along, at = unit_vector((0.0, 0.0), (float(value[0]), float(value[1]))), self.mechanism.spots[name]
         ends = [(offset(at, along, -long * back), offset(at, along, long * (1 - back)))
-                for back in (0, 1) for long in LENGTHS]
+                for back in (0, 1) for long in ARROW_LENGTHS]
         start, end = next((pair for pair in ends if all(map(self.rect.holds, pair))), ends[0])
         return self._straight(start, end, pen, told)
 
     def _straight(self, start: Spot, end: Spot, pen: Pen, told: Runs) -> Marked:
         arrow = Arrow(pen, LAYER, None, start, end, pens.HEADS["velocity"])
-        spots = tuple(interpolate(start, end, t) for t in ALONG)
+        spots = tuple(interpolate(start, end, t) for t in VALUE_FRACTIONS)
         return [arrow], Wish(told, spots, 0.8, pen=replace(pen, width=0.0), label=f"given {start}", free=True)
 
     def _turn(self, at: Spot, sign: float, told: Runs) -> Marked:
@@ -222,7 +223,8 @@ class GivenArrows:
         slide = next(slide for slide in scene.slides if (slide.link, slide.along) == drive.links)
         at, (x, y) = self.mechanism.seat(slide), self.mechanism.direction(slide)
         direction: Vector = (x, y) if drive.rate > 0 else (-x, -y)
-        start, end = offset(at, direction, -LENGTHS[0] / 2, ASIDE), offset(at, direction, LENGTHS[0] / 2, ASIDE)
+        start, end = offset(at, direction, -ARROW_LENGTHS[0] / 2,
+                            DRIVE_ARROW_OFFSET), offset(at, direction, ARROW_LENGTHS[0] / 2, DRIVE_ARROW_OFFSET)
         return self._straight(start, end, pens.GIVEN["velocity"], value)
 
 

@@ -17,7 +17,7 @@ from graphplan.sheet.plates.pens import FILLED, OPEN, PAPER, WHITE, Pen
 Spot = tuple[float, float]
 SLIM = {FILLED: 6.0, WHITE: 4.5, OPEN: 4.5}  # how many times as long as half its width a head is
 BARB, WALL = 1.2, 0.25  # mm: of an open head along the vector, and about the middle of a white one
-EDGE = 0.01  # mm by which what is on an edge may be beyond it
+EDGE_SLACK_MM = 0.01  # mm by which what is on an edge may be beyond it
 
 
 @dataclass(frozen=True)
@@ -232,7 +232,7 @@ def lies_in(item: Item, rects: Iterable[Rect]) -> bool:
             spots = item.start, item.end
         case Text():
             spots = (item.at,)
-    return any(all(rect.holds(spot, EDGE) for spot in spots) for rect in rects)
+    return any(all(rect.holds(spot, EDGE_SLACK_MM) for spot in spots) for rect in rects)
 
 
 @dataclass(frozen=True)

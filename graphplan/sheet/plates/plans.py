@@ -22,8 +22,8 @@ from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.tolerances import EXTENT_TOL
 from graphplan.words.tongue import ENGLISH, Tongue
 
-CARRIED = Movement.LAID_OFF, Movement.TURNED, Movement.STRUCK
-A_BIT = 1.4  # how much larger the mechanism plan may be for the paths of its points
+CARRYING = Movement.LAID_OFF, Movement.TURNED, Movement.STRUCK
+MAX_GROWTH_FOR_PATHS = 1.4  # how much larger the mechanism plan may be for the paths of its points
 
 
 def corner(step: Step) -> bool:
@@ -89,7 +89,7 @@ class Plans:
         """The plans from which lengths are carried over to others, with those, in drawing order."""
         plan, carried = self.plan_of_step, dict[tuple[Panel, Panel], None]()
         for step in self.drawing.drawn.steps:
-            if step.op.afar and step.op.movement in CARRIED and not step.quantity:
+            if step.op.afar and step.op.movement in CARRYING and not step.quantity:
                 carried[plan[step.args[step.op.afar[0][0]]], plan[step.index]] = None
         return [(source, target) for source, target in carried if source != target]
 
@@ -182,7 +182,7 @@ class Plans:
             if step.op.gives == CIRCLE and plan[step.index] == panel:
                 lengths.append(math.sqrt(float(self.drawing.values[step.index][2])))
             ends = [(step.root, step.index)] if step.root is not None and step.op.gives == POINT else []
-            ends += [(step.args[0], step.args[1])] if step.op.movement in CARRIED[:2] else []
+            ends += [(step.args[0], step.args[1])] if step.op.movement in CARRYING[:2] else []
             lengths += [math.dist(self.spot(p), self.spot(q)) for p, q in ends if plan[p] == plan[q] == panel]
         return max(filter(math.isfinite, lengths))
 
@@ -190,7 +190,8 @@ class Plans:
         """The box with the paths of points, where that makes it but a bit larger and no scale is given."""
         sheet, larger = self.drawing.scene.sheet, reduce(extend_box, motion.path_ends, box)
         scale_given = sheet.k_s or sheet.k_v or sheet.k_a or sheet.k_F
-        return box if scale_given or larger.width + larger.height > A_BIT * (box.width + box.height) else larger
+        most = MAX_GROWTH_FOR_PATHS * (box.width + box.height)
+        return box if scale_given or larger.width + larger.height > most else larger
 
     def ends(self, panel: str) -> Iterator[int]:
         """The marks between which vectors are drawn: those asked for, those given; of forces all that have letters."""

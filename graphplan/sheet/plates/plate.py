@@ -28,9 +28,9 @@ from graphplan.sheet.plates.symbols import turn
 from graphplan.sheet.plates.view import View, clip_item, clip_off_boxes, clip_segment
 from graphplan.sheet.tolerances import RADIUS_TOL, SHORT_STROKE
 
-BEYOND, LOCUS_BEYOND, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
+LINE_OVERRUN, LOCUS_OVERRUN, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
 CLOSE = 1.0  # mm: marks closer together do not tell the way of a line
-SHORT, HIDDEN = 0.5, 3.0  # mm: a vector shorter than this is not drawn; nor is a load that its joint would hide
+SHORT, MIN_LOAD_MM = 0.5, 3.0  # mm: a vector shorter than this is not drawn; nor is a load that its joint would hide
 STRIKE, FLATTEST, WIDEST = 4.5, 5.0, 18.0  # half an arc: mm, and between these angles
 GIVEN_HEAD, BREAK_HEAD, BREAK = 3.0, 2.0, 4.0  # mm: heads of given vectors and of ends that break off; their length
 
@@ -200,7 +200,7 @@ class Plate:
 
     def shortest(self, kind: str) -> float:
         """The mm below which a vector of a kind is not drawn."""
-        return HIDDEN if kind in pens.FORCES and self.panel == MECHANISM else SHORT
+        return MIN_LOAD_MM if kind in pens.FORCES and self.panel == MECHANISM else SHORT
 
     @property
     def hidden_marks(self) -> Iterator[DrawnStep]:
@@ -300,8 +300,8 @@ class Plate:
         if self.directs(line):
             return 0.0, pens.THIN
         if line.name:
-            return LOCUS_BEYOND, pens.LOCUS
-        return BEYOND, pens.PRODUCED if line.step.op.movement in (Movement.RULED, Movement.GUIDED) else pens.THIN
+            return LOCUS_OVERRUN, pens.LOCUS
+        return LINE_OVERRUN, pens.PRODUCED if line.step.op.movement in (Movement.RULED, Movement.GUIDED) else pens.THIN
 
     def directs(self, line: DrawnStep) -> bool:
         """Whether a line only serves as a direction: from one mark to another."""

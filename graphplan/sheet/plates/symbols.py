@@ -20,10 +20,10 @@ STAND, FOOT, GROUND = 4.6, 2.6, 4.4  # the triangle under a fixed pivot: height,
 HATCH, PITCH = 1.7, 1.25
 LONG, HIGH, GUIDE = 4.4, 2.3, 13.0  # half the length and height of a block, half the length of its guide
 ELBOW = 2.6
-SHADED = 9.0  # of the sides of a plate, at its hatched corner
-AROUND, DRIVEN, SWEEP = 7.0, 41.0, 54.0  # the arrow of a drive: its radius, how far off the crank, how long, in degrees
+MAX_SHADED_MM = 9.0  # of the sides of a plate, at its hatched corner
+DRIVE_RADIUS, DRIVE_ANGLE, DRIVE_SWEEP = 7.0, 41.0, 54.0  # the arrow of a drive: mm; degrees off the crank; how long
 NEAR = 0.05  # spots closer than this are one
-GROUNDED = 0.35  # the cosine of the angle within which it would run into the ground
+GROUND_COS = 0.35  # the cosine of the angle within which it would run into the ground
 
 Vector = tuple[float, float]
 
@@ -119,7 +119,8 @@ def rigid(corners: Sequence[Spot]) -> Iterator[Item]:
 
     i = min(range(len(corners)), key=opening)
     corner, sides = corners[i], (corners[i - 1], corners[i + 1 - len(corners)])
-    ends = [offset(corner, unit_vector(corner, side), min(SHADED, math.dist(corner, side) / 3)) for side in sides]
+    ends = [offset(corner, unit_vector(corner, side), min(MAX_SHADED_MM, math.dist(corner, side) / 3))
+            for side in sides]
     yield from _shading((corner, *ends))
 
 
@@ -169,12 +170,12 @@ def are_collinear(spots: Sequence[Spot]) -> bool:
 def drive(at: Spot, towards: Vector, sign: float, ground: Vector | None = None) -> Iterator[Item]:
     """The sense of a driving crank: an arc about its pivot with an arrowhead, ahead of the crank or, where the ground
     is, behind it."""
-    middle, side = math.atan2(towards[1], towards[0]), sign * math.radians(DRIVEN)
-    if ground and ground[0] * math.cos(middle + side) + ground[1] * math.sin(middle + side) > GROUNDED:
+    middle, side = math.atan2(towards[1], towards[0]), sign * math.radians(DRIVE_ANGLE)
+    if ground and ground[0] * math.cos(middle + side) + ground[1] * math.sin(middle + side) > GROUND_COS:
         side = -side
     centre = math.degrees(middle + side)
-    start, end = centre - SWEEP / 2, centre + SWEEP / 2
-    arc = Arc(pens.DRIVE, "drive", None, at, AROUND, start, end)
+    start, end = centre - DRIVE_SWEEP / 2, centre + DRIVE_SWEEP / 2
+    arc = Arc(pens.DRIVE, "drive", None, at, DRIVE_RADIUS, start, end)
     yield arc
     tip = arc.spot_at(end if sign > 0 else start)
     back = offset(tip, unit_vector(at, tip), 0.0, -sign * 2.2)
@@ -185,9 +186,9 @@ def drive(at: Spot, towards: Vector, sign: float, ground: Vector | None = None) 
 # ---- higher pairs ----------------------------------------------------------------------------------------------------
 
 LAYER = "wheels"
-HALF_RACK, DEEP = 22.0, 2.4  # mm: half the length of a rack's drawn part, and how deep its bar is
+HALF_RACK, RACK_DEPTH = 22.0, 2.4  # mm: half the length of a rack's drawn part, and how deep its bar is
 PROFILE, FACE = 26.0, 14.0  # mm that a drawn arc, and half of a straight face, goes on from where it touches
-WIDEST = 100.0  # degrees of an arc on either side
+MAX_PROFILE_ANGLE = 100.0  # degrees of an arc on either side
 FRINGE = 40.0  # degrees of a wheel that stands still, hatched on either side of its pitch point
 
 
@@ -217,7 +218,7 @@ def rack(at: Spot, along: Vector, seat: Spot | None) -> Iterator[Item]:
     start, end, tie = _tied_line(at, along, HALF_RACK, seat)
     yield from tie
     yield Polygon(pens.BLOCK, LAYER, None,
-                  (start, end, offset(end, along, 0.0, -DEEP), offset(start, along, 0.0, -DEEP)))
+                  (start, end, offset(end, along, 0.0, -RACK_DEPTH), offset(start, along, 0.0, -RACK_DEPTH)))
 
 
 def rail(at: Spot, along: Vector, side: float) -> Iterator[Item]:
@@ -256,7 +257,7 @@ def profile(at: Spot, centre: Spot, whole: bool, disc: bool) -> Iterator[Item]:
         yield from circle(pens.LINK, centre, max(radius, RADIUS))
         return
     middle = math.degrees(math.atan2(at[1] - centre[1], at[0] - centre[0]))
-    half = min(WIDEST, math.degrees(PROFILE / radius))
+    half = min(MAX_PROFILE_ANGLE, math.degrees(PROFILE / radius))
     if disc:
         yield from circle(pens.PRODUCED, centre, radius)
     yield Arc(pens.LINK, LAYER, None, centre, radius, middle - half, middle + half)

@@ -16,9 +16,9 @@ from graphplan.sheet.tolerances import EXTENT_TOL
 
 View = Callable[[Spot], Spot]
 LAYER = "motion"
-FINE = 0.01  # mm by which what is drawn of a path may be off
-AGAIN = 0.05  # mm: a path that goes back so near to itself is drawn once
-STOP, DOT = 1.5, 0.35  # mm: half of the stroke across the end of a path; the radius of the dots on it
+PATH_TOL_MM = 0.01  # mm by which what is drawn of a path may be off
+SAME_WAY_MM = 0.05  # mm: a path that goes back so near to itself is drawn once
+STOP_MM, DOT_RADIUS_MM = 1.5, 0.35  # mm: half of the stroke across the end of a path; the radius of the dots on it
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ class Centrode:
             if len(spots) > 1:
                 yield Polyline(self.pen, LAYER, None, simplify_chain(spots))
             else:
-                yield Circle(pens.PATH_DOT, LAYER, None, spots[0], 2 * DOT)
+                yield Circle(pens.PATH_DOT, LAYER, None, spots[0], 2 * DOT_RADIUS_MM)
 
     def _carry(self, scene: Scene) -> Callable[[Spot], Spot]:
         """Where its link takes its spots."""
@@ -155,7 +155,7 @@ class TracedMotion:
                     yield _stop(end)
         for point in dict.fromkeys(path.point for path in self.paths):
             dots = (view(position[point]) for position in self.positions)
-            yield from (Circle(pens.PATH_DOT, LAYER, None, dot, DOT) for dot in dots)
+            yield from (Circle(pens.PATH_DOT, LAYER, None, dot, DOT_RADIUS_MM) for dot in dots)
 
 
 def _corners(spots: Sequence[Spot]) -> tuple[Spot, ...]:
@@ -178,15 +178,15 @@ def simplify_chain(spots: Sequence[Spot]) -> tuple[Spot, ...]:
     """A chain with no more spots than it takes; of one that goes back on its own way, that way alone."""
     import shapely  # where nothing is drawn, as for a list of steps, it is not needed
 
-    if math.dist(spots[0], spots[-1]) < AGAIN:
+    if math.dist(spots[0], spots[-1]) < SAME_WAY_MM:
         ring = [spot for spot, after in pairwise(spots) if spot != after]
         turns = [k for k, spot in enumerate(ring) if _turns_back(ring[k - 1], spot, ring[k + 1 - len(ring)])]
         if len(turns) == 2:
             (first, last), ring = turns, ring + ring
             halves = [shapely.LineString(ring[a : b + 1]) for a, b in ((first, last), (last, first + len(ring) // 2))]
-            if shapely.hausdorff_distance(*halves) < AGAIN:
-                return tuple(halves[0].simplify(FINE).coords)
-    return tuple(shapely.LineString(spots).simplify(FINE).coords)
+            if shapely.hausdorff_distance(*halves) < SAME_WAY_MM:
+                return tuple(halves[0].simplify(PATH_TOL_MM).coords)
+    return tuple(shapely.LineString(spots).simplify(PATH_TOL_MM).coords)
 
 
 def _turns_back(before: Spot, here: Spot, after: Spot) -> bool:
@@ -196,6 +196,6 @@ def _turns_back(before: Spot, here: Spot, after: Spot) -> bool:
 
 def _stop(spots: Sequence[Spot]) -> Item:
     """The stroke across the first end of a chain."""
-    direction = next((unit_vector(p, q) for p, q in pairwise(spots) if math.dist(p, q) > FINE), (1.0, 0.0))
+    direction = next((unit_vector(p, q) for p, q in pairwise(spots) if math.dist(p, q) > PATH_TOL_MM), (1.0, 0.0))
     return Polyline(pens.PATH_END, LAYER, None,
-                    (offset(spots[0], direction, 0.0, STOP), offset(spots[0], direction, 0.0, -STOP)))
+                    (offset(spots[0], direction, 0.0, STOP_MM), offset(spots[0], direction, 0.0, -STOP_MM)))

@@ -78,8 +78,8 @@ def view(box: Rect, room: Rect, units_per_mm: float) -> View:
     return View(room, scale, (x - cx * scale, y - cy * scale))
 
 
-OFF = 0.02  # mm that the chords of an arc may be off
-AIR = 0.6  # mm that a line keeps off letters at which it breaks off
+CHORD_TOL_MM = 0.02  # mm that the chords of an arc may be off
+LETTER_MARGIN_MM = 0.6  # mm that a line keeps off letters at which it breaks off
 
 
 def clip_segment(rect: Rect, start: Spot, end: Spot) -> tuple[float, float] | None:
@@ -113,7 +113,7 @@ def clip_item(item: Item, rect: Rect) -> Iterator[Item]:
     if isinstance(item, Arc):
         if not item.radius:
             return
-        spots = item.spots(min(4.0, math.degrees(math.sqrt(8 * OFF / item.radius))))
+        spots = item.spots(min(4.0, math.degrees(math.sqrt(8 * CHORD_TOL_MM / item.radius))))
         if all(map(rect.holds, spots)):
             yield item
             return
@@ -139,6 +139,7 @@ def clip_off_boxes(line: Polyline, rect: Rect, boxes: Iterable[Rect]) -> Iterato
     import shapely
 
     inside = shapely.clip_by_rect(shapely.LineString(line.spots), rect.left, rect.bottom, rect.right, rect.top)
-    covered = [shapely.box(box.left - AIR, box.bottom - AIR, box.right + AIR, box.top + AIR) for box in boxes]
+    covered = [shapely.box(box.left - LETTER_MARGIN_MM, box.bottom - LETTER_MARGIN_MM, box.right + LETTER_MARGIN_MM,
+                           box.top + LETTER_MARGIN_MM) for box in boxes]
     for run in shapely.get_parts(inside.difference(shapely.union_all(covered))):
         yield replace(line, spots=tuple(run.coords))

@@ -19,7 +19,7 @@ from graphplan.sheet.words.rows import Deviations, Table, largest_size, number_r
 from graphplan.words.tongue import ENGLISH, Tongue
 
 Pair = tuple[float, float]
-WAYS = {phrase("by force plans"): kinds.BY_PLANS, phrase("with friction"): kinds.RUBBED,
+BALANCE_METHODS = {phrase("by force plans"): kinds.BY_PLANS, phrase("with friction"): kinds.RUBBED,
         phrase("by the lever"): kinds.BY_LEVER}
 
 
@@ -105,7 +105,7 @@ class ForceTables:
         loads = self.drawing.scene.loads
         table: Table = []
         for name, balance in loads.named_balances.items() if loads else ():
-            kind_of = {words: kinds.balance_kind(method, balance) for words, method in WAYS.items()}
+            kind_of = {words: kinds.balance_kind(method, balance) for words, method in BALANCE_METHODS.items()}
             readings = {words: self.values.get(kind, {}).get(name) for words, kind in kind_of.items()}
             values = {words: value for words, value in readings.items() if value is not None}
             off = [self._deviation_runs(kind_of[words], name) for words in values]

@@ -20,7 +20,7 @@ from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.tolerances import LENGTH_TOL, MIN_LENGTH
 from graphplan.sheet.words.sums import Sum
 
-LARGEST = 10.0  # so many times as large a length may be drawn as it is taken
+MAX_ENLARGEMENT = 10.0  # so many times as large a length may be drawn as it is taken
 LENGTH = Quantity("", "length")
 COMPONENTS = Movement.LAID_BY_COMPONENTS, Movement.LAID_ALONG
 
@@ -131,7 +131,7 @@ class Lengths:
     def _step_lengths(self, step: Step) -> Iterator[Length]:
         op, args, out = step.op, step.args, step.index
         if op.sizing:
-            yield WORKED_OUT[op.sizing](self, step)
+            yield LENGTH_RULES[op.sizing](self, step)
         elif op.movement is Movement.OPENED:
             yield Length((wide := self.distance(*args)).text, (wide,))
         elif op.gives == OPENING:
@@ -265,12 +265,12 @@ class Lengths:
 
 def _factors(times: float, parts: int = 3) -> tuple[float, ...]:
     """A factor, in up to so many parts where it is too large to be taken at once."""
-    if parts == 1 or times <= LARGEST * (1 + LENGTH_TOL):
+    if parts == 1 or times <= MAX_ENLARGEMENT * (1 + LENGTH_TOL):
         return (times,)
-    return (*_factors(times / LARGEST, parts - 1), LARGEST)
+    return (*_factors(times / MAX_ENLARGEMENT, parts - 1), MAX_ENLARGEMENT)
 
 
-WORKED_OUT: dict[Sizing, Callable[[Lengths, Step], Length]] = {
+LENGTH_RULES: dict[Sizing, Callable[[Lengths, Step], Length]] = {
     Sizing.MOMENTS: Lengths._moments, Sizing.COUPLE: Lengths._couple, Sizing.INERTIA: Lengths._inertia,
     Sizing.FRICTION: Lengths._friction, Sizing.SHIFT: Lengths._force_shift, Sizing.SQUARE: Lengths._known_length,
     Sizing.DOUBLE: Lengths._known_length,

@@ -21,7 +21,7 @@ from graphplan.sheet.words.lengths import Length, Lengths, PaperDistance, in_mm,
 from graphplan.sheet.words.sums import Sum
 
 # Places that are told by how far they are from another mark, and what that length is called.
-FROM = {kinds.CENTRE: phrase("radius of curvature, {0}"),
+DISTANCE_NAMES = {kinds.CENTRE: phrase("radius of curvature, {0}"),
         kinds.INFLECTION: phrase("diameter of the inflection circle, {0}")}
 VECTORS = units.SPEED, units.ACCELERATING, units.FORCE, units.LENGTH
 
@@ -60,7 +60,7 @@ class Readings:
     def drawn_readings(self) -> Iterator[Reading]:
         """The readings of what is drawn and not given."""
         return (reading for reading in self.drawing.readings if reading.given is None and reading.marks
-                and (not reading.kind.place or reading.kind in FROM))
+                and (not reading.kind.place or reading.kind in DISTANCE_NAMES))
 
     def measure(self, reading: Reading) -> Measured | None:
         """What is read off, unless it is nothing."""
@@ -94,7 +94,7 @@ class Readings:
         read = self._vector(units.LENGTH, PaperDistance(long, (start, end)), reading.kind.group)
         (x, y), (u, v) = self.values[reading.kind][reading.of], self.drawing.values[start][:2]
         symbol = unit(units.LENGTH.unit(self.drawing.scene.units))
-        return self._read(reading, FROM[reading.kind](reading.of), read, symbol, magnitude(x - u, y - v))
+        return self._read(reading, DISTANCE_NAMES[reading.kind](reading.of), read, symbol, magnitude(x - u, y - v))
 
     def _read(self, reading: Reading, name: Said, read: ReadSum, symbol: Said, computed: float) -> Measured:
         """What is read, beside what is computed."""

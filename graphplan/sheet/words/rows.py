@@ -30,7 +30,7 @@ from graphplan.sheet.words.lengths import magnitude
 from graphplan.words.tongue import Tongue
 
 LEADING = 1.42  # of the letter size, base line to base line
-BELOW, BETWEEN = 0.36, 0.16  # of the letter size: rules under the base line
+RULE_DROP, RULE_PITCH = 0.36, 0.16  # of the letter size: rules under the base line
 
 
 @dataclass(frozen=True)
@@ -144,7 +144,7 @@ def row_items(placed: Sequence[Placed]) -> Iterator[Item]:
             for before, through, times in cell.rules:
                 left, right = (x + cell.x + width(runs, row.size, cell.bold) for runs in (before, through))
                 for k in range(times):
-                    low = base - (BELOW + k * BETWEEN) * row.size
+                    low = base - (RULE_DROP + k * RULE_PITCH) * row.size
                     yield Polyline(THIN, row.layer, row.step, ((left, low), (right, low)))
 
 
@@ -176,8 +176,8 @@ class Deviations:
         return {name: deviation for kind in kinds for name, deviation in self.results.get(kind, {}).items()}
 
 
-APART = 3.0  # mm between two columns
-TOGETHER = 15  # rows of a table stand in one column
+COLUMN_GAP = 3.0  # mm between two columns
+MAX_ROWS_TOGETHER = 15  # rows of a table stand in one column
 Table = list[list[Runs]]
 Off = Mapping[str, Deviation]  # how far off results are drawn, by name; empty where that is not told
 
@@ -271,7 +271,7 @@ def is_narrow(table: Table, wide: float) -> bool:
 
 
 def _widths(table: Table) -> list[float]:
-    return [max(width(row[i], SIZE) for row in table) + APART for i in range(len(table[0]))]
+    return [max(width(row[i], SIZE) for row in table) + COLUMN_GAP for i in range(len(table[0]))]
 
 
 def table_rows(table: Table) -> Iterator[TextRow]:
@@ -280,14 +280,14 @@ def table_rows(table: Table) -> Iterator[TextRow]:
     for wide in _widths(table) if table else ():
         edges.append(edges[-1] + wide)
     for i, row in enumerate(table):
-        numbers = [Cell(edge - APART / 2, runs, "end") for edge, runs in zip(edges[2:], row[1:], strict=True)]
-        gap, keep = (1.0, min(TOGETHER, len(table) - 1)) if i == 0 else (0.0, 0)
+        numbers = [Cell(edge - COLUMN_GAP / 2, runs, "end") for edge, runs in zip(edges[2:], row[1:], strict=True)]
+        gap, keep = (1.0, min(MAX_ROWS_TOGETHER, len(table) - 1)) if i == 0 else (0.0, 0)
         yield TextRow((Cell(0.0, row[0]), *numbers), gap=gap, keep=keep)
 
 
-TALL, TIGHT = 6.5, 5.2  # mm: a box has room for a number by hand, also where space is short
-NARROW = 11.0  # mm: the least that a number by hand needs
-TICK, TICKED = 2.2, 12.0  # mm: the box of a step, and where its sentence begins
+BOX_HEIGHT, TIGHT_BOX_HEIGHT = 6.5, 5.2  # mm: a box has room for a number by hand, also where space is short
+MIN_BOX_WIDTH = 11.0  # mm: the least that a number by hand needs
+TICK_SIZE, TICKED_INDENT = 2.2, 12.0  # mm: the box of a step, and where its sentence begins
 
 
 # ---- answer boxes: to fill in by hand, or to tick -------------------------------------------------------------------
@@ -295,29 +295,29 @@ TICK, TICKED = 2.2, 12.0  # mm: the box of a step, and where its sentence begins
 
 def answer_rows(table: Table, wide: float) -> Iterator[TextRow]:
     """A table to fill in: its head and names as they are, and an empty box for every number."""
-    names = max(width(row[0], SIZE) for row in table) + APART
-    pitch = min((wide - names) / (len(table[0]) - 1), 2.4 * NARROW)
+    names = max(width(row[0], SIZE) for row in table) + COLUMN_GAP
+    pitch = min((wide - names) / (len(table[0]) - 1), 2.4 * MIN_BOX_WIDTH)
     lefts = [names + i * pitch for i in range(len(table[0]) - 1)]
     heads = [Cell(left + pitch / 2, runs, "middle") for left, runs in zip(lefts, table[0][1:], strict=True)]
-    yield TextRow((Cell(0.0, table[0][0]), *heads), gap=1.5, keep=min(TOGETHER, len(table) - 1))
+    yield TextRow((Cell(0.0, table[0][0]), *heads), gap=1.5, keep=min(MAX_ROWS_TOGETHER, len(table) - 1))
     for row in table[1:]:
-        boxes = [Rect(left, 0.0, left + pitch, TALL) for left, runs in zip(lefts, row[1:], strict=True) if runs]
-        yield TextRow((Cell(0.0, row[0]),), tall=TALL, boxes=tuple(boxes))
+        boxes = [Rect(left, 0.0, left + pitch, BOX_HEIGHT) for left, runs in zip(lefts, row[1:], strict=True) if runs]
+        yield TextRow((Cell(0.0, row[0]),), tall=BOX_HEIGHT, boxes=tuple(boxes))
 
 
 def boxes_fit(table: Table, wide: float) -> bool:
     """Whether all the boxes of a table have room for a number by hand."""
-    return max(width(row[0], SIZE) for row in table) + APART + (len(table[0]) - 1) * NARROW <= wide
+    return max(width(row[0], SIZE) for row in table) + COLUMN_GAP + (len(table[0]) - 1) * MIN_BOX_WIDTH <= wide
 
 
 def with_tick_box(row: TextRow) -> TextRow:
     """A row with a box to tick before it."""
-    low = (row.height - TICK) / 2
-    return replace(row, gap=0.5, tall=row.height, boxes=(Rect(0.0, low, TICK, low + TICK),))
+    low = (row.height - TICK_SIZE) / 2
+    return replace(row, gap=0.5, tall=row.height, boxes=(Rect(0.0, low, TICK_SIZE, low + TICK_SIZE),))
 
 
 def tighten(row: TextRow) -> TextRow:
     """The row where space is short: nearer to the one above, its boxes for numbers lower."""
-    if row.boxes and row.tall > TIGHT:
-        row = replace(row, tall=TIGHT, boxes=tuple(replace(box, top=TIGHT) for box in row.boxes))
+    if row.boxes and row.tall > TIGHT_BOX_HEIGHT:
+        row = replace(row, tall=TIGHT_BOX_HEIGHT, boxes=tuple(replace(box, top=TIGHT_BOX_HEIGHT) for box in row.boxes))
     return replace(row, gap=row.gap / 2)

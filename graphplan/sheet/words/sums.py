@@ -23,10 +23,10 @@ from graphplan.sheet.tolerances import FIGURE_TOL
 
 # By level: decimals of mm, decimals of a result in mm, figures of another result, figures of what is not a length.
 LEVELS = ((1, 1, 4, 4), (2, 1, 4, 5), (2, 1, 4, 6), (1, 1, 4, 5))
-PRINTED, READ = 2, 3  # levels from the first of which on a result is what the printed numbers come to; of what is read
-HALF = 0.499  # of the last printed digit: how far off what the printed numbers come to may be
+PRINTED_LEVEL, READ_LEVEL = 2, 3  # from which on a result is what the printed numbers come to; of what is read
+MAX_PRINT_ERROR = 0.499  # of the last printed digit: how far off what the printed numbers come to may be
 MOST_FIGURES = 6  # all of a figure is printed where so many do
-LENGTHS, FORMS = "mMd", "+-Σ"
+LENGTH_KINDS, FORMS = "mMd", "+-Σ"
 
 
 @dataclass(frozen=True)
@@ -57,9 +57,9 @@ class Sum:
     def _number_text(self, place: int, number: float) -> Said:
         kind, result = self.kinds.lstrip(FORMS)[place], place % len(self.numbers) == len(self.numbers) - 1
         if isinstance(self.level, Unknown):
-            return self.level.printed(number, ("r" if kind in LENGTHS else "v") if result else kind)
+            return self.level.printed(number, ("r" if kind in LENGTH_KINDS else "v") if result else kind)
         _, of_result, _, figures = LEVELS[self.level]
-        if kind in LENGTHS:
+        if kind in LENGTH_KINDS:
             return decimals(number, of_result if result else decimals_of(number, kind, self.level))
         return digits(number, result_figures(number, self.level) if result else figures_of(number, figures))
 
@@ -81,7 +81,7 @@ class Sum:
 
 def result_at(level: int, kinds: str, numbers: Sequence[float]) -> float:
     """The result, or what the printed numbers come to."""
-    if level < PRINTED:
+    if level < PRINTED_LEVEL:
         return numbers[-1]
     form, number_kinds = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
     value = _value(form, number_kinds,
@@ -92,21 +92,21 @@ def result_at(level: int, kinds: str, numbers: Sequence[float]) -> float:
 
 def holding(kinds: str, numbers: Sequence[float]) -> int:
     """The first level at which a sum holds as printed, else that of what the printed numbers come to."""
-    if kinds[-1] not in LENGTHS:
-        return READ
+    if kinds[-1] not in LENGTH_KINDS:
+        return READ_LEVEL
     form, kinds = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
-    for level in range(PRINTED):
+    for level in range(PRINTED_LEVEL):
         printed = [round_as_printed(number, kind, level) for number, kind in zip(numbers[:-1], kinds[:-1], strict=True)]
         result = round_as_printed(numbers[-1], kinds[-1], level, result=True)
         value = _value(form, kinds, printed)
-        if abs(value - result) <= HALF * 10.0 ** -LEVELS[level][1]:
+        if abs(value - result) <= MAX_PRINT_ERROR * 10.0 ** -LEVELS[level][1]:
             return level
-    return PRINTED
+    return PRINTED_LEVEL
 
 
 def _value(form: str, kinds: str, numbers: Sequence[float]) -> float:
     """What printed numbers come to."""
-    lengths = [(number, kind) for number, kind in zip(numbers, kinds, strict=False) if kind in LENGTHS]
+    lengths = [(number, kind) for number, kind in zip(numbers, kinds, strict=False) if kind in LENGTH_KINDS]
     value = 1.0
     if form == "Σ":
         value = sum(lengths[k][0] * lengths[k + 1][0] for k in range(0, len(lengths), 2))
@@ -115,7 +115,7 @@ def _value(form: str, kinds: str, numbers: Sequence[float]) -> float:
             value = _apply(value, number, {"m": "f", "M": "F", "d": "g"}[kind])
     value = {"-": 1.0 - value, "+": 1.0 + value}.get(form, value)
     for number, kind in zip(numbers, kinds, strict=False):
-        value = value if kind in LENGTHS else _apply(value, number, kind)
+        value = value if kind in LENGTH_KINDS else _apply(value, number, kind)
     return value
 
 
@@ -129,7 +129,7 @@ def _apply(value: float, number: float, kind: str) -> float:
 def round_as_printed(number: float, kind: str, level: int, *, result: bool = False) -> float:
     """A number as it is printed at a level."""
     _, of_result, _, figures = LEVELS[level]
-    if kind in LENGTHS:
+    if kind in LENGTH_KINDS:
         return float(f"{number:.{of_result if result else decimals_of(number, kind, level)}f}")
     return float(f"{number:.{result_figures(number, level) if result else figures_of(number, figures)}g}")
 
@@ -137,7 +137,7 @@ def round_as_printed(number: float, kind: str, level: int, *, result: bool = Fal
 def decimals_of(number: float, kind: str, level: int) -> int:
     """In how many decimals mm are printed: in more where nothing would be left to multiply or to divide by."""
     count = LEVELS[level][0]
-    keeps_figures = level == PRINTED or (kind == "d" and level == READ)
+    keeps_figures = level == PRINTED_LEVEL or (kind == "d" and level == READ_LEVEL)
     return 1 - _power(number) if keeps_figures and 0 < abs(number) < 0.5 * 10.0**-count else count
 
 

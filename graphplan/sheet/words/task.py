@@ -32,7 +32,7 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.lettering.lettering import name_runs, sentence_runs
 from graphplan.sheet.plates.annotations import rate_letters
 from graphplan.sheet.words.rows import (
-    TICKED,
+    TICKED_INDENT,
     Deviations,
     Table,
     TextRow,
@@ -55,7 +55,7 @@ class TaskWords(SheetWords):
     """All that is said on a task sheet, or where it is `guided`, on the sheet of a student who is told the steps."""
 
     composition: Composition = field(kw_only=True)
-    indent = TICKED
+    indent = TICKED_INDENT
     unfolded = True
 
     def lines(self, wide: float, guided: bool) -> list[TextRow]:
@@ -139,8 +139,8 @@ class TaskWords(SheetWords):
         return [heads, *([sentence_runs(say(slides[name])), box, box] for name in arms)] if arms else []
 
 
-FIGURES = 6  # of what is given
-ASKED = {  # how kinds of results are asked for, and how those that have them are told
+GIVEN_FIGURES = 6  # of what is given
+QUESTIONS = {  # how kinds of results are asked for, and how those that have them are told
     "velocity": (phrase("Velocities: {0}."), ", ".join), "acceleration": (phrase("Accelerations: {0}."), ", ".join),
     "omega": (phrase("Angular velocities: {0}."), listed), "alpha": (phrase("Angular accelerations: {0}."), listed),
 }  # fmt: skip
@@ -246,7 +246,7 @@ def _value_text(value: Said, load: Force | Moment) -> Said:
 
 def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[Said]:
     """What a construction gives, as a task: `values` are its readings by kind and name."""
-    for kind, (ask, enumerated) in ASKED.items():
+    for kind, (ask, enumerated) in QUESTIONS.items():
         if values.get(kind):
             yield ask(enumerated([*values[kind]]))
     slides = {slide.name: slide_named(slide) for slide in scene.slides}
@@ -290,8 +290,8 @@ def _with_unit(letter: str, value: Any, symbol: str) -> Said:
 
 
 def _pair(pair: Pair) -> Said:
-    return coordinates(map(float, pair), FIGURES)
+    return coordinates(map(float, pair), GIVEN_FIGURES)
 
 
 def _figure(value: Any) -> Said:
-    return digits(float(value), FIGURES)
+    return digits(float(value), GIVEN_FIGURES)

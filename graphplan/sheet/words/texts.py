@@ -53,8 +53,8 @@ from graphplan.sheet.words.rows import (
 if TYPE_CHECKING:
     from graphplan.sheet.words.force_tables import ForceTables
 
-PLAN = 1.2  # of the letter size: the name of a plan
-TALL = 1.75  # of the letter size: a row with room for rules below its letters
+PLAN_TITLE_SIZE = 1.2  # of the letter size: the name of a plan
+UNDERLINED_HEIGHT = 1.75  # of the letter size: a row with room for rules below its letters
 RESULTS = "results"  # the layer of what is read when all is drawn
 
 
@@ -128,7 +128,7 @@ class SheetWords:
             first = passage.entries[0].movements[0].index
             if passage.plan != plan:
                 plan = passage.plan
-                yield from self._title(said("On the {0}", passage.plan.words), wide, first, PLAN * SIZE, 2.4)
+                yield from self._title(said("On the {0}", passage.plan.words), wide, first, PLAN_TITLE_SIZE * SIZE, 2.4)
             yield from self._stage(passage, wide, first)
             for entry in passage.entries:
                 yield from self.entry(entry, wide)
@@ -175,7 +175,8 @@ class SheetWords:
             return
         rules = tuple((equation_runs(lettered[:start]), equation_runs(lettered[:end]), times)
                       for start, end, times in equation.underlined if times)
-        yield TextRow((Cell(self.indent, runs, rules=rules),), gap=0.3, step=step, keep=1, tall=TALL * SIZE)
+        yield TextRow((Cell(self.indent, runs, rules=rules),), gap=0.3, step=step, keep=1,
+                      tall=UNDERLINED_HEIGHT * SIZE)
 
     def entry(self, entry: Entry, wide: float) -> Iterator[TextRow]:
         """One step as the textbook tells it, unfolded with its movements below it."""
@@ -292,10 +293,10 @@ def _gap_text(gap: float) -> str:
 # ---- the circle diagram ----------------------------------------------------------------------------------------------
 
 MIN_RADIUS, PER_LINK = 10.0, 2.2  # mm: the circle's radius, and how much larger it is with each link beyond four
-LINK_RADIUS, AIR = 2.6, 1.5  # mm: the radius about a link's name, and what is left free around the figure
+LINK_RADIUS, FIGURE_MARGIN = 2.6, 1.5  # mm: the radius about a link's name, and what is left free around the figure
 NUMBER_SIZE = 0.8 * SIZE  # mm: the letters of numbers
 NUMBER_AT = 0.38  # of a side: where its number stands, off the middle, in which many sides cross
-BARE = Pen(0.0, pens.PAPER, fill=pens.PAPER)
+NUMBER_GROUND = Pen(0.0, pens.PAPER, fill=pens.PAPER)
 
 
 def circle_diagram_row(circle: DrawnCircle) -> TextRow:
@@ -306,7 +307,7 @@ def circle_diagram_row(circle: DrawnCircle) -> TextRow:
     """
     links, items = circle.links, list[Item]()
     radius = MIN_RADIUS + PER_LINK * max(0, len(links) - 4)
-    middle = radius + LINK_RADIUS + AIR
+    middle = radius + LINK_RADIUS + FIGURE_MARGIN
     angles = {link: math.pi * (0.75 - 2 * place / len(links)) for place, link in enumerate(links)}
     spots = {link: (middle + radius * math.cos(angle), middle + radius * math.sin(angle))
              for link, angle in angles.items()}
@@ -323,7 +324,7 @@ def circle_diagram_row(circle: DrawnCircle) -> TextRow:
             start, end = side.links
             name, spot = str(side.number), interpolate(spots[start], spots[end], NUMBER_AT)
             room = 0.7 * max(width(name_runs(name), NUMBER_SIZE), NUMBER_SIZE)
-            add_name(name, NUMBER_SIZE, Circle(BARE, "text", None, spot, room))
+            add_name(name, NUMBER_SIZE, Circle(NUMBER_GROUND, "text", None, spot, room))
     for link, spot in spots.items():
         add_name("0" if link == FRAME else link, SIZE, Circle(pens.BALLOON, "text", None, spot, LINK_RADIUS))
     return TextRow((), tall=2 * middle, figure=tuple(items), keep=1)

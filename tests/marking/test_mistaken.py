@@ -13,10 +13,11 @@ from hands import Drawn, draw, frames, slipped, traced
 import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.marking.judge import measures
 from graphplan.marking.judge.findings import remark
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.mistakes import Mistake
-from graphplan.marking.judge.student_sheet import FAINT, FILED, GONE, THERE, Residual, weighed
+from graphplan.marking.judge.student_sheet import Residual, weighed
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.marking.traces import Submission
 from graphplan.phrases import said
@@ -48,13 +49,14 @@ def judged(name: str, seed: int, mistakes: dict[str, str] | None = None, odd: di
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("most", [THERE, FAINT, FILED])
+@pytest.mark.parametrize("most", [measures.PICTURE_ODDS, measures.FAINT_ODDS, measures.FILE_ODDS])
 def test_a_mark_weighs_the_less_the_farther_off_it_is(kind: str, most: dict[str, float]) -> None:
     """And never less than none at all, nor than a stroke of which nothing is seen."""
-    away = [weighed(most[kind], GONE[kind], Residual(np.array([off, 0.0]), np.eye(2))) for off in (0, 2, 4, 100)]
+    away = [weighed(most[kind], measures.ABSENT_ODDS[kind], Residual(np.array([off, 0.0]), np.eye(2)))
+            for off in (0, 2, 4, 100)]
     assert away == sorted(away, reverse=True)
     assert away[0] == most[kind]
-    assert away[-1] == GONE[kind] == weighed(most[kind], GONE[kind], None, share=0.0)
+    assert away[-1] == measures.ABSENT_ODDS[kind] == weighed(most[kind], measures.ABSENT_ODDS[kind], None, share=0.0)
 
 
 @pytest.mark.parametrize(("name", "seed", "mistake"), [

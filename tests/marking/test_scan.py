@@ -21,8 +21,9 @@ from raster import Picture, Printed, photo, printed, scan  # noqa: E402
 import graphplan as gp  # noqa: E402
 from graphplan.errors import Refused  # noqa: E402
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT  # noqa: E402
+from graphplan.marking.scans import measures  # noqa: E402
 from graphplan.marking.scans.printed_ink import picture, pieces  # noqa: E402
-from graphplan.marking.scans.scan import SCALE, PencilPage, read_page, read_scan  # noqa: E402
+from graphplan.marking.scans.scan import PencilPage, read_page, read_scan  # noqa: E402
 from graphplan.marking.scans.straighten import _by_marks, straighten  # noqa: E402
 from graphplan.marking.traces import PlanFrame, Trace  # noqa: E402
 from graphplan.sheet.frames.frame import corner_marks, corner_numbers, corner_rects, mark_cells, sheet_code  # noqa: E402
@@ -143,7 +144,8 @@ def test_photos(lost: tuple[int, ...], seed: int, tmp_path: Path) -> None:
 
 def astray(sheet: Sheet, seen: Picture) -> tuple[float, float]:
     """How many mm a straightened picture is off somewhere, and how sure of itself it is."""
-    _, found = straighten(seen.image, sheet, picture(sheet, SCALE), SCALE, None, "photo")
+    _, found = straighten(seen.image, sheet, picture(sheet, measures.PAGE_PX_PER_MM), measures.PAGE_PX_PER_MM, None,
+                          "photo")
     across, up = np.linspace(25, sheet.width - 15, 9), np.linspace(15, sheet.height - 15, 7)
     spots = np.array([(x, y) for x in across for y in up])
     off = np.hypot(*(found.warp(spots) - seen.seen(spots)).T) / found.warp.fineness()
@@ -291,10 +293,12 @@ def test_print_that_is_drawn_over_is_known() -> None:
     pencil = [(tuple(map(tuple, (at - end, at + end))), 0.6, 0.9)
               for at, end in zip(ink.middles[ink.own] + side, ends, strict=True)]
     over = scan(paper(), pencil, 83).image
-    assert straighten(over, page(), picture(page(), SCALE), SCALE, CODE, "over")[1].own > 0.5
+    assert straighten(over, page(), picture(page(), measures.PAGE_PX_PER_MM), measures.PAGE_PX_PER_MM, CODE,
+                      "over")[1].own > 0.5
     bare = replace(page(), items=tuple(item for item in page().items if item.layer in {"paper", MARKS}))
     with pytest.raises(Refused, match="not found where this task has it"):
-        straighten(scan(printed(bare), [], 84).image, page(), picture(page(), SCALE), SCALE, CODE, "bare")
+        straighten(scan(printed(bare), [], 84).image, page(), picture(page(), measures.PAGE_PX_PER_MM),
+                   measures.PAGE_PX_PER_MM, CODE, "bare")
 
 
 def test_cropped_sheets_are_refused(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-MOST = 60  # letters of one crowd that are weighed against each other; of a larger one each takes the nearest
+from graphplan.marking.judge import measures
 
 Costs = Mapping[int, float]  # of a letter's candidates
 
@@ -16,7 +16,7 @@ def assigned(wishes: Sequence[Costs], nothing: float, shared: float) -> list[int
     """
     found: list[int | None] = [None] * len(wishes)
     for crowd in _crowds(wishes):
-        if len(crowd) > MOST:
+        if len(crowd) > measures.MAX_CROWD:
             for letter in crowd:
                 best = min(wishes[letter], key=wishes[letter].__getitem__)
                 found[letter] = best if wishes[letter][best] < nothing else None

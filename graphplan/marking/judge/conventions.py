@@ -21,8 +21,9 @@ from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.preference import Constructing, constructions, form_name
 from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import POINT
+from graphplan.marking.judge import measures
 from graphplan.marking.judge.readings import Reading
-from graphplan.marking.judge.register import SAME_WAY, SIGMAS, Pair, agreed, best, fitted
+from graphplan.marking.judge.register import Pair, agreed, best, fitted
 from graphplan.marking.judge.student_sheet import Fit
 from graphplan.marking.judge.units import in_mm
 from graphplan.marking.spelling import spelled
@@ -35,16 +36,10 @@ from graphplan.methods.panels import ACCELERATION_PLAN, MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import Said, said
 from graphplan.sheet.layout.composition import Composition
 
-OTHER_FORM, OTHER_PLAN, OWN_SCALE, TURNED, AT_JOINTS, MIRRORED, NUMBERED = -1.0, -2.0, -1.0, *4 * [-2.0]  # how unlikely
-EACH, ANYHOW = 14.0, -4.0  # of a plan turned as a whole: what each mark more speaks for that; turned by no right angle
-SQUARE = 0.15  # radians that a vector may be off a quarter turn
-ROUND = tuple(map(Fraction, (1, 2, 2.5, 4, 5, 8)))  # the numbers that scales are
-CLOSE = 4.0  # standard deviations within which one is meant
-SHORTEST, NEAR = 3.0, 2.0  # mm: the shortest vector that tells a scale; how far off a mark of a plan may be at a glance
 POLES = ("p", "pi", "o", "ov", "pv", "oa", "pa", "o1", "o2", "p1", "p2")  # what the poles of polar plans are called
 SENSES: Mapping[int, tuple[tuple[Said, ...], float]] = {  # by the quarter turns from the task's velocities
-    0: ((), 0.0), 2: ((said("velocities turned clockwise"),), TURNED),
-    3: ((said("true velocities at their points"),), AT_JOINTS),
+    0: ((), 0.0), 2: ((said("velocities turned clockwise"),), measures.TURNED_ODDS),
+    3: ((said("true velocities at their points"),), measures.AT_JOINTS_ODDS),
 }
 WRITTEN: Mapping[ResultKind, tuple[str, ...]] = {  # how the ends of a point's vectors are called
     VELOCITY: ("v{0}", "{0}"), ACCELERATION: ("a{0}", "j{0}", "w{0}", "{0}'", "{0}1"),
@@ -64,14 +59,15 @@ def seen_right_way(drawing: Construction, composition: Composition, submission: 
             traces = tuple(replace(trace, spots=tuple((x, -y) for x, y in trace.spots)) for trace in submission.traces)
             tips = tuple((x, -y) for x, y in submission.tips)
             submission = replace(submission, traces=traces, tips=tips)
-            return Reading(drawing, composition, submission, (*told, said("a mirrored sheet")), prior=MIRRORED)
+            return Reading(drawing, composition, submission, (*told, said("a mirrored sheet")),
+                           prior=measures.MIRRORED_ODDS)
     return Reading(drawing, composition, submission, told)
 
 
 def _held(pairs: Sequence[Pair], fit: Fit | None, pencil: Pencil) -> list[Pair]:
     """The marks that a frame holds."""
     return [(plan, sheet) for plan, sheet in pairs
-            if fit and abs(fit.frame.onto(plan) - sheet) < 2 * SIGMAS * pencil.point]
+            if fit and abs(fit.frame.onto(plan) - sheet) < 2 * measures.FRAME_SIGMAS * pencil.point]
 
 
 @dataclass(frozen=True)
@@ -122,7 +118,7 @@ class Proposer:
         for methods, other in constructions(drawing.scene, plan=plan, strict=drawing.strict, inertia=self.inertia,
                                             construct=self.construct):
             if isinstance(other, Construction) and _keys(other) != _keys(drawing):
-                yield replace(reading, drawing=other, prior=reading.prior + OTHER_FORM,
+                yield replace(reading, drawing=other, prior=reading.prior + measures.OTHER_FORM_ODDS,
                               told=(*reading.told, said("drawn by the form {0}", form_name(methods))))
 
     def _numbered(self, reading: Reading) -> Iterator[Reading]:
@@ -130,7 +126,8 @@ class Proposer:
         traces = reading.submission.traces
         if any(trace.label.isdigit() for trace in traces):
             told = tuple(replace(trace, label="") if trace.label.isdigit() else trace for trace in traces)
-            yield replace(reading, submission=replace(reading.submission, traces=told), prior=reading.prior + NUMBERED,
+            yield replace(reading, submission=replace(reading.submission, traces=told),
+                          prior=reading.prior + measures.RENUMBERED_ODDS,
                           told=(*reading.told, said("steps numbered in another order")))
 
     # ---- velocities drawn from their points ------------------------------------------------------------------------
@@ -144,18 +141,18 @@ class Proposer:
         for point, velocity in self.task.drawing.velocity.items():
             trace = self._end(point, "v{0}")
             drawn = 1j * velocity * self.task.drawing.kappa * self.frame.unit
-            if trace is not None and abs(drawn) > SHORTEST:
+            if trace is not None and abs(drawn) > measures.MIN_VECTOR_MM:
                 start = self.frame.onto(self._place(point))
                 sigma = math.hypot(2 * self.pencil.point, trace.blur) / abs(drawn)
                 votes.append(((complex(*trace.spots[0]) - start) / drawn, sigma))
         found = (self._turned(ratio, sigma) for count, ratio, sigma in agreed(votes)
-                 if count > 1 or abs(_astray(ratio)) < CLOSE * sigma / abs(ratio))
+                 if count > 1 or abs(_astray(ratio)) < measures.ROUND_SPEED_SIGMAS * sigma / abs(ratio))
         return [reading for reading in found if reading]
 
     def _turned(self, ratio: complex, sigma: float) -> Reading | None:
         """With velocities drawn as this ratio to those of the task has it, if they can be meant so."""
         quarters = round(cmath.phase(ratio) / (math.pi / 2)) % 4
-        if abs(_astray(ratio)) > SQUARE or quarters == 1:  # true ones would be reversed
+        if abs(_astray(ratio)) > measures.MAX_TURN_ERROR_RAD or quarters == 1:  # true ones would be reversed
             return None
         size = self._meant(abs(ratio), sigma / abs(ratio))
         if size == 1 and quarters == 0:
@@ -165,7 +162,8 @@ class Proposer:
         drawing = self.at_tempo(size * (-1 if quarters == 2 else 1), submission)
         return replace(
             self.task, drawing=drawing, submission=submission, told=(*self.task.told, *told),
-            scaled=MECHANISM if size != 1 else "", prior=self.task.prior + prior + (OWN_SCALE if size != 1 else 0.0)
+            scaled=MECHANISM if size != 1 else "",
+            prior=self.task.prior + prior + (measures.OWN_SCALE_ODDS if size != 1 else 0.0)
         ) if drawing else None
 
     def at_tempo(self, size: Fraction, submission: Submission) -> Construction | None:
@@ -181,15 +179,17 @@ class Proposer:
     def _meant(self, size: float, sigma: float) -> Fraction:
         """The factor of a scale as it is meant: such that it is the task's, a round one, or that of a drive, if one is
         so near."""
-        if abs(1 / size - 1) < CLOSE * sigma:
+        if abs(1 / size - 1) < measures.ROUND_SPEED_SIGMAS * sigma:
             return Fraction(1)
         kappa = Fraction(self.task.drawing.tempo.kappa)
-        speed = Fraction(abs(1 / (float(kappa) * self.frame.unit))).limit_denominator(10**6)  # k_v of the task
+        # k_v of the task
+        speed = Fraction(abs(1 / (float(kappa) * self.frame.unit))).limit_denominator(measures.MAX_SPEED_DENOMINATOR)
         rates = [abs(Fraction(drive.rate)) * kappa for drive in self.task.drawing.scene.drives if drive.rate]
         near = [*_round(size), *(speed / k_v for k_v in _round(float(speed) / size)),
                 *(part / rate for rate in rates for part in _round(size * float(rate)))]
         nearest = min(near, key=lambda one: abs(math.log(float(one) / size)))
-        return nearest if abs(float(nearest) / size - 1) < CLOSE * sigma else Fraction(size).limit_denominator(10**6)
+        return (nearest if abs(float(nearest) / size - 1) < measures.ROUND_SPEED_SIGMAS * sigma
+                else Fraction(size).limit_denominator(measures.MAX_SPEED_DENOMINATOR))
 
     def _turned_back(self) -> Submission:
         """With every velocity that is drawn at its point turned a quarter, as on the task's sheet."""
@@ -215,7 +215,7 @@ class Proposer:
             drawing = self._construct(self.task.drawing.scene, plan="polar")
         except GraphplanError:
             return
-        fits, submission, prior = dict[str, Fit](), self.seen, self.task.prior + OTHER_PLAN
+        fits, submission, prior = dict[str, Fit](), self.seen, self.task.prior + measures.POLAR_PLAN_ODDS
         for kind, panel in ((VELOCITY, VELOCITY_PLAN), (ACCELERATION, ACCELERATION_PLAN)):
             plan = max(self._from_pole(drawing, kind), key=lambda plan: plan.speaks, default=None)
             if plan:
@@ -262,11 +262,13 @@ class Proposer:
         speaks, held = 0.0, list[int]()
         for one, two in combinations(pairs, 2):
             (plan, sheet), (other, there) = pairs[one], pairs[two]
-            if abs(plan - other) * abs(self.frame.unit) < 1.0 or abs(sheet - there) < SHORTEST:
+            if abs(plan - other) * abs(self.frame.unit) < 1.0 or abs(sheet - there) < measures.MIN_VECTOR_MM:
                 continue
             unit = (there - sheet) / (other - plan)
-            near = [place for place, (z, spot) in pairs.items() if abs(sheet + unit * (z - plan) - spot) < NEAR]
-            aligned = abs(cmath.phase(unit / self.frame.unit)) < SAME_WAY + NEAR / abs(there - sheet) / 2
+            near = [place for place, (z, spot) in pairs.items()
+                    if abs(sheet + unit * (z - plan) - spot) < measures.POLAR_MARK_MM]
+            aligned = (abs(cmath.phase(unit / self.frame.unit)) < measures.SAME_DIRECTION_SINE
+                       + measures.POLAR_MARK_MM / abs(there - sheet) / 2)
             if len(near) + aligned > 2 and len(near) + aligned / 2 > speaks:
                 speaks, held = len(near) + aligned / 2, near
         fit = fitted([pairs[place] for place in held], self.pencil.point) if held else None
@@ -274,12 +276,13 @@ class Proposer:
             return None
         turn = cmath.phase(fit.frame.unit / self.frame.unit)
         quarters = round(turn / (math.pi / 2))
-        if abs(turn - quarters * math.pi / 2) > SQUARE:  # as the student turned his sheet
-            return PolarPlan(speaks, fit, tuple(held), at_once=ANYHOW)
+        if abs(turn - quarters * math.pi / 2) > measures.MAX_TURN_ERROR_RAD:  # as the student turned his sheet
+            return PolarPlan(speaks, fit, tuple(held), at_once=measures.ASKEW_PLAN_ODDS)
         unit = abs(fit.frame.unit) * self.frame.unit / abs(self.frame.unit)
         centre = 0j if quarters else fit.centre
         fit = replace(fit, frame=PlanFrame(fit.frame.onto(centre) - unit * centre, unit), centre=centre)
-        return PolarPlan(speaks, fit, tuple(held), at_once=EACH * (len(held) - 2) if quarters else 0.0)
+        return PolarPlan(speaks, fit, tuple(held),
+                         at_once=measures.TURNED_PLAN_MARK_ODDS * (len(held) - 2) if quarters else 0.0)
 
     # ---- letters and constructions ---------------------------------------------------------------------------------
 
@@ -332,7 +335,7 @@ def _astray(ratio: complex) -> float:
 def _round(size: float) -> Iterator[Fraction]:
     """The round numbers next to a number."""
     power = Fraction(10) ** math.floor(math.log10(size))
-    yield from (number * power * tens for number in ROUND for tens in (1, 10))
+    yield from (number * power * tens for number in measures.ROUND_SPEEDS for tens in (1, 10))
 
 
 def _at_tempo(drawing: Construction, factor: Fraction) -> Scene:

@@ -11,16 +11,14 @@ from shapely import Polygon, STRtree
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.curves import circle
+from graphplan.marking.judge import measures
 from graphplan.marking.traces import Trace
-
-ROUND, SAME = 24, 0.3  # strokes about a letter that are looked at; mm within which crossings are one
-WOBBLE = 0.15  # mm: the standard deviation of a mark that is set where strokes cross squarely
-STEEP = 0.05  # the sine of the angle at which strokes hardly cross
 
 
 def meetings(box: Polygon, reach: float, traces: Sequence[Trace], figures: STRtree) -> tuple[list[Trace], list[Trace]]:
     """Points where strokes cross about a box of letters, as sure as these are drawn; and where lines end."""
-    strokes = [traces[place] for place in figures.query(box, "dwithin", reach) if traces[place].kind != POINT][:ROUND]
+    strokes = [traces[place] for place in figures.query(box, "dwithin", reach)
+               if traces[place].kind != POINT][:measures.STROKES_NEAR_LETTER]
     left, bottom, right, top = box.bounds
 
     def near(z: complex) -> bool:
@@ -30,11 +28,11 @@ def meetings(box: Polygon, reach: float, traces: Sequence[Trace], figures: STRtr
     crossed, ends = list[Trace](), list[Trace]()
     for one, other in combinations(strokes, 2):
         for z, sine in _crossings(one, other):
-            if near(z) and all(abs(z - before) > SAME for before in found):
+            if near(z) and all(abs(z - before) > measures.SAME_CROSSING_MM for before in found):
                 found.append(z)
-                crossed.append(Trace(POINT, ((z.real, z.imag),), blur=WOBBLE / sine, crossed=True))
+                crossed.append(Trace(POINT, ((z.real, z.imag),), blur=measures.CROSSING_BLUR_MM / sine, crossed=True))
     for z in (complex(*spot) for one in strokes if one.kind == LINE for spot in one.spots):
-        if near(z) and all(abs(z - before) > SAME for before in found):
+        if near(z) and all(abs(z - before) > measures.SAME_CROSSING_MM for before in found):
             found.append(z)
             ends.append(Trace(POINT, ((z.real, z.imag),), crossed=True))
     return crossed, ends
@@ -46,9 +44,10 @@ def _crossings(one: Trace, other: Trace) -> Iterator[tuple[complex, float]]:
         a, b, c, d = (complex(*spot) for spot in (*one.spots, *other.spots))
         u, v = b - a, d - c
         sine = (u.conjugate() * v).imag
-        if abs(sine) > STEEP * abs(u) * abs(v):
+        if abs(sine) > measures.MIN_CROSSING_SINE * abs(u) * abs(v):
             s, t = ((c - a).conjugate() * v).imag / sine, ((c - a).conjugate() * u).imag / sine
-            if all(-SAME <= part * abs(way) <= abs(way) + SAME for part, way in ((s, u), (t, v))):
+            if all(-measures.SAME_CROSSING_MM <= part * abs(way) <= abs(way) + measures.SAME_CROSSING_MM
+                   for part, way in ((s, u), (t, v))):
                 yield a + s * u, abs(sine) / (abs(u) * abs(v))
     elif CIRCLE in (one.kind, other.kind):
         line, arc = (one, other) if other.kind == CIRCLE else (other, one)
@@ -62,13 +61,14 @@ def _crossings(one: Trace, other: Trace) -> Iterator[tuple[complex, float]]:
             foot = a + ((centre - a) * way.conjugate()).real * way
             half = radius**2 - abs(foot - centre) ** 2
             ends = [foot + sign * math.sqrt(half) * way for sign in (1, -1)] if half > 0 else []
-            sine = max(STEEP, math.sqrt(max(half, 0.0)) / radius)
-            yield from ((z, sine) for z in ends if -SAME <= ((z - a) * way.conjugate()).real <= abs(b - a) + SAME)
+            sine = max(measures.MIN_CROSSING_SINE, math.sqrt(max(half, 0.0)) / radius)
+            yield from ((z, sine) for z in ends if -measures.SAME_CROSSING_MM <= ((z - a) * way.conjugate()).real
+                        <= abs(b - a) + measures.SAME_CROSSING_MM)
         elif (second := circle(*line.spots[:3])) is not None:
             apart = complex(*second[0]) - centre
             if not 0 < abs(radius - second[1]) < abs(apart) < radius + second[1]:
                 return
             along = (abs(apart) ** 2 + radius**2 - second[1] ** 2) / (2 * abs(apart))
             turn = math.acos(min(1.0, max(-1.0, along / radius)))
-            sine = max(STEEP, math.sin(turn) * abs(apart) / second[1])
+            sine = max(measures.MIN_CROSSING_SINE, math.sin(turn) * abs(apart) / second[1])
             yield from ((centre + cmath.rect(radius, cmath.phase(apart) + sign * turn), sine) for sign in (1, -1))

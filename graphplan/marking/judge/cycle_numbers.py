@@ -7,10 +7,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
-from graphplan.marking.judge.judge import ALARM
+from graphplan.marking.judge import measures
 from graphplan.marking.judge.student_sheet import bound
 from graphplan.marking.judge.verdict import RIGHT, WRONG, Judgement, NumberVerdict
-from graphplan.marking.judge.verdicts import FACTORS
 from graphplan.marking.tables.results import in_scene_units, scene_unit
 from graphplan.marking.traces import Number
 from graphplan.mechanism.model import Units
@@ -50,14 +49,14 @@ def _judged(number: Number, expected: Expected, units: Units) -> NumberVerdict:
     """The verdict on one number, with the slip that makes a wrong one right."""
     value, = in_scene_units(number, units)
     deviation = math.hypot(expected.deviation, number.rounding * scene_unit(number, units))
-    allowed = expected.off + math.sqrt(bound(1, ALARM)) * deviation
+    allowed = expected.off + math.sqrt(bound(1, measures.FALSE_ALARM_CHANCE)) * deviation
 
     def off(tried: float) -> float:
         return abs(tried - expected.value)
 
     slips: list[tuple[str, Said, float]] = [("reversed", said("the sign is reversed"), -value)]
     slips += [("wrong scale", said("the number is {0} times as large as it should be", digits(factor, 3)),
-               value / factor) for factor in FACTORS]
+               value / factor) for factor in measures.NUMBER_FACTORS]
     right = off(value) <= allowed
     kind, told, _ = next((slip for slip in slips if not right and off(slip[2]) <= allowed), ("", None, 0.0))
     return NumberVerdict(number, RIGHT if right else WRONG, off(value), allowed, (expected.value,), told, kind)

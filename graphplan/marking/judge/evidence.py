@@ -14,17 +14,13 @@ from shapely import LineString, Point, union_all
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Step
+from graphplan.marking.judge import measures
 from graphplan.marking.judge.mistakes import Mistake, value_of
-from graphplan.marking.judge.student_sheet import FAINT, FILED, THERE, StudentSheet, apart, plain, sampled
+from graphplan.marking.judge.student_sheet import StudentSheet, apart, plain, sampled
 from graphplan.marking.traces import Spot, Submission, Trace
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.view import clip_segment, interpolate
 
-TWIN, BESIDE = 0.5, 1.0  # mm: a stroke that is found twice lies so near to itself; two may be taken for each other
-PARTS, NEAR = 20, 1.0  # at so many spots, so near, a stroke is looked for
-ALONE, WIDEST = 10.0, 3.0  # mm: a line about its only mark; and no search is wider
-WOBBLE = 0.06  # mm: the standard deviation of a pencil line from the edge that it is drawn along
-STRUCK = 4.0  # mm of an arc to both sides of its mark
 Value = tuple[float, ...]
 
 
@@ -39,14 +35,13 @@ class KnownMarks:
 
 def wobbly(trace: Trace) -> Trace:
     """A trace of a picture, as sure as a line is straight that a hand draws."""
-    return replace(trace, blur=math.hypot(trace.blur, WOBBLE))
+    return replace(trace, blur=math.hypot(trace.blur, measures.PENCIL_LINE_BLUR_MM))
 
 
 class Evidence:
     """The traces of a file, of which some are unlabelled: where those are near to something expected, on every plan."""
 
-    picture, most = False, FILED  # whether print may hide a mark; what one weighs
-    stray = -14.0  # the odds, as a logarithm, of a mistake that no table has
+    picture, most = False, measures.FILE_ODDS  # whether print may hide a mark; what one weighs
 
     def __init__(self, sheet: StudentSheet, submission: Submission, traces: list[Trace], places: Sequence[int]):
         self.sheet, self.traces, self.shows, self._read = sheet, traces, submission.shows, len(submission.traces)
@@ -77,7 +72,7 @@ class Evidence:
         """At how much of what a step would make something like it is to be seen; None where nothing could be seen."""
         _, off = self.near(step.op.gives, self.sheet.plan_of_step[step.index], plain(value))
         seen = step.op.gives in self.shows and step.index not in self.sheet.hidden
-        return float(off.min(initial=math.inf) < NEAR) if seen else None
+        return float(off.min(initial=math.inf) < measures.STROKE_NEAR_MM) if seen else None
 
     def beyond(self, step: Step, value: Any) -> bool:
         """Whether a point would be off its panel, so that nothing can be drawn from it."""
@@ -99,7 +94,8 @@ class Evidence:
     def beside(self, place: int, panel: str, value: Sequence[float]) -> list[int]:
         """The other traces that are so near to what one is that it could be they."""
         places, off = self.near(self.traces[place].kind, panel, value)
-        return [other for other, far in zip(places, off, strict=True) if far < BESIDE and other != place]
+        return [other
+                for other, far in zip(places, off, strict=True) if far < measures.SIDE_BY_SIDE_MM and other != place]
 
     def near(self, kind: str, panel: str, value: Sequence[float]) -> tuple[list[int], Any]:
         """The traces of a kind that may lie on a plan, and how far each is from a value in mm at most."""
@@ -119,7 +115,7 @@ class Evidence:
 class ImageSearch(Evidence):
     """The traces of a picture, which is searched for more; `found` is what was: the same thing is sought once."""
 
-    picture, most, stray = True, THERE, -14.0
+    picture, most = True, measures.PICTURE_ODDS
 
     def __init__(self, sheet: StudentSheet, submission: Submission, traces: list[Trace], places: Sequence[int],
                  panels: Mapping[str, Rect], found: dict[tuple[Any, ...], Trace | None]):
@@ -129,10 +125,10 @@ class ImageSearch(Evidence):
 
     def weight(self, place: int) -> float:
         """Less where it was found only by seeking it."""
-        return super().weight(place) if place < self._read else FAINT[self.traces[place].kind]
+        return super().weight(place) if place < self._read else measures.FAINT_ODDS[self.traces[place].kind]
 
     def trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
-        value, reach = plain(expected), min(within, WIDEST)
+        value, reach = plain(expected), min(within, measures.MAX_SEARCH_MM)
         spots = self._held(step, self._spots(step, value, own))
         key = (step.index, *value, *(round(part) for spot in spots for part in spot))
         if key not in self._found:
@@ -145,18 +141,18 @@ class ImageSearch(Evidence):
 
     def share(self, step: Step, value: Any, own: KnownMarks) -> float | None:
         """At nothing off its panel; None where print hides most, or where it is too small to see."""
-        spots = self._spots(step, plain(value), own, STRUCK / 2)
+        spots = self._spots(step, plain(value), own, measures.ARC_MM / 2)
         held = self._held(step, spots)
-        return self.page.share(step.op.gives, held, NEAR) if held else 0.0 if spots else None
+        return self.page.share(step.op.gives, held, measures.STROKE_NEAR_MM) if held else 0.0 if spots else None
 
     def beyond(self, step: Step, value: Any) -> bool:
         return step.op.gives == POINT and not self._panel(step).holds(self._onto(step, complex(*plain(value)[:2])))
 
-    def _spots(self, step: Step, value: Value, own: KnownMarks, struck: float = STRUCK) -> list[Spot]:
+    def _spots(self, step: Step, value: Value, own: KnownMarks, struck: float = measures.ARC_MM) -> list[Spot]:
         """Spots on the sheet of what a step makes, there where it would be drawn."""
         if step.op.gives == LINE:
             ends = self._stretch(step, value, own)
-            return [interpolate(*ends, k / PARTS) for k in range(PARTS + 1)]
+            return [interpolate(*ends, k / measures.STROKE_SPOTS) for k in range(measures.STROKE_SPOTS + 1)]
         if step.op.gives == POINT:
             return [self._onto(step, complex(*value[:2]))]
         return self._arc(step, value, self._marks(step, value, own), struck)
@@ -176,11 +172,11 @@ class ImageSearch(Evidence):
         """Spots of an arc about its marks; none of one that is too small, or has no marks."""
         mm = abs(self.sheet.frame(step).unit)
         centre, radius = complex(value[0], value[1]), math.sqrt(max(value[2], 0.0))
-        if radius * mm < STRUCK:
+        if radius * mm < measures.ARC_MM:
             return []
-        turn = 2 * struck / mm / radius / PARTS
+        turn = 2 * struck / mm / radius / measures.STROKE_SPOTS
         return [self._onto(step, centre + cmath.rect(radius, cmath.phase(z - centre) + k * turn)) for z in marks
-                for k in range(-PARTS // 2, PARTS // 2 + 1)]
+                for k in range(-measures.STROKE_SPOTS // 2, measures.STROKE_SPOTS // 2 + 1)]
 
     def _stretch(self, step: Step, line: Value, own: KnownMarks) -> tuple[Spot, Spot]:
         """Where a line would be drawn, as far as it is on its panel: between the outermost of its marks, or about its
@@ -189,7 +185,7 @@ class ImageSearch(Evidence):
         mm = abs(self.sheet.frame(step).unit)
         way, foot = complex(b, -a) / math.hypot(a, b), -complex(a, b) * c / (a * a + b * b)
         along = [((z - foot) * way.conjugate()).real for z in self._marks(step, line, own)] or [0.0]
-        spare = ALONE / mm if max(along) - min(along) < ALONE / mm else 0.0
+        spare = measures.LONE_LINE_MM / mm if max(along) - min(along) < measures.LONE_LINE_MM / mm else 0.0
         start, end = (self._onto(step, foot + way * far) for far in (min(along) - spare, max(along) + spare))
         inside = clip_segment(self._panel(step), start, end) or (0.0, 1.0)
         return interpolate(start, end, inside[0]), interpolate(start, end, inside[1])
@@ -227,7 +223,8 @@ class ImageSearch(Evidence):
 def unexplained(traces: Sequence[Trace], explained: Sequence[Trace]) -> list[Trace]:
     """Of the traces of a picture those that are no part of the strokes that steps explain: half of a stroke, or a dot,
     lies beside them."""
-    about = union_all([LineString(trace.spots).buffer(NEAR) for trace in explained if trace.kind != POINT])
+    about = union_all([LineString(trace.spots).buffer(measures.STROKE_NEAR_MM)
+                       for trace in explained if trace.kind != POINT])
     shapes = [Point(trace.spots[0]) if trace.kind == POINT else LineString(trace.spots) for trace in traces]
     return [trace for trace, shape in zip(traces, shapes, strict=True)
             if not (shape.within(about) or shape.intersection(about).length > shape.length / 2)]
@@ -236,4 +233,4 @@ def unexplained(traces: Sequence[Trace], explained: Sequence[Trace]) -> list[Tra
 def _same(one: Trace, other: Trace) -> bool:
     """Whether a line, or a rim, lies upon another of its kind, and beside no more than half of it."""
     whole = LineString(other.spots)
-    return bool(whole.intersection(LineString(one.spots).buffer(TWIN)).length > whole.length / 2)
+    return bool(whole.intersection(LineString(one.spots).buffer(measures.TWIN_MM)).length > whole.length / 2)

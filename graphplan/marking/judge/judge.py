@@ -16,6 +16,7 @@ from graphplan.accuracy.hand import Pencil, SeenPencil
 from graphplan.accuracy.preference import Constructing
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT
+from graphplan.marking.judge import measures
 from graphplan.marking.judge.conventions import Proposer, orphans, seen_right_way
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained, wobbly
 from graphplan.marking.judge.exchanged import exchanged, told
@@ -23,7 +24,7 @@ from graphplan.marking.judge.labels import labelled, sure
 from graphplan.marking.judge.lettering import lettered
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.readings import Reading
-from graphplan.marking.judge.register import SAME_WAY, Register
+from graphplan.marking.judge.register import Register
 from graphplan.marking.judge.search import Search
 from graphplan.marking.judge.seen_pencil import as_measured, assumed, blurred, seen_pencil
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
@@ -38,13 +39,6 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said, digits, joined, said
 from graphplan.phrases import unit as unit_of
 from graphplan.sheet.layout.composition import Composition
-
-STUMP = 10.0  # mm: a shorter line of a picture may be a piece of an arc or of a letter, unless it is sought there
-NOWHERE, RIVALS = 1e6, 2  # mm: as far off as no sheet is; how many frames of a plan are looked at closely
-LITTLE = -10.0  # what may speak against a frame in which no mistake is looked for
-MOST = 4  # mistakes that are looked for
-COARSER = 1.1  # times the stated pencil: a drawing of a program is judged by one that is so much coarser
-ALARM = 0.002  # how often a faultless drawing may be called wrong
 
 
 def judge(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil) -> Judgement:
@@ -74,7 +68,7 @@ class Judge:
         self.orphans = orphans(self.drawing, self.submission)
         taken = {*self.orphans, *(place for place in self.labels.values() if sure(traces[place]))}
         self.unlabelled = [place for place, trace in enumerate(traces) if place not in taken and not (
-            self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < STUMP)]
+            self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < measures.MIN_PICTURE_LINE_MM)]
 
     @cached_property
     def fits(self) -> dict[str, Fit]:
@@ -85,12 +79,12 @@ class Judge:
     def likeliest(self) -> Matching:
         """The way through in the frames that fit best, with the mistakes that make it likelier, letters that marks have
         of each other being put right."""
-        matching = self.matching(self.fits, MOST)
+        matching = self.matching(self.fits, measures.MAX_MISTAKES)
         self._exchanged = list(exchanged(matching))
         if self._exchanged:
             self.labels |= {step: self.labels[other] for pair in self._exchanged
                             for step, other in (pair, pair[::-1])}
-            matching = self.matching(self.fits, MOST)
+            matching = self.matching(self.fits, measures.MAX_MISTAKES)
         return matching
 
     @property
@@ -100,7 +94,8 @@ class Judge:
         if self.submission.page:
             return self
         hand = seen_pencil(self.likeliest, self.hand, self.reading.submission)
-        return Judge(self.reading, hand) if hand and (self.submission.measured or hand.scale > COARSER) else self
+        return Judge(self.reading,
+                     hand) if hand and (self.submission.measured or hand.scale > measures.MIN_PENCIL_RATIO) else self
 
     @cached_property
     def judgement(self) -> Judgement:
@@ -133,17 +128,19 @@ class Judge:
         """What speaks for this reading, the mistakes in it being what they are."""
         found = self.judgement
         wrong = [verdict.kind for verdict in found.verdicts if verdict.state == WRONG]
-        numbers = sum(NUMBER if number.state != WRONG else -NUMBER for number in found.numbers)
+        numbers = sum(measures.NUMBER_ODDS if number.state != WRONG else -measures.NUMBER_ODDS
+                      for number in found.numbers)
         strange = sum(trace.kind == POINT and bool(mark(trace.label)) for trace in found.spare)
-        return (self._prior + likelihood(self.likeliest) + numbers + TORN * torn(self.likeliest) + STRANGE * strange
-                + sum(KNOWN if kind else UNNAMED for kind in wrong))
+        return (self._prior + likelihood(self.likeliest) + numbers + measures.TORN_ODDS * torn(self.likeliest)
+                + measures.STRANGE_LETTER_ODDS * strange
+                + sum(measures.KNOWN_MISTAKE_ODDS if kind else measures.UNNAMED_MISTAKE_ODDS for kind in wrong))
 
     @property
     def glance(self) -> float:
         """What may speak for it, as far as that is seen without looking for mistakes: every wrong mark may be one."""
         matching = self.matching(self.fits)
         wrong = sum(match.state == WRONG for match in matching.matches)
-        return self._prior + likelihood(matching) + KNOWN * wrong
+        return self._prior + likelihood(matching) + measures.KNOWN_MISTAKE_ODDS * wrong
 
     @property
     def _prior(self) -> float:
@@ -151,8 +148,9 @@ class Judge:
         frame = self.fits[MECHANISM].frame
         free = [fit for panel, fit in self.fits.items()
                 if panel != MECHANISM and not fit.tied and panel not in self.submission.frames]
-        turned = sum(abs(cmath.phase(fit.frame.unit / frame.unit)) > SAME_WAY + 3 * fit.turn for fit in free)
-        return self.reading.prior + OWN_FRAME * (len(free) + turned)
+        turned = sum(abs(cmath.phase(fit.frame.unit / frame.unit)) > measures.SAME_DIRECTION_SINE + 3 * fit.turn
+                     for fit in free)
+        return self.reading.prior + measures.OWN_FRAME_ODDS * (len(free) + turned)
 
     @cached_property
     def hidden(self) -> set[int]:
@@ -214,13 +212,14 @@ class Judge:
         """The frame of a plan in which a drawing is likeliest, with the likeliest mistakes if it needs any."""
         ways = [(self.matching({**fits, panel: fit}), fit) for fit in found]
         ways.sort(key=lambda way: -way[0].weight)
-        if sum(min(match.weight, 0.0) for match in _on(ways[0][0], panel)) > LITTLE:
+        if sum(min(match.weight, 0.0) for match in _on(ways[0][0], panel)) > measures.MIN_PLAN_ODDS:
             return ways[0][1]
-        return max((fit for _, fit in ways[:RIVALS]), key=lambda fit: self.matching({**fits, panel: fit}, 1).weight)
+        return max((fit for _, fit in ways[:measures.FRAMES_LOOKED_AT]),
+                   key=lambda fit: self.matching({**fits, panel: fit}, 1).weight)
 
     def _alone(self, mechanism: Fit, panels: Sequence[str]) -> Matching:
         """The way through with the mechanism alone; the other plans are as good as nowhere."""
-        nowhere = Fit(PlanFrame(complex(NOWHERE), 1.0))
+        nowhere = Fit(PlanFrame(complex(measures.NOWHERE_MM), 1.0))
         return self.matching({panel: mechanism if panel == MECHANISM else nowhere for panel in panels})
 
     def _label(self, found: Mapping[int, int]) -> None:
@@ -244,7 +243,7 @@ class Judge:
         what = sheet, self.submission, self.traces, self.unlabelled
         panels = self.reading.composition.arrangement.panels if self.submission.page else {}
         evidence = ImageSearch(*what, panels, self.sought) if self.submission.page else Evidence(*what)
-        return Matching(evidence, self.labels, ALARM / max(1, len(self.drawing.drawn)))
+        return Matching(evidence, self.labels, measures.FALSE_ALARM_CHANCE / max(1, len(self.drawing.drawn)))
 
 
 def _on(matching: Matching, panel: str) -> Iterator[Match]:
@@ -255,16 +254,6 @@ def _on(matching: Matching, panel: str) -> Iterator[Match]:
 def _wrong(matching: Matching, panel: str) -> int:
     """How many steps of a plan are wrong on the way through."""
     return sum(match.state == WRONG for match in _on(matching, panel))
-
-
-SHARP, MISSED = 1.0, 3.0  # mm within which a mark is as sure as any; what it speaks against a plan that one is missing
-KNOWN, UNNAMED = -8.0, -14.0  # the odds, as logarithms, of a mistake of the table at a step, and of any other
-OWN_FRAME = -3.0  # a plan of its own scale, and one of its own direction
-STRANGE = -3.0  # a point with a letter that a reading has no use for
-TORN = -5.0  # what it speaks against a reading that marks rest on a wrong one, and on where it should be
-NUMBER = 5.0  # what a number that a drawing bears out speaks for its reading
-CLOSELY = 2  # how many other readings are looked at closely
-DOUBT = 20.0  # what a closer look may find that a glance does not
 
 
 def likelihood(matching: Matching) -> float:
@@ -278,9 +267,9 @@ def likelihood(matching: Matching) -> float:
         if match.place is None and match.weight < 0 and match.mistake is None:
             left_out[matching.sheet.plan_of_step[match.step.index]] += 1
             continue
-        vague = match.residual.vague(SHARP) if match.residual and match.state != WRONG else 0.0
+        vague = match.residual.vague(measures.SHARP_MM) if match.residual and match.state != WRONG else 0.0
         found += max(match.weight - vague, min(match.weight, 0.0))
-    return found - sum(MISSED * (1 + math.log(count)) for count in left_out.values())
+    return found - sum(measures.MISSED_MARK_COST * (1 + math.log(count)) for count in left_out.values())
 
 
 def torn(matching: Matching) -> bool:
@@ -320,7 +309,7 @@ def _likelier(best: Judge, readings: Iterable[Reading]) -> Judge:
         with suppress(Refused):
             other = Judge(reading, best.hand)
             others.append((other.glance, len(others), other))
-    for glance, _, other in sorted(others, reverse=True, key=lambda one: one[:2])[:CLOSELY]:
-        if glance + DOUBT > best.weight and other.weight > best.weight:
+    for glance, _, other in sorted(others, reverse=True, key=lambda one: one[:2])[:measures.READINGS_LOOKED_AT]:
+        if glance + measures.CLOSER_LOOK_ODDS > best.weight and other.weight > best.weight:
             best = other
     return best

@@ -6,11 +6,10 @@ from collections.abc import Sequence
 
 from graphplan.kernel.kinds import POINT, Movement
 from graphplan.kernel.program import Program
+from graphplan.marking.judge import measures
 from graphplan.marking.spelling import spelled
 from graphplan.marking.traces import Trace
 from graphplan.phrases import Said
-
-LOOSELY = 2  # as how loosely a label may be read
 
 
 def labelled(program: Program, plan_of_step: Sequence[str], traces: Sequence[Trace]) -> dict[int, int]:
@@ -19,7 +18,7 @@ def labelled(program: Program, plan_of_step: Sequence[str], traces: Sequence[Tra
     A number beside a line may be that of a link, or of the line next to it: unless the plan is named it tells nothing.
     """
     names, found, told = Names(program, plan_of_step), dict[int, int](), set[int]()
-    for loosely in range(LOOSELY + 1):
+    for loosely in range(measures.MAX_LOOSENESS + 1):
         for place, trace in enumerate(traces):
             numbered = trace.kind != POINT and not trace.panel and trace.label.isdigit()
             step = names.step(trace.kind, trace.panel, trace.label, loosely) if trace.label and not numbered else None

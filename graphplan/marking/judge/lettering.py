@@ -21,9 +21,10 @@ from shapely import Point, STRtree
 
 from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import LINE, POINT
+from graphplan.marking.judge import measures
 from graphplan.marking.judge.assignment import assigned
 from graphplan.marking.judge.crossings import meetings
-from graphplan.marking.judge.labels import LOOSELY, Names, labelled
+from graphplan.marking.judge.labels import Names, labelled
 from graphplan.marking.judge.student_sheet import apart, plain, sampled
 from graphplan.marking.spelling import lined
 from graphplan.marking.traces import Lettering, PlanFrame, Submission, Trace
@@ -32,21 +33,6 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.plans import Plans
 
-BESIDE, SIZES = 6.0, 2.4  # mm from a mark to its letters, or as many of their sizes where those are large
-CHOICES, LOOKED_AT = 12, 60  # things nearest to a letter that are weighed, of so many
-UNDOTTED = 150  # letters at most about which crossings are sought
-AT_TIP = 1.5  # mm from the end of a leader to what it leads to
-GAP = 0.4  # of their size that letters stand from a mark: a cost of one
-ASTRAY, HALFWAY = 4.0, 1.5  # the cost of a mark that is not where it should be at all; mm that cost half of it
-UNNAMED, SHARED, CLAIMED = 12.0, 4.0, 3.0  # the costs of naming nothing, what has a name, what another step should make
-CLEAR = 3.0  # by so much cheaper letters are certainly those of their mark
-FEW = 3  # given points whose crossings tell where the mechanism lies
-HELD = 8.0  # standard deviations within which letters agree on a frame
-ENDING = 2.0  # the cost of a line's end as a mark: most lines go on beyond theirs
-ALONE, VAGUE = 7.5, 2.5  # the cost of a mark of which there is nothing but its letters; mm: how far off these stand
-FREE, MORE = 0.8, 0.3  # letters more than in the expected frame that have to agree on another, and the part more of
-# them for every spot that a letter may name: of many some agree by chance
-PER_MARK, MARKS, PROPOSED = 5, 100, 3000  # spots of a mark, and of all, by which frames are proposed; that are tried
 Wish = dict[int, float]  # what letters may name, and what that costs
 
 
@@ -70,7 +56,8 @@ class Letters:
 
     def __init__(self, drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
                  within: float = 0.0):
-        self.drawing, self.submission, self.within = drawing, submission, within or HELD * pencil.point
+        self.drawing, self.submission = drawing, submission
+        self.within = within or measures.LETTER_FRAME_SIGMAS * pencil.point
         self.multiples = composition.scales.multiples
         self.task = composition.views[MECHANISM].scale if MECHANISM in composition.views else 1.0
         self.plan_of_step: Sequence[Any] = Plans(drawing).plan_of_step
@@ -95,7 +82,8 @@ class Letters:
         points = sum(trace.kind == POINT for trace in self.traces)
         if 2 * points < len(words):
             figures = self._things
-            met = [meetings(word.box, _reach(word), self.submission.traces, figures) for word in words[:UNDOTTED]]
+            met = [meetings(word.box, _reach(word), self.submission.traces, figures)
+                   for word in words[:measures.MAX_UNDOTTED_LETTERS]]
             crossed, ends = (list(dict.fromkeys(spot for found in met for spot in found[k])) for k in (0, 1))
             self.traces = (*self.traces, *crossed, *ends)
             self.ends.update(range(len(self.traces) - len(ends), len(self.traces)))
@@ -106,19 +94,21 @@ class Letters:
     def _near(self, word: Lettering, name: str, steps: Mapping[str, int]) -> Wish:
         """What letters may name, and what their distance costs: those of points name points, Greek ones lines."""
         box = Point(*word.leads) if word.leads else word.box
-        places = self._things.query(box, "dwithin", AT_TIP if word.leads else _reach(word))
+        places = self._things.query(box, "dwithin", measures.LEADER_TIP_MM if word.leads else _reach(word))
         gaps = shapely.distance(self._things.geometries[places], box)
         named = LINE in steps or (not steps and lined(name))
-        nearest = np.argsort(gaps, kind="stable")[:LOOKED_AT]
+        nearest = np.argsort(gaps, kind="stable")[:measures.THINGS_NEAR_LETTER]
         found: list[tuple[float, int]] = []
         for gap, place in zip(gaps[nearest].tolist(), places[nearest].tolist(), strict=True):
             trace = self.traces[place]
             meant = named if trace.kind == LINE else trace.kind == POINT and (POINT in steps or not steps)
             if meant and (trace.beside or not trace.label) and self.alone.get(place, word) is word:
-                found.append((gap / (GAP * word.size) + ENDING * (place in self.ends), place))
-        nearest_first = [(cost, place) for cost, place in sorted(found) if place not in self.alone][:CHOICES]
+                found.append((gap / (measures.LETTER_GAP_SIZES * word.size)
+                              + measures.LINE_END_COST * (place in self.ends), place))
+        nearest_first = [(cost, place)
+                         for cost, place in sorted(found) if place not in self.alone][:measures.LETTER_CHOICES]
         return {place: cost for cost, place in nearest_first} | {
-            place: ALONE for _, place in found if place in self.alone}
+            place: measures.LETTERS_ALONE_COST for _, place in found if place in self.alone}
 
     # ---- where they should be --------------------------------------------------------------------------------------
 
@@ -141,7 +131,8 @@ class Letters:
     def mechanism(self) -> PlanFrame | None:
         """Where the mechanism lies, by its given points or else by all that are lettered."""
         given = self._candidates(MECHANISM, self.drawing.drawn.givens)
-        few = self.ends and len(given) < FEW  # where strokes cross beside two letters, some two always do
+        # where strokes cross beside two letters, some two always do
+        few = self.ends and len(given) < measures.MIN_GIVEN_POINTS
         return (None if few else agreed(given, (), self.within, self.task)) or agreed(
             self._candidates(MECHANISM), (), self.within, self.task)
 
@@ -182,7 +173,7 @@ class Letters:
 
     def told(self) -> Submission:
         """The drawing with the names of its marks."""
-        found = assigned([self._weighed(one) for one in self.words], UNNAMED, SHARED)
+        found = assigned([self._weighed(one) for one in self.words], measures.NAMELESS_COST, measures.SECOND_NAME_COST)
         names: dict[int, list[tuple[str, bool]]] = {}
         for one, place in zip(self.words, found, strict=True):
             if place is not None:
@@ -202,8 +193,9 @@ class Letters:
             off = self._off(one.steps[trace.kind], trace) if trace.kind in one.steps else math.inf
             if place >= len(self.submission.traces) and not self._meant(one, place, off):
                 continue
-            astray = ASTRAY / (1 + (HALFWAY / off) ** 2) if off else 0.0
-            found[place] = cost + astray + (CLAIMED if place in self._claimed and off > HALFWAY else 0.0)
+            astray = measures.MISPLACED_COST / (1 + (measures.HALF_COST_MM / off) ** 2) if off else 0.0
+            found[place] = cost + astray + (measures.CLAIMED_COST if place in self._claimed
+                                            and off > measures.HALF_COST_MM else 0.0)
         return found
 
     def _meant(self, one: Lettered, place: int, off: float) -> bool:
@@ -213,8 +205,8 @@ class Letters:
         if step is None or place in self.alone:
             return step is not None and (off < _reach(one.word) or not one.names[0].isdigit())
         frame = self.frames.get(self.plan_of_step[step])
-        if off < HALFWAY or frame is None:
-            return off < HALFWAY or place not in self.ends
+        if off < measures.HALF_COST_MM or frame is None:
+            return off < measures.HALF_COST_MM or place not in self.ends
         at = frame.onto(complex(*plain(self.drawing.values[step])[:2]))
         return place not in self.ends and one.word.box.distance(Point(at.real, at.imag)) > _reach(one.word)
 
@@ -224,29 +216,30 @@ class Letters:
         if self.traces[place].kind != POINT or POINT not in one.steps or found.count(place) > 1 or (
                 place >= len(self.submission.traces)):
             return False
-        if one.names[0].isdigit() and self._off(one.steps[POINT], self.traces[place]) > 2 * HALFWAY:
+        if one.names[0].isdigit() and self._off(one.steps[POINT], self.traces[place]) > 2 * measures.HALF_COST_MM:
             return False
         least = min((cost for other, cost in one.wish.items() if other != place and self.traces[other].kind == POINT),
                     default=math.inf)
-        return one.wish[place] < CLEAR and least - one.wish[place] > CLEAR and place not in self._claimed
+        return (one.wish[place] < measures.CLEAR_COST and least - one.wish[place] > measures.CLEAR_COST
+                and place not in self._claimed)
 
 
 def _alone(word: Lettering) -> Trace:
     """A mark that has no ink of its own, about where its letters stand."""
     at = word.box.centroid
-    return Trace(POINT, ((at.x, at.y),), blur=math.hypot(VAGUE, word.long / 4), crossed=True)
+    return Trace(POINT, ((at.x, at.y),), blur=math.hypot(measures.LETTERS_ALONE_MM, word.long / 4), crossed=True)
 
 
 def _reach(word: Lettering) -> float:
     """How far off a mark may be from its letters, in mm."""
-    return max(BESIDE, SIZES * word.size)
+    return max(measures.LETTER_REACH_MM, measures.LETTER_REACH_SIZES * word.size)
 
 
 def _spoken(names: Names, called: Sequence[str], sure: Container[int]) -> dict[str, dict[str, int]]:
     """The steps that letters may speak of, by kind; as loosely as they must be read, if none says it better."""
     found: dict[str, dict[str, int]] = {name: {} for name in called}
     told: dict[int, int] = {}
-    for loosely in range(LOOSELY + 1):
+    for loosely in range(measures.MAX_LOOSENESS + 1):
         for name, steps in found.items():
             for kind in (POINT,) if name.isdigit() else (POINT, LINE):
                 step = names.step(kind, "", name, loosely)
@@ -279,22 +272,26 @@ def agreed(marks: Sequence[Candidates], units: Sequence[complex], within: float,
     costs = np.array([cost for mark in marks for _, cost in mark.spots])
     starts = np.flatnonzero(np.diff(owner, prepend=-1))
 
+    weights = 1.0 - measures.SPOT_COST_SHARE * np.clip(costs, 0.0, measures.MAX_SPOT_COST)
+
     def score(unit: Any, origin: Any) -> Any:
         """How many marks have a spot in each frame."""
         off = np.abs(origin[:, None] + unit[:, None] * at[owner][None, :] - spots[None, :]) / within
-        held = np.clip(1.0 - off**2, 0.0, None) * (1.0 - 0.02 * np.clip(costs, 0.0, 10.0))
+        held = np.clip(1.0 - off**2, 0.0, None) * weights
         return np.maximum.reduceat(held, starts, axis=1).sum(axis=1)
 
     tied, free = _proposed(at, owner, spots, units)
     best: tuple[float, complex, complex] | None = None
     for unit, origin in (tied, free) if any_unit else (tied,):
         if len(unit):
-            taste = 0.05 * np.abs(np.log(np.abs(unit) / usual)) + 0.01 * np.abs(np.angle(unit))
+            taste = measures.RESCALED_VOTES * np.abs(np.log(np.abs(unit) / usual)) + measures.TURNED_VOTES * np.abs(
+                np.angle(unit))
             votes = score(unit, origin) - taste
             top = int(votes.argmax())
-            if best is None or votes[top] > FREE + (1 + MORE * len(spots) / len(marks)) * best[0]:
+            if (best is None or votes[top] > measures.OTHER_FRAME_LETTERS
+                + (1 + measures.OTHER_FRAME_SHARE * len(spots) / len(marks)) * best[0]):
                 best = float(votes[top]), complex(unit[top]), complex(origin[top])
-    if best is None or best[0] < min(1.3, len(marks)) - 0.5:
+    if best is None or best[0] < min(measures.MIN_FRAME_VOTES, len(marks)) - 0.5:
         return None
     return _refined(at, owner, spots, best[1], best[2], within)
 
@@ -303,10 +300,11 @@ def _proposed(at: Any, owner: Any, spots: Any, units: Sequence[complex]) -> tupl
     """Units and origins of frames: with the expected unit through every spot, and any through two of two marks."""
     tied = np.repeat(np.array(units, dtype=complex), len(spots))
     origins = np.tile(spots, len(units)) - tied * np.tile(at[owner], len(units))
-    near = np.flatnonzero(np.concatenate([np.arange(count) < PER_MARK for count in np.bincount(owner)]))
-    near = near[:: max(1, len(near) // MARKS)]
+    near = np.flatnonzero(np.concatenate([np.arange(count) < measures.SPOTS_PER_MARK for count in np.bincount(owner)]))
+    near = near[:: max(1, len(near) // measures.MAX_FRAME_SPOTS)]
     pairs = sorted(((i, j) for i, j in combinations(near.tolist(), 2) if at[owner[i]] != at[owner[j]]
-                    and spots[i] != spots[j]), key=lambda ij: -abs(at[owner[ij[0]]] - at[owner[ij[1]]]))[:PROPOSED]
+                    and spots[i] != spots[j]),
+                   key=lambda ij: -abs(at[owner[ij[0]]] - at[owner[ij[1]]]))[:measures.MAX_FRAMES]
     i, j = np.array(pairs, dtype=int).reshape(-1, 2).T
     free = (spots[j] - spots[i]) / (at[owner[j]] - at[owner[i]])
     return (tied, origins), (free, spots[i] - free * at[owner[i]])

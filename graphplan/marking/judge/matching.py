@@ -19,21 +19,15 @@ import numpy as np
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
 from graphplan.kernel.program import Step
+from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import Evidence, KnownMarks
 from graphplan.marking.judge.labels import sure
 from graphplan.marking.judge.mistakes import Mistake
-from graphplan.marking.judge.student_sheet import ASSUMED, GONE, SHARED, Residual, StudentSheet, plain, weighed
+from graphplan.marking.judge.student_sheet import Residual, StudentSheet, plain, weighed
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
 from graphplan.marking.traces import Trace
 
-NEAREST = 6  # how many loose traces are tried as what a step should make
-BEGINS = 8.0  # standard deviations of a point within which a plan begins where its frame says
-REACH = 25.0  # standard deviations of a point within which a picture is searched
-FARTHER, CLEARLY = 2.0, 2.0  # tolerances off: nothing that is farther fits; and it is a mistake if nothing else is
-ASIDE = 3.0  # mm that a line may end before a point that it goes through
 UNMARKED = -1  # the place of a mark that is not to be seen, whatever else is there
-CROSSED = 8.0  # mm from a mark, beside whose letter other strokes cross
-ASTRAY = 60.0  # mm: no mark is sought further off
 
 
 @dataclass(frozen=True)
@@ -112,7 +106,8 @@ class Matching:
                for mine, its in ((self.own, other.own), (self.mended, other.mended))):
             return False
         if match.place is not None and (
-                match.weight == SHARED or not self.used.isdisjoint({match.place, *self.evidence.twins(match.place)})):
+                match.weight == measures.SHARED_ODDS
+                or not self.used.isdisjoint({match.place, *self.evidence.twins(match.place)})):
             return False
         self.dead |= other.dead & {step.index}
         self._go_on(match, other.own[step.index], other.mended[step.index])
@@ -138,13 +133,14 @@ class Matching:
     def _by_chance(self, step: Step, place: int) -> bool:
         """Whether strokes that cross beside a letter, not far from its mark, need not be that mark."""
         return self.traces[place].crossed and any(
-            self.residual(step, expected, place, drawn).size < CROSSED for expected, drawn in self._asked(step))
+            self.residual(step, expected, place, drawn).size < measures.CHANCE_CROSSING_MM
+            for expected, drawn in self._asked(step))
 
     def _begun(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """The dot, or else the end of a stroke, where the frame of a plan has its beginning: it is free, so that no
         slip of the hand makes it wrong."""
         places, off = self.evidence.near(POINT, self.sheet.plan_of_step[step.index], plain(expected))
-        within = BEGINS * self.sheet.pencil.point
+        within = measures.ORIGIN_SIGMAS * self.sheet.pencil.point
         if off.min(initial=math.inf) < within:
             return int(places[off.argmin()])
         trace = self.evidence.sought(step, expected, self._way(drawn), within)
@@ -180,7 +176,7 @@ class Matching:
         """What a picture shows about an expected value, or where a stroke of a file ends, if it fits it."""
         if step.op.movement is Movement.GIVEN:
             return None
-        trace = self.evidence.sought(step, expected, self._way(drawn), REACH * self.sheet.pencil.point)
+        trace = self.evidence.sought(step, expected, self._way(drawn), measures.SEARCH_SIGMAS * self.sheet.pencil.point)
         if trace is None or not self.sheet.residual(
                 step, expected, self.sheet.spots(step.index, trace), drawn).fits(self.chance):
             return None
@@ -194,14 +190,14 @@ class Matching:
         """The loose trace that fits an expected value best, if any does."""
         places, off = self.evidence.near(step.op.gives, self.sheet.plan_of_step[step.index], plain(expected))
         best: tuple[bool, bool, float, int] | None = None
-        for k in np.argsort(off)[:NEAREST] if len(places) else ():
-            if not off[k] < ASTRAY:
+        for k in np.argsort(off)[:measures.TRACES_TRIED] if len(places) else ():
+            if not off[k] < measures.MAX_ASTRAY_MM:
                 break
             residual = self.residual(step, expected, places[k], drawn)
             if residual.fits(self.chance):  # rather one that is free yet, and that reaches its marks
                 found = places[k] in self.used, not self._reaches(step, places[k]), residual.square, places[k]
                 best = min(best, found) if best else found
-            elif step.op.gives == POINT and off[k] > FARTHER * residual.tolerance(self.chance):
+            elif step.op.gives == POINT and off[k] > measures.MAX_TOLERANCES_OFF * residual.tolerance(self.chance):
                 break
         return best[3] if best else None
 
@@ -211,7 +207,7 @@ class Matching:
             return True
         frame = self.sheet.frame(step)
         start, end = (frame.back(complex(*spot)) for spot in self.traces[place].spots[:2])
-        way, spare = (end - start) / (abs(end - start) or 1.0), ASIDE / abs(frame.unit)
+        way, spare = (end - start) / (abs(end - start) or 1.0), measures.LINE_END_MM / abs(frame.unit)
         on = [step.args[claim[1]] for claim in step.op.claims if claim[0] == "on"]
         along = [((complex(*plain(self.own[arg])[:2]) - start) * way.conjugate()).real for arg in on]
         return all(-spare <= far <= abs(end - start) + spare for far in along)
@@ -276,7 +272,7 @@ class Matching:
         mended = asked[0][0] if asked else made
         place = self._drawn(step, made, self.own)
         if place is None:
-            weight = self._missed(made) + ASSUMED
+            weight = self._missed(made) + measures.UNSEEN_MISTAKE_ODDS
             unclear = step.op.gives == POINT and not self._clearly(
                 self.sheet.residual(step, mended, [made], self.own))
             if unclear or not self.dead.isdisjoint(step.args):
@@ -285,7 +281,8 @@ class Matching:
         spots = self.sheet.spots(step.index, self.traces[place])
         off = self.sheet.residual(step, mended, spots, self.own)
         seen = self.sheet.seen(step, made, spots, steady=not self.traces[place].blur)
-        weight = self._weighed(place, self.sheet.residual(step, made, spots, self.own), seen) or ASSUMED
+        weight = self._weighed(place, self.sheet.residual(step, made, spots, self.own),
+                               seen) or measures.UNSEEN_MISTAKE_ODDS
         if not self._clearly(off):
             weight = -math.inf
         return self._go_on(Match(step, WRONG, mended, place, off, mistake, weight), seen, mended)
@@ -294,14 +291,15 @@ class Matching:
         """What a trace speaks for this way; one that is wrong is as far off as it is."""
         kind = self.traces[place].kind
         if not self.used.isdisjoint({place, *self.evidence.twins(place)}):
-            return SHARED
+            return measures.SHARED_ODDS
         part = self.evidence.picture and kind != POINT
         share = self.evidence.share(self.next, seen, self._way(self.own)) if part else None
-        return weighed(self.evidence.weight(place), GONE[kind], residual, 1.0 if share is None else share)
+        return weighed(self.evidence.weight(place), measures.ABSENT_ODDS[kind], residual,
+                       1.0 if share is None else share)
 
     def _clearly(self, residual: Residual) -> bool:
         """Whether a trace is so far off that it is a mistake: what is hardly off is hardly read."""
-        return residual.size > CLEARLY * residual.tolerance(self.chance)
+        return residual.size > measures.CLEAR_TOLERANCES_OFF * residual.tolerance(self.chance)
 
     def _missed(self, expected: Any) -> float:
         """What it speaks against this way that nothing is found."""
@@ -315,7 +313,8 @@ class Matching:
             return 0.0
         if self.evidence.beyond(step, expected):
             self.dead.add(step.index)
-        return 0.0 if self.evidence.share(step, expected, self._way(self.own)) is None else GONE[step.op.gives]
+        return 0.0 if self.evidence.share(step, expected,
+                                          self._way(self.own)) is None else measures.ABSENT_ODDS[step.op.gives]
 
     def _go_on(self, match: Match, own: Any, mended: Any) -> Matching:
         self.matches.append(match)

@@ -19,10 +19,9 @@ from graphplan.kernel.kinds import CIRCLE, DIVIDERS, LINE, POINT, Movement, Prim
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, Step
+from graphplan.marking.judge import measures
 from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL
 from graphplan.phrases import Phrase, Said, digits, phrase, said
-
-FACTORS = (10.0, 0.1, 1.5)  # the scales that are mistaken for each other
 
 
 @dataclass(frozen=True)
@@ -283,7 +282,7 @@ for _words in (*THINGS, None):
 def _(at: Occasion) -> Iterable[Mistake]:
     assert at.vector is not None
     return [at.made(said("{0} is {1} times as long as it should be", at.vector.named, digits(factor, 2)), factor,
-                    start=at.vector.start) for factor in FACTORS]
+                    start=at.vector.start) for factor in measures.SCALE_FACTORS]
 
 
 @mistake("wrong radius", phrase("a normal acceleration over the wrong radius"), laid_off)

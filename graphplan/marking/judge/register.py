@@ -18,6 +18,7 @@ import numpy as np
 from graphplan.accuracy.hand import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT, Movement
+from graphplan.marking.judge import measures
 from graphplan.marking.judge.matching import Matching
 from graphplan.marking.judge.readings import Reading
 from graphplan.marking.judge.student_sheet import Fit, plain
@@ -26,14 +27,6 @@ from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.sheet.plates.plans import Plans
 
 Pair = tuple[complex, complex]  # where a mark is on its plan, and where on the sheet
-SIGMAS = 4.0  # how many standard deviations a mark may lie off a frame that holds it
-SAME_WAY = 0.02  # two frames have one direction if they differ by no more than this sine
-RIVALS, ANCHORS = 8, 400  # how many other frames are tried for a plan; how many loose spots a mechanism is sought in
-VOTES, HEAPS = 8.0, 25  # standard deviations within which marks vote for one origin; how many heaps are looked at
-ORIGINS = 5  # how many origins are tried
-BY_CHANCE = 0.01  # as often a mechanism may be seen in spots that are not its
-VAGUE = 2.0  # mm: marks without dots that are no surer lay no frame
-RESCALED, REDIRECTED = 0.6, 1.2  # what another scale, and another direction, weigh beside a wrong step
 
 
 class Register:
@@ -75,7 +68,7 @@ class Register:
     def _sigma(self) -> float:
         """How far off a labelled point is: the more, the less squarely strokes cross in those without dots."""
         traces = (self.submission.traces[place] for place in self.labels.values())
-        blurs = [trace.blur for trace in traces if trace.crossed and trace.blur < VAGUE]
+        blurs = [trace.blur for trace in traces if trace.crossed and trace.blur < measures.MAX_FRAME_BLUR_MM]
         return math.hypot(self.pencil.point, *(blur / math.sqrt(len(blurs)) for blur in blurs))
 
     def follow(self, matching: Matching) -> None:
@@ -104,10 +97,11 @@ class Register:
         expected, (plan, sheet) = matching.sheet.fits[panel], self._anchor(panel) or (0j, 0j)
         for _, unit, sigma in agreed(list(self._carried(panel, matching))):
             ratio = unit / expected.frame.unit
-            along = abs(ratio.imag) < 3 * sigma + SAME_WAY
-            if panel == VELOCITY_PLAN and abs(ratio.real) < (3 * sigma + SAME_WAY) * abs(ratio):
+            along = abs(ratio.imag) < 3 * sigma + measures.SAME_DIRECTION_SINE
+            if panel == VELOCITY_PLAN and abs(ratio.real) < (3 * sigma + measures.SAME_DIRECTION_SINE) * abs(ratio):
                 continue  # velocities along their links are no plan of another direction
-            yield Fit(PlanFrame(sheet - unit * plan, unit), sigma, 0.0, plan), RESCALED if along else REDIRECTED
+            yield Fit(PlanFrame(sheet - unit * plan, unit), sigma, 0.0,
+                      plan), measures.RESCALED_STEPS if along else measures.REDIRECTED_STEPS
 
     def _anchor(self, panel: str) -> Pair | None:
         """The labelled beginning of a plan, or else any labelled mark of it."""
@@ -133,7 +127,7 @@ class Register:
         return [(index, (complex(*self.drawing.values[index][:2]), complex(*self.submission.traces[place].spots[0])))
                 for index, place in sorted(self.labels.items())
                 if self.plan_of_step[index] == panel and (trace := self.submission.traces[place]).kind == POINT
-                and not (trace.crossed and trace.blur > VAGUE)]
+                and not (trace.crossed and trace.blur > measures.MAX_FRAME_BLUR_MM)]
 
     # ---- unlabelled sheets -----------------------------------------------------------------------------------------
 
@@ -142,7 +136,7 @@ class Register:
         taken = set(self.labels.values())
         spots = [complex(*spot) for place, trace in enumerate(self.submission.traces)
                  if place not in taken and trace.kind in (POINT, LINE) for spot in trace.spots[:2]]
-        return list({(round(z.real, 2), round(z.imag, 2)): z for z in spots}.values())[:ANCHORS]
+        return list({(round(z.real, 2), round(z.imag, 2)): z for z in spots}.values())[:measures.MAX_ANCHORS]
 
     def _points(self) -> list[complex]:
         """The unlabelled points of a sheet that are not yet known."""
@@ -163,7 +157,8 @@ class Register:
         if len(unlabelled) < 2 or len(points) < 2:
             return None
         best_score, held, sigma = (min(3, len(points)) - 1, math.inf), list[Pair](), 4 * self.pencil.point
-        for i, j in sorted(combinations(range(len(points)), 2), key=lambda ij: -abs(points[ij[0]] - points[ij[1]]))[:6]:
+        for i, j in sorted(combinations(range(len(points)), 2), key=lambda ij: -abs(points[ij[0]] - points[ij[1]]))[
+                :measures.ANCHOR_PAIRS]:
             apart = points[j] - points[i]
             units = (unlabelled[None, :] - unlabelled[:, None]) / apart
             for k, l in permutations(range(len(unlabelled)), 2):
@@ -173,8 +168,8 @@ class Register:
                 if units[k, l] and score > best_score:
                     best_score = score
                     held = list(zip(points[near < sigma].tolist(), nearest[near < sigma].tolist(), strict=True))
-        chance = 6 * len(unlabelled) ** 2 * _filled(unlabelled, sigma) ** (best_score[0] - 2)
-        return best(held, self.pencil.point) if held and chance < BY_CHANCE else None
+        chance = measures.ANCHOR_PAIRS * len(unlabelled) ** 2 * _filled(unlabelled, sigma) ** (best_score[0] - 2)
+        return best(held, self.pencil.point) if held and chance < measures.CHANCE_MECHANISMS else None
 
     def _voted(self, panel: str, unit: complex) -> list[complex]:
         """The origins of a plan for which most of its marks are where loose ones are; a loose one must be where the
@@ -192,20 +187,21 @@ class Register:
 
         def met(spots: Any) -> Any:
             """Which spots have a loose one near."""
-            return np.abs(spots[:, None] - unlabelled[None, :]).min(axis=1) < 2 * VOTES * self.pencil.point
+            return np.abs(spots[:, None] - unlabelled[None,
+                                                      :]).min(axis=1) < 2 * measures.VOTE_SIGMAS * self.pencil.point
 
         votes = np.max([sum(met(origins + unit * mark) for mark in plan) for plan in marks], axis=0)
-        return [complex(origins[k]) for k in np.argsort(-votes, kind="stable")[:ORIGINS]]
+        return [complex(origins[k]) for k in np.argsort(-votes, kind="stable")[:measures.MAX_ORIGINS]]
 
     def _heaped(self, origins: Any) -> list[complex]:
         """The origins that most marks vote for."""
-        cell = VOTES * self.pencil.point
+        cell = measures.VOTE_SIGMAS * self.pencil.point
         heaps = sorted((heap for wide in (cell, 3 * cell) for heap in _heaps(origins, wide)), reverse=True)
         told: list[complex] = []
         for _, x, y in heaps:
             if all(abs(complex(x, y) - other) > 4 * cell for other in told):
                 told.append(complex(x, y))
-        return told[:ORIGINS]
+        return told[:measures.MAX_ORIGINS]
 
     def begins(self, fits: Mapping[str, Fit]) -> dict[int, int]:
         """The loose points that are the beginnings of plans, by step."""
@@ -216,7 +212,7 @@ class Register:
             if step.op.movement is Movement.BEGUN and step.index not in self.labels and points:
                 here = fits[self.plan_of_step[step.index]].frame.onto(complex(*self.drawing.values[step.index][:2]))
                 place, spot = min(points, key=lambda point: abs(point[1] - here))
-                if abs(spot - here) < VOTES * self.pencil.point:
+                if abs(spot - here) < measures.VOTE_SIGMAS * self.pencil.point:
                     found[step.index] = place
         return found
 
@@ -226,7 +222,7 @@ def _heaps(spots: Any, cell: float) -> Iterator[tuple[int, float, float]]:
     for shift in (0, 0.5 + 0.5j, 0.5, 0.5j):  # a heap may lie across the cells of one grid
         cells = np.floor(spots.real / cell + shift.real) + 1j * np.floor(spots.imag / cell + shift.imag)
         _, where, counts = np.unique(cells, return_inverse=True, return_counts=True)
-        for heap in np.argsort(counts)[-HEAPS:]:
+        for heap in np.argsort(counts)[-measures.MAX_HEAPS:]:
             here = spots[where == heap]
             yield int(counts[heap]), float(np.median(here.real)), float(np.median(here.imag))
 
@@ -241,7 +237,7 @@ def _crossing(one: Sequence[complex], two: Sequence[complex]) -> complex | None:
     """Where two lines cross, unless they are almost parallel."""
     u, v = one[1] - one[0], two[1] - two[0]
     sine = (u.conjugate() * v).imag
-    if abs(sine) < 0.05 * abs(u) * abs(v):
+    if abs(sine) < measures.MIN_LINE_SINE * abs(u) * abs(v):
         return None
     return one[0] + ((two[0] - one[0]).conjugate() * v).imag / sine * u
 
@@ -250,14 +246,14 @@ def agreed(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[int, comple
     """How many units agree on one, that one and how sure it is, each weighed by how sure it is; of most first."""
     groups = []
     for unit, sigma in units:
-        group = [(u, s) for u, s in units if abs(u - unit) < SIGMAS * math.hypot(sigma, s) * abs(unit)]
+        group = [(u, s) for u, s in units if abs(u - unit) < measures.FRAME_SIGMAS * math.hypot(sigma, s) * abs(unit)]
         weights = [1 / s**2 for _, s in group]
         mean = sum(w * u for w, (u, _) in zip(weights, group, strict=True)) / sum(weights)
         groups.append((len(group), mean, sum(weights) ** -0.5))
     groups.sort(key=lambda group: -group[0])
     told: list[complex] = []
     for count, unit, sigma in groups:
-        if all(abs(unit - other) > sigma * abs(unit) for other in told) and len(told) < RIVALS:
+        if all(abs(unit - other) > sigma * abs(unit) for other in told) and len(told) < measures.MAX_RIVAL_FRAMES:
             told.append(unit)
             yield count, unit, sigma
 
@@ -274,7 +270,7 @@ def best(pairs: Sequence[Pair], sigma: float, usual: float = 0.0) -> Fit | None:
         if one[0] != two[0] and one[1] != two[1]:
             unit = (two[1] - one[1]) / (two[0] - one[0])
             off = [abs(sheet - one[1] - unit * (plan - one[0])) for plan, sheet in pairs]
-            kept = [place for place, far in enumerate(off) if far <= SIGMAS * 2.0 * sigma]
+            kept = [place for place, far in enumerate(off) if far <= measures.FRAME_SIGMAS * 2.0 * sigma]
             missed = sum(off[place] ** 2 for place in kept)
             if len(kept) == 2 and usual:
                 missed = abs(math.log(abs(unit) / usual))

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from graphplan.accuracy.hand import decimal, read_settings
 from graphplan.errors import Refused
 from graphplan.kernel.passes import needed
+from graphplan.marking.judge import measures
 from graphplan.marking.judge.asked import results
 from graphplan.marking.judge.exchanged import EXCHANGED, WORDS
 from graphplan.marking.judge.mistakes import MISTAKES
@@ -21,8 +22,6 @@ from graphplan.methods.kinds import ACCELERATION, VELOCITY
 from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
 
 POSE, FORCE, RESULTS = "pose", "force", "results"
-MOST, ALL = 1000.0, 100.0  # of a weight; of a score, and of what a mistake may cost
-LEAST = {"right": 0.001, "numbers": 0.0}  # what is right earns something; other verdicts may cost something
 UNJUDGED = phrase("nothing to judge")
 GROUPS: Mapping[str, Phrase] = {
     POSE: phrase("given points"), VELOCITY: phrase("velocity"), ACCELERATION: phrase("acceleration"),
@@ -32,7 +31,6 @@ OTHER, ANOTHERS = "other", "another's number"
 KINDS: Mapping[str, Callable[[], Said]] = {**{kind: entry.words for kind, entry in MISTAKES.items()},
                                EXCHANGED: WORDS, ANOTHERS: phrase("the number of another result"),
                                OTHER: phrase("another mistake")}
-FUNDAMENTAL, SLIP = 20.0, 12.0  # what a mistake about mechanics costs by default, and one that is none
 SLIPS = frozenset({"wrong side", "wrong scale", "wrong crossing", "wrong opening", "wrong centre",
                    "exchanged coordinates", EXCHANGED, ANOTHERS, OTHER})
 
@@ -48,7 +46,7 @@ class Weights:
     wrong: float = 0.0
     numbers: float = 2.0
     costs: Mapping[str, float] = field(default_factory=lambda: {
-        kind: SLIP if kind in SLIPS else FUNDAMENTAL for kind in KINDS})
+        kind: measures.SLIP_POINTS if kind in SLIPS else measures.MECHANICS_POINTS for kind in KINDS})
 
     def of(self, state: str) -> float:
         """What is implied earns as if it were drawn; what cannot be told earns nothing."""
@@ -72,9 +70,9 @@ def weights(text: str) -> Weights:
 
 def _size(name: str, text: str) -> float:
     """A weight, within bounds in which sums of many stay what they are; or the points that a mistake costs."""
-    size, least, most = decimal(text), LEAST.get(name, -MOST), MOST
+    size, least, most = decimal(text), measures.MIN_WEIGHTS.get(name, -measures.MAX_WEIGHT), measures.MAX_WEIGHT
     if name in KINDS:
-        least, most = 0.0, ALL
+        least, most = 0.0, measures.FULL_SCORE
     if not least <= size <= most:
         raise Refused(f"--weights {name}={text}", "not a weight", f"a number from {least:g} to {most:g}")
     return size
@@ -82,7 +80,7 @@ def _size(name: str, text: str) -> float:
 
 def percent(earned: float, most: float) -> float:
     """What was earned out of 100."""
-    return ALL * min(max(earned / most, 0.0), 1.0)
+    return measures.FULL_SCORE * min(max(earned / most, 0.0), 1.0)
 
 
 @dataclass(frozen=True)
@@ -145,7 +143,7 @@ def _costs(judgement: Judgement, weighed: Weights, most: float) -> Iterator[tupl
     for kind, count in wrong if most else ():
         firsts.setdefault(kind if kind in weighed.costs else OTHER, count)
     for kind, count in firsts.items():
-        beyond = weighed.costs[kind] - ALL * count * (weighed.right - weighed.wrong) / most
+        beyond = weighed.costs[kind] - measures.FULL_SCORE * count * (weighed.right - weighed.wrong) / most
         if beyond > 0.0:
             yield kind, beyond
 

@@ -17,22 +17,13 @@ import numpy as np
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.program import Step
+from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import KnownMarks
-from graphplan.marking.judge.matching import ASTRAY, UNMARKED, Match, Matching
+from graphplan.marking.judge.matching import UNMARKED, Match, Matching
 from graphplan.marking.judge.mistakes import Mistake, mistakes, value_of
-from graphplan.marking.judge.student_sheet import GONE, apart, plain, weighed
+from graphplan.marking.judge.student_sheet import apart, plain, weighed
 from graphplan.marking.judge.verdict import WRONG
 
-TRIED = 8  # how many whole ways are gone through, to try the most promising mistakes
-CLEAR, UNLIKELY = 2.5, -4.0  # the weight of a mark that is right, and of a mistake that is none
-SQUARE = 4.0  # what a mark that is clearly right may be off beyond the expected, as a sum of squares
-SPREAD = 16.0  # how much more may be won than was promised
-ODDS, AGAIN = 1.0, 6.0  # what has to speak for a mistake, three to one, and for a further one
-DOUBT, FIRST = 1.0, 100.0  # what has to speak for the other of two strokes side by side, which is tried first
-RARE = -3.5  # the odds, as a logarithm, of a mistake at a step
-ROUGH = 0.6  # what is seen at a glance weighs as much less
-DRIFT, OTHER = 3.0, 0.2  # mm: how far a point, which others follow, may have drifted; what is so far off is another
-HOPELESS = -4.0  # the weight of what follows from a mistake below which it is given up
 Value = tuple[float, ...]
 Found = dict[int, int | Mistake]
 
@@ -74,10 +65,12 @@ class Search:
             forks.append(matching.fork())
             matching.until(step.index + 1, found)
         mistaken = any(matching.matches[index].state == WRONG for index in found)
-        best, most = None, matching.weight + (AGAIN if mistaken else ODDS)
-        before, enough = self.gone, TRIED * len(matching.steps)
+        best, most = None, matching.weight + (measures.FURTHER_MISTAKE_ODDS if mistaken
+                                              else measures.FIRST_MISTAKE_ODDS)
+        before, enough = self.gone, measures.WAYS_TRIED * len(matching.steps)
         for guess in sorted(self._guesses(matching, found), key=lambda guess: -guess.promise):
-            if guess.promise < ROUGH * (most - matching.weight) - SPREAD or self.gone - before > enough:
+            if (guess.promise < measures.QUICK_SHARE * (most - matching.weight) - measures.PROMISE_SPREAD_ODDS
+                or self.gone - before > enough):
                 break
             weight = self._weight(matching, forks, found, guess, most)
             if weight > most:
@@ -141,9 +134,11 @@ class Search:
         assert match.place is not None
         for place in matching.evidence.beside(match.place, home, plain(matching.own[step.index])):
             if matching.residual(step, match.expected, place, matching.own).fits(matching.chance):
-                yield Guess(step.index, place, ODDS - DOUBT, FIRST)
+                yield Guess(step.index, place, measures.FIRST_MISTAKE_ODDS - measures.NEIGHBOUR_ODDS,
+                            measures.NEIGHBOUR_PROMISE)
         if step.op.gives == POINT:
-            yield Guess(step.index, UNMARKED, ODDS - DOUBT, FIRST)
+            yield Guess(step.index, UNMARKED, measures.FIRST_MISTAKE_ODDS - measures.NEIGHBOUR_ODDS,
+                        measures.NEIGHBOUR_PROMISE)
 
     def _mistakes(self, matching: Matching, quick: QuickScore, match: Match) -> Iterator[Guess]:
         """The mistakes that a step may be, those of the table and others: kinds are equally likely, and so is what is
@@ -152,22 +147,21 @@ class Search:
         table = list(mistakes(matching.sheet.drawing.drawn, step, matching.sheet.plan_of_step))
         alike = Counter(mistake.kind for mistake in table)
         for mistake in table:
-            prior = RARE - math.log(len(alike)) - math.log(alike[mistake.kind])
+            prior = measures.MISTAKE_ODDS - math.log(len(alike)) - math.log(alike[mistake.kind])
             promise = quick.by(mistake) + prior
-            if promise > UNLIKELY:
+            if promise > measures.MIN_PROMISE_ODDS:
                 yield Guess(step.index, mistake, prior, promise)
-        faint = match.place is None or matching.evidence.weight(match.place) < CLEAR
-        for place, value in unmatched(matching, step) if faint and match.weight < CLEAR else ():
-            yield Guess(step.index, place, matching.evidence.stray, quick.gain(step, value) + matching.evidence.stray)
+        faint = match.place is None or matching.evidence.weight(match.place) < measures.CLEAR_ODDS
+        for place, value in unmatched(matching, step) if faint and match.weight < measures.CLEAR_ODDS else ():
+            yield Guess(step.index, place, measures.UNNAMED_MISTAKE_ODDS,
+                        quick.gain(step, value) + measures.UNNAMED_MISTAKE_ODDS)
 
 
 def clear(match: Match) -> bool:
     """Whether a step is so clearly right that no mistake is thought of."""
     off = match.residual
-    return off is not None and match.weight >= CLEAR and off.square - len(off.off) < SQUARE
-
-
-KEPT = 4.0  # standard deviations within which a claim is kept
+    return (off is not None and match.weight >= measures.CLEAR_ODDS
+            and off.square - len(off.off) < measures.CLEAR_SQUARES)
 
 
 def unmatched(matching: Matching, step: Step) -> Iterator[tuple[int, tuple[float, ...]]]:
@@ -182,10 +176,10 @@ def unmatched(matching: Matching, step: Step) -> Iterator[tuple[int, tuple[float
         spots = sheet.spots(step.index, matching.traces[place])
         value = plain(sheet.seen(step, matching.own[step.index], spots, steady=True))
         if kind == POINT:
-            near = math.dist(value, plain(matching.own[step.index])) * mm < ASTRAY
+            near = math.dist(value, plain(matching.own[step.index])) * mm < measures.MAX_ASTRAY_MM
         else:
             off = min((float(apart(LINE, value, np.array([complex(*thing[:2])]))) for thing in on), default=math.inf)
-            near = off * mm < KEPT * max(sheet.pencil.point, sheet.pencil.edge)
+            near = off * mm < measures.CLAIM_SIGMAS * max(sheet.pencil.point, sheet.pencil.edge)
         if near:
             yield place, value
 
@@ -209,7 +203,7 @@ class QuickScore:
         gain = seen = 0.0
         for arg in _strokes(matching, at):
             weight, _ = self._seen(matching.steps[arg], self.own[arg], KnownMarks(self.own[:arg], {at: wrong}))
-            gain, seen = gain + weight - ROUGH * matching.matches[arg].weight, seen + weight
+            gain, seen = gain + weight - measures.QUICK_SHARE * matching.matches[arg].weight, seen + weight
         for step in matching.steps[at:]:
             if dead.isdisjoint(step.args) and (step.index == at or not moved.isdisjoint(step.args)):
                 made = wrong if step.index == at else value_of(step, values, self.mistakes.get(step.index))
@@ -223,7 +217,7 @@ class QuickScore:
                 gain, seen = gain + weight - matching.matches[step.index].weight, seen + weight
                 if matching.evidence.beyond(step, made):
                     dead.add(step.index)
-                if seen < HOPELESS or (step.index == at and not self._possible(step, weight)):
+                if seen < measures.HOPELESS_ODDS or (step.index == at and not self._possible(step, weight)):
                     return -math.inf
             elif not dead.isdisjoint(step.args):
                 dead.add(step.index)
@@ -245,7 +239,7 @@ class QuickScore:
         else:
             off = math.dist(own[:2], made[:2]) + abs(math.sqrt(max(own[2], 0)) - math.sqrt(max(made[2], 0))
                                                      if step.op.gives == CIRCLE else 0.0)
-        return off * self.matching.sheet.mm(home) > OTHER
+        return off * self.matching.sheet.mm(home) > measures.DIFFERENT_MM
 
     @cached_property
     def _about(self) -> dict[str, list[complex]]:
@@ -264,12 +258,12 @@ class QuickScore:
         if share is None:
             return 0.0, value
         if kind != POINT:
-            return ROUGH * weighed(evidence.most[kind], GONE[kind], None, share), value
-        trace = evidence.trace(step, value, known, DRIFT)
+            return measures.QUICK_SHARE * weighed(evidence.most[kind], measures.ABSENT_ODDS[kind], None, share), value
+        trace = evidence.trace(step, value, known, measures.DRIFT_MM)
         if trace is None:
-            return ROUGH * GONE[kind], value
+            return measures.QUICK_SHARE * measures.ABSENT_ODDS[kind], value
         spot = self.matching.sheet.frame(step).back(complex(*trace.spots[0]))
-        return ROUGH * evidence.most[kind], (spot.real, spot.imag)
+        return measures.QUICK_SHARE * evidence.most[kind], (spot.real, spot.imag)
 
 
 def _strokes(matching: Matching, index: int) -> list[int]:

@@ -19,42 +19,37 @@ import numpy as np
 
 from graphplan.accuracy.hand import Pencil, SeenPencil
 from graphplan.kernel.kinds import Movement
+from graphplan.marking.judge import measures
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.student_sheet import StudentSheet
 from graphplan.marking.tolerances import VARIANCE_FLOOR
 from graphplan.marking.traces import Submission, Trace
 
-SCALES = np.geomspace(0.4, 4.0, 24)  # how many times as unsteady as the stated pencil a hand may be
-USUAL = 0.4  # the standard deviation of its logarithm
-READ = np.geomspace(0.02, 0.6, 24)  # mm: the standard deviation of reading a coordinate where none is stated
-PARTS, BOUND = np.geomspace(0.5, 1.0, 12), 0.3  # of a stated precision, what marks show: who states its bounds has less
-RULER, READERS = 0.12, 0.6  # mm: the usual one, and the standard deviation of its logarithm
-MISTAKEN, ANYWHERE = 0.05, 100.0  # how often a mark is a mistake, and over how many mm such marks are spread
-HELD = 0.9  # of what a frame was laid through, more than so much is no sample
-FEW = 3  # samples: fewer say nothing
+SCALES, READ, PARTS = (np.geomspace(*tried) for tried in (
+    measures.HAND_SCALES, measures.READINGS_MM, measures.STATED_SHARES))
 Sample = tuple[Any, Any, Any]  # how far off, the covariance from the hand, and from reading
 
 
 def assumed(stated: Pencil, submission: Submission) -> SeenPencil:
     """The stated pencil, and the reading that is usual where nobody states how finely marks were measured."""
-    return SeenPencil(stated, 1.0, RULER if submission.measured and not submission.stated else 0.0)
+    return SeenPencil(stated, 1.0, measures.RULER_MM if submission.measured and not submission.stated else 0.0)
 
 
 def seen_pencil(matching: Matching, now: SeenPencil, submission: Submission) -> SeenPencil | None:
     """The pencil that a drawing shows, from a way through it that was judged by another; None where too few marks tell
     it."""
     samples = list(_samples(matching))
-    if len(samples) < FEW:
+    if len(samples) < measures.MIN_SAMPLES:
         return None
     rounding = max(0.0, min((trace.blur**2 for trace in submission.traces), default=0.0))
     read, shown, parts = np.zeros(1), np.ones(1), np.ones(1)
-    odds = -np.log(SCALES)[:, None] ** 2 / (2 * USUAL**2)
+    odds = -np.log(SCALES)[:, None] ** 2 / (2 * measures.HAND_SCALE_SIGMA**2)
     if submission.measured and submission.stated:
         shown, parts = PARTS, (PARTS / now.part) ** 2
-        odds = odds - np.log(PARTS)[None, :] ** 2 / (2 * BOUND**2)
+        odds = odds - np.log(PARTS)[None, :] ** 2 / (2 * measures.STATED_SHARE_SIGMA**2)
     if now.reading:
         read, parts = READ, (READ**2 + rounding) / (now.reading**2 + rounding)
-        odds = odds - np.log(READ / RULER)[None, :] ** 2 / (2 * READERS**2)
+        odds = odds - np.log(READ / measures.RULER_MM)[None, :] ** 2 / (2 * measures.READING_SIGMA**2)
     for width in (1, 2, 3):
         odds = odds + _likelihood([sample for sample in samples if len(sample[0]) == width], SCALES / now.scale, parts)
     weights = np.exp(odds - odds.max())
@@ -75,7 +70,8 @@ def _likelihood(samples: Sequence[Sample], scales: Any, reads: Any) -> Any:
     squares = np.einsum("...i,...i", off, np.linalg.solve(covariance, np.broadcast_to(
         off[..., None], (*covariance.shape[:-1], 1)))[..., 0])
     density = np.exp(-squares / 2) / np.sqrt((2 * math.pi) ** wide * np.linalg.det(covariance))
-    return np.sum(np.log((1 - MISTAKEN) * density + MISTAKEN / ANYWHERE**wide), axis=-1)
+    return np.sum(np.log((1 - measures.MISTAKE_SHARE) * density
+                         + measures.MISTAKE_SHARE / measures.MISTAKE_SPREAD_MM**wide), axis=-1)
 
 
 def _samples(matching: Matching) -> Iterator[Sample]:
@@ -85,14 +81,14 @@ def _samples(matching: Matching) -> Iterator[Sample]:
         residual = match.residual
         if residual is None or match.place is None or match.place in seen or match.step.op.movement is Movement.BEGUN:
             continue
-        if residual.covariance.max() > ANYWHERE**2:  # it may be anywhere
+        if residual.covariance.max() > measures.MISTAKE_SPREAD_MM**2:  # it may be anywhere
             continue
         seen.add(match.place)
         partials = residual.partials
         read = partials[:, sheet.reads[:partials.shape[1]]]
         reading = read @ read.T
         left = 1.0 - _held(sheet, match, matching.traces[match.place])
-        if left > 1.0 - HELD:
+        if left > 1.0 - measures.MAX_HELD_SHARE:
             share = left / (2.0 - left)  # what the frame was laid through follows it, and does not shake beside it
             yield residual.off, (residual.covariance - reading) * share, reading * share
 

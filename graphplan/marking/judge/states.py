@@ -12,15 +12,13 @@ from collections.abc import Iterable
 from functools import cached_property
 
 from graphplan.kernel.kinds import OPENING
+from graphplan.marking.judge import measures
 from graphplan.marking.judge.asked import shown_by
 from graphplan.marking.judge.evidence import KnownMarks, unexplained
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.student_sheet import bound, plain
 from graphplan.marking.judge.verdict import EARNED, IMPLIED, MISSING, UNSEEN, UNSURE, WRONG, NumberVerdict
 from graphplan.marking.traces import Trace
-
-SURE = 20.0  # the logarithm of odds beyond which nothing is surer
-BESIDE = 6.0  # mm about where a missing mark should be, in which ink that no step explains may be it
 
 
 class States:
@@ -67,7 +65,7 @@ class States:
             return None
         home = self.matching.sheet.plan_of_step[match.step.index]
         places, off = self.matching.evidence.near(match.step.op.gives, home, plain(match.expected))
-        near = [place for far, place in sorted(zip(off, places, strict=True)) if far < BESIDE]
+        near = [place for far, place in sorted(zip(off, places, strict=True)) if far < measures.MISSING_NEAR_MM]
         free = [self.matching.traces[place] for place in near if place not in self.matching.used]
         return next(iter(unexplained(free, self._explained)), None)
 
@@ -96,7 +94,7 @@ class States:
         if match.place is not None:
             return match.weight if match.state in EARNED else -math.inf
         if match.step.index in self.told:
-            return SURE
+            return measures.MAX_SURE_ODDS
         strokes = [self.matching.matches[arg] for arg in match.step.args]
         seen = [stroke.weight for stroke in strokes if stroke.place is not None and stroke.state in EARNED]
         crossed = match.step.op.crossing and match.state != WRONG and seen and (
@@ -137,4 +135,4 @@ class States:
 
 def sureness(odds: float) -> float:
     """A logarithm of odds as a probability."""
-    return 1 / (1 + math.exp(-min(max(odds, -SURE), SURE)))
+    return 1 / (1 + math.exp(-min(max(odds, -measures.MAX_SURE_ODDS), measures.MAX_SURE_ODDS)))

@@ -23,15 +23,13 @@ from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.kernel.program import Step
+from graphplan.marking.judge import measures
 from graphplan.marking.tolerances import BOUND_TOL, VARIANCE_TOL
 from graphplan.marking.traces import PlanFrame, Trace
 from graphplan.methods.construction import Construction
 from graphplan.sheet.plates.plans import Plans
 
-FRAME_ERRORS, SPOT_ERRORS = 4, 6  # of a plan: its turn, scale and place; of a trace: each of up to three spots
-SHORT_ARC = math.radians(60)  # of a shorter arc only the radius is measured, not the centre
 NONE = np.finfo(float).tiny
-LEAST, SHARE, MOST = 3.0, 0.1, 15.0  # a pencil coarser than the usual one hides this share of a plan's diagonal, mm
 
 SURVIVAL: dict[int, Callable[[float], float]] = {  # how often a sum of n squares is larger than x
     1: lambda x: math.erfc(math.sqrt(x / 2)),
@@ -43,7 +41,7 @@ SURVIVAL: dict[int, Callable[[float], float]] = {  # how often a sum of n square
 @cache
 def bound(freedoms: int, chance: float) -> float:
     """The sum of as many squares of normal deviates that is only so seldom surpassed."""
-    low, high = 0.0, 1000.0
+    low, high = 0.0, measures.BOUND_LIMIT
     while high - low > BOUND_TOL:
         middle = (low + high) / 2
         low, high = (middle, high) if SURVIVAL[freedoms](middle) > chance else (low, middle)
@@ -157,19 +155,19 @@ class StudentSheet:
     @cached_property
     def _starts(self) -> list[int]:
         """Where the errors of each step begin: the hand's slips, then its trace's."""
-        counts = [len(slips) + SPOT_ERRORS for slips in self.hand.slips]
+        counts = [len(slips) + measures.SPOT_ERRORS for slips in self.hand.slips]
         return np.concatenate(([0], np.cumsum(counts))).tolist()  # type: ignore[no-any-return]
 
     @cached_property
     def domain(self) -> Gradients:
-        return Gradients(self._starts[-1] + FRAME_ERRORS * len(self.fits))
+        return Gradients(self._starts[-1] + measures.FRAME_ERRORS * len(self.fits))
 
     @cached_property
     def reads(self) -> Any:
         """Which errors are those of reading a trace, by their places."""
-        found = np.zeros(self._starts[-1] + FRAME_ERRORS * len(self.fits), dtype=bool)
+        found = np.zeros(self._starts[-1] + measures.FRAME_ERRORS * len(self.fits), dtype=bool)
         for start in self._starts[1:]:
-            found[start - SPOT_ERRORS:start] = True
+            found[start - measures.SPOT_ERRORS:start] = True
         return found
 
     def errors(self, index: int) -> list[Any]:
@@ -207,7 +205,8 @@ class StudentSheet:
     def _read(self, index: int, trace: Trace) -> Iterator[tuple[Any, Any]]:
         panel, panels = self.plan_of_step[index], list(self.fits)
         fit, first = self.fits[panel], self._starts[index] + len(self.hand.slips[index])
-        lead, own = (self._starts[-1] + FRAME_ERRORS * panels.index(name) for name in (fit.tied or panel, panel))
+        lead, own = (self._starts[-1] + measures.FRAME_ERRORS * panels.index(name)
+                     for name in (fit.tied or panel, panel))
         turn, mm = self.fits[fit.tied or panel].turn, self.mm(panel)
         shift, blur = fit.shift / mm, trace.blur / mm
         for k, spot in enumerate(sampled(trace)):
@@ -249,7 +248,8 @@ class StudentSheet:
             self.drawing.drawn.steps, self.drawing.values, self.plan_of_step, strict=True)
             if plan == home and other.op.gives == POINT])
         across = math.hypot(float(np.ptp(spots.real)), float(np.ptp(spots.imag))) if len(spots) else 0.0
-        return min(max(LEAST, SHARE * across * self.mm(home)), MOST)
+        return min(max(measures.MIN_COARSE_ERROR_MM, measures.COARSE_ERROR_SHARE * across * self.mm(home)),
+                   measures.MAX_COARSE_ERROR_MM)
 
     def seen(self, step: Step, expected: Any, spots: Spots, steady: bool) -> Any:
         """The value of a trace as a step's: a line runs the way it should, and where its spots are not `steady` enough
@@ -258,7 +258,7 @@ class StudentSheet:
             return spots[0]
         if step.op.gives == LINE:
             return spots.line(expected)
-        told = steady or _span(expected, spots) > SHORT_ARC
+        told = steady or _span(expected, spots) > measures.SHORT_ARC_RAD
         return spots.rim if told and len({plain(spot) for spot in spots}) == 3 else _about(expected, spots)
 
 
@@ -344,17 +344,8 @@ def _around(P: tuple[Any, Any], Q: tuple[Any, Any], R: tuple[Any, Any]) -> Any:
     return P[0] + p, P[1] + q, p * p + q * q
 
 
-THERE = {LINE: 5.0, CIRCLE: 2.5, POINT: 8.0}  # a mark of a picture where it should be; not many are there by chance
-FAINT = {LINE: 2.5, CIRCLE: 2.0, POINT: 0.4}  # the same where it is seen only by seeking it
-FILED = {LINE: 8.0, CIRCLE: 7.0, POINT: 10.0}  # a mark of a file, in which nothing is there by chance
-GONE = {LINE: -4.0, CIRCLE: -3.0, POINT: -3.0}  # no mark, where one could be seen
-SHARED = 0.0  # a mark that was drawn for another step
-ASSUMED = -2.0  # a mistake at a mark that is not to be seen itself
-HALF, WHOLE = 0.4, 0.8  # the share of a stroke that is hardly there, and that is as good as all
-
-
 def weighed(most: float, none: float, residual: Residual | None, share: float = 1.0) -> float:
     """The weight, from none to most, of a mark that is so far off, and of whose stroke a share is to be seen."""
-    part = min(max((share - HALF) / (WHOLE - HALF), 0.0), 1.0)
+    part = min(max((share - measures.ABSENT_SHARE) / (measures.PRESENT_SHARE - measures.ABSENT_SHARE), 0.0), 1.0)
     beyond = max(0.0, residual.square - len(residual.off)) / 2 if residual else 0.0
     return max(part * most + (1 - part) * none - beyond, none)

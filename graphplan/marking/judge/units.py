@@ -8,23 +8,16 @@ one, that is meant. Where none is, the drawing is taken to be as large as the ta
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import replace
 
 from graphplan.accuracy.hand import Pencil
+from graphplan.marking.judge import measures
 from graphplan.marking.judge.lettering import Letters
 from graphplan.marking.traces import Spot, Submission
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said, digits, said, unit
 from graphplan.sheet.layout.composition import Composition
-
-UNITS: Mapping[str, tuple[float, float]] = {  # in mm, and what speaks against each, as a logarithm of odds
-    "mm": (1.0, 0.0), "cm": (10.0, 0.3), "m": (1000.0, 0.5), "in": (25.4, 0.5)}
-OWN, LARGER, ODD = 1.2, 1.5, 1.0  # the same of a unit of its own; of e times the size; of a scale that is not round
-ROUND, CLOSE = (1.0, 2.0, 2.5, 5.0, 10.0), 0.005  # the numbers that scales are; how much of itself a scale may be off
-ALIKE = 4.0  # times as large or small as the task's sheet a drawing is looked at as it is
-PART = 150  # of the size of a drawing that its marks may be off a frame
 
 
 def in_mm(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil
@@ -35,28 +28,33 @@ def in_mm(drawing: Construction, composition: Composition, submission: Submissio
     spots = [spot for trace in submission.traces for spot in trace.spots]
     size = max((max(part) - min(part) for part in zip(*spots, strict=True)), default=0.0)
     sheet = max(composition.arrangement.width, composition.arrangement.height)
-    rough = 1.0 if not size or sheet / ALIKE < size < sheet * ALIKE else sheet / size  # as marks and letters are seen
-    frame = Letters(drawing, composition, scaled(submission, rough), pencil, rough * size / PART).mechanism if (
+    # as marks and letters are seen
+    rough = 1.0 if not size or sheet / measures.SIZE_RATIO < size < sheet * measures.SIZE_RATIO else sheet / size
+    frame = Letters(drawing, composition, scaled(submission, rough), pencil,
+                    rough * size / measures.FRAME_TOL_PARTS).mechanism if (
         size) else None
     if frame is None:
         return submission, ()
     task, scale = composition.views[MECHANISM].scale, abs(frame.unit) / rough
-    against = {name: against + LARGER * abs(math.log(scale * mm / task)) + (0.0 if _round(scale * mm, task) else ODD)
-               + (submission.millimetres if name != "mm" else 0.0) for name, (mm, against) in UNITS.items()}
+    against = {name: against + measures.RESIZED_COST * abs(math.log(scale * mm / task))
+               + (0.0 if _round(scale * mm, task) else measures.ODD_SCALE_COST)
+               + (submission.millimetres if name != "mm" else 0.0)
+               for name, (mm, against) in measures.DRAWING_UNITS.items()}
     best = min(against, key=against.__getitem__)
-    if against[best] > OWN + submission.millimetres:
+    if against[best] > measures.OWN_UNIT_COST + submission.millimetres:
         mm = task / scale
         return scaled(submission, mm), (said("drawn in a unit of its own (1 unit = {0} mm)", digits(mm, 3)),)
     if best == "mm":
         return submission, ()
-    mm = UNITS[best][0]
+    mm = measures.DRAWING_UNITS[best][0]
     return scaled(submission, mm), (said("drawn in {0} (1 unit = {1} mm)", unit(best), digits(mm, 3)),)
 
 
 def _round(scale: float, task: float) -> bool:
     """Whether a scale, in mm for a unit of the scene, is the task's or a round one."""
     mantissa = scale / 10.0 ** math.floor(math.log10(scale))
-    return any(abs(part - 1) < CLOSE for part in (scale / task, *(mantissa / number for number in ROUND)))
+    return any(abs(part - 1) < measures.ROUND_SCALE_TOL
+               for part in (scale / task, *(mantissa / number for number in measures.ROUND_SCALES)))
 
 
 def scaled(submission: Submission, mm: float) -> Submission:

@@ -22,6 +22,7 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
 from graphplan.kernel.stages import Known
+from graphplan.marking.judge import measures
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.mistakes import MISTAKES, Mistake, exchanges, mistakes
 from graphplan.marking.judge.states import States
@@ -35,11 +36,6 @@ from graphplan.mechanism.units import HEADING
 from graphplan.methods.recorded import Reading
 from graphplan.phrases import Said, digits, said
 
-CLOSEST = 16  # how many mistakes are looked at closely
-FARTHER, RARER = 4.0, 0.5  # what each step back in the drawing, and each place down the table, adds to a sum of squares
-READ = 2.0  # the error of a length read on paper, beside that of a pricked point: both its ends are read
-FACTORS = (10.0, 0.1, 100.0, 0.01, 1000.0, 0.001, 2.0, 0.5, 9.81, 1 / 9.81, math.tau, 1 / math.tau, 60.0 / math.tau,
-           math.tau / 60.0, 180.0 / math.pi, math.pi / 180.0)  # powers of ten, halves, and units that are confused
 Key = tuple[str, str]
 
 
@@ -76,7 +72,7 @@ def _closest(matching: Matching, step: Step, spots: Any) -> list[Suspect]:
         made = _carried(matching, step, floats, suspect, Floats(), lambda index: [0.0] * len(hand.slips[index]))
         if made is not None and all(map(math.isfinite, made)):
             found.append((apart(step.op.gives, made, spots), len(found), suspect))
-    return [suspect for _, _, suspect in sorted(found)[:CLOSEST]]
+    return [suspect for _, _, suspect in sorted(found)[:measures.MISTAKES_LOOKED_AT]]
 
 
 def _suspects(matching: Matching, step: Step) -> Iterator[Suspect]:
@@ -84,7 +80,8 @@ def _suspects(matching: Matching, step: Step) -> Iterator[Suspect]:
     order = {kind: place for place, kind in enumerate(MISTAKES)}
     for far, source in enumerate(_unseen(matching, step)):
         for mistake in mistakes(matching.sheet.drawing.drawn, source, matching.sheet.plan_of_step):
-            yield Suspect(mistake, source, FARTHER * far + RARER * order[mistake.kind])
+            yield Suspect(mistake, source,
+                          measures.STEP_BACK_SQUARES * far + measures.TABLE_ROW_SQUARES * order[mistake.kind])
 
 
 def _unseen(matching: Matching, step: Step) -> list[Step]:
@@ -237,7 +234,7 @@ def _read(matching: Matching, reading: Reading, marks: Sequence[Any]) -> float:
     if reading.kind.dimension == HEADING:
         return math.radians(matching.sheet.pencil.angle)
     home = matching.sheet.plan_of_step[matching.sheet.drawing.drawn.wanted[reading.marks[-1]]]
-    length = READ * matching.sheet.pencil.point / matching.sheet.mm(home)
+    length = measures.LENGTH_READING_ERRORS * matching.sheet.pencil.point / matching.sheet.mm(home)
     shaken = [_difference(matching, reading, marks, shift) for shift in ((length, 0.0), (0.0, length))]
     return math.hypot(*shaken) / math.sqrt(1 if reading.kind.single else 2)
 
@@ -290,7 +287,7 @@ def _mistakes(value: Sequence[float], key: Key, own: Mapping[Key, Expected]
             yield "turned the wrong way", said("the vector is a quarter turn off"), turned, key
         for told, exchanged in exchanges(x, y):
             yield "exchanged coordinates", told, exchanged, key
-    for factor in FACTORS:
+    for factor in measures.NUMBER_FACTORS:
         told = said("the number is {0} times as large as it should be", digits(factor, 3))
         yield "wrong scale", told, tuple(part / factor for part in value), key
     for kind, of in own:

@@ -18,19 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.errors import Refused
-from graphplan.marking.files.safe import MB, contents
+from graphplan.marking.files.safe import contents
+from graphplan.marking.scans import measures
 
 Grey = NDArray[np.uint8]
 Light = NDArray[np.float32]
 Spots = NDArray[np.float64]  # rows of x and y
-HEAVIEST, MOST, FEWEST = 96 * MB, 120_000_000, 400  # bytes of a file, pixels of a picture, pixels of its least side
 STDERR = 2  # its number to the system
-HALVED, SEEN = 60_000_000, 300_000  # pixels above which half as many a side will do, and in which print is seen
-BLANK = 30  # shades of grey between paper and print, at least
-DPI, POINTS, PAGES = 200, 72, 20  # how finely a PDF page is drawn, its own units to the inch, how many pages are tried
 PNG, JPEG, PDF = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"%PDF-"
 SIZED = re.compile(rb"[\xc0-\xc3\xc5-\xc7\xc9-\xcb\xcd-\xcf]")  # the segments of a JPEG that say its size
-NORMAL = 0.6745  # the median of what is off, in standard deviations
 DO = "hand in a scan of 200 dpi or a sharp photo of the whole sheet, as PNG, JPEG or PDF"
 
 
@@ -39,7 +35,7 @@ def pictures(path: Path) -> Iterator[Grey]:
 
     Fails with `Refused` where there is none, or where it is too large to be opened.
     """
-    data = contents(path, HEAVIEST)
+    data = contents(path, measures.MAX_FILE_BYTES)
     if data.startswith(PDF):
         yield from _pages(path, data)
     elif data.startswith(PNG):
@@ -54,9 +50,10 @@ def _bounded(path: Path, size: tuple[int, int] | None) -> None:
     """Refuse a picture that is too large, too small, or does not say how large it is."""
     if size is None:
         raise Refused(f"{path}", "the picture is damaged: it does not say how large it is", DO)
-    if size[0] * size[1] > MOST:
-        raise Refused(f"{path}", f"{size[0]} by {size[1]} pixels are more than {MOST // 10**6} megapixels", DO)
-    if min(size) < FEWEST:
+    if size[0] * size[1] > measures.MAX_PICTURE_PX:
+        raise Refused(f"{path}",
+                      f"{size[0]} by {size[1]} pixels are more than {measures.MAX_PICTURE_PX // 10**6} megapixels", DO)
+    if min(size) < measures.MIN_SIDE_PX:
         raise Refused(f"{path}", f"{size[0]} by {size[1]} pixels are too few to see pencil lines", DO)
 
 
@@ -83,7 +80,7 @@ def _jpeg_size(data: bytes) -> tuple[int, int] | None:
 def _decoded(path: Path, data: bytes, size: tuple[int, int] | None) -> Grey:
     """The picture itself, upright as the camera was held."""
     _bounded(path, size)
-    half = size is not None and size[0] * size[1] > HALVED
+    half = size is not None and size[0] * size[1] > measures.MAX_WHOLE_PX
     try:
         with _silence():
             image = cv2.imdecode(np.frombuffer(data, np.uint8),
@@ -141,7 +138,7 @@ def _is_document(path: Path) -> bool:
 def _pages(path: Path, data: bytes) -> Iterator[Grey]:
     """The pages of a document, each drawn in turn."""
     with _opened(path, data) as document:
-        for number in range(min(len(document), PAGES)):
+        for number in range(min(len(document), measures.MAX_PAGES)):
             yield _drawn(path, document, number)
 
 
@@ -167,11 +164,11 @@ def _drawn(path: Path, document: Any, number: int) -> Grey:
 
     try:
         page = document[number]
-        scale = DPI / POINTS
+        scale = measures.PDF_DPI / measures.POINTS_PER_INCH
         _bounded(path, (round(page.get_width() * scale), round(page.get_height() * scale)))
         for picture in page.get_objects(filter=[pdfium.raw.FPDF_PAGEOBJ_IMAGE], max_depth=2):
             wide, high = picture.get_px_size()
-            _bounded(path, (max(wide, FEWEST), max(high, FEWEST)))
+            _bounded(path, (max(wide, measures.MIN_SIDE_PX), max(high, measures.MIN_SIDE_PX)))
         return np.array(page.render(scale=scale, grayscale=True).to_numpy(), np.uint8).squeeze()
     except pdfium.PdfiumError as error:
         raise Refused(f"{path}", f"page {number + 1} is broken", DO) from error
@@ -179,15 +176,15 @@ def _drawn(path: Path, document: Any, number: int) -> Grey:
 
 def contrast(image: Grey, name: str) -> None:
     """Refuse a picture on which nothing is dark, or nothing light: noise is neither, from afar."""
-    dark, light = np.percentile(smaller(image, SEEN), [0.2, 90])
-    if light - dark < BLANK:
+    dark, light = np.percentile(smaller(image, measures.CONTRAST_PX), measures.CONTRAST_PERCENTILES)
+    if light - dark < measures.MIN_CONTRAST_SHADES:
         raise Refused(name, "the picture is blank", DO)
 
 
 def deviation(off: NDArray[np.floating]) -> float:
     """How far off things are, most of them by mere noise, as a standard deviation: by the median, which strays do not
     move."""
-    return float(np.median(np.abs(off))) / NORMAL
+    return float(np.median(np.abs(off))) / measures.MEDIAN_SIGMAS
 
 
 def smaller(image: Grey, pixels: float) -> Grey:

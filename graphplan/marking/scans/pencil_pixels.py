@@ -13,15 +13,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from graphplan.marking.scans import measures
 from graphplan.marking.scans.image import Light, Spots, deviation
 from graphplan.marking.scans.printed_ink import words
 from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.sheet.plates.display import Sheet
-
-COARSE, LIGHTEST, WIDE = 4, 5, 31  # how much coarser light is estimated; of those pixels: lines left out, and its reach
-DARK = 0.12  # what is no paper
-TINT = 0.75  # what is printed lighter than this is paper, on which pencil is seen
-BESIDE, BETWEEN = 0.25, 1.25  # mm beside print, and between two edges of it, in which pencil is not told from it
 
 
 @dataclass(frozen=True)
@@ -49,7 +45,7 @@ class Ink:
     def crossed(self, spots: Spots) -> NDArray[np.bool_]:
         """Which spots are hidden or dark: a line may go on there, under print or another line."""
         cells = self.cells(spots)
-        return np.asarray(self.hidden[cells] | (self.dark[cells] > DARK), bool)
+        return np.asarray(self.hidden[cells] | (self.dark[cells] > measures.MIN_INK_DARKNESS), bool)
 
     def cells(self, spots: Spots) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """The rows and columns of spots; beside the sheet, those of its edge."""
@@ -62,10 +58,11 @@ class Ink:
 def pencil_ink(image: NDArray[np.float32], sheet: Sheet, light: Light, scale: float) -> Ink:
     """The pencil on the straightened picture of a sheet, whose print is `light` in the same pixels; beyond its plans
     nothing is looked for."""
-    paper = np.asarray(image / np.maximum(light, TINT), np.float32)
+    paper = np.asarray(image / np.maximum(light, measures.MAX_PRINT_LIGHTNESS), np.float32)
     dark = np.clip(1 - paper / _lit(paper), 0, 1).astype(np.float32)
-    inked = ((light < TINT) | words(sheet, scale)).astype(np.uint8)
-    wide = cv2.morphologyEx(cv2.dilate(inked, _disc(BESIDE * scale)), cv2.MORPH_CLOSE, _disc(BETWEEN * scale / 2))
+    inked = ((light < measures.MAX_PRINT_LIGHTNESS) | words(sheet, scale)).astype(np.uint8)
+    wide = cv2.morphologyEx(cv2.dilate(inked, _disc(measures.PRINT_RIM_MM * scale)), cv2.MORPH_CLOSE,
+                            _disc(measures.PRINT_GAP_MM * scale / 2))
     hidden = np.ones(wide.shape, bool)
     for panel in sheet.panels.values():
         rows = slice(int((sheet.height - panel.top) * scale), int((sheet.height - panel.bottom) * scale))
@@ -84,18 +81,12 @@ def _disc(radius: float) -> NDArray[np.uint8]:
 def _lit(paper: NDArray[np.float32]) -> NDArray[np.float32]:
     """How light the paper would be with nothing on it: the lightest near by, smoothed."""
     high, wide = paper.shape
-    small = cv2.resize(paper, (wide // COARSE, high // COARSE), interpolation=cv2.INTER_AREA)
+    small = cv2.resize(paper, (wide // measures.LIGHT_PX, high // measures.LIGHT_PX), interpolation=cv2.INTER_AREA)
     bare = cv2.morphologyEx(np.clip(small, 0, 255).astype(np.uint8), cv2.MORPH_CLOSE,
-                            np.ones((LIGHTEST, LIGHTEST), np.uint8))
-    even = cv2.GaussianBlur(cv2.medianBlur(bare, WIDE), (0, 0), WIDE / 4).astype(np.float32)
+                            np.ones((measures.LIGHT_LINE_PX, measures.LIGHT_LINE_PX), np.uint8))
+    even = cv2.GaussianBlur(cv2.medianBlur(bare, measures.LIGHT_REACH_PX), (0, 0),
+                            measures.LIGHT_REACH_PX / 4).astype(np.float32)
     return np.asarray(np.maximum(cv2.resize(even, (wide, high)), 1.0), np.float32)
-
-
-WIDTH = 0.18  # mm: half a pencil line, by which the picture is smoothed
-SMOOTHEST = 6e-4  # the grain of the smoothest paper, in the same measure as strengths
-FAINT, CLEAR = 2.5, 4.5  # strengths, in standard deviations of the paper's own, that may be a line and that are one
-ROW = 0.9  # mm of crests without a gap
-PART = 0.7  # of a pixel, that a crest's middle is from its pixel's
 
 
 @dataclass(frozen=True)
@@ -116,24 +107,24 @@ class Ridges:
 
 def clear(found: Ridges, ink: Ink) -> Ridges:
     """Those that make lines for sure: strong, and with neighbours in a row; the paper's grain has none."""
-    strong = found.only(found.strength > CLEAR)
+    strong = found.only(found.strength > measures.CLEAR_SIGMAS)
     cells = ink.cells(strong.spots)
     marked = np.zeros(ink.dark.shape, np.uint8)
     marked[cells] = 1
-    _, which, sizes, _ = cv2.connectedComponentsWithStats(marked, connectivity=8)
-    return strong.only(sizes[which[cells], cv2.CC_STAT_AREA] >= ROW * ink.scale)
+    _, which, sizes, _ = cv2.connectedComponentsWithStats(marked, connectivity=measures.PIXEL_NEIGHBOURS)
+    return strong.only(sizes[which[cells], cv2.CC_STAT_AREA] >= measures.MIN_CREST_ROW_MM * ink.scale)
 
 
 def ridges(ink: Ink) -> Ridges:
     """Every crest that may be part of a pencil line."""
-    smooth = np.asarray(cv2.GaussianBlur(ink.dark, (0, 0), WIDTH * ink.scale), np.float32)
+    smooth = np.asarray(cv2.GaussianBlur(ink.dark, (0, 0), measures.HALF_LINE_MM * ink.scale), np.float32)
     xx, yy, xy = (cv2.Sobel(smooth, cv2.CV_32F, i, j, ksize=3) / 4.0 for i, j in ((2, 0), (0, 2), (1, 1)))
     bend = np.sqrt(((xx - yy) / 2) ** 2 + xy**2)
     strength = bend - (xx + yy) / 2  # minus the lesser eigenvalue
     strength[ink.hidden] = 0.0
-    open_ = strength[~ink.hidden][::7]
-    grain = max(deviation(open_ - np.median(open_)), SMOOTHEST)
-    floor = float(np.median(open_)) + FAINT * grain
+    open_ = strength[~ink.hidden][::measures.GRAIN_STRIDE]
+    grain = max(deviation(open_ - np.median(open_)), measures.MIN_PAPER_GRAIN)
+    floor = float(np.median(open_)) + measures.FAINT_SIGMAS * grain
     row, column = np.nonzero(strength > floor)
     values = [part[row, column].astype(float) for part in (xx, yy, xy)]
     return _crests(ink, smooth, row, column, values, (strength[row, column].astype(float) - np.median(open_)) / grain)
@@ -143,12 +134,13 @@ def _crests(ink: Ink, smooth: NDArray[np.float32], row: NDArray[np.intp], column
             second: list[NDArray[np.float64]], strength: NDArray[np.float64]) -> Ridges:
     """Of these pixels, those that the middle of a line runs through."""
     xx, yy, xy = second
-    gx, gy = (cv2.Sobel(smooth, cv2.CV_32F, i, j, ksize=3)[row, column].astype(float) / 8 for i, j in ((1, 0), (0, 1)))
+    gx, gy = (cv2.Sobel(smooth, cv2.CV_32F, i, j, ksize=3)[row, column].astype(float) / measures.SOBEL_SUM
+              for i, j in ((1, 0), (0, 1)))
     angle = 0.5 * np.arctan2(2 * xy, xx - yy) + np.pi / 2  # of the direction in which it falls off fastest
     nx, ny = np.cos(angle), np.sin(angle)
     across = xx * nx**2 + 2 * xy * nx * ny + yy * ny**2
     off = -(gx * nx + gy * ny) / np.minimum(across, -MIN_DIVISOR)
-    crest = (across < 0) & (np.abs(off * nx) < PART) & (np.abs(off * ny) < PART)
+    crest = (across < 0) & (np.abs(off * nx) < measures.CREST_OFF_PX) & (np.abs(off * ny) < measures.CREST_OFF_PX)
     pixels = np.column_stack([column + off * nx, row + off * ny])[crest]
     normals = np.column_stack([nx, -ny])[crest]
     return Ridges(ink.spots(pixels), normals, strength[crest])

@@ -11,13 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely import LinearRing, LineString
 
+from graphplan.marking.scans import measures
 from graphplan.marking.scans.image import Light
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import Pen, rgb
 
-SMOOTHING, PARTS = 2, 4  # how much finer it is drawn than asked for, and bits for parts of a pixel
-SHORT, LONG = 0.9, 8.0  # mm: the pieces that lines are cut into
-TASK, INSET = 2.5, 1.0  # mm of a piece that is no cross of a grid, and from a plan's edge, of what only this task has
 MARKS = "corner marks"
 
 
@@ -38,7 +36,7 @@ class Pieces:
 
 def picture(sheet: Sheet, scale: float) -> Light:
     """The sheet without its words, lightness 0..1, so many pixels per mm, seen from above: the top is the first row."""
-    fine = scale * SMOOTHING
+    fine = scale * measures.PRINT_FINENESS
     canvas = np.full((round(sheet.height * fine), round(sheet.width * fine)), 255, np.uint8)
     for item in sheet.items:
         _draw(canvas, item, sheet.height, fine)
@@ -59,15 +57,17 @@ def pieces(sheet: Sheet) -> Pieces:
     """The straight lines of print, cut short."""
     chains = [LineString(item.spots) if isinstance(item, Polyline) else LinearRing(item.spots)
               for item in sheet.items if isinstance(item, Polyline | Polygon) and item.layer != MARKS]
-    cut = [piece for chain in chains for piece in pairwise(chain.segmentize(LONG).coords) if math.dist(*piece) >= SHORT]
+    cut = [piece for chain in chains for piece in pairwise(chain.segmentize(measures.MAX_PIECE_MM).coords)
+           if math.dist(*piece) >= measures.MIN_PIECE_MM]
     ends = np.array(cut, float).reshape(-1, 2, 2)
     way = ends[:, 1] - ends[:, 0]
     long = np.hypot(way[:, 0], way[:, 1])
     middles, own = ends.mean(axis=1), np.zeros(len(ends), bool)
     for panel in sheet.panels.values():
-        inside = panel.inset(INSET, INSET, INSET, INSET)
+        inside = panel.inset(measures.OWN_PIECE_INSET_MM, measures.OWN_PIECE_INSET_MM, measures.OWN_PIECE_INSET_MM,
+                             measures.OWN_PIECE_INSET_MM)
         low, high = (inside.left, inside.bottom), (inside.right, inside.top)
-        own |= (long > TASK) & (middles > low).all(axis=1) & (middles < high).all(axis=1)
+        own |= (long > measures.MIN_OWN_PIECE_MM) & (middles > low).all(axis=1) & (middles < high).all(axis=1)
     return Pieces(middles, way / long[:, None], long / 2, own)
 
 
@@ -94,19 +94,20 @@ def _draw(canvas: NDArray[np.uint8], item: Item, height: float, scale: float) ->
         case _:
             return
     if filled and fill != "none":
-        cv2.fillPoly(canvas, [_pixels(filled, height, scale)], _light(fill), cv2.LINE_AA, PARTS)
+        cv2.fillPoly(canvas, [_pixels(filled, height, scale)], _light(fill), cv2.LINE_AA, measures.PRINT_BITS)
     if item.pen.width:
         cv2.polylines(canvas, [_pixels(spots, height, scale)], spots == filled, _light(item.pen.colour),
-                      max(1, round(item.pen.width * scale)), cv2.LINE_AA, PARTS)
+                      max(1, round(item.pen.width * scale)), cv2.LINE_AA, measures.PRINT_BITS)
 
 
 def _pixels(spots: tuple[Spot, ...], height: float, scale: float) -> NDArray[np.int32]:
     """Spots in parts of pixels, whose middles have whole numbers."""
     at = np.array([(x, height - y) for x, y in spots]) * scale - 0.5
-    return np.rint(at * (1 << PARTS)).astype(np.int32).reshape(-1, 1, 2)
+    return np.rint(at * (1 << measures.PRINT_BITS)).astype(np.int32).reshape(-1, 1, 2)
 
 
 def _light(colour: str) -> tuple[int]:
     """How light a colour is to a scanner, 0..255."""
     red, green, blue = rgb(colour)
-    return (round(0.299 * red + 0.587 * green + 0.114 * blue),)
+    of_red, of_green, of_blue = measures.RED_GREEN_BLUE_LIGHT
+    return (round(of_red * red + of_green * green + of_blue * blue),)

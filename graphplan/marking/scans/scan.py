@@ -21,17 +21,16 @@ from shapely import LineString, STRtree, points
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.scans import strokes
-from graphplan.marking.scans.dots import DARK, MAYBE, SURE, WIDE, Ring, dots, marked, ringed, rings
+from graphplan.marking.scans import measures, strokes
+from graphplan.marking.scans.dots import Ring, dots, marked, ringed, rings
 from graphplan.marking.scans.image import Grey, Light, contrast, pictures, smaller
-from graphplan.marking.scans.pencil_pixels import CLEAR, Ink, Ridges, clear, pencil_ink, ridges
+from graphplan.marking.scans.pencil_pixels import Ink, Ridges, clear, pencil_ink, ridges
 from graphplan.marking.scans.printed_ink import picture
 from graphplan.marking.scans.straighten import Registered, Warp, straighten
 from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.marking.traces import Frames, Spot, Submission, Trace
 from graphplan.sheet.plates.display import Sheet
 
-SCALE, PIXELS = 8.0, 4.0e7  # pixels per mm of a straightened page, unless they would be more than these
 SHOWS = frozenset({LINE, CIRCLE})  # dots are found too, but not every point of a drawing is a dot
 
 
@@ -71,9 +70,9 @@ def read_page(path: Path, printed: Sheet, code: int | None = None) -> PencilPage
 def _page(image: Grey, printed: Sheet, code: int | None, name: str) -> PencilPage:
     """One picture of a page."""
     contrast(image, name)
-    scale = min(SCALE, (PIXELS / (printed.width * printed.height)) ** 0.5)
+    scale = min(measures.PAGE_PX_PER_MM, (measures.MAX_PAGE_PX / (printed.width * printed.height)) ** 0.5)
     light = picture(printed, scale)
-    straight, found = _straight(smaller(image, PIXELS), printed, light, scale, code, name)
+    straight, found = _straight(smaller(image, measures.MAX_PAGE_PX), printed, light, scale, code, name)
     pencil = pencil_ink(straight, printed, light, scale)
     return PencilPage(pencil, ridges(pencil), found.error, found.warp)
 
@@ -92,18 +91,6 @@ def _straight(image: Grey, printed: Sheet, light: Light, scale: float, code: int
 
 
 Values = NDArray[np.float64]
-ASKEW = 20.0  # degrees by which a crest's own direction is unsure
-CELL, NEAR = 0.1, 0.25  # mm: how finely a faint line is searched, and how far its crests are off it
-BEYOND = 5.0  # mm beyond the expected ends, in which it may go on
-SEEN, SHORTEST = 0.5, 5.0  # the share of a faint line that must be seen, and mm of it
-TURNED = 40.0  # degrees of a rim from which on it tells its own centre
-LEAST = 2.0  # mm of a rim
-PARTS, ON = 40, 0.25  # places along a line, at which its darkness is read off, and mm from it
-ABOUT, BESIDE = 0.35, 0.8  # mm about a dot, in which its darkest spot is, and no print, whose rest it might be
-LONG, STROKE, RIM = 6.0, 0.7, 0.15  # mm of a stroke that is no letter's, and of its width, and of half a rim's
-LARGEST = 1.4  # mm of a dot
-LETTER = 0.8  # mm by which a piece beside strokes is larger than a ring, if it is a letter's
-HIDDEN = 0.6  # the share of a stroke that print may hide
 
 
 @dataclass(frozen=True)
@@ -119,8 +106,9 @@ class PencilPage:
     @cached_property
     def traces(self) -> tuple[Trace, ...]:
         """Everything that is found without knowing what is expected, but what may be parts of letters."""
-        alone = [dot for dot in self._marked(SURE) if not self._about(self.ink.hidden, dot.spots[0], BESIDE).any()
-                 and self._blob(dot.spots[0], ABOUT) < LARGEST]
+        alone = [dot for dot in self._marked(measures.SURE_DOT_RATIOS)
+                 if not self._about(self.ink.hidden, dot.spots[0], measures.DOT_CLEAR_MM).any()
+                 and self._blob(dot.spots[0], measures.DOT_SEARCH_MM) < measures.MAX_DOT_MM]
         dotted = 2 * sum(map(self._run, self._ringed)) < len(alone)  # a hand that marks points by dots rings none
         ringed = [dot for dot, ring in zip(self._rings, self._ringed, strict=True) if not dotted and self._sure(ring)]
         return tuple(self._blurred(trace) for trace in (*self._drawn, *ringed, *alone))
@@ -130,7 +118,7 @@ class PencilPage:
         it leaves hardly any."""
         far = self._away[kind == POINT][self.ink.cells(np.array(spots))]
         seen = far[far >= 0]
-        return float((seen < within).mean()) if len(seen) > (1 - HIDDEN) * len(far) else None
+        return float((seen < within).mean()) if len(seen) > (1 - measures.MAX_HIDDEN_SHARE) * len(far) else None
 
     def near(self, one: Spot, two: Spot, within: float, angle: float = 4.0) -> Trace | None:
         """The line with most crests, no further than `within` mm from the middle of an expected one, and turned by no
@@ -142,8 +130,10 @@ class PencilPage:
         out = self.found.spots - middle
         along, off = out @ way, out @ normal
         steep = math.tan(math.radians(angle))
-        near = np.flatnonzero((np.abs(along) < long / 2 + BEYOND) & (np.abs(off) < within + np.abs(along) * steep)
-                              & (np.abs(self.found.normals @ normal) > math.cos(math.radians(ASKEW + angle))))
+        near = np.flatnonzero((np.abs(along) < long / 2 + measures.BEYOND_ENDS_MM)
+                              & (np.abs(off) < within + np.abs(along) * steep)
+                              & (np.abs(self.found.normals @ normal)
+                                 > math.cos(math.radians(measures.CREST_TURN_DEGREES + angle))))
         lying = _aligned(along[near], off[near], self.found.strength[near], within, steep)
         if lying is None:
             return None
@@ -161,8 +151,9 @@ class PencilPage:
         out = self.found.spots - middle
         far = np.maximum(np.hypot(out[:, 0], out[:, 1]), MIN_DIVISOR)
         along = strokes.turned(out, aim) * radius
-        reach = np.abs(strokes.turned(at - middle, aim)).max() * radius + BEYOND
-        square = np.abs((out * self.found.normals).sum(axis=1)) > math.cos(math.radians(ASKEW)) * far
+        reach = np.abs(strokes.turned(at - middle, aim)).max() * radius + measures.BEYOND_ENDS_MM
+        square = (np.abs((out * self.found.normals).sum(axis=1)) > math.cos(math.radians(measures.CREST_TURN_DEGREES))
+                  * far)
         near = np.flatnonzero((np.abs(far - radius) < within) & (np.abs(along) < reach) & square)
         steep = within / max(reach, within)
         lying = _aligned(along[near], far[near] - radius, self.found.strength[near], within, steep)
@@ -170,11 +161,11 @@ class PencilPage:
             return None
         slope, level, which = lying
         own = near[which]
-        if np.ptp(along[own]) > math.radians(TURNED) * radius:
+        if np.ptp(along[own]) > math.radians(measures.MIN_CENTRE_DEGREES) * radius:
             rim = strokes.grown(self.found, near, own, self.ink)
         else:
             rim = _short(self, middle, radius, aim, along[own], far[own] - radius, slope, level)
-        return None if rim is None or rim.stretch.long < LEAST else self._blurred(rim.trace())
+        return None if rim is None or rim.stretch.long < measures.MIN_ARC_MM else self._blurred(rim.trace())
 
     def dot(self, spot: Spot, within: float) -> Trace | None:
         """The dot nearest to where one is expected."""
@@ -186,7 +177,8 @@ class PencilPage:
         """How far every pixel is from the next strong crest, and from the next dot, in mm; less than nothing where
         print hides it."""
         found = []
-        for spots in (self.found.spots[self.found.strength > CLEAR], self._spots.view(float).reshape(-1, 2)):
+        for spots in (self.found.spots[self.found.strength > measures.CLEAR_SIGMAS],
+                      self._spots.view(float).reshape(-1, 2)):
             bare = np.ones(self.ink.dark.shape, np.uint8)
             bare[self.ink.cells(spots)] = 0
             far = np.asarray(cv2.distanceTransform(bare, cv2.DIST_L2, 3), np.float32) / np.float32(self.ink.scale)
@@ -201,19 +193,20 @@ class PencilPage:
     @cached_property
     def _smooth(self) -> NDArray[np.float32]:
         """The pencil blurred by half a dot."""
-        return np.asarray(cv2.GaussianBlur(self.ink.dark, (0, 0), WIDE * self.ink.scale), np.float32)
+        return np.asarray(cv2.GaussianBlur(self.ink.dark, (0, 0), measures.HALF_DOT_MM * self.ink.scale), np.float32)
 
     @cached_property
     def _own(self) -> list[float]:
         """How dark each blurred stroke is along its crest, where print leaves it open."""
-        found, size = [], 2 * round(ON * self.ink.scale) + 1
+        found, size = [], 2 * round(measures.DARKNESS_REACH_MM * self.ink.scale) + 1
         crests = cv2.dilate(self._smooth, np.ones((size, size), np.uint8))
         for trace in self._drawn:
             ends = np.array(trace.spots)
-            at = ends[0] + np.linspace(0.05, 0.95, PARTS)[:, None] * (ends[1] - ends[0]) if trace.kind == LINE else ends
+            along = np.linspace(*measures.DARKNESS_SHARES, measures.DARKNESS_PLACES)[:, None]
+            at = ends[0] + along * (ends[1] - ends[0]) if trace.kind == LINE else ends
             rows, columns = self.ink.cells(at)
             dark = crests[rows, columns][~self.ink.hidden[rows, columns]]
-            found.append(max(DARK, float(np.median(dark))) if len(dark) else self._grey)
+            found.append(max(measures.MIN_DOT_DARKNESS, float(np.median(dark))) if len(dark) else self._grey)
         return found
 
     @cached_property
@@ -227,8 +220,8 @@ class PencilPage:
         dark = np.asarray(self._smooth > self._usual / 2, np.uint8)
         for line in self._long.geometries:
             spots = np.rint(self.ink.pixels(np.array(line.coords))).astype(np.int32)
-            cv2.polylines(dark, [spots], False, 0, max(1, round(STROKE * self.ink.scale)))
-        _, which, sizes, _ = cv2.connectedComponentsWithStats(dark, connectivity=8)
+            cv2.polylines(dark, [spots], False, 0, max(1, round(measures.STROKE_WIDTH_MM * self.ink.scale)))
+        _, which, sizes, _ = cv2.connectedComponentsWithStats(dark, connectivity=measures.PIXEL_NEIGHBOURS)
         large = sizes[:, [cv2.CC_STAT_WIDTH, cv2.CC_STAT_HEIGHT]].max(axis=1) / self.ink.scale
         large[0] = 0.0
         return np.asarray(which, np.int32), np.asarray(large, np.float64)
@@ -240,7 +233,7 @@ class PencilPage:
 
     def _darkness(self, spot: Spot) -> float:
         """How dark it is near a spot."""
-        return float(self._about(self._smooth, spot, ABOUT).max())
+        return float(self._about(self._smooth, spot, measures.DOT_SEARCH_MM).max())
 
     def _marked(self, least: Sequence[float]) -> list[Trace]:
         """The dots that are so much darker than their strokes."""
@@ -259,7 +252,7 @@ class PencilPage:
     @cached_property
     def _faint(self) -> list[Trace]:
         """The dots that may be points."""
-        return [self._blurred(dot) for dot in (*self._rings, *self._marked(MAYBE))]
+        return [self._blurred(dot) for dot in (*self._rings, *self._marked(measures.FAINT_DOT_RATIOS))]
 
     @cached_property
     def _rings(self) -> list[Trace]:
@@ -284,7 +277,8 @@ class PencilPage:
         """Whether a ring is no part of a letter: a stroke runs through it, or else it stands alone where others mark
         points by rings."""
         return self._run(ring) or (self._points_ringed and self._blob(
-            (float(ring.middle[0]), float(ring.middle[1])), ring.radius + RIM) < 2 * ring.radius + LETTER)
+            (float(ring.middle[0]), float(ring.middle[1])),
+            ring.radius + measures.HALF_RIM_MM) < 2 * ring.radius + measures.LETTER_EXCESS_MM)
 
     @cached_property
     def _points_ringed(self) -> bool:
@@ -299,13 +293,13 @@ class PencilPage:
     def _long(self) -> STRtree:
         """The strokes that are too long for a letter's."""
         lines = (LineString(trace.spots) for trace in self._drawn)
-        return STRtree([line for line in lines if line.length > LONG])
+        return STRtree([line for line in lines if line.length > measures.MIN_LONG_STROKE_MM])
 
     @cached_property
     def _dots(self) -> list[Trace]:
         """What is dark and in no ring."""
         return [dot for dot in dots(self.ink, self._smooth, self._usual) if all(
-            math.dist(dot.spots[0], ring.middle) > ring.radius + WIDE for ring in self._ringed)]
+            math.dist(dot.spots[0], ring.middle) > ring.radius + measures.HALF_DOT_MM for ring in self._ringed)]
 
     def _blurred(self, trace: Trace) -> Trace:
         """With what the page itself is unsure by."""
@@ -315,36 +309,37 @@ class PencilPage:
 def _aligned(along: Values, off: Values, strength: Values, within: float,
              steep: float) -> tuple[float, float, NDArray[np.intp]] | None:
     """The slope and the level, at most so steep and so far off, that most crests share, and which do."""
-    if len(along) < strokes.FEW:
+    if len(along) < measures.MIN_CRESTS:
         return None
     reach = max(float(np.abs(along).max()), 1.0)
-    slopes = np.linspace(-steep, steep, 2 * math.ceil(steep * reach / CELL) + 1)
-    count = math.ceil(within / CELL)
-    cells = np.rint((off - np.outer(slopes, along)) / CELL).astype(int) + count
+    slopes = np.linspace(-steep, steep, 2 * math.ceil(steep * reach / measures.FAINT_CELL_MM) + 1)
+    count = math.ceil(within / measures.FAINT_CELL_MM)
+    cells = np.rint((off - np.outer(slopes, along)) / measures.FAINT_CELL_MM).astype(int) + count
     inside = (cells >= 0) & (cells <= 2 * count)
     flat = (np.arange(len(slopes))[:, None] * (2 * count + 1) + cells)[inside]
-    weight = np.broadcast_to(np.minimum(strength, 12.0), cells.shape)[inside]
+    weight = np.broadcast_to(np.minimum(strength, measures.MAX_CREST_STRENGTH), cells.shape)[inside]
     counted = np.bincount(flat, weight, len(slopes) * (2 * count + 1)).reshape(len(slopes), -1)
     votes = np.asarray(counted, np.float64)
     votes[:, 1:-1] += (votes[:, :-2] + votes[:, 2:]) / 2
     best, cell = divmod(int(votes.argmax()), votes.shape[1])
-    slope, level = float(slopes[best]), (cell - count) * CELL
-    which = np.flatnonzero(np.abs(off - slope * along - level) < NEAR)
+    slope, level = float(slopes[best]), (cell - count) * measures.FAINT_CELL_MM
+    which = np.flatnonzero(np.abs(off - slope * along - level) < measures.FAINT_REACH_MM)
     for _ in range(2):
-        if len(which) < strokes.FEW or np.ptp(along[which]) < 1.0:
+        if len(which) < measures.MIN_CRESTS or np.ptp(along[which]) < 1.0:
             return None
         slope, level = (float(value) for value in np.polyfit(along[which], off[which], 1))
-        which = np.flatnonzero(np.abs(off - slope * along - level) < NEAR)
+        which = np.flatnonzero(np.abs(off - slope * along - level) < measures.FAINT_REACH_MM)
     return slope, level, which
 
 
 def _whole(crests: strokes.CrestRow, ink: Ink, half: float) -> strokes.Stretch | None:
     """All the stretches of a row between the expected ends as one, where enough of it is seen."""
     drawn = [stretch for stretch in crests.drawn(ink)
-             if stretch.seen >= SEEN and stretch.long >= 1.0 and stretch.start < half and stretch.end > -half]
-    if sum(stretch.long for stretch in drawn) < SHORTEST:
+             if stretch.seen >= measures.MIN_FAINT_SHARE and stretch.long >= 1.0 and stretch.start < half
+             and stretch.end > -half]
+    if sum(stretch.long for stretch in drawn) < measures.MIN_FAINT_MM:
         return None
-    return strokes.Stretch(drawn[0].start, drawn[-1].end, SEEN)
+    return strokes.Stretch(drawn[0].start, drawn[-1].end, measures.MIN_FAINT_SHARE)
 
 
 def _short(page: PencilPage, centre: Values, radius: float, aim: float, along: Values, off: Values, slope: float,
@@ -356,7 +351,7 @@ def _short(page: PencilPage, centre: Values, radius: float, aim: float, along: V
     moved = centre + across * radius * math.sin(turned) + side * radius * (1 - math.cos(turned))
 
     seen = strokes.stretches(along, lambda at: page.ink.crossed(strokes.on_rim(centre, radius + level, aim, at)))
-    drawn = [stretch for stretch in seen if stretch.seen >= SEEN]
+    drawn = [stretch for stretch in seen if stretch.seen >= measures.MIN_FAINT_SHARE]
     if not drawn:
         return None
     stretch = max(drawn, key=lambda stretch: stretch.long)

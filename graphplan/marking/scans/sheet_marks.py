@@ -9,12 +9,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from graphplan.marking.scans.image import BLANK, Grey, Spots
-from graphplan.marking.scans.straighten import ALIKE, BITS, detected, enclosed
+from graphplan.marking.scans import measures
+from graphplan.marking.scans.image import Grey, Spots
+from graphplan.marking.scans.straighten import detected, enclosed
 
 PLACES = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], float)  # of the corners, from the lower left, counter-clockwise
-APART = 5.0  # times a mark's side, that two marks of a sheet are apart at least
-RIM = 0.03  # of a page's side, beside which nothing counts: shadows of the scanner's lid
 
 
 def sheet_marks(image: Grey) -> dict[int, int]:
@@ -29,16 +28,16 @@ def sheet_marks(image: Grey) -> dict[int, int]:
             if all(_agree(one, other) for one in found):
                 found.append(other)
         if len(found) > len(best):
-            best = {number >> BITS: number for number, _ in found}
+            best = {number >> measures.CORNER_BITS: number for number, _ in found}
     return best
 
 
 def blank(image: Grey) -> bool:
     """Whether hardly anything on a page is dark, its rim apart."""
-    high, wide = (round(RIM * side) for side in image.shape)
+    high, wide = (round(measures.PAGE_RIM_SHARE * side) for side in image.shape)
     middle = image[high : image.shape[0] - high : 2, wide : image.shape[1] - wide : 2]
-    dark, light = np.percentile(middle, [0.05, 90])
-    return bool(light - dark < BLANK)
+    dark, light = np.percentile(middle, measures.BLANK_PERCENTILES)
+    return bool(light - dark < measures.MIN_CONTRAST_SHADES)
 
 
 Mark = tuple[int, Spots]
@@ -48,9 +47,10 @@ def _agree(one: Mark, other: Mark) -> bool:
     """Whether two marks are as large as each other, and each where the other has it."""
     (first, rim), (second, far) = one, other
     small, large = sorted(abs(enclosed(corners)) for corners in (rim, far))
-    return (first >> BITS != second >> BITS and large < ALIKE**2 * small
-            and _faces(rim, far, PLACES[second >> BITS] - PLACES[first >> BITS])
-            and _faces(far, rim, PLACES[first >> BITS] - PLACES[second >> BITS]))
+    return (first >> measures.CORNER_BITS != second >> measures.CORNER_BITS
+            and large < measures.MARK_SIZE_RATIO**2 * small
+            and _faces(rim, far, PLACES[second >> measures.CORNER_BITS] - PLACES[first >> measures.CORNER_BITS])
+            and _faces(far, rim, PLACES[first >> measures.CORNER_BITS] - PLACES[second >> measures.CORNER_BITS]))
 
 
 def _faces(rim: Spots, far: Spots, way: NDArray[np.float64]) -> bool:
@@ -58,4 +58,4 @@ def _faces(rim: Spots, far: Spots, way: NDArray[np.float64]) -> bool:
     out = far.mean(axis=0) - rim.mean(axis=0)
     right, up = rim[1] - rim[0], rim[0] - rim[3]
     along = np.array([out @ right / (right @ right), out @ up / (up @ up)])
-    return bool(np.hypot(*along) > APART and (along * way >= np.abs(way)).all())
+    return bool(np.hypot(*along) > measures.MARKS_APART_SIDES and (along * way >= np.abs(way)).all())

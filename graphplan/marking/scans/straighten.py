@@ -17,13 +17,12 @@ from numpy.typing import NDArray
 from shapely import LinearRing
 
 from graphplan.errors import Refused
+from graphplan.marking.scans import measures
 from graphplan.marking.scans.image import Grey, Light, Spots, deviation
 from graphplan.marking.scans.printed_ink import Pieces, pieces
 from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.sheet.frames.frame import corner_numbers, corner_rects
 from graphplan.sheet.plates.display import Rect, Sheet
-
-GRID = 16  # pixels between the places where a warp is worked out; between them it is as good as straight
 
 
 @dataclass(frozen=True)
@@ -46,16 +45,17 @@ class Warp:
     def maps(self, scale: float) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Columns and rows in the picture for every pixel of the sheet, at so many pixels per mm, the top first."""
         wide, high = round(self.size[0] * scale), round(self.size[1] * scale)
-        columns, rows = np.meshgrid(np.arange(0, wide + GRID, GRID), np.arange(0, high + GRID, GRID))
+        columns, rows = np.meshgrid(np.arange(0, wide + measures.WARP_GRID_PX, measures.WARP_GRID_PX),
+                                    np.arange(0, high + measures.WARP_GRID_PX, measures.WARP_GRID_PX))
         spots = np.column_stack([(columns.ravel() + 0.5) / scale, self.size[1] - (rows.ravel() + 0.5) / scale])
         seen = self(spots).reshape(*columns.shape, 2)
         return _between(seen[..., 0], wide, high), _between(seen[..., 1], wide, high)
 
     def fineness(self) -> float:
         """Pixels per mm in the middle of the sheet."""
-        x, y = self.size[0] / 2, self.size[1] / 2
-        seen = self(np.array([(x - 5, y), (x + 5, y), (x, y - 5), (x, y + 5)]))
-        return float(min(np.hypot(*(seen[1] - seen[0])), np.hypot(*(seen[3] - seen[2]))) / 10)
+        (x, y), half = (self.size[0] / 2, self.size[1] / 2), measures.FINENESS_MM / 2
+        seen = self(np.array([(x - half, y), (x + half, y), (x, y - half), (x, y + half)]))
+        return float(min(np.hypot(*(seen[1] - seen[0])), np.hypot(*(seen[3] - seen[2]))) / measures.FINENESS_MM)
 
 
 def projected(plane: Spots, spots: Spots) -> Spots:
@@ -83,14 +83,9 @@ def powers(degree: int) -> list[tuple[int, int]]:
 
 def _between(coarse: Spots, wide: int, high: int) -> NDArray[np.float32]:
     """Values at every pixel from those at every `GRID`th."""
-    grow = np.array([[GRID, 0, 0], [0, GRID, 0]], float)
+    grow = np.array([[measures.WARP_GRID_PX, 0, 0], [0, measures.WARP_GRID_PX, 0]], float)
     return np.asarray(cv2.warpAffine(coarse.astype(np.float32), grow, (wide, high), flags=cv2.INTER_LINEAR,
                                      borderMode=cv2.BORDER_REPLICATE), np.float32)
-
-
-BITS = 8  # of the code in each mark
-ALIKE = 2.0  # how much larger one mark of a sheet may look than another
-SMALLEST = 48.0  # pixels of a mark's rim, below which its cells are not told apart
 
 
 def find(image: Grey, code: int | None, name: str) -> dict[int, Spots]:
@@ -102,10 +97,10 @@ def find(image: Grey, code: int | None, name: str) -> dict[int, Spots]:
     seen = detected(image)
     if code is None:
         small_first = sorted(seen, key=lambda mark: abs(enclosed(mark[1])))  # what looks like a mark by chance is small
-        return {number >> BITS: rim for number, rim in small_first}
+        return {number >> measures.CORNER_BITS: rim for number, rim in small_first}
     own = {number: corner for corner, number in enumerate(corner_numbers(code))}
     found = {own[number]: corners for number, corners in seen if number in own}
-    if not found and _of_one_sheet([(number >> BITS, corners) for number, corners in seen]):
+    if not found and _of_one_sheet([(number >> measures.CORNER_BITS, corners) for number, corners in seen]):
         raise Refused(name, "the marks in its corners are those of another task",
                       "verify it against its own scene, plan and paper")
     return found
@@ -114,12 +109,13 @@ def find(image: Grey, code: int | None, name: str) -> dict[int, Spots]:
 def detected(image: Grey) -> list[tuple[int, Spots]]:
     """Every mark in the picture with its number, its corners to a part of a pixel."""
     settings = cv2.aruco.DetectorParameters()
-    settings.minMarkerPerimeterRate = SMALLEST / max(image.shape)
-    settings.adaptiveThreshWinSizeMin, settings.adaptiveThreshWinSizeMax = 15, 55
-    settings.adaptiveThreshWinSizeStep = 20
-    settings.perspectiveRemovePixelPerCell, settings.perspectiveRemoveIgnoredMarginPerCell = 8, 0.3  # blurred cells
+    settings.minMarkerPerimeterRate = measures.MIN_MARK_RIM_PX / max(image.shape)
+    (settings.adaptiveThreshWinSizeMin, settings.adaptiveThreshWinSizeMax,
+     settings.adaptiveThreshWinSizeStep) = measures.THRESHOLD_WINDOWS_PX
+    settings.perspectiveRemovePixelPerCell = measures.CELL_PX
+    settings.perspectiveRemoveIgnoredMarginPerCell = measures.CELL_RIM_SHARE
     settings.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
-    settings.relativeCornerRefinmentWinSize = 0.1
+    settings.relativeCornerRefinmentWinSize = measures.CORNER_WINDOW_SHARE
     words = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_ARUCO_ORIGINAL)
     corners, found, _ = cv2.aruco.ArucoDetector(words, settings).detectMarkers(image)
     known = [] if found is None else found.ravel()
@@ -129,21 +125,15 @@ def detected(image: Grey) -> list[tuple[int, Spots]]:
 def _of_one_sheet(marks: list[tuple[int, Spots]]) -> bool:
     """Whether the large ones among marks are those of several corners; print may look like a small mark by chance."""
     sizes = [math.sqrt(abs(enclosed(rim))) for _, rim in marks]
-    return len({corner for (corner, _), size in zip(marks, sizes, strict=True) if size * ALIKE > max(sizes)}) > 1
-
-
-SIDE = 2400  # pixels of the picture's longer side, in which a frame is searched
-LEAST, MOST = 0.15, 4  # of the picture, that a frame covers; how many rectangles are tried
-HALF, OFF = 0.35, 0.02  # of a side: how much of it about its middle tells where it is, and how far off it may be
-SAME = 0.002  # of the picture, by which the two rims of one line are apart
-COARSE = 1.0  # pixels per mm at which print is compared
+    return len({corner for (corner, _), size in zip(marks, sizes, strict=True)
+                if size * measures.MARK_SIZE_RATIO > max(sizes)}) > 1
 
 
 def by_frame(image: Grey, sheet: Sheet, light: Light) -> list[Warp]:
     """The planes in which the printed frame may be seen, the largest first, each turned so that the print fits."""
-    size = round(sheet.width * COARSE), round(sheet.height * COARSE)
+    size = round(sheet.width * measures.PRINT_PX_PER_MM), round(sheet.height * measures.PRINT_PX_PER_MM)
     small = cv2.resize(light, size, interpolation=cv2.INTER_AREA)
-    ideal = np.asarray(cv2.GaussianBlur(small, (0, 0), COARSE), np.float32)
+    ideal = np.asarray(cv2.GaussianBlur(small, (0, 0), measures.PRINT_PX_PER_MM), np.float32)
     found = []
     for rim in _rectangles(image):
         turned = [np.roll(rim, turn, axis=0) for turn in range(4)]
@@ -163,21 +153,25 @@ def _outlines(sheet: Sheet) -> list[Spots]:
 
 def _rectangles(image: Grey) -> Iterator[Spots]:
     """The largest four-sided rims in the picture, in pixels, in the sense in which a frame's corners go round."""
-    shrink = min(1.0, SIDE / max(image.shape))
+    shrink = min(1.0, measures.FRAME_SEARCH_PX / max(image.shape))
     small = cv2.resize(image, None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA)
-    dark = cv2.adaptiveThreshold(small, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, 41, 12)
+    dark = cv2.adaptiveThreshold(small, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV,
+                                 measures.FRAME_WINDOW_PX, measures.FRAME_SHADES)
     rims, _ = cv2.findContours(dark, cv2.RETR_LIST, cv2.CHAIN_APPROX_SIMPLE)
-    large = sorted((rim for rim in rims if cv2.contourArea(rim) > LEAST * small.size), key=cv2.contourArea)
+    large = sorted((rim for rim in rims if cv2.contourArea(rim) > measures.MIN_FRAME_SHARE * small.size),
+                   key=cv2.contourArea)
     known: list[Spots] = []
     for rim in large[::-1]:
         hull = cv2.convexHull(rim)
-        four = cv2.approxPolyDP(hull, 0.02 * cv2.arcLength(rim, True), True).reshape(-1, 2).astype(float)
+        four = cv2.approxPolyDP(hull, measures.FRAME_CORNER_SHARE * cv2.arcLength(rim, True),
+                                True).reshape(-1, 2).astype(float)
         corners = _sharp(hull.reshape(-1, 2).astype(float), four) if len(four) == 4 else None
-        if corners is None or any(np.abs(corners - other).max() < SAME * SIDE for other in known):
+        if corners is None or any(np.abs(corners - other).max() < measures.SAME_RIM_SHARE * measures.FRAME_SEARCH_PX
+                                  for other in known):
             continue
         known.append(corners)
         yield (corners + 0.5) / shrink - 0.5
-        if len(known) == MOST:
+        if len(known) == measures.MAX_RECTANGLES:
             return
 
 
@@ -200,7 +194,7 @@ def _side(rim: Spots, one: Spots, two: Spots) -> tuple[float, float, float] | No
     long = np.hypot(*(two - one))
     ahead = (two - one) / long
     along, off = (rim - one) @ ahead / long, (rim - one) @ np.array([-ahead[1], ahead[0]])
-    middle = rim[(np.abs(along - 0.5) < HALF) & (np.abs(off) < OFF * long)]
+    middle = rim[(np.abs(along - 0.5) < measures.SIDE_MIDDLE_SHARE) & (np.abs(off) < measures.SIDE_OFF_SHARE * long)]
     if len(middle) < 2:
         return None
     at = middle.mean(axis=0)
@@ -210,20 +204,11 @@ def _side(rim: Spots, one: Spots, two: Spots) -> tuple[float, float, float] | No
 
 def _alike(image: Grey, warp: Warp, ideal: NDArray[np.float32]) -> float:
     """The correlation of a picture, straightened, with the print."""
-    columns, rows = warp.maps(COARSE)
-    seen = cv2.GaussianBlur(cv2.remap(image, columns, rows, cv2.INTER_LINEAR), (0, 0), COARSE).astype(np.float32)
-    seen -= cv2.GaussianBlur(seen, (0, 0), 20 * COARSE)
+    columns, rows = warp.maps(measures.PRINT_PX_PER_MM)
+    seen = cv2.GaussianBlur(cv2.remap(image, columns, rows, cv2.INTER_LINEAR), (0, 0),
+                            measures.PRINT_PX_PER_MM).astype(np.float32)
+    seen -= cv2.GaussianBlur(seen, (0, 0), measures.SHADE_MM * measures.PRINT_PX_PER_MM)
     return float(np.corrcoef(seen.ravel(), ideal.ravel())[0, 1])
-
-
-STEP, NEAR = 0.125, 1.0  # mm across a piece: how closely it is read off, and how far to each side of its middle
-ALONG, ROWS = 9, 32000  # places along a piece; rows of pixels that are read in one go
-FITS, VISIBLE = 0.6, 0.03  # correlation from which on a piece counts, and the least contrast of its print
-BLACK = 0.35  # of the paper's lightness, below which all of the print is inked
-PLAIN = 1.0  # the square of a shade of grey: what varies less is white
-ROUNDS = (2.5, 1), (2.5, 3), (1.5, 4), (0.75, 5), (0.375, 5)  # how far is searched, in mm, and the degree fitted
-STIFF = 1e-5  # how much bends are held back, beside all the evidence
-FEW = 40  # pieces below which only the plane is moved
 
 
 @dataclass(frozen=True)
@@ -240,32 +225,33 @@ class Registered:
 
 def registered(image: Grey, start: Warp, light: Light, scale: float, pieces: Pieces) -> Registered:
     """The warp by which a picture shows a sheet; `light` is the sheet as printed, at `scale` pixels per mm."""
-    warp, error, near = start, NEAR, np.zeros(0, bool)
+    warp, error, near = start, measures.PROFILE_REACH_MM, np.zeros(0, bool)
     ideal = _profiles(light, lambda spots: np.column_stack([spots[:, 0], start.size[1] - spots[:, 1]]) * scale - 0.5,
-                      pieces, NEAR)
-    seen = ideal.std(axis=1) > VISIBLE
+                      pieces, measures.PROFILE_REACH_MM)
+    seen = ideal.std(axis=1) > measures.MIN_PRINT_CONTRAST
     pieces, ideal = pieces.only(seen), ideal[seen]
-    for reach, degree in ROUNDS if len(ideal) >= FEW else ROUNDS[:1]:
-        shift, match = _shifts(ideal, _profiles(image, warp, pieces, NEAR + reach))
-        warp, error, near = _fitted(warp, pieces, shift, match > FITS, degree, reach / 4)
+    for reach, degree in measures.WARP_ROUNDS if len(ideal) >= measures.MIN_BENT_PIECES else measures.WARP_ROUNDS[:1]:
+        shift, match = _shifts(ideal, _profiles(image, warp, pieces, measures.PROFILE_REACH_MM + reach))
+        warp, error, near = _fitted(warp, pieces, shift, match > measures.MIN_CORRELATION, degree, reach / 4)
     share, mine = float(near.sum() / max(1, len(ideal))), pieces.only(pieces.own)
-    own = near[pieces.own] | _overdrawn(ideal[pieces.own], _profiles(image, warp, mine, NEAR))
+    own = near[pieces.own] | _overdrawn(ideal[pieces.own], _profiles(image, warp, mine, measures.PROFILE_REACH_MM))
     return Registered(warp, error, share, float(own.mean()) if len(own) else share)
 
 
 def _profiles(image: Grey | Light, warp: Callable[[Spots], Spots], pieces: Pieces, reach: float) -> NDArray[np.float32]:
     """The lightness across each piece, averaged along it; so near by, a warp is as good as straight."""
-    count = round(reach / STEP)
+    count = round(reach / measures.PROFILE_STEP_MM)
     side = np.column_stack([-pieces.along[:, 1], pieces.along[:, 0]])
-    ends = pieces.along * (0.8 * pieces.halves)[:, None]
+    ends = pieces.along * (measures.PROFILE_SHARE * pieces.halves)[:, None]
     middle, end, off = (warp(spots) for spots in (pieces.middles, pieces.middles + ends, pieces.middles + side * reach))
-    along, across = np.linspace(-1, 1, ALONG), np.arange(-count, count + 1) / count
+    along, across = np.linspace(-1, 1, measures.PROFILE_PLACES), np.arange(-count, count + 1) / count
     seen = (middle[:, None, None] + along[None, :, None, None] * (end - middle)[:, None, None]
             + across[None, None, :, None] * (off - middle)[:, None, None])
-    seen = seen.reshape(len(side) * ALONG, -1, 2).astype(np.float32)
-    read = [cv2.remap(image, seen[i : i + ROWS, :, 0], seen[i : i + ROWS, :, 1], cv2.INTER_LINEAR,
-                      borderMode=cv2.BORDER_REPLICATE) for i in range(0, len(seen), ROWS)]
-    values = np.concatenate(read).astype(np.float32).reshape(len(side), ALONG, -1)
+    seen = seen.reshape(len(side) * measures.PROFILE_PLACES, -1, 2).astype(np.float32)
+    read = [cv2.remap(image, seen[i : i + measures.PROFILE_ROWS, :, 0], seen[i : i + measures.PROFILE_ROWS, :, 1],
+                      cv2.INTER_LINEAR,
+                      borderMode=cv2.BORDER_REPLICATE) for i in range(0, len(seen), measures.PROFILE_ROWS)]
+    values = np.concatenate(read).astype(np.float32).reshape(len(side), measures.PROFILE_PLACES, -1)
     return np.asarray(values.mean(axis=1), np.float32)
 
 
@@ -275,20 +261,20 @@ def _shifts(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> tuple[Spot
     pattern = ideal - ideal.mean(axis=1, keepdims=True)
     pattern /= np.sqrt((pattern**2).sum(axis=1, keepdims=True))
     windows = np.lib.stride_tricks.sliding_window_view(seen, wide, axis=1)
-    spread = np.sqrt(np.maximum(windows.var(axis=2) * wide, PLAIN))
+    spread = np.sqrt(np.maximum(windows.var(axis=2) * wide, measures.WHITE_VARIANCE))
     match = np.einsum("ijk,ik->ij", windows, pattern) / spread
     best = np.clip(match.argmax(axis=1), 1, match.shape[1] - 2)
     row = np.arange(len(match))
     left, top, right = (match[row, best + i] for i in (-1, 0, 1))
     part = (left - right) / np.minimum(2 * (left - 2 * top + right), -MIN_DIVISOR)
-    return (best + np.clip(part, -1, 1) - match.shape[1] // 2) * STEP, top
+    return (best + np.clip(part, -1, 1) - match.shape[1] // 2) * measures.PROFILE_STEP_MM, top
 
 
 def _overdrawn(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> NDArray[np.bool_]:
     """Which profiles are as dark as print wherever print is: a pencil drawn along it hides its pattern, not its ink."""
     ink = ideal.max(axis=1, keepdims=True, initial=0.0) - ideal
     light = (ink * seen).sum(axis=1) / np.maximum(ink.sum(axis=1), MIN_DIVISOR)
-    return np.asarray(light < BLACK * seen.max(axis=1, initial=0.0))
+    return np.asarray(light < measures.BLACK_SHARE * seen.max(axis=1, initial=0.0))
 
 
 def _fitted(warp: Warp, pieces: Pieces, shift: Spots, good: NDArray[np.bool_],
@@ -301,20 +287,15 @@ def _fitted(warp: Warp, pieces: Pieces, shift: Spots, good: NDArray[np.bool_],
     hold = np.tile([0.0 if i + j < 2 else 1.0 for i, j in powers(degree)], 2)
     trust = good * pieces.halves
     weight, left = trust, np.zeros(len(shift))
-    for _ in range(6):
-        normal = design.T @ (design * weight[:, None]) + np.diag((STIFF * hold + MIN_DIVISOR) * max(weight.sum(), 1.0))
+    for _ in range(measures.WARP_ITERATIONS):
+        normal = (design.T @ (design * weight[:, None])
+                  + np.diag((measures.PAPER_STIFFNESS * hold + MIN_DIVISOR) * max(weight.sum(), 1.0)))
         solution = np.linalg.solve(normal, design.T @ (weight * wanted))
         left = wanted - design @ solution
         weight = trust * np.clip(1 - (left / allowed) ** 2, 0, None) ** 2
     near = good & (np.abs(left) < allowed)
-    error = deviation(left[near]) if near.any() else NEAR
+    error = deviation(left[near]) if near.any() else measures.PROFILE_REACH_MM
     return replace(warp, degree=degree, bend=solution.reshape(2, -1).T), error, near
-
-
-LEAST_DPI, INCH = 100.0, 25.4
-ENOUGH, ALL = 3, 4  # marks by which a sheet may be laid, and is laid without a doubt
-OWN, SURE = 0.5, 0.95  # the share of the print that is found on its own sheet, and by which it is known
-MARGIN = 1.0  # mm by which a plan may be off the picture
 
 
 def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int | None, name: str
@@ -328,7 +309,7 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
     if result is None:
         raise Refused(name, "neither the corner marks nor the frame of this task was found",
                       "photograph the whole sheet with its four corner marks, lying flat, in even light")
-    if result.own < OWN:
+    if result.own < measures.OWN_PRINT_SHARE:
         raise Refused(name, "the print of this task was not found on it",
                       "verify it against its own scene, plan and paper, and photograph the sheet lying flat")
     _whole(result.warp, image, sheet, name)
@@ -343,16 +324,16 @@ def _laid(image: Grey, sheet: Sheet, light: Light, scale: float, found: dict[int
     for start in _starts(image, sheet, light, found):
         result = registered(image, start, light, scale, ink)
         best = result if best is None or result.share > best.share else best
-        if best.share > SURE:
+        if best.share > measures.SURE_PRINT_SHARE:
             break
     return best
 
 
 def _starts(image: Grey, sheet: Sheet, light: Light, found: dict[int, Spots]) -> Iterator[Warp]:
     """The ways to lay the sheet, the surest first."""
-    if len(found) >= ENOUGH:
+    if len(found) >= measures.MIN_MARKS:
         yield _by_marks(found, sheet)
-    if len(found) < ALL:
+    if len(found) < measures.ALL_MARKS:
         yield from by_frame(image, sheet, light)
 
 
@@ -371,11 +352,12 @@ def _plane(printed: Spots, seen: Spots, sheet: Sheet) -> Warp:
 
 def _whole(warp: Warp, image: Grey, sheet: Sheet, name: str) -> None:
     """Refuse a picture that is too coarse, or that does not show all the plans."""
-    dpi = warp.fineness() * INCH
-    if dpi < LEAST_DPI:
+    dpi = warp.fineness() * measures.INCH_MM
+    if dpi < measures.MIN_DPI:
         raise Refused(name, f"{dpi:.0f} dots per inch are too few to see pencil lines", "scan it at 200 dpi")
     high, wide = image.shape
     for panel, rect in sheet.panels.items():
-        seen = warp(np.array(rect.inset(MARGIN, MARGIN, MARGIN, MARGIN).corners))
+        seen = warp(np.array(rect.inset(measures.PANEL_MARGIN_MM, measures.PANEL_MARGIN_MM, measures.PANEL_MARGIN_MM,
+                                        measures.PANEL_MARGIN_MM).corners))
         if (seen < 0).any() or (seen > [wide - 1, high - 1]).any():
             raise Refused(name, f"the {panel} is cut off", "scan or photograph the whole sheet")

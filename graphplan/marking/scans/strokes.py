@@ -14,11 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.kernel.kinds import CIRCLE, LINE
+from graphplan.marking.scans import measures
 from graphplan.marking.scans.image import Spots
 from graphplan.marking.scans.pencil_pixels import Ink, Ridges
 from graphplan.marking.traces import Trace
-
-BIN, GAP = 0.25, 2.0  # mm: how closely a line is looked at, and the widest gap in it
 
 
 @dataclass(frozen=True)
@@ -38,23 +37,17 @@ def stretches(along: NDArray[np.float64], hidden: Callable[[NDArray[np.float64]]
               ) -> Iterator[Stretch]:
     """The stretches that crests at these places make; where print hides a line, it may well go on."""
     low = float(along.min())
-    count = int((float(along.max()) - low) / BIN) + 1
+    count = int((float(along.max()) - low) / measures.STROKE_CELL_MM) + 1
     drawn = np.zeros(count, bool)
-    drawn[np.minimum(((along - low) / BIN).astype(int), count - 1)] = True
-    open_ = ~hidden(np.asarray(low + (np.arange(count) + 0.5) * BIN, np.float64)) | drawn
+    drawn[np.minimum(((along - low) / measures.STROKE_CELL_MM).astype(int), count - 1)] = True
+    open_ = ~hidden(np.asarray(low + (np.arange(count) + 0.5) * measures.STROKE_CELL_MM, np.float64)) | drawn
     counted = np.cumsum(open_)  # so much of it could have been seen
     marked = np.flatnonzero(drawn)
-    breaks = np.flatnonzero(np.diff(counted[marked]) > GAP / BIN + 1)
+    breaks = np.flatnonzero(np.diff(counted[marked]) > measures.MAX_GAP_MM / measures.STROKE_CELL_MM + 1)
     for first, last in zip([0, *(breaks + 1)], [*breaks, len(marked) - 1], strict=True):
         start, end = int(marked[first]), int(marked[last])
         share = (last - first + 1) / max(1, int(open_[start : end + 1].sum()))
-        yield Stretch(low + start * BIN, low + (end + 1) * BIN, share)
-
-
-REACHES = 0.6, 0.6, 0.3, 0.3  # mm from a line, in which crests are taken, from fit to fit
-ASKEW = math.cos(math.radians(18.0))  # how well a crest's normal goes with its line's
-FEW = 8  # crests below which there is no line
-BENT, BETTER = 0.12, 0.7  # mm by which a line bends, more than wobble does, and how much better a bow fits
+        yield Stretch(low + start * measures.STROKE_CELL_MM, low + (end + 1) * measures.STROKE_CELL_MM, share)
 
 
 @dataclass(frozen=True)
@@ -93,9 +86,10 @@ def row(found: Ridges, left: NDArray[np.intp], angle: float, shift: float) -> Cr
     """The crests, of those that are left, near the line whose normal has this angle, so many mm from the origin."""
     normal = np.array([math.cos(angle), math.sin(angle)])
     at, which = normal * shift, left
-    for reach in REACHES:
-        near = (np.abs((found.spots[which] - at) @ normal) < reach) & (np.abs(found.normals[which] @ normal) > ASKEW)
-        if near.sum() < FEW:
+    for reach in measures.ROW_REACHES_MM:
+        near = (np.abs((found.spots[which] - at) @ normal) < reach) & (np.abs(found.normals[which] @ normal)
+                                                                       > measures.MIN_NORMAL_COSINE)
+        if near.sum() < measures.MIN_CRESTS:
             return None
         chosen = which[near]
         if which is left:  # a line turns by no more than a few times its width
@@ -123,13 +117,7 @@ def bends(crests: CrestRow, stretch: Stretch) -> bool:
     bow = np.polyfit(along, off, 2)
     sag = abs(bow[0]) * (stretch.long / 2) ** 2
     straight, bent = (np.std(off - np.polyval(fit, along)) for fit in (np.polyfit(along, off, 1), bow))
-    return bool(sag > BENT and bent < BETTER * straight)
-
-
-NEAR, ROUNDS = 0.35, 8  # mm from a rim in which crests are taken, and how often it may grow
-SMALLEST, LARGEST = 1.5, 1000.0  # mm of radius
-ROUGH, SEEN = 0.12, 0.55  # mm that a rim's crests are off it, and the share of a line or a rim that is seen
-APART = 20.0  # degrees between the spots that say where a rim is
+    return bool(sag > measures.MIN_SAG_MM and bent < measures.BOW_RATIO * straight)
 
 
 @dataclass(frozen=True)
@@ -145,7 +133,8 @@ class Rim:
 
     def trace(self) -> Trace:
         """The rim as spots of it, as far as it was drawn."""
-        count = max(5, math.ceil(math.degrees(self.stretch.long / self.radius) / APART))
+        count = max(measures.MIN_RIM_SPOTS,
+                    math.ceil(math.degrees(self.stretch.long / self.radius) / measures.RIM_SPOTS_DEGREES))
         spots = on_rim(self.centre, self.radius, self.zero, np.linspace(self.stretch.start, self.stretch.end, count))
         blur = self.rough / math.sqrt(max(1.0, self.stretch.long))
         return Trace(CIRCLE, tuple((float(x), float(y)) for x, y in spots), blur=blur)
@@ -165,16 +154,17 @@ def turned(out: Spots, zero: float) -> NDArray[np.float64]:
 def grown(found: Ridges, left: NDArray[np.intp], seed: NDArray[np.intp], ink: Ink) -> Rim | None:
     """The circle that some crests begin and others, of those that are left, carry on; None where they make none."""
     rim, chosen = None, seed
-    for _ in range(ROUNDS):
+    for _ in range(measures.RIM_ROUNDS):
         centre, radius = through(found.spots[chosen])
-        if not SMALLEST < radius < LARGEST:
+        if not measures.MIN_RIM_RADIUS_MM < radius < measures.MAX_RIM_RADIUS_MM:
             return None
         middle = found.spots[seed].mean(axis=0) - centre
         larger = _around(found, left, centre, radius, math.atan2(middle[1], middle[0]), ink)
         if larger is None or (rim is not None and len(larger.which) <= len(rim.which)):
             break
         rim, chosen = larger, larger.which
-    return rim if rim and rim.rough < ROUGH and rim.stretch.seen > SEEN else None
+    return (rim if rim and rim.rough < measures.MAX_RIM_ROUGHNESS_MM and rim.stretch.seen > measures.MIN_STROKE_SHARE
+            else None)
 
 
 def through(spots: Spots) -> tuple[Spots, float]:
@@ -189,8 +179,8 @@ def _around(found: Ridges, left: NDArray[np.intp], centre: Spots, radius: float,
     """The run of crests on a circle that has this side of it."""
     out = found.spots[left] - centre
     far = np.hypot(out[:, 0], out[:, 1])
-    square = np.abs((out * found.normals[left]).sum(axis=1)) > ASKEW * far
-    near = (np.abs(far - radius) < NEAR) & square
+    square = np.abs((out * found.normals[left]).sum(axis=1)) > measures.MIN_NORMAL_COSINE * far
+    near = (np.abs(far - radius) < measures.RIM_REACH_MM) & square
     if not near.any():
         return None
     along = turned(out[near], zero) * radius
@@ -203,35 +193,30 @@ def _around(found: Ridges, left: NDArray[np.intp], centre: Spots, radius: float,
     return Rim(centre, radius, zero, stretch, left[near][on], float(np.std(far[near][on] - radius)))
 
 
-TURN, SHIFT = math.radians(0.5), 0.25  # the cells of the vote: angle, and mm
-UNSURE = 6  # cells by which a crest's own direction may be off, to each side
-LEAST, VOICE = 5.0, 36.0  # mm of a line, and the votes of each mm, below which it is not heard
-LOUD = 12.0  # no crest counts for more
-
-
 class Vote:
     """Hough's accumulator: angles of normals by distances from the origin."""
 
     def __init__(self, found: Ridges):
-        self.count = round(math.pi / TURN)
-        self.reach = int(np.hypot(*np.abs(found.spots).max(axis=0, initial=1.0)) / SHIFT) + 2
+        self.count = round(math.pi / measures.VOTE_TURN_RAD)
+        self.reach = int(np.hypot(*np.abs(found.spots).max(axis=0, initial=1.0)) / measures.VOTE_SHIFT_MM) + 2
         angle = np.arctan2(found.normals[:, 1], found.normals[:, 0])
-        cells = np.rint(angle / TURN).astype(int)[:, None] + np.arange(-UNSURE, UNSURE + 1)
-        turn = cells % self.count * TURN
+        cells = np.rint(angle / measures.VOTE_TURN_RAD).astype(int)[:, None] + np.arange(-measures.NORMAL_CELLS,
+                                                                                         measures.NORMAL_CELLS + 1)
+        turn = cells % self.count * measures.VOTE_TURN_RAD
         shift = found.spots[:, :1] * np.cos(turn) + found.spots[:, 1:] * np.sin(turn)
-        level = np.rint(shift / SHIFT).astype(int) + self.reach
+        level = np.rint(shift / measures.VOTE_SHIFT_MM).astype(int) + self.reach
         self.cells = cells % self.count * (2 * self.reach + 1) + level
-        self.weight = np.minimum(found.strength, LOUD)
+        self.weight = np.minimum(found.strength, measures.MAX_CREST_VOTES)
         self.votes = self._count(np.arange(len(found)))
         self.best = 0
 
     def peak(self) -> tuple[float, float] | None:
         """The angle and the distance that most crests vote for; None where there are too few."""
         self.best = int(self.votes.argmax())
-        if self.votes[self.best] < LEAST * VOICE:
+        if self.votes[self.best] < measures.MIN_LINE_MM * measures.VOTES_PER_MM:
             return None
         turn, level = divmod(self.best, 2 * self.reach + 1)
-        return turn * TURN, (level - self.reach) * SHIFT
+        return turn * measures.VOTE_TURN_RAD, (level - self.reach) * measures.VOTE_SHIFT_MM
 
     def remove(self, which: NDArray[np.intp]) -> None:
         """Take crests away."""
@@ -242,7 +227,7 @@ class Vote:
         turn, level = divmod(self.best, 2 * self.reach + 1)
         for i in (-1, 0, 1):
             cell = (turn + i) % self.count * (2 * self.reach + 1) + level
-            self.votes[max(0, cell - 1) : cell + 2] = -1e9
+            self.votes[max(0, cell - 1) : cell + 2] = measures.SILENCED_VOTES
 
     def _count(self, which: NDArray[np.intp]) -> NDArray[np.float64]:
         cells = self.cells[which]
@@ -251,14 +236,10 @@ class Vote:
         return np.asarray(votes, np.float64)
 
 
-MOST = 600  # lines that are tried
-LONGER = 1.25  # how much longer a rim is than the piece of it that looked straight
-
-
 def strokes(found: Ridges, ink: Ink) -> list[Trace]:
     """The lines and rims among crests, the longest lines first; what is taken is no longer there."""
     vote, left, traces = Vote(found), np.ones(len(found), bool), list[Trace]()
-    for _ in range(MOST):
+    for _ in range(measures.MAX_LINES):
         peak = vote.peak()
         if peak is None:
             break
@@ -267,9 +248,10 @@ def strokes(found: Ridges, ink: Ink) -> list[Trace]:
             assert crests
             own = crests.which[crests.part(stretch)]
             own = own[left[own]]
-            if stretch.long >= LEAST and stretch.seen >= SEEN and len(own) >= FEW:
+            if (stretch.long >= measures.MIN_LINE_MM and stretch.seen >= measures.MIN_STROKE_SHARE
+                and len(own) >= measures.MIN_CRESTS):
                 rim = grown(found, np.flatnonzero(left), own, ink) if bends(crests, stretch) else None
-                if rim and rim.stretch.long < LONGER * stretch.long:
+                if rim and rim.stretch.long < measures.RIM_RATIO * stretch.long:
                     rim = None  # a hand that wobbles bends lines, too, but no further than they go
                 traces.append(rim.trace() if rim else line(crests, stretch))
                 taken = rim.which if rim else own

@@ -1,0 +1,83 @@
+"""The numbers of the judge and of the scans stand in one table each, with unit, meaning and how they were found."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+from sources import PACKAGE, parsed
+
+FOLDERS = {"judge": {"practice", "tuned", "defined", "cost"}, "scans": {"measured", "tuned", "defined", "cost"}}
+# Numbers that measure nothing: counts of coordinates and corners, halves, decimals, degrees of a turn, 8 bits.
+PLAIN = {0, 1, 2, 3, 4, 0.5, 10, 100, 180, 255, 360}
+LAYOUT = {"judge/overlay.py", "judge/findings.py"}  # what is drawn of a report stands by its drawing
+FORMATS = {"scans/image.py"}  # the places of sizes in the headers of files
+NO_MEASURES = {"SENSES", "UNMARKED", "DEEDS", "SURVIVAL", "STDERR", "PLACES"}  # signs, formulas
+
+
+def tables() -> list[Path]:
+    return [PACKAGE / "marking" / folder / "measures.py" for folder in FOLDERS]
+
+
+def measured(text: str) -> set[float]:
+    """The numbers of a source that are not plain, and those of its constants."""
+    tree = ast.parse(text)
+    constants = [node for node in tree.body if isinstance(node, ast.Assign | ast.AnnAssign)
+                 and not NO_MEASURES.intersection(name.id for name in ast.walk(node) if isinstance(name, ast.Name))]
+    found = {number for node in constants for number in numbers(node)}
+    return found | {number for number in numbers(tree) if number not in PLAIN}
+
+
+def numbers(tree: ast.AST) -> set[float]:
+    return {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)
+            and isinstance(node.value, int | float) and not isinstance(node.value, bool)}
+
+
+def comments(text: str) -> dict[str, str]:
+    """The constants of a table with their comments: beside each, or on the lines above it."""
+    lines, found = text.splitlines(), {}
+    for node in ast.parse(text).body:
+        if isinstance(node, ast.Assign | ast.AnnAssign):
+            above, words = node.lineno - 2, [lines[node.lineno - 1].partition("  # ")[2]]
+            while lines[above].startswith("# ") and not lines[above].startswith("# ----"):
+                words.insert(0, lines[above].removeprefix("# "))
+                above -= 1
+            target = node.targets[0] if isinstance(node, ast.Assign) else node.target
+            found[ast.unparse(target)] = " ".join(filter(None, words))
+    return found
+
+
+@pytest.mark.parametrize(("text", "found"), [
+    ("NEAR_MM = 2", {2}), ("def f(x):\n    return x < 0.7", {0.7}), ("def f(x):\n    return 2 * x", set()),
+    ("NAMES = 'a', 'b'", set()),
+])
+def test_numbers_are_seen(text: str, found: set[float]) -> None:
+    """A constant is seen whatever its number is, a number within a function where it is not plain."""
+    assert measured(text) == found
+
+
+@pytest.mark.parametrize("folder", FOLDERS)
+def test_numbers_stand_in_tables(folder: str) -> None:
+    """Outside its table no file of the folder has a number of its own."""
+    files = [path for path in sorted((PACKAGE / "marking" / folder).glob("*.py")) if path.name != "measures.py"]
+    assert {path.name: found for path in files if f"{folder}/{path.name}" not in LAYOUT | FORMATS
+            and (found := measured(path.read_text(encoding="utf-8")))} == {}
+
+
+@pytest.mark.parametrize("path", tables(), ids=lambda path: path.parent.name)
+def test_each_number_has_its_meaning(path: Path) -> None:
+    """Each number says what it means and how it was found, by a way that the table knows; its name has two words."""
+    found, ways = comments(path.read_text(encoding="utf-8")), FOLDERS[path.parent.name]
+    assert len(found) > 100
+    assert [name for name, words in found.items() if not re.fullmatch(rf".{{8,}} \[({'|'.join(ways)})\]", words)] == []
+    assert [name for name in found if "_" not in name] == []
+
+
+@pytest.mark.parametrize("path", tables(), ids=lambda path: path.parent.name)
+def test_each_number_is_used(path: Path) -> None:
+    """Every number of a table is read in its folder."""
+    read = {node.attr for other in path.parent.parent.rglob("*.py") for node in ast.walk(parsed(other))
+            if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "measures"}
+    assert set(comments(path.read_text(encoding="utf-8"))) - read == set()

@@ -39,11 +39,16 @@ def dxf(sheets: Sequence[Sheet], plates: Plates | None = None) -> bytes:
     with undated():
         text = io.StringIO()
         document = _Drawing(sheets, plates).document
-        for kind in sorted(document.entitydb.dxf_types_in_use()):  # else declared in the order of a set
-            document.classes.add_class(kind)
+        declare_classes(document)
         document.write(text)
         scene = "".join(f"999\nscene: {line}\n" for line in sheets[0].scene.splitlines())  # `import` reads these
         return bytes(document.encode(text.getvalue().removesuffix(END) + scene + END))
+
+
+def declare_classes(document: ezdxf.document.Drawing) -> None:
+    """Declare the classes of all entities by name: ezdxf does so in the order of a set."""
+    for kind in sorted(document.entitydb.dxf_types_in_use()):
+        document.classes.add_class(kind)
 
 
 @contextmanager

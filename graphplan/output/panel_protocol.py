@@ -18,9 +18,8 @@ from graphplan.output.panelled import Panelled
 
 def protocol(sheet: Panelled) -> dict[str, Any]:
     """The paper of a sheet and the steps of its construction, those that are given first."""
-    drawn, say = sheet.recorded, sheet.tongue
-    program, plans = drawn.program, drawn.plans
-    on_paper = OnPaper(drawn.values, plans.__getitem__, drawn.scales.lengths_per_mm)
+    program, say = sheet.values.drawing.program, sheet.tongue
+    on_paper = OnPaper(sheet.values.numbers, lambda index: program.steps[index].panel, sheet.scales.lengths_per_mm)
     stages = {step.index: number for number, (_, steps) in enumerate(program.stages) for step in steps}
     entries = []
     for step in program.steps:
@@ -28,20 +27,20 @@ def protocol(sheet: Panelled) -> dict[str, Any]:
         entries.append({
             "number": number, "makes": say(program.text(step.index)), "kind": step.op.gives,
             "operation": step.op.name, "instrument": step.op.instrument,
-            "reads": [say(program.text(arg)) for arg in step.args], "plan": plans[step.index],
+            "reads": [say(program.text(arg)) for arg in step.args], "plan": step.panel,
             "sentence": say(sheet.spoken(step) if number else program.told(step.index)),
             "lengths": [{"mm": one.mm, "marks": list(one.marks)} for length in _lengths(sheet, step) if number
                         for one in length.measures],
             "stage": stages.get(step.index), "why": say(step.why), **on_paper.told(step),
-            "value": list(map(float, drawn.values[step.index])),
-            "paper": place(step, drawn.values[step.index], on_paper.per(step.index)),
+            "value": list(map(float, sheet.values[step.index])),
+            "paper": place(step, sheet.values[step.index], on_paper.per(step.index)),
         })  # fmt: skip
     titles = [{"title": say(stage.title), "law": say(stage.law)} for stage, _ in program.stages]
     return {"paper": sheet.paper, "stages": titles, "steps": entries}
 
 
 def _lengths(sheet: Panelled, step: Step) -> Sequence[Any]:
-    return sheet.measure(sheet.recorded.plans[step.index]).for_step(step)
+    return sheet.measure(step.panel).for_step(step)
 
 
 def place(step: Step, value: Sequence[Any], per_mm: float) -> list[float]:

@@ -14,15 +14,16 @@ A kind of sheet says what it shows; paper, frame, captions, title block, and whe
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate, groupby, pairwise
 from typing import Any, ClassVar
 
 from graphplan.errors import Refused
+from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import Quantity
-from graphplan.kernel.program import Panel, Program, Step
+from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
 from graphplan.sheet.frames.frame import SheetFrame, frame_of
@@ -50,21 +51,6 @@ class Blank(list[Sequence[Said | str]]):
 
 
 Words = Said | str | Sequence[Sequence[Said | str]]  # a paragraph; or the rows of a table, its head first
-
-
-@dataclass(frozen=True)
-class Recorded:
-    """A program with the values of its steps, and how long a mm of paper is on its plans; some are drawn `in_mm`."""
-
-    program: Program
-    values: Sequence[Any]
-    scales: Scales = field(default_factory=lambda: Scales(1.0, 1.0, "mm", {}))
-    in_mm: Collection[Panel] = ()
-
-    @cached_property
-    def plans(self) -> list[Panel]:
-        """The plan that each step lies on."""
-        return [step.panel for step in self.program.steps]
 
 
 class PaperLengths(Lengths):
@@ -103,8 +89,13 @@ class Panelled(ABC):
 
     @property
     @abstractmethod
-    def recorded(self) -> Recorded:
-        """The construction."""
+    def values(self) -> Values:
+        """The drawing, with the values of its marks."""
+
+    @property
+    def scales(self) -> Scales:
+        """How many lengths a mm of paper is on its plans."""
+        return Scales(1.0, 1.0, "mm", {})
 
     @property
     @abstractmethod
@@ -223,14 +214,14 @@ class Panelled(ABC):
     def _page(self, rows: Sequence[TextRow], count: int) -> Sheet:
         """The first of so many pages, with these words, as one display list."""
         wide, high = sheet_size(self.paper)
-        program, scales = self.recorded.program, self.recorded.scales
+        program = self.values.drawing.program
         items = [*self._framed(self.title, self.panels, 1, count)]
         for panel in self.panels:
             items += self.figure(panel, self.room(panel))
         items += row_items(self.placed(rows) or [])
         sentences = tuple(self.tongue(program.told(step.index)) for step in program.steps)
         return Sheet(wide, high, self.space, {str(panel): rect for panel, rect in self.panels.items()},
-                     tuple(back_to_front(items)), self.scene.title, self.tongue(self.told), sentences, scales,
+                     tuple(back_to_front(items)), self.scene.title, self.tongue(self.told), sentences, self.scales,
                      self.tongue.code, self.scene.text, program.givens)
 
     def _framed(self, title: Rect, panels: Mapping[Panel, Rect], number: int, of: int) -> Iterator[Item]:
@@ -279,15 +270,15 @@ class Panelled(ABC):
     @cached_property
     def _names(self) -> tuple[str, ...]:
         """The names that words are set with."""
-        return (*(step.name for step in self.recorded.program.steps if step.name), *self.letters_of)
+        return (*(step.name for step in self.values.drawing.program.steps if step.name), *self.letters_of)
 
     def _steps(self) -> Iterator[TextRow]:
         """Stage by stage what is done in it, each kind of step once, and which steps are the same elsewhere."""
-        program, plans = self.recorded.program, self.recorded.plans
+        program = self.values.drawing.program
         for stage, steps in program.stages:
             yield replace(self._heading(stage.title, SIZE), gap=LEAD / 2)
             yield from self._set(arranged("{0:capital}.", stage.law))
-            runs = told_once(steps) if self.repeats(plans[steps[0].index]) else [(steps, ())]
+            runs = told_once(steps) if self.repeats(steps[0].panel) else [(steps, ())]
             for shown, left in runs:
                 for step in shown:
                     yield from self._set(self.spoken(step), str(program.number(step.index)), step.index)
@@ -296,18 +287,18 @@ class Panelled(ABC):
 
     def measure(self, panel: Panel) -> Lengths:
         """How long on paper what is drawn on a panel is."""
-        return self._lengths[panel in self.recorded.in_mm]
+        return self._lengths[self.values.drawing.on_paper(panel)]
 
     @cached_property
     def _lengths(self) -> tuple[Lengths, Lengths]:
         """How long on paper what is drawn in lengths is, and what is drawn in mm."""
-        drawn = self.recorded
-        read = drawn.program, drawn.values, drawn.plans.__getitem__, drawn.scales
+        program = self.values.drawing.program
+        read = program, self.values.numbers, lambda index: program.steps[index].panel, self.scales
         return Lengths(*read), PaperLengths(*read)
 
     def spoken(self, step: Step) -> Said:
         """A step in words, with its length on paper."""
-        told, lengths = self.recorded.program.told(step.index), self.measure(self.recorded.plans[step.index])
+        told, lengths = self.values.drawing.program.told(step.index), self.measure(step.panel)
         return joined((told, *(arranged("{0}.", length.text) for length in lengths.for_step(step))), " ")
 
 

@@ -8,15 +8,15 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+from graphplan.kernel.drawing import Values
 from graphplan.kernel.incidence import incident
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.program import Panel, Step
-from graphplan.output.panelled import Recorded
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import place_letters
 from graphplan.sheet.lettering.lettering import LetterSizes, name_runs
@@ -41,7 +41,7 @@ class StepInk:
     mm lines go `beyond` their outermost marks; `vectors`, the pens of arrows that end in points; what is `hidden`.
     """
 
-    recorded: Recorded
+    values: Values
     views: Mapping[Panel, View]
     letters: LetterSizes
     pens: Mapping[int, Pen] = field(default_factory=dict)
@@ -50,23 +50,22 @@ class StepInk:
     vectors: Mapping[int, Pen] = field(default_factory=dict)
     hidden: Collection[int] = ()
 
-    @cached_property
-    def plans(self) -> list[Panel]:
-        """The plan of each step."""
-        return self.recorded.plans
+    @property
+    def program_steps(self) -> Sequence[Step]:
+        """All steps of the program."""
+        return self.values.drawing.program.steps
 
     @cached_property
     def spots(self) -> list[Any]:
         """The places of all points on paper; of other marks, and of points that no window shows, nothing."""
-        steps = zip(self.recorded.program.steps, self.recorded.values, self.plans, strict=True)
-        return [self.views[plan](value[:2]) if step.op.gives == POINT and plan in self.views else None
-                for step, value, plan in steps]
+        return [self.views[step.panel](value[:2]) if step.op.gives == POINT and step.panel in self.views else None
+                for step, value in zip(self.program_steps, self.values.numbers, strict=True)]
 
     @cached_property
     def marks(self) -> dict[int, list[int]]:
         """The points on each line and circle, by construction, that lie on its plan."""
         found: dict[int, list[int]] = defaultdict(list)
-        steps = self.recorded.program.steps
+        steps = self.program_steps
         for step in steps:
             if step.op.gives == LINE:
                 found[step.index] += [step.args[place] for place in incident(step.op)]
@@ -74,13 +73,12 @@ class StepInk:
                 for arg in step.args:
                     if steps[arg].op.gives in (LINE, CIRCLE):
                         found[arg].append(step.index)
-        return {curve: [mark for mark in marks if self.plans[mark] == self.plans[curve]]
+        return {curve: [mark for mark in marks if steps[mark].panel == steps[curve].panel]
                 for curve, marks in found.items()}
 
     def steps(self, panel: Panel) -> list[Step]:
         """The steps that draw on a panel."""
-        return [step for step in self.recorded.program.steps
-                if self.plans[step.index] == panel and step.index not in self.hidden]
+        return [step for step in self.program_steps if step.panel == panel and step.index not in self.hidden]
 
     def items(self, panel: Panel) -> Iterator[Item]:
         """The ink of a panel, step by step."""
@@ -136,13 +134,13 @@ class StepInk:
             head = min(HEAD, 0.6 * math.dist(root, spot))
             yield Arrow(self.vectors[step.index], "plates", step.index, root, spot, head, step.name)
             return
-        if step.op.movement in STROKES and root is not None and self.plans[step.root or 0] == self.plans[step.index]:
+        if step.op.movement in STROKES and root is not None and self.program_steps[step.root or 0].panel == step.panel:
             yield Polyline(self.pens.get(step.index, pens.THIN), "plates", step.index, (root, spot))
         yield Circle(pens.DOT, "plates", step.index, spot, DOT)
 
     def _ends(self, step: Step) -> tuple[Spot, Spot] | None:
         """From a line's first mark to its last and a little beyond; a stub where it has one alone."""
-        a, b, _ = self.recorded.values[step.index]
+        a, b, _ = self.values[step.index]
         size = math.hypot(a, b)
         ux, uy = b / size, -a / size
         found = sorted((self.spots[mark] for mark in self.marks.get(step.index, ())),
@@ -157,7 +155,7 @@ class StepInk:
 
     def _circle(self, step: Step, view: View) -> Iterator[Item]:
         """The whole of it, or arcs about its marks."""
-        x, y, square = self.recorded.values[step.index]
+        x, y, square = self.values[step.index]
         centre, radius = view((x, y)), math.sqrt(square) * view.scale
         if step.index in self.whole:
             yield Circle(self.whole[step.index], "plates", step.index, centre, radius)

@@ -10,6 +10,7 @@ from itertools import combinations
 
 import pytest
 
+from graphplan.kernel.drawing import Drawing, Values
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze, put_together
 from graphplan.kernel.program import Board, Panel, Program, evaluate
@@ -17,7 +18,7 @@ from graphplan.kernel.stages import Stage
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
 from graphplan.output.exports.ink_tikz import sheet_tikz
-from graphplan.output.panelled import Panelled, Recorded, Words, pages
+from graphplan.output.panelled import Panelled, Words, pages
 from graphplan.output.step_ink import StepInk
 from graphplan.output.svg import svg
 from graphplan.phrases import Said, said
@@ -53,17 +54,17 @@ class PolygonSheet(Panelled):
         return load("four-bar")
 
     @cached_property
-    def recorded(self) -> Recorded:
-        program = polygon()
-        return Recorded(program, evaluate(program, Floats()))
+    def values(self) -> Values:
+        return Drawing(polygon()).mark_values()
 
     def divided(self, room: Rect) -> dict[Panel, Rect]:
         return {POLYGON: room}
 
     def figure(self, panel: Panel, rect: Rect) -> list[Item]:
-        vectors = {step.index: pens.VECTORS["load"] for step in self.recorded.program.steps if step.root is not None}
+        steps = self.values.drawing.program.steps
+        vectors = {step.index: pens.VECTORS["load"] for step in steps if step.root is not None}
         window = View(rect, 2.0, rect.centre)
-        return StepInk(self.recorded, {panel: window}, self.letters, vectors=vectors).lettered(panel)
+        return StepInk(self.values, {panel: window}, self.letters, vectors=vectors).lettered(panel)
 
     def given(self) -> Iterator[Words]:
         yield said("Forces")

@@ -8,7 +8,7 @@ import ezdxf
 
 from graphplan.cams.profile import Cam
 from graphplan.output.cad.layers import FULL_SIZE
-from graphplan.output.dxf import UNITS, undated
+from graphplan.output.dxf import UNITS, declare_classes, undated
 
 PROFILE, PITCH, BASE, POINTS = (f"{FULL_SIZE} {part}" for part in ("profile", "pitch curve", "base circle", "points"))
 PENS = {PROFILE: ("CONTINUOUS", 50), PITCH: ("DASHDOT", 18), BASE: ("DASHED", 18), POINTS: ("CONTINUOUS", 35)}
@@ -36,5 +36,6 @@ def profile_dxf(cam: Cam, tolerance: float) -> bytes:
             space.add_lwpolyline(curve, close=True, dxfattribs={"layer": PITCH})
         document.header.custom_vars.append("Title", cam.task.title)
         document.header.custom_vars.append("Tolerance", repr(tolerance))
+        declare_classes(document)
         document.write(text)
         return bytes(document.encode(text.getvalue()))

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.cams.construction import CAM_PLAN, CamDrawing
+from graphplan.kernel.drawing import Drawing, Values
 from graphplan.kernel.kinds import POINT
 from graphplan.output.graphs import Figures
-from graphplan.output.panelled import Recorded
 from graphplan.output.step_ink import StepInk
 from graphplan.sheet.lettering.lettering import LetterSizes
 from graphplan.sheet.plates import pens
@@ -43,8 +43,8 @@ class CamPlan:
         rollers = [one.marks["roller"] for one in self.drawing.divisions if "roller" in one.marks]
         whole = {**dict.fromkeys(self.drawing.common.values(), BASE), **dict.fromkeys(rollers, ROLLER)}
         faces = {one.marks["face"]: FACE for one in self.drawing.divisions if "face" in one.marks}
-        recorded = Recorded(self.drawing.program, self.drawing.values)
-        return StepInk(recorded, {CAM_PLAN: self.view}, self.letters, whole=whole, beyond=faces)
+        values = Values(Drawing(self.drawing.program), self.drawing.values)
+        return StepInk(values, {CAM_PLAN: self.view}, self.letters, whole=whole, beyond=faces)
 
     def items(self) -> Iterator[Item]:
         """All of it."""

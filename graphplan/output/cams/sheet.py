@@ -10,12 +10,13 @@ from graphplan.cams.construction import CAM_PLAN, CamDrawing
 from graphplan.cams.follower import FlatOscillating, Rolled, Translating
 from graphplan.cams.motions import DWELL
 from graphplan.cams.pose import scene_text
+from graphplan.kernel.drawing import Drawing, Values
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 from graphplan.output.cams.diagrams import CENTRE_PLAN, CURVATURE_PLAN, LAW_PLAN, Paper
 from graphplan.output.cams.plan import CamPlan, extent
-from graphplan.output.panelled import Panelled, Recorded, beside, pages, under
+from graphplan.output.panelled import Panelled, beside, pages, under
 from graphplan.phrases import Said, arranged, digits, joined, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.plates.display import Item, Rect, Sheet
@@ -55,11 +56,14 @@ class CamSheet(Panelled):
         program = self.drawing.program
         return said("Cam by inversion in {0} steps.", len(program) - program.givens)
 
-    @cached_property
-    def recorded(self) -> Recorded:
+    @property
+    def values(self) -> Values:
+        return Values(Drawing(self.drawing.program), self.drawing.values)
+
+    @property
+    def scales(self) -> Scales:
         task = self.drawing.cam.task
-        scales = Scales(self.k_s, 1.0, task.units.length, {}, convention=task.sheet.convention)
-        return Recorded(self.drawing.program, self.drawing.values, scales)
+        return Scales(self.k_s, 1.0, task.units.length, {}, convention=task.sheet.convention)
 
     @property
     def scale(self) -> Said:

@@ -18,13 +18,14 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.balance import Balancing, MassMotion
+from graphplan.kernel.drawing import Drawing, Values
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.graphs import CURVES, Figures, Graph, Polar, Span, scale_words, smoothed, stacked, through
 from graphplan.output.machine.balance_words import BalanceWords, cleaned
-from graphplan.output.panelled import Panelled, Recorded, Words, beside, pages, under
+from graphplan.output.panelled import Panelled, Words, beside, pages, under
 from graphplan.output.step_ink import HEAD, StepInk
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
@@ -78,10 +79,13 @@ class BalanceSheet(Panelled):
         return said("Mass centre by principal vectors in {0} steps, and the shaking force over the cycle.",
                     len(program) - program.givens)
 
-    @cached_property
-    def recorded(self) -> Recorded:
-        scales = Scales(self.k_s, 1.0, self.scene.units.length, {}, convention=self.scene.sheet.convention)
-        return Recorded(self.before.centre.program, self.before.centre.values, scales)
+    @property
+    def values(self) -> Values:
+        return Values(Drawing(self.before.centre.program), self.before.centre.values)
+
+    @property
+    def scales(self) -> Scales:
+        return Scales(self.k_s, 1.0, self.scene.units.length, {}, convention=self.scene.sheet.convention)
 
     @property
     def scale(self) -> Said:
@@ -145,7 +149,7 @@ class BalanceSheet(Panelled):
         """The links with their counterweights, the paths of the mass centre, and the steps."""
         window = view(self._box, rect, self.k_s)
         drawn = DrawnMechanism(self.scene, window)
-        ink = StepInk(self.recorded, {MECHANISM: window}, self.letters)
+        ink = StepInk(self.values, {MECHANISM: window}, self.letters)
         others = [*self._weights(window), *self._paths(window), *drawn.items(), *self._vectors(ink)]
         path = [window((float(z.real), float(z.imag))) for z in self.before.path[self.places]]
         wishes = [*mechanism_wishes(drawn), *self._numbers(path, window.rect)]
@@ -153,7 +157,7 @@ class BalanceSheet(Panelled):
 
     def _vectors(self, ink: StepInk) -> Iterator[Item]:
         """The principal vectors head to tail."""
-        program, base = self.recorded.program, self.before.centre.base
+        program, base = self.values.drawing.program, self.before.centre.base
         first = next(step.index for step in program.steps if step.name == base)
         for start, end in pairwise([first, *program.wanted[2::2]]):
             head = min(HEAD, 0.6 * math.dist(ink.spots[start], ink.spots[end]))

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import LINE
 from graphplan.kernel.program import Step
 from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing
@@ -23,7 +24,6 @@ from graphplan.machine.flywheel.room import HEAD, Room, laid_out, plans_of
 from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Piecewise
 from graphplan.output.graphs import AXIS, HEADED, Figures, Graph
-from graphplan.output.panelled import Recorded
 from graphplan.output.step_ink import StepInk
 from graphplan.output.tolerances import TRAVEL_TOL
 from graphplan.sheet.lettering.label_candidates import Wish
@@ -100,7 +100,7 @@ class FlywheelFigure:
 
     result: FlywheelResult
     drawing: FlywheelDrawing
-    recorded: Recorded
+    values: Values
     places: list[int]
     paper: Figures
     rect: Rect
@@ -137,12 +137,12 @@ class FlywheelFigure:
     @cached_property
     def ink(self) -> StepInk:
         """What the steps draw: fine lines, chords by themselves; tangents are drawn as far as they touch."""
-        steps = self.recorded.program.steps
+        steps = self.values.drawing.program.steps
         lines = {place: FINE for place in self.places if steps[place].op.gives == LINE}
         chords = {steps[Q].args[1]: CHORD for Q in self._steps("energies")[1:]}
         axis = dict.fromkeys(self._steps("axis"), AXIS)
         hidden = {*self._steps("upper"), *self._steps("lower"), *self._steps("closed")}
-        return StepInk(self.recorded, {FLYWHEEL: self.window}, self.paper.letters, pens={**lines, **chords, **axis},
+        return StepInk(self.values, {FLYWHEEL: self.window}, self.paper.letters, pens={**lines, **chords, **axis},
                        beyond=dict.fromkeys(chords, 0.0), hidden=hidden)
 
     def _level(self) -> Iterator[Item]:

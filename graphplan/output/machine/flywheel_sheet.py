@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
+from graphplan.kernel.drawing import Drawing, PlanScale, Values
 from graphplan.kernel.passes import put_together
 from graphplan.kernel.program import Panel
 from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing, drawn
@@ -24,7 +25,7 @@ from graphplan.output.graphs import Figures
 from graphplan.output.machine.flywheel_figure import FlywheelFigure, room_in
 from graphplan.output.machine.given_words import masses_and_loads
 from graphplan.output.machine.lever_figures import LEVERS, LeverFigures
-from graphplan.output.panelled import Blank, Panelled, Recorded, Words, beside, pages, under
+from graphplan.output.panelled import Blank, Panelled, Words, beside, pages, under
 from graphplan.output.tolerances import RANGE_TOL
 from graphplan.phrases import Said, arranged, digits, joined, phrase, said, unit
 from graphplan.sheet.frames.title import TASK
@@ -106,18 +107,22 @@ class FlywheelSheet(Panelled):
         return drawn(self.result.cycle, self.result.wheel, self.result.positions, room)
 
     @cached_property
-    def _joined(self) -> tuple[Recorded, list[list[int]]]:
+    def _joined(self) -> tuple[Values, list[list[int]]]:
         """The lever and the diagrams as one construction, and where the steps of both are in it."""
         lever, diagrams = self.levers.drawing, self.drawing
         program, places = put_together([lever.drawn, diagrams.program])
         values = dict(zip(places[0], lever.values, strict=True)) | dict(zip(places[1], diagrams.values, strict=True))
-        scales = self._windows[0]
-        scales = replace(scales, multiples={**scales.multiples, FLYWHEEL: Fraction(scales.k_s)})  # drawn in mm
-        return Recorded(program, [values[index] for index in range(len(program))], scales, (FLYWHEEL,)), places
+        drawing = Drawing(program, plans={FLYWHEEL: PlanScale(on_paper=True)})
+        return Values(drawing, [values[index] for index in range(len(program))]), places
+
+    @property
+    def values(self) -> Values:
+        return self._joined[0]
 
     @cached_property
-    def recorded(self) -> Recorded:
-        return self._joined[0]
+    def scales(self) -> Scales:
+        scales = self._windows[0]
+        return replace(scales, multiples={**scales.multiples, FLYWHEEL: Fraction(scales.k_s)})  # drawn in mm
 
     @property
     def _figures(self) -> Figures:
@@ -136,8 +141,8 @@ class FlywheelSheet(Panelled):
         if panel == LEVERS:
             return self.levers.small(rect, drawn=not self.task)
         if panel == FLYWHEEL:
-            recorded, places = self._joined
-            figure = FlywheelFigure(self.result, self.drawing, recorded, places[1], self._figures, rect)
+            values, places = self._joined
+            figure = FlywheelFigure(self.result, self.drawing, values, places[1], self._figures, rect)
             return figure.begun() if self.task else figure.items()
         drawn = self.levers.begun if self.task else self.levers.picture
         return [self._placed(item) for item in drawn(self._windows[1], panel)]

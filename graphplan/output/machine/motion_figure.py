@@ -13,13 +13,13 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.kernel.drawing import Drawing, Values
 from graphplan.kernel.kinds import CIRCLE, LINE
 from graphplan.kernel.program import Step
 from graphplan.machine.motion.drawing import MOTION, MotionDrawing
 from graphplan.machine.motion.room import POLE, Room
 from graphplan.machine.motion.runs import Run
 from graphplan.output.graphs import AXIS, FOOT, HEADED, Figures, Graph
-from graphplan.output.panelled import Recorded
 from graphplan.output.step_ink import StepInk
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import sentence_runs
@@ -78,7 +78,7 @@ class MotionFigure:
         fine = {step.index: FINE for step in steps if step.op.gives in (LINE, CIRCLE)}
         chords = {steps[Q].args[1]: CHORD for name in ("energy", "time") for Q in drawing.marks[name]
                   if len(steps[Q].args) == 2}
-        return StepInk(Recorded(drawing.program, drawing.values), {MOTION: self.window}, self.paper.letters,
+        return StepInk(Values(Drawing(drawing.program), drawing.values), {MOTION: self.window}, self.paper.letters,
                        pens={**fine, **chords}, beyond=dict.fromkeys(chords, 0.0))
 
     def _curves(self) -> Iterator[Item]:

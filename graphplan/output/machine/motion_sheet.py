@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.errors import Refused
+from graphplan.kernel.drawing import Drawing, PlanScale, Values
 from graphplan.kernel.program import Panel
 from graphplan.machine.motion.drawing import MOTION, MotionDrawing, drawn
 from graphplan.machine.motion.runs import Run
@@ -20,7 +21,7 @@ from graphplan.output.graphs import Figures
 from graphplan.output.machine.given_words import masses_and_loads
 from graphplan.output.machine.motion_figure import MotionFigure, room_in
 from graphplan.output.machine.motion_numbers import units
-from graphplan.output.panelled import Panelled, Recorded, Words, pages
+from graphplan.output.panelled import Panelled, Words, pages
 from graphplan.phrases import Said, arranged, digits, said, unit
 from graphplan.sheet.plates.display import Item, Rect, Sheet
 
@@ -70,8 +71,8 @@ class MotionSheet(Panelled):
         return found
 
     @property
-    def recorded(self) -> Recorded:
-        return Recorded(self.drawing.program, self.drawing.values, in_mm=(MOTION,))
+    def values(self) -> Values:
+        return Values(Drawing(self.drawing.program, plans={MOTION: PlanScale(on_paper=True)}), self.drawing.values)
 
     def figure(self, panel: Panel, rect: Rect) -> list[Item]:
         """The diagrams."""

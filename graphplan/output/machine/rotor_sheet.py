@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 from graphplan.accuracy.first_order import deviation
 from graphplan.accuracy.hand import Pencil, program_hand
 from graphplan.check.rotors import bearing_reactions
+from graphplan.kernel.drawing import Drawing, Values
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Panel
 from graphplan.machine.rotors.polygons import END_VIEW, FORCES, MOMENTS, Correction
@@ -21,7 +22,7 @@ from graphplan.machine.rotors.trial_runs import AMPLITUDE, TRIAL_PLANS, Effect
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.units import NEWTONS
 from graphplan.output.machine.rotor_figures import AROUND, MANY, RotorFigures
-from graphplan.output.panelled import Panelled, Recorded, Words, beside, pages, under
+from graphplan.output.panelled import Panelled, Words, beside, pages, under
 from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arranged, digits, joined, phrase, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
@@ -95,21 +96,24 @@ class RotorSheet(Panelled):
     def figures(self) -> RotorFigures:
         return RotorFigures(self.letters, self.tongue, self.balanced)
 
+    @property
+    def values(self) -> Values:
+        return Values(Drawing(self.balanced.drawing.program), self.balanced.drawing.values)
+
     @cached_property
-    def recorded(self) -> Recorded:
+    def scales(self) -> Scales:
         task, k = self.balanced.task, self.k_r
         multiples = {str(panel): round_up(k) / round_up(self._per_mm(panel)) for panel in self.panels
                      if panel not in (SIDE_VIEW, END_VIEW, CURVE)}
-        scales = Scales(k, 1.0, task.units.length, multiples, unit=task.units.mass, convention=task.sheet.convention)
-        return Recorded(self.balanced.drawing.program, self.balanced.drawing.values, scales)
+        return Scales(k, 1.0, task.units.length, multiples, unit=task.units.mass, convention=task.sheet.convention)
 
     def measure(self, panel: Panel) -> Lengths:
         return self._measured
 
     @cached_property
     def _measured(self) -> Lengths:
-        drawn = self.recorded
-        return RotorLengths(drawn.program, drawn.values, drawn.plans.__getitem__, drawn.scales)
+        program = self.values.drawing.program
+        return RotorLengths(program, self.values.numbers, lambda index: program.steps[index].panel, self.scales)
 
     @property
     def scale(self) -> Said:
@@ -122,9 +126,9 @@ class RotorSheet(Panelled):
     @cached_property
     def errors(self) -> list[PencilError]:
         """How far off the corrections of the first answer are drawn, in first order."""
-        drawing, plans = self.balanced.drawing, self.recorded.plans
+        drawing = self.balanced.drawing
         hand = program_hand(drawing.program, drawing.values,
-                            lambda step: self.recorded.scales.lengths_per_mm(plans[step.index]), self.pencil)
+                            lambda step: self.scales.lengths_per_mm(step.panel), self.pencil)
         found = []
         for k, one in enumerate(self.balanced.corrections):
             ways = math.radians(one.angle), math.radians(one.angle + 90)

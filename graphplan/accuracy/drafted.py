@@ -59,7 +59,7 @@ class Cost:
         """All of it, as data; simplicity and exactitude, which know no set squares, of a strict drawing alone."""
         found = self.counts
         return {
-            "said": found.told, "steps": self.steps, "operations": found.operations, "lines": found.R2,
+            "said": found.text, "steps": self.steps, "operations": found.operations, "lines": found.R2,
             "arcs": found.C3, "scale": found.scale, "set squares": found.others.get(SET_SQUARES, 0),
             "dividers": found.others.get(DIVIDERS, 0), "instrument changes": found.changes,
             "simplicity": found.simplicity if found.strict else None,

@@ -68,7 +68,7 @@ class Hand:
         if hole < step.index:
             return drawn[hole]
         exact = step.op.rule(domain, *[drawn[arg] for arg in step.args], **step.params)
-        return self.add_slips(step, domain.whole(exact), errors(step.index))
+        return self.add_slips(step, domain.mask_refused(exact), errors(step.index))
 
     @cached_property
     def _holes(self) -> dict[int, int]:
@@ -134,7 +134,7 @@ def _slips(program: Program, values: Sequence[Any], step: Step, unit: float, pen
 def places(program: Program, values: Sequence[Any], step: Step) -> list[Any]:
     """Where a line is laid: at the points that it is drawn through; at none, abreast of the middle of what it reads."""
     points = {arg for arg in step.args if program.steps[arg].op.gives == kinds.POINT}
-    on = [step.args[place] for place in step.op.claimed("on")]
+    on = [step.args[place] for place in step.op.claim_operands("on")]
     through = [values[arg] for arg in on if arg in points]
     return through[:2] or [_abreast(values[step.index], [values[arg] for arg in sorted(points)])]
 

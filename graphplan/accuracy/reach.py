@@ -223,12 +223,12 @@ def missed(drawing: Construction, poses: Reached) -> tuple[dict[int, Missed], Ar
     with np.errstate(all="ignore"):
         for step in drawn.steps:
             other = given.get(step.name) or given.get(step.index)
-            value = domain.whole(step.op.rule(domain, *[values[arg] for arg in step.args],
+            value = domain.mask_refused(step.op.rule(domain, *[values[arg] for arg in step.args],
                                               **({**step.params, **other} if other else step.params)))
             compound = compounds.get(step.index)  # one that reads its own mark, as lines are drawn once, tells nothing
             if compound is not None and step.index not in compound.step.args and (sign := _sense(drawing, compound)):
                 args = [values[arg] for arg in compound.step.args]
-                truth = domain.whole(compound.step.op.rule(domain, *args, **compound.step.params))
+                truth = domain.mask_refused(compound.step.op.rule(domain, *args, **compound.step.params))
                 truth = tuple(sign * part for part in truth) if step.op.gives == LINE else truth
                 if (np.isfinite(truth[0]) & ~_one(step.op.gives, value, truth, args)).any():
                     found[step.index], value = Missed(compound, sign < 0), truth
@@ -245,7 +245,7 @@ def put_right(drawing: Construction, poses: Reached, wrong: Mapping[int, Missed]
             one = wrong.get(step.index)
             by = one.compound.step if one else step
             params = {**by.params, **other} if other else by.params
-            value = domain.whole(by.op.rule(domain, *[values[arg] for arg in by.args], **params))
+            value = domain.mask_refused(by.op.rule(domain, *[values[arg] for arg in by.args], **params))
             values.append(tuple(-part for part in value) if one and one.against else value)
     return values
 

@@ -28,8 +28,8 @@ from graphplan.mechanism.travel import moved_on
 from graphplan.mechanism.values import Misfit, vector
 from graphplan.methods.assembly import Assembler
 from graphplan.solver.blocks import by_blocks
-from graphplan.solver.bounds import PI, Unproven, bounded, heading
-from graphplan.solver.equations import Equations, moved
+from graphplan.solver.bounds import PI, Unproven, bounded_number, heading
+from graphplan.solver.equations import Equations, motion_equations
 from graphplan.solver.proven import Proven
 from graphplan.solver.rates import Rates, motion
 
@@ -83,8 +83,9 @@ class Bounds:
         return TO_A_FLOAT.heading(degrees) if degrees % 90 == 0 else (*self.heading(degrees), False)
 
 
-FLOATS = Bounds("floats", Floats, Unproven, bounded, lambda: PI, heading,
-                lambda rows, scales: Proven(rows, scales).solve, lambda number: bounded(number.value), Domain.rounds)
+FLOATS = Bounds("floats", Floats, Unproven, bounded_number, lambda: PI, heading,
+                lambda rows, scales: Proven(rows, scales).solve, lambda number: bounded_number(number.value),
+                Domain.rounds)
 
 
 def enclosures(bits: int, name: str = "enclosures") -> Bounds:
@@ -197,7 +198,7 @@ def placing_error(scene: Scene) -> float:
 
 def bounded_rates(scene: Scene, by: Bounds) -> Rates:
     """The rates of a scene in numbers with bounds; fails where the pose may be singular as far as they tell."""
-    equations = moved(scene, by.root)
+    equations = motion_equations(scene, by.root)
     kept = independent_facts(equations)
     solve = by.solve([equations.rows[i] for i in kept], equations.scales)
     return motion(equations, lambda right: _consistent(equations, right, kept, solve, by), by.lift(0))

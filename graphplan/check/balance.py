@@ -172,7 +172,7 @@ def _solver_gaps(motion: MassMotion) -> dict[str, float]:
     there = np.flatnonzero(np.isfinite(motion.path))
     points, ways = ({name: z[there] for name, z in arrays.items()} for arrays in (motion.points, motion.links.guides))
     alone = _with_inertia_loads_only(scene)
-    posed = poses.posed(alone, points, ways)
+    posed = poses.scene_in_poses(alone, points, ways)
     rates = poses.solve(posed, there.size)
     parts = {link: float(mass.mass / centre.mass) for link, mass in centre.masses.items()}
     reach = max(abs(z - points[centre.base]).max() for z in points.values())
@@ -242,7 +242,7 @@ def _frame_reactions(scene: Scene, found: statics.Reactions, points: Mapping[str
         bearing.append(reaction(times(sign, force), slide.at, sign * couple))
     if any(FRAME in pair.links for pair in (*scene.gears, *scene.contacts)):
         return None
-    for balance, value in zip(statics.asked(scene).balances, found.balances, strict=True):
+    for balance, value in zip(statics.required_loads(scene).balances, found.balances, strict=True):
         if balance.on != FRAME:
             continue
         bearing.append(reaction(times(-1, value), balance.at) if isinstance(value, tuple)

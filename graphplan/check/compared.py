@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from graphplan.check.tolerances import PROVEN_TOL, PROVEN_ZERO, ROUNDING_TOL
 from graphplan.errors import BrokenClaim, Disagreement
-from graphplan.kernel.claims import broken
+from graphplan.kernel.claims import broken_claims
 from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
@@ -187,7 +187,7 @@ def printed_results(results: Results, numbers: Numbers, plain: Callable[[Any], A
 
 def require_claims(name: str, drawing: Any) -> None:
     """Fail with `BrokenClaim` where a drawn step breaks one of its claims."""
-    if fault := next(broken(drawing.program, drawing.values), ""):
+    if fault := next(broken_claims(drawing.program, drawing.values), ""):
         raise BrokenClaim(name, fault)
 
 

@@ -19,12 +19,12 @@ from graphplan.mechanism.units import metre
 from graphplan.methods import kinds
 from graphplan.methods.panels import JointForce
 from graphplan.methods.results import balances
-from graphplan.solver.equations import Equations, held
+from graphplan.solver.equations import Equations, force_equations
 from graphplan.solver.friction import (
     Frictional,
-    borne,
+    contact_forces,
     contact_slip,
-    delivered,
+    delivered_power,
     efficiency,
     leaning,
     name_in_joint,
@@ -32,7 +32,7 @@ from graphplan.solver.friction import (
 )
 from graphplan.solver.higher_pairs import force, held_at, pushes
 from graphplan.solver.rates import Rates
-from graphplan.solver.statics import Reactions, acting, asked, repeating, resultants
+from graphplan.solver.statics import Reactions, acting, repeating, required_loads, resultants
 from graphplan.solver.statics import read as read_forces
 
 # ---- the solver between bounds --------------------------------------------------------------------------------------
@@ -40,7 +40,7 @@ from graphplan.solver.statics import read as read_forces
 
 def bounded_reactions(scene: Scene, motion: Rates, by: Bounds) -> Reactions:
     """The reactions and balances of a scene with loads, from its rates."""
-    found = _equilibrium(replace(held(scene), root=by.root), motion, by)
+    found = _equilibrium(replace(force_equations(scene), root=by.root), motion, by)
     apart = tuple(pushes(found.equations, found.higher))
     return _equilibrium(found.equations, motion, by, apart) if apart else found
 
@@ -76,7 +76,7 @@ def _leaning_facts(last: Reactions, by: Bounds) -> Iterator[Statement]:
     """What holds the links, each pair's force against its turning or sliding as its last force says."""
     scene, rates = last.equations.scene, last.rates
     omega: dict[str, Any] = rates.omega | {FRAME: by.lift(0)}
-    loads = asked(scene)
+    loads = required_loads(scene)
     journals = {f.at: f.radius * f.coefficient for f in loads.frictions if f.at}
     coefficients = {frozenset(f.links): f.coefficient for f in loads.frictions if f.links}
 
@@ -116,8 +116,8 @@ def force_truth(scene: Scene, results: Results, found: Reactions,
     told = _reactions(found, smooth_forces(found))
     told[kinds.SLIDE_ARM] = arms
     if rough is not None:
-        told |= {kinds.WITH_FRICTION[kind]: named for kind, named in _reactions(rough, borne(rough)).items()}
-    named = asked(scene).named_balances
+        told |= {kinds.WITH_FRICTION[kind]: named for kind, named in _reactions(rough, contact_forces(rough)).items()}
+    named = required_loads(scene).named_balances
     for way in kinds.BY_PLANS, kinds.BY_LEVER, kinds.RUBBED:
         last = found if way != kinds.RUBBED else rough
         for (name, balance), value in zip(named.items(), last.balances, strict=True) if last else ():
@@ -170,7 +170,7 @@ def undrawn_forces(scene: Scene, results: Results, truth: Results) -> dict[str, 
                 missing.setdefault(kind, {})[name] = value
     for ways in ((kinds.BY_PLANS, kinds.BY_LEVER), (kinds.RUBBED,)):
         drawn = balances(scene, results, ways)
-        for name, balance in asked(scene).named_balances.items():
+        for name, balance in required_loads(scene).named_balances.items():
             kind = kinds.balance_kind(ways[0], balance)
             if name not in drawn and name in truth.get(kind, {}):
                 missing.setdefault(kind, {})[name] = truth[kind][name]
@@ -199,12 +199,12 @@ class Forces:
 
     def by_balance(self, values: Iterable[Any]) -> dict[str, Any]:
         """What is said of each balance in the scene's order, by its name."""
-        return dict(zip(asked(self.scene).named_balances, values, strict=True))
+        return dict(zip(required_loads(self.scene).named_balances, values, strict=True))
 
     @property
     def names(self) -> list[str]:
         """The names of the balances."""
-        return [*asked(self.scene).named_balances]
+        return [*required_loads(self.scene).named_balances]
 
     @property
     def has_friction(self) -> bool:
@@ -242,7 +242,7 @@ class Forces:
         """The instantaneous efficiency of what is drawn: of the balances' powers without friction and with it."""
         if not self.friction_balances:
             return None
-        smooth, rough = (delivered(replace(self.reactions, balances=tuple(found.values())))
+        smooth, rough = (delivered_power(replace(self.reactions, balances=tuple(found.values())))
                          for found in (balances(self.scene, self.results), self.friction_balances))
         return efficiency(smooth, rough) if self.bounded else efficiency(plain_number(smooth), plain_number(rough))
 

@@ -62,7 +62,7 @@ class PoseBatch:
     @property
     def posed_scene(self) -> Scene:
         """The scene in these poses."""
-        return poses.posed(self.scene, self.points, self.guides, self.loads)
+        return poses.scene_in_poses(self.scene, self.points, self.guides, self.loads)
 
 
 def points_where_sound(drawing: Construction, points: Mapping[str, Any], guides: Mapping[str, Any],

@@ -27,8 +27,8 @@ from graphplan.mechanism.model import FRAME, Force, Loads
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.methods.construction import Construction
 from graphplan.solver import poses, solve, with_friction
-from graphplan.solver.friction import delivered
-from graphplan.solver.poses import Sized, sized
+from graphplan.solver.friction import delivered_power
+from graphplan.solver.poses import Sized, with_size
 
 Gaps = dict[str, Any]
 
@@ -129,7 +129,7 @@ def friction_gap(reduction: Reduction, travel: Any) -> float:
         given = replace(rubbing.scene, loads=acting)
         own = PoseBatch(given, np.arange(travel.size), turn.points, turn.guides).select(k)
         told = with_friction(single_pose(own.posed_scene))
-        work = float(delivered(told)) * rubbing.power
+        work = float(delivered_power(told)) * rubbing.power
         size = max(abs(float(found.balance[k])), abs(work), -sum(float(loss[k]) for loss in found.losses.values()))
         gap = abs(work - float(found.balance[k] - found.moment[k])) / size if size > ROUNDING_TOL * usual else 0.0
         if gap > max(FRICTION_TOL, SAFETY_FACTOR * EPSILON * told.condition):
@@ -162,7 +162,7 @@ class ReferenceReduction:
     @property
     def _none(self) -> Sized:
         """Nothing in every pose."""
-        return sized(np.zeros(self.travel.shape))
+        return with_size(np.zeros(self.travel.shape))
 
     @property
     def condition(self) -> float:
@@ -194,8 +194,8 @@ class ReferenceReduction:
         for link, mass in self.scene.loads.masses.items():
             if link != FRAME:
                 (vx, vy), (wx, wy) = self.rates.velocity[mass.centre], vectors[mass.centre]
-                moved = (sized(vx) * wx + sized(vy) * wy) * (self.metres / self.unit) ** 2
-                turned = sized(self.rates.omega[link]) * turnings[link] * (1 / self.unit) ** 2
+                moved = (with_size(vx) * wx + with_size(vy) * wy) * (self.metres / self.unit) ** 2
+                turned = with_size(self.rates.omega[link]) * turnings[link] * (1 / self.unit) ** 2
                 total = total + (moved * float(mass.mass) + turned * float(mass.inertia)) * kilogram
         return total
 
@@ -210,7 +210,7 @@ class ReferenceReduction:
         for moment in loads.moments:
             if moment.on != FRAME and not (moment.table and moment.table.over_speed):
                 value = self._table_values(moment.table) if moment.table else float(moment.value)
-                total = total + sized(self.rates.omega[moment.on]) * value * (newton / self.unit)
+                total = total + with_size(self.rates.omega[moment.on]) * value * (newton / self.unit)
         for link, mass in loads.masses.items():
             if link != FRAME:
                 weight = float(mass.mass) * float(KILOGRAMS[self.scene.units.mass])
@@ -221,7 +221,7 @@ class ReferenceReduction:
     def _point_power(self, point: str, vector: tuple[Any, Any]) -> Sized:
         """A vector times the velocity of a point."""
         x, y = self.rates.velocity[point]
-        power: Sized = sized(x) * vector[0] + sized(y) * vector[1]
+        power: Sized = with_size(x) * vector[0] + with_size(y) * vector[1]
         return power * (self.metres / self.unit)
 
     def _vector(self, force: Force) -> tuple[Any, Any]:

@@ -49,7 +49,7 @@ class Shortcuts:
 
 def shortcuts(drawing: Construction) -> list[Shortcuts]:
     """The shortcuts wherever a drawing has a link with three loci on the N-plan, one of them of its middle."""
-    return [found for step in drawing.program.steps if step.op.claimed("locus") and step.panel.whole == N_PLAN
+    return [found for step in drawing.program.steps if step.op.claim_operands("locus") and step.panel.whole == N_PLAN
             for found in _shortcuts_at(drawing, step)]
 
 

@@ -285,7 +285,7 @@ class Relations:
         """The inputs that are read, by name, each with its place on the tape."""
         told = [self.tape.place(part) for spots in (self.points, self.turns, self.guides)
                 for spot in spots.values() for part in spot]
-        return {self.tape.entries[place][1]: place for place in self.tape.needed(told)
+        return {self.tape.entries[place][1]: place for place in self.tape.needed_places(told)
                 if self.tape.entries[place][0] == "in"}
 
     def write(self, language: Language, inputs: Mapping[str, str], prefix: str,

@@ -6,7 +6,7 @@ from functools import partial
 from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, POINT, SET_SQUARES, Sizing, primitive
-from graphplan.kernel.primitives import apart, dot, vector
+from graphplan.kernel.primitives import dot, require_apart, vector
 from graphplan.phrases import phrase
 
 
@@ -31,7 +31,7 @@ def _companion(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
            claims=(("along", (4, -1), (0, 1)), ("away", (4, -1), (0, 1)), ("mean", 0, 1, 2, 3, 4)),
            fails=("points-coincide",), afar=((0, 1), (2, 3)), sizing=Sizing.SQUARE,
            source="Rosenauer 1939, No. 14; Ozols 1974, 5-3, fig. 5-22", forms={
-               "nothing to draw": lambda s, K, A, m, w, k: k if s.one(m, w) else None,
+               "nothing to draw": lambda s, K, A, m, w, k: k if s.points_coincide(m, w) else None,
                "semicircle": _semicircle,
                "companion": _companion,
                "equal lengths": lambda s, K, A, m, w, k: s.transfer(K, A, k) if s.equal(K, A, m, w) else None},
@@ -47,7 +47,7 @@ def normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
 
     So the vector from k to a is the relative normal acceleration of K about A; that of A about K runs back.
     """
-    u, v = apart(d, K, A, "the two joints coincide"), vector(m, w)
+    u, v = require_apart(d, K, A, "the two joints coincide"), vector(m, w)
     s = dot(v, v) / dot(u, u)
     return k[0] + s * u[0], k[1] + s * u[1]
 
@@ -64,7 +64,8 @@ def _half(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any, *, turned: bool) -> An
            "that of the guide's turning about {0}, from {1} to {2}; from {4} lay it off twice, reversed: mark {out}.",
            claims=(("along", (1, 2), (1, 0)), ("coriolis", 0, 1, 2, 3, 4)), fails=("points-coincide",),
            afar=((0, 1, 2, 3),), source="Ozols 1974, 5-3, fig. 5-24", weighed=True, sizing=Sizing.DOUBLE, forms={
-               "nothing to draw": lambda s, P, B, T, R, b: b if s.one(B, T) or s.one(B, R) else None,
+               "nothing to draw": lambda s, P, B, T, R, b: b if s.points_coincide(B, T) or s.points_coincide(B, R)
+               else None,
                "at the pair": partial(_half, turned=False),
                "at another point of the guide's link": partial(_half, turned=True)},
            by_form=dict.fromkeys(("at the pair", "at another point of the guide's link"), phrase(
@@ -73,6 +74,6 @@ def _half(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any, *, turned: bool) -> An
                                          "and {0}; it meets the line through {1} and {3} in {K}.")})
 def coriolis(d: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
     """The point b less the Coriolis vector: BT/BP is the guide's turning, BR the orthogonal relative velocity."""
-    u = apart(d, B, P, "the pole of the guide lies in the pair")
+    u = require_apart(d, B, P, "the pole of the guide lies in the pair")
     s = 2 * dot(vector(B, T), u) / dot(u, u)
     return b[0] - s * (R[0] - B[0]), b[1] - s * (R[1] - B[1])

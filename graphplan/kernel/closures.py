@@ -51,11 +51,11 @@ class Attitude(NamedTuple):
     cos: Any
     sin: Any
 
-    def turned(self, u: Vector) -> Vector:
+    def turn_vector(self, u: Vector) -> Vector:
         return self.cos * u[0] - self.sin * u[1], self.sin * u[0] + self.cos * u[1]
 
-    def at(self, p: Vector) -> Vector:
-        u, v = self.turned(p)
+    def place_point(self, p: Vector) -> Vector:
+        u, v = self.turn_vector(p)
         return self.x + u, self.y + v
 
 
@@ -90,29 +90,30 @@ class Closure(str):
         """What makes corrections (x, y and turn of each body) of residues, as the pose is known; raises
         ZeroDivisionError where that is singular."""
         if not self._inverse:
-            self._inverse = inverted([row for pair in self.pairs for row in _rows(pair, self.start)])
+            self._inverse = inverse_matrix([row for pair in self.pairs for row in _rows(pair, self.start)])
         return self._inverse
 
     def residues(self, pose: Sequence[Attitude], joints: Sequence[Vector], lift: Any) -> list[Any]:
         """What the pairs leave open in a pose."""
-        return [residue for pair in self.pairs for residue in _left(pair, pose, joints, lift)]
+        return [residue for pair in self.pairs for residue in _residuals(pair, pose, joints, lift)]
 
 
-def _left(pair: Pin | Hinge | Guide, pose: Sequence[Attitude], joints: Sequence[Vector], lift: Any) -> Iterator[Any]:
-    def lifted(u: Vector) -> Vector:
+def _residuals(pair: Pin | Hinge | Guide, pose: Sequence[Attitude], joints: Sequence[Vector],
+               lift: Any) -> Iterator[Any]:
+    def lift_vector(u: Vector) -> Vector:
         return lift(u[0]), lift(u[1])
 
-    x, y = pose[pair.body].at(lifted(pair.at))
+    x, y = pose[pair.body].place_point(lift_vector(pair.at))
     if isinstance(pair, Pin):
         u, v = joints[pair.joint]
         yield from (x - u, y - v)
         return
-    u, v = pose[pair.other].at(lifted(pair.there))
+    u, v = pose[pair.other].place_point(lift_vector(pair.there))
     if isinstance(pair, Hinge):
         yield from (x - u, y - v)
         return
-    a, b = pose[pair.body].turned(lifted(pair.way))
-    c, d = pose[pair.other].turned(lifted(pair.ray))
+    a, b = pose[pair.body].turn_vector(lift_vector(pair.way))
+    c, d = pose[pair.other].turn_vector(lift_vector(pair.ray))
     yield a * (v - y) - b * (u - x)
     yield a * d - b * c
 
@@ -123,26 +124,26 @@ def _rows(pair: Pin | Hinge | Guide, pose: Sequence[Attitude]) -> Iterator[dict[
         return float(u[0]), float(u[1])
 
     i = 3 * pair.body
-    p = pose[pair.body].turned(plain(pair.at))
+    p = pose[pair.body].turn_vector(plain(pair.at))
     rows = [{i: 1.0, i + 2: -p[1]}, {i + 1: 1.0, i + 2: p[0]}]
     if isinstance(pair, Pin):
         yield from rows
         return
     j = 3 * pair.other
-    q = pose[pair.other].turned(plain(pair.there))
+    q = pose[pair.other].turn_vector(plain(pair.there))
     others = [{j: 1.0, j + 2: -q[1]}, {j + 1: 1.0, j + 2: q[0]}]
     if isinstance(pair, Hinge):
         yield from ({**one, **{k: -w for k, w in two.items()}} for one, two in zip(rows, others, strict=True))
         return
-    a, b = pose[pair.body].turned(plain(pair.way))
-    c, d = pose[pair.other].turned(plain(pair.ray))
-    (x, y), (u, v) = pose[pair.body].at(plain(pair.at)), pose[pair.other].at(plain(pair.there))
+    a, b = pose[pair.body].turn_vector(plain(pair.way))
+    c, d = pose[pair.other].turn_vector(plain(pair.ray))
+    (x, y), (u, v) = pose[pair.body].place_point(plain(pair.at)), pose[pair.other].place_point(plain(pair.there))
     across = {j: -b, j + 1: a, j + 2: a * q[0] + b * q[1], i: b, i + 1: -a}
     yield {**across, i + 2: -a * p[0] - b * p[1] - b * (v - y) - a * (u - x)}
     yield {i + 2: -b * d - a * c, j + 2: a * c + b * d}
 
 
-def inverted(rows: Sequence[dict[int, float]]) -> list[list[float]]:
+def inverse_matrix(rows: Sequence[dict[int, float]]) -> list[list[float]]:
     """The inverse of a square matrix, its rows given sparsely; raises ZeroDivisionError where there is none."""
     n = len(rows)
     table = [[row.get(k, 0.0) for k in range(n)] + [float(k == i) for k in range(n)] for i, row in enumerate(rows)]
@@ -158,20 +159,20 @@ def inverted(rows: Sequence[dict[int, float]]) -> list[list[float]]:
     return [row[n:] for row in table]
 
 
-def closed(d: Any, joints: Sequence[Vector], group: Closure) -> list[Attitude]:
+def close_group(d: Any, joints: Sequence[Vector], group: Closure) -> list[Attitude]:
     """The pose in which a group closes on these outer joints, near the one that is known."""
     try:
         inverse = [[d.lift(value) for value in row] for row in group.inverse]
     except ZeroDivisionError:
         nothing = d.nonzero(0 * joints[0][0], d.lift(1), "circles-miss", "the group's links are in a limit position")
         return [Attitude(nothing, nothing, nothing, nothing) for _ in group.start]
-    pose = [_whole(d, Attitude(*map(d.lift, lies))) for lies in group.start]
+    pose = [_normalize_turn(d, Attitude(*map(d.lift, lies))) for lies in group.start]
     corrections: list[Any] = []
     for _ in range(d.rounds):
-        pose = [_whole(d, Attitude(*map(d.middle, lies))) for lies in pose]
+        pose = [_normalize_turn(d, Attitude(*map(d.middle, lies))) for lies in pose]
         left = group.residues(pose, joints, d.lift)
         corrections = [dot_all(row, left) for row in inverse]
-        pose = [_moved(lies, *corrections[3 * i:3 * i + 3]) for i, lies in enumerate(pose)]
+        pose = [_apply_correction(lies, *corrections[3 * i:3 * i + 3]) for i, lies in enumerate(pose)]
     size = sum((abs(x) + abs(y) for x, y in joints), d.lift(0))
     last = sum((abs(one) for one in corrections), d.lift(0))
     d.sqrt(size * d.lift(CLOSURE_TOL) - last, "circles-miss", "the lengths of the group's links do not close")
@@ -186,14 +187,14 @@ def dot_all(row: Sequence[Any], left: Sequence[Any]) -> Any:
     return total
 
 
-def _whole(d: Any, lies: Attitude) -> Attitude:
+def _normalize_turn(d: Any, lies: Attitude) -> Attitude:
     """A body as it is known to lie, its turn no longer and no shorter than 1 in better numbers."""
     x, y, cos, sin = lies
     size = d.sqrt(cos * cos + sin * sin, "not-rational", "the turn of a link is irrational")
     return Attitude(x, y, cos / size, sin / size)
 
 
-def _moved(lies: Attitude, x: Any, y: Any, turn: Any) -> Attitude:
+def _apply_correction(lies: Attitude, x: Any, y: Any, turn: Any) -> Attitude:
     """A body corrected: turned back by an angle, whose half is the tangent's to third order, so nothing is stretched.
     """
     t = turn / 2

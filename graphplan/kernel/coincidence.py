@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from graphplan.kernel.incidence import followed, incident
+from graphplan.kernel.incidence import direction_source, incident
 from graphplan.kernel.kinds import CIRCLE, Movement
 from graphplan.kernel.program import Panel, Step
 from graphplan.kernel.tolerances import COINCIDENCE_TOL
@@ -33,7 +33,7 @@ class LyingLine(NamedTuple):
         (a, b), (x, y) = self.normal, point
         return abs(a * x + b * y + self.offset) <= COINCIDENCE_TOL * self.swing * max(self.reach, reach)
 
-    def along(self, other: LyingLine) -> bool:
+    def is_parallel(self, other: LyingLine) -> bool:
         """Whether another line has its direction."""
         (a, b), (c, d) = self.normal, other.normal
         return abs(a * d - b * c) <= COINCIDENCE_TOL * (self.swing + other.swing)
@@ -55,7 +55,7 @@ class LyingLines:
     _drawers: dict[tuple[str, float], list[LyingLine]] = field(default_factory=dict)
     _swings: dict[int, float] = field(default_factory=dict)
 
-    def fallen(self, step: Step, apart: bool = False) -> int | None:
+    def enter_line(self, step: Step, apart: bool = False) -> int | None:
         """Enter a line that is drawn; if one lies there already its step is given instead, but where lines are drawn
         apart."""
         line = self._lying(step)
@@ -63,7 +63,7 @@ class LyingLines:
         part, spread = line.normal[0] * line.normal[0], 4 * COINCIDENCE_TOL * line.swing
         for direction in {round(part - spread, 3), round(part + spread, 3)}:
             for old in self._drawers.get((line.plan, direction), ()):
-                if not apart and ends and old.along(line) and all(old.holds(*end) for end in ends):
+                if not apart and ends and old.is_parallel(line) and all(old.holds(*end) for end in ends):
                     self.fell = True
                     return old.step
         self.lay([line])
@@ -79,7 +79,7 @@ class LyingLines:
     def _lying(self, step: Step) -> LyingLine:
         a, b, c = self.values[step.index]
         n = math.hypot(a, b)
-        base, _ = followed(step.op)
+        base, _ = direction_source(step.op)
         swing = 1.0
         if step.op.movement is Movement.RULED:
             swing = max(1.0, *(self.reach[arg] / n for arg in step.args))

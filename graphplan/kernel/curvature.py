@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, POINT, SET_SQUARES, primitive
-from graphplan.kernel.primitives import apart, cross, dot, vector
+from graphplan.kernel.primitives import cross, dot, require_apart, vector
 from graphplan.phrases import phrase
 
 EULER = "Euler-Savary"
@@ -35,13 +35,13 @@ def _right_triangle(s: Any, K: Any, A: Any, m: Any, w: Any) -> Any:
            "{0}{1} and the way from {0} to {out}.",
            claims=(("along", (0, -1), (0, 1)), ("away", (0, -1), (0, 1)), ("third", 0, 1, 2, 3)),
            fails=("points-coincide",), afar=((2, 3),), where=0, source="Ozols 1974, 5-1, (5.3)", forms={
-               "no length": lambda s, K, A, m, w: K if s.one(m, w) else None,
+               "no length": lambda s, K, A, m, w: K if s.points_coincide(m, w) else None,
                "equal lengths": lambda s, K, A, m, w: A if s.equal(K, A, m, w) else None,
                "semicircle": _semicircle,
                "right triangle": _right_triangle})
 def third(d: Any, K: Any, A: Any, m: Any, w: Any) -> Any:
     """The third proportional to KA and the length mw, laid off from K towards A."""
-    u, v = apart(d, K, A, "the two points coincide, so the third proportional is at infinity"), vector(m, w)
+    u, v = require_apart(d, K, A, "the two points coincide, so the third proportional is at infinity"), vector(m, w)
     s = dot(v, v) / dot(u, u)
     return K[0] + s * u[0], K[1] + s * u[1]
 
@@ -64,7 +64,7 @@ def _parallel_to_the_diameter(s: Any, P: Any, M: Any, W0: Any) -> Any:
            "path of {1}.",
            claims=(("along", (1, -1), (1, 0)), ("curved", 0, 1, 2)), fails=("points-coincide", "straight-path"),
            source="Euler 1765, Savary 1845; Ozols 1974, 5-1", weighed=True, where=1, forms={
-               "the pole itself": lambda s, P, M, W0: P if s.one(P, W0) else None,
+               "the pole itself": lambda s, P, M, W0: P if s.points_coincide(P, W0) else None,
                EULER: _third_on_the_ray,
                "parallel to the diameter": _parallel_to_the_diameter},
            by_form={
@@ -75,7 +75,7 @@ def _parallel_to_the_diameter(s: Any, P: Any, M: Any, W0: Any) -> Any:
                    "draw the parallel to {0}{2}: it meets {0}{1} in {out}.")})
 def curved(d: Any, P: Any, M: Any, W0: Any) -> Any:
     """The centre of curvature C of the path of M: MC = PM^2 / MW, W being the foot of W_0 on PM."""
-    u, w = apart(d, M, P, "the point is the pole: its path has a cusp"), vector(M, W0)
+    u, w = require_apart(d, M, P, "the point is the pole: its path has a cusp"), vector(M, W0)
     part = d.nonzero(dot(u, w), abs(u[0] * w[0]) + abs(u[1] * w[1]), "straight-path",
                      "the point lies on the inflection circle")
     s = dot(u, u) / part
@@ -101,7 +101,7 @@ def _bobillier(s: Any, P: Any, A: Any, A0: Any, B: Any, B0: Any, M: Any) -> Any:
     """The tangent of the centrodes makes with one ray the angle that the axis of collineation makes with the other."""
     a, b, m = s.side(A, A0), s.side(B, B0), s.side(P, M)
     Q = s.meet(s.side(A, B), s.side(A0, B0), name="Q")
-    t = s.called(_other_side(s, P, a, Q, b), "t")
+    t = s.name_mark(_other_side(s, P, a, Q, b), "t")
     T = s.foot(t, A)
     axis = _other_side(s, P, a, T, m)
     R = s.meet(s.side(A, M), axis, name="R")
@@ -139,7 +139,7 @@ def _hartmann(s: Any, P: Any, A: Any, A0: Any, B: Any, B0: Any, M: Any) -> Any:
                                   "its end {U}. Its part along the velocity of {5} gives {out} in the same way.")})
 def conjugate(d: Any, P: Any, A: Any, A0: Any, B: Any, B0: Any, M: Any) -> Any:
     """The centre of curvature of the path of M, from two points with the centres of theirs, all on rays through P."""
-    a, b = (apart(d, P, X, "a point with a known centre is the pole") for X in (A, B))
+    a, b = (require_apart(d, P, X, "a point with a known centre is the pole") for X in (A, B))
     one, two = (dot(ray, vector(P, third(d, X, X0, P, X))) for ray, X, X0 in ((a, A, A0), (b, B, B0)))
     both = d.nonzero(cross(a, b), abs(a[0] * b[1]) + abs(a[1] * b[0]), "lines-parallel", "the two rays are one line")
     W0 = P[0] + (one * b[1] - two * a[1]) / both, P[1] + (two * a[0] - one * b[0]) / both

@@ -14,7 +14,7 @@ def _third(d: Drawn, K: int, A: int, m: int, w: int) -> float:
     return (found * KA - mean * mean) / KA / (d.size + found)
 
 
-def _curved(d: Drawn, P: int, M: int, W: int) -> float:
+def _curvature_error(d: Drawn, P: int, M: int, W: int) -> float:
     """What is left of PM^2 = MW * MC, W being the foot of the inflection pole on the ray."""
     ray = unit(d[P] - d[M])
     mean, foot, found = abs(d[P] - d[M]), dot(ray, d[W] - d[M]), dot(ray, d[-1] - d[M])
@@ -38,6 +38,6 @@ def _conjugate(d: Drawn, P: int, A: int, A0: int, B: int, B0: int, M: int) -> fl
 
 CURVED: dict[str, tuple[Callable[..., float], str]] = {
     "third": (_third, "the length from {2} to {3} is no mean proportional"),
-    "curved": (_curved, "not the centre of curvature that the inflection pole {2} gives {1}"),
+    "curved": (_curvature_error, "not the centre of curvature that the inflection pole {2} gives {1}"),
     "conjugate": (_conjugate, "no centre of curvature of {5} by Euler and Savary"),
 }

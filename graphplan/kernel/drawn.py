@@ -32,12 +32,12 @@ class Drawn:
     def vector(self, ends: Vector) -> complex:
         return self[ends[1]] - self[ends[0]]
 
-    def way(self, k: int) -> complex:
+    def direction(self, k: int) -> complex:
         """The unit vector along which a line runs."""
         a, b, _ = self.numbers[k]
         return complex(b, -a) / math.hypot(a, b)
 
-    def off(self, k: int, X: complex) -> float:
+    def distance_off(self, k: int, X: complex) -> float:
         """How far a point lies to the left of a line, or outside a circle."""
         a, b, c = self.numbers[k]
         if self.kinds[k] == CIRCLE:
@@ -51,7 +51,7 @@ class Drawn:
     def number(self, name: str) -> float:
         return float(self.params.get(name, 0))
 
-    def turned(self, u: complex) -> complex:
+    def turn_to_image(self, u: complex) -> complex:
         """A vector of the link as its image runs."""
         return u if self.params["turn"] == "parallel" else 1j * u
 
@@ -91,7 +91,7 @@ def sideways(u: complex, v: complex) -> float:
     return cross(unit(v), u) if v else abs(u)
 
 
-def forward(u: complex, v: complex) -> float:
+def component_along(u: complex, v: complex) -> float:
     """What of u runs along v."""
     return dot(unit(v), u)
 

@@ -12,12 +12,12 @@ from functools import partial
 from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, LINE, POINT, SET_SQUARES, Form, Movement, primitive
-from graphplan.kernel.primitives import apart
+from graphplan.kernel.primitives import require_apart
 
 # ---- parallel and perpendicular: from a point that the line is known to pass through, or from any --------------------
 
 
-def _known(s: Any, l: Any, P: Any) -> Any:
+def _known_points(s: Any, l: Any, P: Any) -> Any:
     return s.clear_of(P, s.points_on(l))
 
 
@@ -26,10 +26,10 @@ def _any(s: Any, l: Any, P: Any) -> Any:
     return None if size is None else s.pick(l, P, size, ratio=0.5)
 
 
-STARTS = (("", _known), (", from any point", _any))
+STARTS = (("", _known_points), (", from any point", _any))
 
 
-def _erected(s: Any, l: Any, P: Any, X: Any, *, left: bool = True) -> Any:
+def _erect_perpendicular(s: Any, l: Any, P: Any, X: Any, *, left: bool = True) -> Any:
     """The perpendicular through P, by the arc about P through X, a point of the line."""
     arc = s.circle(P, s.opening(P, X))
     D, E = s.line_meets_circle(l, arc, way="on"), s.line_meets_circle(l, arc, way="back")
@@ -41,13 +41,13 @@ def _erected(s: Any, l: Any, P: Any, X: Any, *, left: bool = True) -> Any:
 
 def _arcs(start: Callable[..., Any], s: Any, l: Any, P: Any) -> Any:
     X = start(s, l, P)
-    return None if X is None else _erected(s, l, P, X)
+    return None if X is None else _erect_perpendicular(s, l, P, X)
 
 
-def _mirrored(side: str, s: Any, l: Any, P: Any) -> Any:
+def _perpendicular_by_mirror(side: str, s: Any, l: Any, P: Any) -> Any:
     """The perpendicular through P and its mirror image, by arcs through P about two points of the line."""
     points = s.points_on(l)
-    if s.lies_on(P, l) or len(points) < 2 or s.one(points[0], points[-1]):
+    if s.lies_on(P, l) or len(points) < 2 or s.points_coincide(points[0], points[-1]):
         return None
     one, two = (s.circle(X, s.opening(X, P)) for X in (points[0], points[-1]))
     image = s.circles_meet(one, two, side=side)
@@ -65,9 +65,9 @@ def _rhombus(start: Callable[..., Any], side: str, s: Any, l: Any, P: Any) -> An
 
 def _two_perpendiculars(s: Any, l: Any, P: Any) -> Any:
     across = s.perpendicular(l, P)
-    X = _known(s, across, P)
+    X = _known_points(s, across, P)
     X = _any(s, across, P) if X is None else X
-    return None if X is None else _erected(s, across, P, X, left=False)
+    return None if X is None else _erect_perpendicular(s, across, P, X, left=False)
 
 
 @primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} parallel to {0}.",
@@ -85,7 +85,7 @@ def parallel(d: Any, l: Any, P: Any) -> Any:
 @primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} perpendicular to {0}.",
            claims=(("on", 1), ("perpendicular", 0)), movement=Movement.PERPENDICULAR, afar=((0,),),
            described="the perpendicular to {0} through {1}", forms={
-               **{f"mirror image on the {side}": partial(_mirrored, side) for side in ("right", "left")},
+               **{f"mirror image on the {side}": partial(_perpendicular_by_mirror, side) for side in ("right", "left")},
                **{"arcs" + words: partial(_arcs, start) for words, start in STARTS}})
 def perpendicular(d: Any, l: Any, P: Any) -> Any:
     """The perpendicular to a line through a point, running a quarter turn counter-clockwise of it."""
@@ -95,7 +95,7 @@ def perpendicular(d: Any, l: Any, P: Any) -> Any:
 # ---- halves and feet -------------------------------------------------------------------------------------------------
 
 
-def _bisected(s: Any, P: Any, Q: Any) -> Any:
+def _draw_bisector(s: Any, P: Any, Q: Any) -> Any:
     o = s.opening(P, Q)
     p, q = s.circle(P, o), s.circle(Q, o)
     return s.line(s.circles_meet(p, q, side="right"), s.circles_meet(p, q, side="left"))
@@ -103,16 +103,16 @@ def _bisected(s: Any, P: Any, Q: Any) -> Any:
 
 @primitive((POINT, POINT), LINE, COMPASSES, "Draw {out}, the perpendicular bisector of {0}{1}.",
            claims=(("halfway", 0, 1),), fails=("points-coincide",), movement=Movement.BISECTED,
-           forms={"arcs": _bisected})
+           forms={"arcs": _draw_bisector})
 def bisector(d: Any, P: Any, Q: Any) -> Any:
     """The perpendicular bisector of two points, running a quarter turn counter-clockwise of the first to the second."""
-    u = apart(d, P, Q)
+    u = require_apart(d, P, Q)
     return -u[0], -u[1], (u[0] * (P[0] + Q[0]) + u[1] * (P[1] + Q[1])) / 2
 
 
 @primitive((POINT, POINT), POINT, COMPASSES, "Halve the distance from {0} to {1}: mark {out}.",
            claims=(("same", (0, -1), (-1, 1)),), movement=Movement.HALVED, forms={
-               "one point": lambda s, P, Q: P if s.one(P, Q) else None,
+               "one point": lambda s, P, Q: P if s.points_coincide(P, Q) else None,
                "arcs": lambda s, P, Q: s.meet(s.line(P, Q), s.bisector(P, Q))})
 def midpoint(d: Any, P: Any, Q: Any) -> Any:
     """The point halfway between two points."""
@@ -145,7 +145,8 @@ def _fourth_corner(side: str) -> Form:
 
 @primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off the vector from {0} to {1}: mark {out}.",
            claims=(("same", (0, 1), (2, -1)),), movement=Movement.LAID_OFF, afar=((0, 1),), forms={
-               "nothing to draw": lambda s, P, Q, R: R if s.one(P, Q) else Q if s.one(P, R) else None,
+               "nothing to draw": lambda s, P, Q, R: R if s.points_coincide(P, Q) else Q if s.points_coincide(P, R)
+               else None,
                "dividers": _with_dividers("parallel"),
                "parallelogram": lambda s, P, Q, R: s.meet(s.parallel(s.line(P, Q), R), s.parallel(s.line(P, R), Q)),
                "two arcs, left": _fourth_corner("left"),
@@ -158,7 +159,7 @@ def transfer(d: Any, P: Any, Q: Any, R: Any) -> Any:
 @primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off the vector from {0} to {1}, turned a quarter "
            "counter-clockwise: mark {out}.", claims=(("quarter", (0, 1), (2, -1)),), movement=Movement.TURNED,
            afar=((0, 1),), forms={
-               "nothing to turn": lambda s, P, Q, R: R if s.one(P, Q) else None,
+               "nothing to turn": lambda s, P, Q, R: R if s.points_coincide(P, Q) else None,
                "dividers": _with_dividers("perpendicular")})
 def quarter(d: Any, P: Any, Q: Any, R: Any) -> Any:
     """The vector PQ, turned a quarter counter-clockwise, laid off from R."""
@@ -173,7 +174,7 @@ def _through_a_point(s: Any, l: Any, P: Any, Q: Any) -> Any:
 
 @primitive((LINE, POINT, POINT), LINE, SET_SQUARES, "Shift {0} by the vector from {1} to {2}: draw {out}.",
            claims=(("parallel", 0), ("shifted", 0, 1, 2)), where=0, afar=((1, 2),), forms={
-               "nothing to draw": lambda s, l, P, Q: l if s.one(P, Q) else None,
+               "nothing to draw": lambda s, l, P, Q: l if s.points_coincide(P, Q) else None,
                "through the end": lambda s, l, P, Q: s.parallel(l, Q),
                "foot": _through_a_point})
 def shift(d: Any, l: Any, P: Any, Q: Any) -> Any:

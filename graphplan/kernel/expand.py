@@ -90,14 +90,14 @@ class Expander:
     def run(self) -> Program:
         """The expanded program. Lines that fall on one another are drawn apart where only so do they cross."""
         try:
-            return self._drawn()
+            return self._drawn_program()
         except ConstructionError:
             if self._apart or not self.lines.fell:
                 raise
             self._apart = True
-            return self._drawn()
+            return self._drawn_program()
 
-    def _drawn(self) -> Program:
+    def _drawn_program(self) -> Program:
         self._begin()
         place: list[Mark] = []
         for step in self.program.steps:
@@ -112,13 +112,13 @@ class Expander:
             if step.quantity:
                 self.board.annotate(mark.step.index, quantity=step.quantity)
             self.board.named(mark, step.name)
-            place.append(self._along(self.truth[step.index], mark) if mark.kind == LINE else mark)
+            place.append(self._directed_line(self.truth[step.index], mark) if mark.kind == LINE else mark)
             self.inner[step.index] = self._letters
             self.serves += [step.index] * (len(self.board.steps) - len(self.serves))
         self.place = [mark.step.index for mark in place]
         return Program(tuple(self.board.steps), tuple(self.place[index] for index in self.program.wanted))
 
-    def _along(self, truth: Any, mark: Mark) -> Mark:
+    def _directed_line(self, truth: Any, mark: Mark) -> Mark:
         """A line as it runs in truth. A locus has no way to run: drawn out, it may run against its rule."""
         return mark.reversed if runs_against(truth, self.value(mark)) else mark
 
@@ -140,7 +140,7 @@ class Expander:
         if not found:
             return self._record(op, args, params, why, truth)
         before, best = len(self.board.steps), found[0]
-        out = self._laid(best)
+        out = self._redraw_attempt(best)
         if out.step.index >= before:
             self._made.setdefault(out.step.index, (op.name, args))
             if truth and op.gives == POINT:
@@ -157,7 +157,7 @@ class Expander:
         values = [*self.values, *attempt.values]
         return any(unmet(mark.step, values, FORM_TOL, self.extent) for mark in attempt.marks)
 
-    def _laid(self, attempt: Attempt) -> Mark:
+    def _redraw_attempt(self, attempt: Attempt) -> Mark:
         """What an attempt has drawn, on the board once more."""
         assert attempt.out is not None
         self.board.lay(attempt.marks)
@@ -175,7 +175,7 @@ class Expander:
         truth = op.rule(FLOATS, *map(self.value, args), **params) if truth is None else truth
         found: list[Attempt] = []
         for form in op.forms:
-            bound = self._allowed(form, found) if tried or not op.weighed else math.inf
+            bound = self._movement_limit(form, found) if tried or not op.weighed else math.inf
             attempt = self._try(op, args, params, truth, form, bound)
             found += [attempt] if attempt else []
         found.sort(key=lambda one: self._rank(one.rating))
@@ -183,7 +183,7 @@ class Expander:
             raise Outdone
         return found
 
-    def _allowed(self, form: str, found: Sequence[Attempt]) -> float:
+    def _movement_limit(self, form: str, found: Sequence[Attempt]) -> float:
         """The movements that a form may take and still be better than those found."""
         *ideal, _ = self._rank(Rating(form, 0))
         ranks = ((self._rank(one.rating), one.rating.movements) for one in found)
@@ -201,11 +201,12 @@ class Expander:
             known = truth and not any(arg.against for arg in args)
             self.values.append(truth if known else op.rule(FLOATS, *drawn, **step.params))
             self.reach.append(self._reach(step))
-            if op.gives == LINE and (lying := self.lines.fallen(step, self._apart)) is not None:
+            if op.gives == LINE and (lying := self.lines.enter_line(step, self._apart)) is not None:
                 run = self.value(mark)
                 self._rewind(step.index)
                 old = self.board.marks[lying]
-                return self._along(run, Mark(self.board, old.step, old.heading, fallen=op.movement is Movement.RULED))
+                return self._directed_line(run, Mark(self.board, old.step, old.heading,
+                                                     fallen=op.movement is Movement.RULED))
             if len(self.values) > self._limit:
                 raise Outdone
         return mark
@@ -253,7 +254,7 @@ class Expander:
         own = (math.hypot(*value[:2]) if step.op.gives in (POINT, CIRCLE)
                else math.sqrt(value[0]) if step.op.gives == OPENING else 0.0)
         return max([own, *(self.reach[arg] for place, arg in enumerate(step.args)
-                           if place in step.op.near or step.op.reads[place] != LINE)])
+                           if place in step.op.same_plan_operands or step.op.reads[place] != LINE)])
 
     def _agrees(self, op: Primitive, args: tuple[Mark, ...], value: Any, truth: Any, before: int,
                 sharpest: float) -> bool:
@@ -264,7 +265,7 @@ class Expander:
         """
         read = max(self.reach[arg.step.index] for arg in args)
         if op.gives == LINE:
-            locus = op.claimed("locus") or op.claimed("concurrent")
+            locus = op.claim_operands("locus") or op.claim_operands("concurrent")
             gap, spread = line_gap(truth, value, read), read
             if runs_against(truth, value) and not locus:
                 return False
@@ -309,9 +310,9 @@ class FormBoard(Verbs):
         if op.movement is Movement.RULED and self._nothing(self.distance(*args), *args):
             raise Undrawable("points-coincide", "the two points coincide but for rounding")
         mark = self._expander.draw(op, args, params, tried=True)
-        return self.called(mark, name) if name else mark
+        return self.name_mark(mark, name) if name else mark
 
-    def called(self, mark: Mark, name: str) -> Mark:
+    def name_mark(self, mark: Mark, name: str) -> Mark:
         """A mark that the form has a name for."""
         self.letters.append((mark, name))
         return mark
@@ -332,7 +333,7 @@ class FormBoard(Verbs):
         """Whether marks lie on one plan, so that they may be joined."""
         return self._expander.board.coplanar or len({mark.panel for mark in marks}) == 1
 
-    def one(self, P: Mark, Q: Mark) -> bool:
+    def points_coincide(self, P: Mark, Q: Mark) -> bool:
         """Whether two points of a plan fall on one place."""
         return P.panel == Q.panel and self._nothing(self.distance(P, Q), P, Q)
 
@@ -345,7 +346,7 @@ class FormBoard(Verbs):
         (x, y), (a, b, c) = self._expander.value(P), self._expander.value(l)
         return P.panel == l.panel and self._nothing((a * x + b * y + c) / math.hypot(a, b), P, l)
 
-    def together(self, l: Mark, m: Mark) -> bool:
+    def lines_coincide(self, l: Mark, m: Mark) -> bool:
         """Whether two lines of a plan fall together."""
         (a, b, c), (u, v, w) = self._expander.value(l), self._expander.value(m)
         way, reach = complex(-b, a) / math.hypot(a, b), max(self._expander.reach[mark.step.index] for mark in (l, m))
@@ -358,7 +359,7 @@ class FormBoard(Verbs):
         p, q, r = (complex(*self._expander.value(X)) for X in (P, Q, R))
         return self._nothing(((q - p).conjugate() * (r - p)).imag / (abs(q - p) or 1.0), P)
 
-    def way(self, P: Mark, Q: Mark, R: Mark) -> str:
+    def sense_along(self, P: Mark, Q: Mark, R: Mark) -> str:
         """How R lies from P on the line PQ: further `on`, where Q is, or `back`."""
         p, q, r = (complex(*self._expander.value(X)) for X in (P, Q, R))
         return "on" if ((q - p).conjugate() * (r - p)).real >= 0 else "back"
@@ -390,4 +391,4 @@ class FormBoard(Verbs):
         points = [step for step in points if self.on_sheet(self._expander.board.marks[step.index])] or points
         values, here = self._expander.values, self._expander.value(P)
         far = max((step.index for step in points), key=lambda index: math.dist(here, values[index]), default=None)
-        return None if far is None or self.one(P, mark := self._expander.board.marks[far]) else mark
+        return None if far is None or self.points_coincide(P, mark := self._expander.board.marks[far]) else mark

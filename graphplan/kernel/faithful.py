@@ -53,13 +53,13 @@ def faithful(program: Program) -> Faithful:
         fault = error
     if fault is None and floats.share >= DIVISOR_SHARE:
         return Faithful(values, False, 1.0)
-    better = _bounded(program) if find_spec("flint") else _exact(program)
+    better = _enclosed_values(program) if find_spec("flint") else _exact(program)
     if fault is not None and (better is None or _far_off(program, better)):
         raise fault
     return Faithful(values, False, 1 / floats.share) if better is None else Faithful(better, True, 1.0)
 
 
-def _bounded(program: Program) -> list[Any] | None:
+def _enclosed_values(program: Program) -> list[Any] | None:
     """The values rounded from between bounds; none where these do not close."""
     from graphplan.kernel.numbers.enclosures import Enclosures, Undecided, precision
 
@@ -71,7 +71,7 @@ def _bounded(program: Program) -> list[Any] | None:
                 numbers = [number for value in values for number in value]
                 nothing = max(abs(number.middle) for number in numbers) / 2**(bits // 2)
                 if all(number.error <= max(DIGITS * abs(number.middle), nothing) for number in numbers):
-                    return [tuple(map(_rounded, value)) for value in values]
+                    return [tuple(map(_nearest_float, value)) for value in values]
             except ConstructionError:
                 if not domain.undecided:
                     return None
@@ -91,7 +91,7 @@ def _reach(program: Program, values: list[Any]) -> float:
     return max((abs(part) for point in points for part in point), default=0.0)
 
 
-def _rounded(number: Any) -> float:
+def _nearest_float(number: Any) -> float:
     """The float nearest to a number between bounds: 0 where it may be that."""
     return 0.0 if abs(number.middle) <= number.error else float(number)
 

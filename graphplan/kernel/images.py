@@ -11,11 +11,11 @@ from functools import partial
 from typing import Any
 
 from graphplan.kernel.kinds import LINE, POINT, SET_SQUARES, STRAIGHTEDGE, Form, Variant, primitive
-from graphplan.kernel.primitives import apart, dot, size, vector
+from graphplan.kernel.primitives import dot, require_apart, vector, vector_size
 from graphplan.phrases import phrase
 
 
-def _turned(u: Any, turn: str) -> Any:
+def _image_direction(u: Any, turn: str) -> Any:
     return u if turn == "parallel" else (-u[1], u[0])
 
 
@@ -24,7 +24,7 @@ def _turned(u: Any, turn: str) -> Any:
 
 def _ray(way: str, s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
     """Intercept theorem on a ray of its own, square to PQ, as A, B and C may lie along PQ (Ozols 1974, 5-2)."""
-    if s.way(A, B, C) != way:
+    if s.sense_along(A, B, C) != way:
         return None
     PQ = s.side(P, Q)
     ray = s.perpendicular(PQ, P)
@@ -35,7 +35,7 @@ def _ray(way: str, s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
 
 def _on_the_link(way: str, s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
     """On AB itself, with PQ laid off square to it: nothing longer than AB or PQ is drawn."""
-    if s.way(A, B, C) != way:
+    if s.sense_along(A, B, C) != way:
         return None
     ray = s.perpendicular(s.side(A, B), A)
     Q1 = s.line_meets_circle(ray, s.circle(A, s.opening(P, Q)), way="on")
@@ -53,7 +53,7 @@ def _upright(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
            claims=(("along", (0, 2), (0, 1)), ("along", (3, -1), (3, 4)), ("proportion", 0, 1, 2, 3, 4)),
            fails=("points-coincide",), afar=((0, 1, 2),), forms={
                "at an end": lambda s, A, B, C, P, Q:
-                   P if s.one(A, C) or s.one(P, Q) else Q if s.one(B, C) else None,
+                   P if s.points_coincide(A, C) or s.points_coincide(P, Q) else Q if s.points_coincide(B, C) else None,
                "upright": _upright,
                "ray": partial(_ray, "on"),
                "ray, beyond": partial(_ray, "back"),
@@ -63,7 +63,7 @@ def _upright(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
                                       "in {out}.")})
 def divide(d: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
     """The point of PQ that divides it as C divides AB; A, B, C lie on one line."""
-    u = apart(d, A, B)
+    u = require_apart(d, A, B)
     t = dot(vector(A, C), u) / dot(u, u)
     return P[0] + t * (Q[0] - P[0]), P[1] + t * (Q[1] - P[1])
 
@@ -89,7 +89,7 @@ def _foot_and_side(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str)
            fails=("points-coincide",), params=("turn",), afar=((0, 1, 2),),
            source="Rosenauer 1939, No. 14; Ozols 1974, 5-2", forms={
                "at a corner": lambda s, A, B, C, a, b, turn:
-                   a if s.one(A, C) or s.one(a, b) else b if s.one(B, C) else None,
+                   a if s.points_coincide(A, C) or s.points_coincide(a, b) else b if s.points_coincide(B, C) else None,
                "sides": _sides,
                "centre of similitude": _centre_of_similitude,
                "foot and side": _foot_and_side,
@@ -100,16 +100,16 @@ def _foot_and_side(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str)
                              "intercept theorem.")})
 def similar(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any, /, *, turn: str) -> Any:
     """The image of a third point of a link of which two points' images are known."""
-    u = apart(d, A, B)
-    s = dot(vector(a, b), _turned(u, turn)) / dot(u, u)
-    w = _turned(vector(A, C), turn)
+    u = require_apart(d, A, B)
+    s = dot(vector(a, b), _image_direction(u, turn)) / dot(u, u)
+    w = _image_direction(vector(A, C), turn)
     return a[0] + s * w[0], a[1] + s * w[1]
 
 
 # ---- loci of a link with two facts -----------------------------------------------------------------------------------
 
 
-def _home(s: Any, alpha: Any, A: Any, turn: str) -> Any:
+def _line_of_image(s: Any, alpha: Any, A: Any, turn: str) -> Any:
     """The line of the link through A whose image is alpha: drawn already if alpha was made from it."""
     op, args = s.made_by(alpha)
     if op == turn:
@@ -120,13 +120,13 @@ def _home(s: Any, alpha: Any, A: Any, turn: str) -> Any:
 
 
 def _auxiliary_point(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
-    y, z = s.called(_home(s, alpha, A, turn), "y"), s.called(_home(s, beta, B, turn), "z")
+    y, z = s.name_mark(_line_of_image(s, alpha, A, turn), "y"), s.name_mark(_line_of_image(s, beta, B, turn), "z")
     Q = s.meet(y, z, name="Q")
     q = s.meet(alpha, beta, name="q")
     return getattr(s, turn)(s.side(Q, C), q)
 
 
-def _sized(s: Any, A: Any, alpha: Any, B: Any) -> tuple[Any, Any]:
+def _trial_start(s: Any, A: Any, alpha: Any, B: Any) -> tuple[Any, Any]:
     """Where on a locus a trial figure begins, and how large it is: as the link, or on another plan as what is drawn."""
     if s.share_plan(alpha, A):
         return A, B
@@ -138,7 +138,7 @@ def _sized(s: Any, A: Any, alpha: Any, B: Any) -> tuple[Any, Any]:
 
 def _trial(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, turn: str, ratio: float, mark: str) -> Any:
     """The image of C in one trial figure, its side A'B' fitted between the loci."""
-    a = s.pick(alpha, *_sized(s, A, alpha, B), ratio=ratio, name="A" + mark)
+    a = s.pick(alpha, *_trial_start(s, A, alpha, B), ratio=ratio, name="A" + mark)
     b = s.meet(getattr(s, turn)(s.side(A, B), a), beta, name="B" + mark)
     return s.similar(A, B, C, a, b, turn=turn, name="C" + mark)
 
@@ -146,11 +146,11 @@ def _trial(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, turn: str, rat
 def _trials(*ratios: float) -> Form:
     """Two trial figures, or one and the figure of no size where the loci meet."""
 
-    def drawn(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
+    def draw_locus(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
         ends = [_trial(s, A, alpha, B, beta, C, turn, ratio, "'" * n) for n, ratio in enumerate(ratios, 1)]
         return s.side(*ends) if len(ends) == 2 else s.side(s.meet(alpha, beta, name="U"), *ends)
 
-    return drawn
+    return draw_locus
 
 
 @primitive((POINT, LINE, POINT, LINE, POINT), LINE, STRAIGHTEDGE,
@@ -160,9 +160,9 @@ def _trials(*ratios: float) -> Form:
            source="Rosenauer 1939, No. 14: auxiliary points Q, R and trial triangle", where=1, afar=((0, 2, 4),),
            weighed=True, described="the locus of the end of {4}", forms={
                "the same point": lambda s, A, alpha, B, beta, C, turn:
-                   alpha if s.one(A, C) else beta if s.one(B, C) else None,
+                   alpha if s.points_coincide(A, C) else beta if s.points_coincide(B, C) else None,
                "the same line": lambda s, A, alpha, B, beta, C, turn:
-                   alpha if s.in_line(A, B, C) and s.together(alpha, beta) else None,
+                   alpha if s.in_line(A, B, C) and s.lines_coincide(alpha, beta) else None,
                "auxiliary point": _auxiliary_point,
                "trial figure": _trials(0.35),
                Variant("trial figure", "on the other side"): _trials(-0.35),
@@ -183,10 +183,10 @@ def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str
     Image C' = A' + s CA (turned): eliminating s from both incidences leaves a line of the pencil of alpha and beta.
     No intersection is formed, so it holds where the auxiliary point is far away or nowhere.
     """
-    u, v = _turned(vector(C, A), turn), _turned(vector(C, B), turn)
+    u, v = _image_direction(vector(C, A), turn), _image_direction(vector(C, B), turn)
     one, two = dot(alpha, u), dot(beta, v)
     a, b, c = (two * p - one * q for p, q in zip(alpha, beta, strict=True))
-    reach = (size(alpha) * size(beta)) * (size(u) + size(v))
+    reach = (vector_size(alpha) * vector_size(beta)) * (vector_size(u) + vector_size(v))
     whole = d.nonzero(abs(a) + abs(b), reach, "locus-undetermined", "the pole of the link lies in the point itself")
     return a / whole, b / whole, c / whole
 
@@ -201,7 +201,7 @@ def _other_locus(s: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, 
            "the image's sides {turn}.",
            claims=(("on", 3), ("image", 0, 2, 1, -1), ("carried", 0, 2, 4, 1, 5)),
            fails=("lines-parallel",), params=("turn",), afar=((0, 2, 4),), forms={
-               "the same point": lambda s, C, c, A, alpha, B, beta, turn: c if s.one(C, A) else None,
+               "the same point": lambda s, C, c, A, alpha, B, beta, turn: c if s.points_coincide(C, A) else None,
                "its own locus": lambda s, C, c, A, alpha, B, beta, turn:
                    s.meet(getattr(s, turn)(s.side(C, A), c), alpha),
                "the other locus": _other_locus},
@@ -214,11 +214,12 @@ def settle(d: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, /, *, 
 
     Either locus alone would do; weighing both by what they can tell keeps the value good where one of them cannot.
     """
-    u, v = _turned(vector(C, A), turn), _turned(vector(C, B), turn)
+    u, v = _image_direction(vector(C, A), turn), _image_direction(vector(C, B), turn)
     m, n, p, q = dot(alpha, alpha), dot(beta, beta), dot(alpha, u), dot(beta, v)
     e, f = dot(alpha, c) + alpha[2], dot(beta, c) + beta[2]
-    told = abs(p) / size(alpha) + abs(q) / size(beta)
-    d.nonzero(told, size(u) + size(v), "lines-parallel", "neither locus meets the line through the known image")
+    told = abs(p) / vector_size(alpha) + abs(q) / vector_size(beta)
+    d.nonzero(told, vector_size(u) + vector_size(v), "lines-parallel",
+              "neither locus meets the line through the known image")
     s = -(p * e / m + q * f / n) / (p * p / m + q * q / n)
     return c[0] + s * u[0], c[1] + s * u[1]
 
@@ -243,7 +244,7 @@ def _ordinates(carry: str, s: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, 
                "errors as ordinates, turned": partial(_ordinates, "quarter")})
 def false_position(d: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
     """The point of A1A2 for which Z falls on its line, from the errors of two trials; both lines are parallel."""
-    u = apart(d, A1, A2, "both trials begin in one point")
+    u = require_apart(d, A1, A2, "both trials begin in one point")
     e1 = dot(l1, Z1) + l1[2]
     e2 = (dot(l2, Z2) + l2[2]) * (dot(l1, l2) / dot(l2, l2))
     gap = d.nonzero(e1 - e2, abs(e1) + abs(e2), "trials-agree", "both trial figures miss by the same amount")

@@ -19,7 +19,7 @@ Total = tuple[tuple[int, int], ...]  # marks by their places, each with how many
 def bearing(op: Primitive, read: Sequence[Heading], place: int) -> Heading:
     """The heading of what an operation makes of marks with these headings: of a line at this place its own, but for
     one that is drawn by another line."""
-    along, turns = followed(op)
+    along, turns = direction_source(op)
     if along is None:
         return place, 0
     base, ahead = read[along]
@@ -27,9 +27,10 @@ def bearing(op: Primitive, read: Sequence[Heading], place: int) -> Heading:
 
 
 @cache
-def followed(op: Primitive) -> tuple[int | None, int]:
+def direction_source(op: Primitive) -> tuple[int | None, int]:
     """The operand whose direction a line takes, if it does, and by how many quarter turns it is ahead."""
-    found = [(place, turns) for turns, claim in enumerate(("parallel", "perpendicular")) for place in op.claimed(claim)
+    found = [(place, turns) for turns, claim in enumerate(("parallel", "perpendicular"))
+             for place in op.claim_operands(claim)
              if op.gives == LINE]
     return found[0] if found else (None, 0)
 
@@ -38,7 +39,7 @@ def followed(op: Primitive) -> tuple[int | None, int]:
 def incident(op: Primitive) -> tuple[int, ...]:
     """The points that a line is drawn through, or the lines that a point is marked by, among the operands."""
     other = {LINE: POINT, POINT: LINE}.get(op.gives, "")
-    return tuple(place for place in op.claimed("on") if op.reads[place] == other)
+    return tuple(place for place in op.claim_operands("on") if op.reads[place] == other)
 
 
 def laid_off(P: Total, Q: Total, R: Total) -> Total:

@@ -39,7 +39,7 @@ class Quantity(NamedTuple):
     changing: bool = False
 
     @property
-    def own(self) -> tuple[Quantity, ...]:
+    def sharing_key(self) -> tuple[Quantity, ...]:
         """What no other quantity's step may be taken for, though it is as long in this pose."""
         return (self,) if self.changing else ()
 
@@ -164,7 +164,7 @@ class Primitive:
 
     def __reduce__(self) -> tuple[Callable[[str], Primitive], tuple[str]]:
         """Pickled by name; the table is a singleton."""
-        return named, (self.name,)
+        return primitive_named, (self.name,)
 
     @property
     def compound(self) -> bool:
@@ -177,7 +177,7 @@ class Primitive:
         return self.gives == POINT and not self.reads
 
     @cached_property
-    def near(self) -> tuple[int, ...]:
+    def same_plan_operands(self) -> tuple[int, ...]:
         """The operands that lie on the plan on which it is drawn: all but vectors, openings and directions."""
         return tuple(place for place in range(len(self.reads)) if not any(place in group for group in self.afar))
 
@@ -187,29 +187,29 @@ class Primitive:
         return self.where % len(self.reads) if self.movement in LAID else None
 
     @property
-    def scaled(self) -> bool:
+    def has_size(self) -> bool:
         """Whether what is laid off has a given size."""
         return self.root is not None and self.instrument == SCALE and self.movement is not Movement.MEASURED
 
     @cached_property
     def crossing(self) -> bool:
         """Whether it marks where the two curves that it reads cross: the angle between them matters."""
-        return self.gives == POINT and self.claimed("on") == [0, 1] and len(self.reads) == 2
+        return self.gives == POINT and self.claim_operands("on") == [0, 1] and len(self.reads) == 2
 
     @property
     def spans(self) -> bool:
         """Whether its mark lies between the two points that it reads."""
         return self.movement in (Movement.RULED, Movement.OPENED)
 
-    def spoken(self, read: Iterable[Any], **named: Any) -> Said:
+    def sentence_of(self, read: Iterable[Any], **named: Any) -> Said:
         """Its sentence, of what it reads, what comes `out` and its parameters in words."""
         return sentence(self.name, self.sentence, read, named)
 
-    def claimed(self, kind: str) -> list[Any]:
+    def claim_operands(self, kind: str) -> list[Any]:
         """The first operands of the claims of a kind: those that it lies `on`, that it runs `parallel` to."""
         return [claim[1] for claim in self.claims if claim[0] == kind]
 
-    def reversed(self, params: Mapping[str, Any]) -> dict[str, Any]:
+    def reverse_parameters(self, params: Mapping[str, Any]) -> dict[str, Any]:
         """The parameters with that of its reversal turned round: to the other side, or negative."""
         given = params[self.reversal]
         return {**params, self.reversal: OPPOSITE[given] if isinstance(given, str) else -given}
@@ -220,7 +220,7 @@ CHOICES: dict[str, Said] = {str(word): word for word in (
     said("on"), said("back"), said("left"), said("right"), said("parallel"), said("perpendicular"))}
 
 
-def worded(value: Any) -> str:
+def parameter_text(value: Any) -> str:
     """A parameter as a reader wants it: a plan in words, a short decimal, a plain fraction such as 2/3, six digits."""
     if isinstance(value, str):
         return CHOICES.get(value, getattr(value, "words", value))
@@ -232,7 +232,7 @@ def worded(value: Any) -> str:
 TABLE: dict[str, Primitive] = {}
 
 
-def named(name: str) -> Primitive:
+def primitive_named(name: str) -> Primitive:
     """The operation of this name."""
     return TABLE[name]
 
@@ -302,7 +302,7 @@ class Rating:
         return self.undrawn, self.sharpest < BLUNT, not self.on_sheet, self.sharpest < SHARP, self.movements
 
     @property
-    def told(self) -> Said:
+    def text(self) -> Said:
         """What speaks for it, in words."""
         angle = math.degrees(math.asin(min(1.0, self.sharpest)))
         place = said("on the sheet") if self.on_sheet else said("off the sheet")
@@ -329,5 +329,5 @@ class Choice:
     def reason(self, rivals: int | None = None) -> Said:
         """Why this form, beside all others or so many."""
         if not self.others:
-            return said("{0}, the only form that can be drawn here", self.best.told)
-        return said("{0} rather than {1}", self.best.told, joined(other.told for other in self.others[:rivals]))
+            return said("{0}, the only form that can be drawn here", self.best.text)
+        return said("{0} rather than {1}", self.best.text, joined(other.text for other in self.others[:rivals]))

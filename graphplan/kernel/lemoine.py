@@ -53,7 +53,7 @@ class Counts:
         return self.R2 + self.C3 + self.scale + sum(self.others.values())
 
     @property
-    def told(self) -> Said:
+    def text(self) -> Said:
         """The counts in words."""
         laid = [said("by the scale {0}", self.scale)] if self.scale else []
         if not self.strict:

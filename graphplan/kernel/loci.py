@@ -16,7 +16,7 @@ from itertools import product
 from typing import Any, NamedTuple, Self
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.closures import Attitude, Closure, Hinge, Pin, Vector, closed
+from graphplan.kernel.closures import Attitude, Closure, Hinge, Pin, Vector, close_group
 from graphplan.kernel.kinds import CIRCLE, COMPASSES, PENCIL, POINT, TABLE, Movement, primitive
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.positions import Angle
@@ -49,7 +49,7 @@ class Curve(str):
         return Curve, (str(self), self.at, self.off, self.slopes)
 
 
-def along(d: Any, plans: Sequence[Any], u: Any) -> Vector:
+def cubic_point(d: Any, plans: Sequence[Any], u: Any) -> Vector:
     """The place at a parameter on the cubic through four points."""
     weights = []
     for k, node in enumerate(NODES):
@@ -61,9 +61,9 @@ def along(d: Any, plans: Sequence[Any], u: Any) -> Vector:
             sum((w * P[1] for w, P in zip(weights, plans, strict=True)), d.lift(0)))
 
 
-def ahead(plans: Sequence[Any], u: float) -> Vector:
+def cubic_direction(plans: Sequence[Any], u: float) -> Vector:
     """How the cubic runs there."""
-    (x, y), (v, w) = (along(FLOATS, plans, u + off) for off in (-LOCUS_STEP, LOCUS_STEP))
+    (x, y), (v, w) = (cubic_point(FLOATS, plans, u + off) for off in (-LOCUS_STEP, LOCUS_STEP))
     return (v - x) / (2 * LOCUS_STEP), (w - y) / (2 * LOCUS_STEP)
 
 
@@ -73,9 +73,9 @@ def ahead(plans: Sequence[Any], u: float) -> Vector:
 def curve_meets_circle(d: Any, P: Any, Q: Any, R: Any, S: Any, c: Any, /, *, curve: Curve) -> Any:
     """Where a curve through four points meets a circle near a known place, to first order in what misses there."""
     u, (dx, dy) = d.lift(curve.at[0]), map(d.lift, curve.off[0])
-    x, y = along(d, (P, Q, R, S), u)
+    x, y = cubic_point(d, (P, Q, R, S), u)
     arm = (x + dx - c[0], y + dy - c[1])
-    x, y = along(d, (P, Q, R, S), u - d.lift(curve.slopes[0][0]) * (dot(arm, arm) - c[2]))
+    x, y = cubic_point(d, (P, Q, R, S), u - d.lift(curve.slopes[0][0]) * (dot(arm, arm) - c[2]))
     return x + dx, y + dy
 
 
@@ -87,9 +87,9 @@ def curves_meet(d: Any, *plans: Any, curve: Curve) -> Any:
     u, w = map(d.lift, curve.at)
     (a, b), (e, f) = (tuple(map(d.lift, off)) for off in curve.off)
     i, j = map(d.lift, curve.slopes[0])
-    (x, y), (v, z) = along(d, plans[:4], u), along(d, plans[4:], w)
+    (x, y), (v, z) = cubic_point(d, plans[:4], u), cubic_point(d, plans[4:], w)
     gap = x + a - v - e, y + b - z - f
-    x, y = along(d, plans[:4], u - i * gap[0] - j * gap[1])
+    x, y = cubic_point(d, plans[:4], u - i * gap[0] - j * gap[1])
     return x + a, y + b
 
 
@@ -166,9 +166,9 @@ class Plans:
         """Places of the joint in four positions near the known one, and its parameter there; none where arcs do not
         find them, or no curve through them is near enough to the path."""
         sketch = Plans(Sketch(), [self.s.place(mark) for mark in self.joints], self.group, self.pose, self.side)
-        true = self.pose[self.side.body].at((float(self.side.at[0]), float(self.side.at[1])))
+        true = self.pose[self.side.body].place_point((float(self.side.at[0]), float(self.side.at[1])))
         for (pin, hinge), spacing in product(self._cranks(), SPACING):
-            x, y = self.pose[pin.body].turned((float(hinge[0] - pin.at[0]), float(hinge[1] - pin.at[1])))
+            x, y = self.pose[pin.body].turn_vector((float(hinge[0] - pin.at[0]), float(hinge[1] - pin.at[1])))
             now, long = math.degrees(math.atan2(y, x)), math.hypot(x, y)
             base = math.floor(now / spacing) * spacing
             angles, u = [_angle(base + node * spacing, long) for node in NODES], (now - base) / spacing
@@ -176,7 +176,8 @@ class Plans:
                 places = [sketch.plan(pin, hinge, angle) for angle in angles]
             except Undrawable:  # links do not reach each other
                 continue
-            if None not in places and math.dist(true, along(FLOATS, places, u)) <= LOCUS_TOL * math.dist(*places[1:3]):
+            if None not in places and math.dist(true,
+                                                cubic_point(FLOATS, places, u)) <= LOCUS_TOL * math.dist(*places[1:3]):
                 return [self.plan(pin, hinge, angle) for angle in angles], u
         return None
 
@@ -191,11 +192,11 @@ class Plans:
         known = {pin.body: [(pin.at, self.joints[pin.joint]),
                             (hinge, self.s.crank(self.joints[pin.joint], angle=angle))]}
         while self.side.body not in known:
-            if not self._next(known):
+            if not self._place_next(known):
                 return None
         return self._point(known[self.side.body], self.side.at)
 
-    def _next(self, known: dict[int, list[Any]]) -> bool:
+    def _place_next(self, known: dict[int, list[Any]]) -> bool:
         """Place the next two bodies by arcs, or one that hangs between two that are."""
         anchors = {body: self._anchors(body, known) for body in self.side.bodies if body not in known}
         for body, found in anchors.items():
@@ -206,7 +207,7 @@ class Plans:
         for h in self.hinges:
             if h.body in single and h.other in single:
                 (p, P), (q, Q) = single[h.body], single[h.other]
-                ends = [self.pose[body].at((float(at[0]), float(at[1])))
+                ends = [self.pose[body].place_point((float(at[0]), float(at[1])))
                         for body, at in ((h.body, p), (h.other, q), (h.body, h.at))]
                 (x, y), (u, v), (a, b) = ends
                 side = "left" if cross((u - x, v - y), (a - x, b - y)) > 0 else "right"
@@ -242,13 +243,13 @@ def _angle(degrees: float, long: float) -> Angle:
 
 def _loci(s: Any, *joints: Any, group: Closure, joint: str) -> Any:
     """The crossing of the two curves."""
-    pose = closed(FLOATS, [s.place(mark) for mark in joints], group)
+    pose = close_group(FLOATS, [s.place(mark) for mark in joints], group)
     plans = [Plans(s, joints, group, pose, side) for side in sides(group, joint)]
     if not plans:
         return None
     plans.sort(key=lambda one: len(one.side.bodies) == 1)
     side = plans[0].side
-    true = pose[side.body].at((float(side.at[0]), float(side.at[1])))
+    true = pose[side.body].place_point((float(side.at[0]), float(side.at[1])))
     bars = [one.circle() for one in plans if len(one.side.bodies) == 1]
     if len(bars) == 2:
         (x, y), (u, v) = (s.place(joints[one.pins[one.side.body].joint]) for one in plans)
@@ -259,9 +260,9 @@ def _loci(s: Any, *joints: Any, group: Closure, joint: str) -> Any:
         return None
     curves = [one for one in found if one is not None]
     places = [[s.place(mark) for mark in marks] for marks, _ in curves]
-    offs = [tuple(t - p for t, p in zip(true, along(FLOATS, own, u), strict=True))
+    offs = [tuple(t - p for t, p in zip(true, cubic_point(FLOATS, own, u), strict=True))
             for own, (_, u) in zip(places, curves, strict=True)]
-    ways = [ahead(own, u) for own, (_, u) in zip(places, curves, strict=True)]
+    ways = [cubic_direction(own, u) for own, (_, u) in zip(places, curves, strict=True)]
     at = [u for _, u in curves]
     if bars:
         x, y = s.place(joints[plans[1].pins[plans[1].side.body].joint])
@@ -273,11 +274,11 @@ def _loci(s: Any, *joints: Any, group: Closure, joint: str) -> Any:
     return s.curves_meet(*curves[0][0], *curves[1][0], curve=Curve("a curve", at, offs, slopes))
 
 
-def _entered(count: int, name: str) -> None:
+def _enter_primitive(count: int, name: str) -> None:
     def rule(d: Any, *joints: Any, group: Closure, joint: str) -> Any:
         """The joint of a group where the lengths of all its links close on its outer joints."""
         body, at = group.joints[joint]
-        return closed(d, joints, group)[body].at((d.lift(at[0]), d.lift(at[1])))
+        return close_group(d, joints, group)[body].place_point((d.lift(at[0]), d.lift(at[1])))
 
     rule.__name__ = name
     listed = ", ".join(f"{{{k}}}" for k in range(count))
@@ -290,4 +291,4 @@ def _entered(count: int, name: str) -> None:
 
 
 for number, word in ((2, "close_on_two"), (3, "close_on_three"), (4, "close_on_four")):
-    _entered(number, word)
+    _enter_primitive(number, word)

@@ -11,12 +11,12 @@ from functools import partial
 from typing import Any
 
 from graphplan.kernel.kinds import LINE, POINT, SCALE, SET_SQUARES, STRAIGHTEDGE, Movement, Sizing, primitive
-from graphplan.kernel.primitives import apart, cross, dot, size, vector
+from graphplan.kernel.primitives import cross, dot, require_apart, vector, vector_size
 
 NO_ARM = "the two points coincide: there is no arm"
 
 
-def _across(u: Any, part: Any, m: Any) -> Any:
+def _quarter_multiple(u: Any, part: Any, m: Any) -> Any:
     """From m a multiple of u, turned a quarter."""
     return m[0] - part * u[1], m[1] + part * u[0]
 
@@ -29,8 +29,8 @@ def _across(u: Any, part: Any, m: Any) -> Any:
            movement=Movement.MEASURED, sizing=Sizing.MOMENTS)
 def balance(d: Any, Y: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
     """The end of the force at X, square to YX and laid off from m, that balances the force pq at C about Y."""
-    arm = apart(d, Y, X, NO_ARM)
-    return _across(arm, -cross(vector(Y, C), vector(p, q)) / dot(arm, arm), m)
+    arm = require_apart(d, Y, X, NO_ARM)
+    return _quarter_multiple(arm, -cross(vector(Y, C), vector(p, q)) / dot(arm, arm), m)
 
 
 @primitive((POINT, POINT, POINT), POINT, SCALE,
@@ -40,8 +40,8 @@ def balance(d: Any, Y: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
            source="Ozols 1974, 10-6", afar=((0, 1),), movement=Movement.MEASURED, sizing=Sizing.COUPLE)
 def couple(d: Any, P: Any, R: Any, m: Any, /, *, moment: Any) -> Any:
     """The end of the force at R, square to PR and laid off from m, that with its opposite at P has a given moment."""
-    arm = apart(d, P, R, NO_ARM)
-    return _across(arm, d.lift(moment) / dot(arm, arm), m)
+    arm = require_apart(d, P, R, NO_ARM)
+    return _quarter_multiple(arm, d.lift(moment) / dot(arm, arm), m)
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
@@ -52,9 +52,9 @@ def couple(d: Any, P: Any, R: Any, m: Any, /, *, moment: Any) -> Any:
            movement=Movement.MEASURED, sizing=Sizing.INERTIA)
 def inertia_pair(d: Any, P: Any, R: Any, a: Any, b: Any, m: Any, /, *, ratio: Any) -> Any:
     """The end of the force at R, laid off from m, whose pair with P is the inertia couple; ab is R's motion about P."""
-    arm = apart(d, P, R, NO_ARM)
+    arm = require_apart(d, P, R, NO_ARM)
     square = dot(arm, arm)
-    return _across(arm, -d.lift(ratio) * cross(arm, vector(a, b)) / square / square, m)
+    return _quarter_multiple(arm, -d.lift(ratio) * cross(arm, vector(a, b)) / square / square, m)
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
@@ -68,9 +68,9 @@ def touch(d: Any, P: Any, R: Any, w: Any, p: Any, q: Any, /, *, radius: Any) -> 
     Rw is the orthogonal velocity of R against the other link, which runs with PR where the link turns clockwise. Where
     the two links stand still on each other, and where there is no force, it is P.
     """
-    arm, force, slip = apart(d, P, R, NO_ARM), vector(p, q), vector(R, w)
+    arm, force, slip = require_apart(d, P, R, NO_ARM), vector(p, q), vector(R, w)
     sense = d.sign(arm[0] * slip[0] + arm[1] * slip[1], dot(arm, arm)) * d.lift(radius)
-    acts = d.sign(size(force), size(p) + size(q))
+    acts = d.sign(vector_size(force), vector_size(p) + vector_size(q))
     long = d.sqrt(dot(force, force) + (1 - acts), "not-rational", "the size of the reaction is irrational")
     return P[0] + acts * sense * force[1] / long, P[1] - acts * sense * force[0] / long
 
@@ -88,8 +88,8 @@ def lean(d: Any, l: Any, B: Any, w: Any, p: Any, q: Any, /, *, coefficient: Any)
     other, and where there is no force, it does not lean.
     """
     slip, force = vector(B, w), vector(p, q)
-    moves = d.sign(slip[0] * l[0] + slip[1] * l[1], (size(B) + size(w)) * size(l))
-    side = d.sign(force[0] * l[0] + force[1] * l[1], (size(p) + size(q)) * size(l))
+    moves = d.sign(slip[0] * l[0] + slip[1] * l[1], (vector_size(B) + vector_size(w)) * vector_size(l))
+    side = d.sign(force[0] * l[0] + force[1] * l[1], (vector_size(p) + vector_size(q)) * vector_size(l))
     k = moves * side * d.lift(coefficient)
     a, b = l[0] - k * l[1], l[1] + k * l[0]
     return a, b, -(a * B[0] + b * B[1])
@@ -105,8 +105,8 @@ def pressure_line(d: Any, P: Any, B: Any, p: Any, q: Any, /, *, coefficient: Any
 
     Each wheel is pushed away from its mate, whichever way pq runs. Where it is nothing, the line does not lean.
     """
-    arm, force = apart(d, P, B, "the wheel has no radius"), vector(p, q)
-    k = d.sign(cross(arm, force), (size(p) + size(q)) * size(arm)) * d.lift(coefficient)
+    arm, force = require_apart(d, P, B, "the wheel has no radius"), vector(p, q)
+    k = d.sign(cross(arm, force), (vector_size(p) + vector_size(q)) * vector_size(arm)) * d.lift(coefficient)
     a, b = arm[0] + k * arm[1], arm[1] - k * arm[0]
     return a, b, -(a * P[0] + b * P[1])
 
@@ -119,8 +119,8 @@ def pressure_line(d: Any, P: Any, B: Any, p: Any, q: Any, /, *, coefficient: Any
 def resultant(d: Any, C: Any, p: Any, q: Any, P: Any, R: Any, a: Any, b: Any) -> Any:
     """The point, square to the force pq from C, where pq alone does what it does at C with a pair of forces."""
     force = vector(p, q)
-    d.nonzero(size(force), size(p) + size(q), "couple-alone", "the force is nothing")
-    return _across(force, -cross(vector(P, R), vector(a, b)) / dot(force, force), C)
+    d.nonzero(vector_size(force), vector_size(p) + vector_size(q), "couple-alone", "the force is nothing")
+    return _quarter_multiple(force, -cross(vector(P, R), vector(a, b)) / dot(force, force), C)
 
 
 def _meeting(y: Any, z: Any) -> Any:
@@ -128,12 +128,12 @@ def _meeting(y: Any, z: Any) -> Any:
     return y[1] * z[2] - z[1] * y[2], y[2] * z[0] - z[2] * y[0], y[0] * z[1] - z[0] * y[1]
 
 
-def _aimed(d: Any, y: Any, z: Any, X: Any) -> Any:
+def _vector_from_meet(d: Any, y: Any, z: Any, X: Any) -> Any:
     """The vector to X from where two lines meet, as long as it pleases."""
     Y = _meeting(y, z)
     u = Y[2] * X[0] - Y[0], Y[2] * X[1] - Y[1]
-    reach = size(y) * (size(z) * size(X) + abs(z[2])) + abs(y[2]) * size(z)
-    d.nonzero(size(u), reach, "points-coincide", "the two lines meet in the point itself, or are one")
+    reach = vector_size(y) * (vector_size(z) * vector_size(X) + abs(z[2])) + abs(y[2]) * vector_size(z)
+    d.nonzero(vector_size(u), reach, "points-coincide", "the two lines meet in the point itself, or are one")
     return u
 
 
@@ -156,11 +156,11 @@ def _similar_triangles(one: float, two: float, s: Any, y: Any, z: Any, X: Any) -
                "similar triangles, backwards": partial(_similar_triangles, -0.15, -0.5)})
 def towards(d: Any, y: Any, z: Any, X: Any) -> Any:
     """The line from where two lines meet through a third point; parallel to both where they meet nowhere."""
-    u = _aimed(d, y, z, X)
+    u = _vector_from_meet(d, y, z, X)
     return -u[1], u[0], u[1] * X[0] - u[0] * X[1]
 
 
-def _resolved(s: Any, y: Any, z: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
+def _resolve_force(s: Any, y: Any, z: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
     """The part of the force towards the distant point has no moment; the part towards X is moved there.
 
     At X itself, or with both ways parallel, the part of the force across the way to the distant point counts.
@@ -176,12 +176,12 @@ def _resolved(s: Any, y: Any, z: Any, X: Any, C: Any, p: Any, q: Any, m: Any) ->
            source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces", method="auxiliary points",
            afar=((0, 1, 2, 3), (4, 5)), forms={
                "auxiliary point": lambda s, y, z, X, C, p, q, m: s.balance(s.meet(y, z, name="Q"), X, C, p, q, m),
-               "resolution": _resolved,
+               "resolution": _resolve_force,
                "its part across": lambda s, y, z, X, C, p, q, m:
                    s.transfer(q, s.foot(s.parallel(s.towards(y, z, X), p), q), m)})
 def weigh(d: Any, y: Any, z: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
     """The end of the force at X, laid off from m, that balances pq at C about the point where two lines meet."""
     Y = _meeting(y, z)
-    arm = _aimed(d, y, z, X)
+    arm = _vector_from_meet(d, y, z, X)
     reach = Y[2] * C[0] - Y[0], Y[2] * C[1] - Y[1]
-    return _across(arm, -cross(reach, vector(p, q)) / dot(arm, arm), m)
+    return _quarter_multiple(arm, -cross(reach, vector(p, q)) / dot(arm, arm), m)

@@ -25,21 +25,21 @@ class Origin:
     x: Fraction
     y: Fraction
 
-    def about(self, domain: Domain, x: Any, y: Any) -> dict[str, Any]:
+    def relative_coordinates(self, domain: Domain, x: Any, y: Any) -> dict[str, Any]:
         """The coordinates of a given point from this place."""
         return {"x": domain.lift(x) - domain.lift(self.x), "y": domain.lift(y) - domain.lift(self.y)}
 
-    def back(self, domain: Domain, kinds: Iterable[str], values: Iterable[Any]) -> list[Any]:
+    def absolute_marks(self, domain: Domain, kinds: Iterable[str], values: Iterable[Any]) -> list[Any]:
         """Marks that are drawn about this place, as they lie about zero; those of no kind stay as they are."""
         x, y = domain.lift(self.x), domain.lift(self.y)
-        return [_shifted(kind, value, x, y) for kind, value in zip(kinds, values, strict=True)]
+        return [_shift_mark(kind, value, x, y) for kind, value in zip(kinds, values, strict=True)]
 
     def point(self, domain: Domain, value: Any) -> Any:
         """A point that is told from this place, as it lies about zero."""
-        return _shifted(POINT, value, domain.lift(self.x), domain.lift(self.y))
+        return _shift_mark(POINT, value, domain.lift(self.x), domain.lift(self.y))
 
 
-def _shifted(kind: str, value: Any, x: Any, y: Any) -> Any:
+def _shift_mark(kind: str, value: Any, x: Any, y: Any) -> Any:
     if kind in (POINT, CIRCLE):
         return value[0] + x, value[1] + y, *value[2:]
     return (value[0], value[1], value[2] - (value[0] * x + value[1] * y)) if kind == LINE else value
@@ -61,7 +61,7 @@ def on_pose(steps: Sequence[Any]) -> Iterator[str]:
     return (step.op.gives if step.panel == steps[0].panel else "" for step in steps)
 
 
-def shifted(steps: Sequence[Any], x: Any, y: Any) -> tuple[Any, ...]:
+def shift_steps(steps: Sequence[Any], x: Any, y: Any) -> tuple[Any, ...]:
     """The same steps with the points of the pose moved by a vector."""
     return tuple(step.but(params={"x": step.params["x"] + x, "y": step.params["y"] + y})
                  if step.op.movement is Movement.GIVEN else step for step in steps)

@@ -11,15 +11,15 @@ from graphplan.kernel.program import Board, Mark, Program, Step
 def freeze(board: Board, wanted: Iterable[Mark]) -> Program:
     """The steps that the wanted marks need, renumbered in drawing order: what nothing needs is not drawn."""
     places = [mark.step.index for mark in wanted]
-    return _renumbered(board.steps, places, sorted(needed(board.steps, places)))
+    return _renumber(board.steps, places, sorted(steps_behind(board.steps, places)))
 
 
 def needed_steps(board: Board, wanted: Iterable[Mark], known: Collection[int] = ()) -> set[int]:
     """The steps, by index, that the wanted marks need, but for known ones and what those need."""
-    return needed(board.steps, (mark.step.index for mark in wanted), known)
+    return steps_behind(board.steps, (mark.step.index for mark in wanted), known)
 
 
-def needed(steps: Sequence[Step], wanted: Iterable[int], known: Collection[int] = ()) -> set[int]:
+def steps_behind(steps: Sequence[Step], wanted: Iterable[int], known: Collection[int] = ()) -> set[int]:
     """The same for steps, by index."""
     found, waiting = set[int](), [*wanted]
     while waiting:
@@ -30,12 +30,12 @@ def needed(steps: Sequence[Step], wanted: Iterable[int], known: Collection[int] 
     return found
 
 
-def pruned(program: Program) -> Program:
+def prune(program: Program) -> Program:
     """The same program without the steps that no wanted mark needs."""
-    return _renumbered(program.steps, program.wanted, sorted(needed(program.steps, program.wanted)))
+    return _renumber(program.steps, program.wanted, sorted(steps_behind(program.steps, program.wanted)))
 
 
-def _renumbered(steps: Sequence[Step], wanted: Sequence[int], order: Sequence[int]) -> Program:
+def _renumber(steps: Sequence[Step], wanted: Sequence[int], order: Sequence[int]) -> Program:
     """The program of these steps in this order."""
     place = {index: position for position, index in enumerate(order)}
     kept = [step.but(index=place[step.index], args=tuple([place[arg] for arg in step.args]))
@@ -63,7 +63,7 @@ def put_together(programs: Sequence[Program]) -> tuple[Program, list[list[int]]]
     return Program(tuple(steps), wanted), places
 
 
-def gathered(program: Program) -> tuple[Program, list[int]]:
+def gather_by_plan(program: Program) -> tuple[Program, list[int]]:
     """The same steps, plan by plan as far as they allow, and the old place of each: the pencil wanders less."""
     drawn: dict[int, None] = {}
     left: dict[str, list[Step]] = {}
@@ -78,4 +78,4 @@ def gathered(program: Program) -> tuple[Program, list[int]]:
                 drawn[step.index] = None
         waiting = [step for step in steps if step.index not in drawn]
         heapreplace(queue, (waiting[0].index, waiting)) if waiting else heappop(queue)
-    return _renumbered(program.steps, program.wanted, list(drawn)), list(drawn)
+    return _renumber(program.steps, program.wanted, list(drawn)), list(drawn)

@@ -18,7 +18,7 @@ class PlansApart(TypeError):
 def require_one_plan(op: Primitive, panels: Sequence[str], names: Sequence[str]) -> None:
     """Refuse operands, by their plans and how they are called, that an operation does not take together: what it draws
     with lies on one plan, and so do both ends of each vector that it takes from another."""
-    if any(panels[place] != panels[group[0]] for group in (op.near, *op.afar) for place in group):
+    if any(panels[place] != panels[group[0]] for group in (op.same_plan_operands, *op.afar) for place in group):
         marks = ", ".join(f"{name} on {panel or 'no plan'}" for name, panel in zip(names, panels, strict=True))
         raise PlansApart(f"{op.name} was given marks of several plans ({marks}); it takes points, lines and circles of "
                          "one plan, from another a vector, an opening or a direction")

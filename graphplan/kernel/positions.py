@@ -20,7 +20,7 @@ from graphplan.kernel.kinds import (
     Movement,
     primitive,
 )
-from graphplan.kernel.primitives import apart, cross, dot, size
+from graphplan.kernel.primitives import cross, dot, require_apart, vector_size
 from graphplan.kernel.tolerances import COLLINEAR_TOL
 from graphplan.phrases import Said
 
@@ -125,7 +125,7 @@ def _by_ordinates(s: Any, P: Any, Q: Any, *, dx: Any, dy: Any, ux: Any, uy: Any)
                "on the line": _on_side, "two arcs": _two_arcs, "ordinates": _by_ordinates})
 def corner(d: Any, P: Any, Q: Any, /, *, dx: Any, dy: Any, ux: Any, uy: Any) -> Any:
     """The point of a link that lies from P as (dx, dy) does where Q lies as (ux, uy) does."""
-    v, u, PQ = (d.lift(dx), d.lift(dy)), (d.lift(ux), d.lift(uy)), apart(d, P, Q)
+    v, u, PQ = (d.lift(dx), d.lift(dy)), (d.lift(ux), d.lift(uy)), require_apart(d, P, Q)
     whole = d.nonzero(dot(u, u), 0, "points-coincide", "two points of the link coincide")
     along, across = dot(u, v) / whole, cross(u, v) / whole
     return P[0] + along * PQ[0] - across * PQ[1], P[1] + along * PQ[1] + across * PQ[0]
@@ -184,12 +184,12 @@ def sight(d: Any, P: Any, Q: Any, /, *, dx: Any, dy: Any, ux: Any, uy: Any, way:
 
     Q lies further `on` or `back` along it.
     """
-    v, u, PQ = (d.lift(dx), d.lift(dy)), (d.lift(ux), d.lift(uy)), apart(d, P, Q)
+    v, u, PQ = (d.lift(dx), d.lift(dy)), (d.lift(ux), d.lift(uy)), require_apart(d, P, Q)
     across, left = cross(u, v), dot(PQ, PQ) * dot(u, u)
     along = d.sqrt(left - across * across, "circles-miss", "the guide passes further off than the points are apart")
     t = along if way == "on" else -along
     dx, dy = t * PQ[0] + across * PQ[1], t * PQ[1] - across * PQ[0]
-    d.nonzero(size((dx, dy)), 0, "points-coincide", "the guide has no direction")
+    d.nonzero(vector_size((dx, dy)), 0, "points-coincide", "the guide has no direction")
     return -dy, dx, dy * Q[0] - dx * Q[1]
 
 

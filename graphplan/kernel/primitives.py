@@ -35,15 +35,15 @@ def cross(u: Any, v: Any) -> Any:
     return u[0] * v[1] - u[1] * v[0]
 
 
-def size(u: Any) -> Any:
+def vector_size(u: Any) -> Any:
     """How large a vector is, to a factor."""
     return abs(u[0]) + abs(u[1])
 
 
-def apart(d: Any, P: Any, Q: Any, why: str = "the two points coincide") -> Any:
+def require_apart(d: Any, P: Any, Q: Any, why: str = "the two points coincide") -> Any:
     """The vector of two points that must not coincide."""
     u = vector(P, Q)
-    d.nonzero(size(u), size(P) + size(Q), "points-coincide", why)
+    d.nonzero(vector_size(u), vector_size(P) + vector_size(Q), "points-coincide", why)
     return u
 
 
@@ -83,7 +83,7 @@ def guide(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
            claims=(("on", 0), ("on", 1), ("runs", 0, 1)), fails=("points-coincide",), movement=Movement.RULED)
 def line(d: Any, P: Any, Q: Any) -> Any:
     """The line through two points, running from the first to the second."""
-    dx, dy = apart(d, P, Q)
+    dx, dy = require_apart(d, P, Q)
     return -dy, dx, dy * P[0] - dx * P[1]
 
 
@@ -194,5 +194,5 @@ def pick(d: Any, l: Any, P: Any, Q: Any, /, *, ratio: Any) -> Any:
     """Any point of a line, for a trial figure: from the foot of P on, about `ratio` times PQ the way the line runs."""
     n2 = dot(l, l)
     off = (dot(l, P) + l[2]) / n2
-    t = d.lift(ratio) * size(vector(P, Q)) / size(l)
+    t = d.lift(ratio) * vector_size(vector(P, Q)) / vector_size(l)
     return P[0] - l[0] * off + t * l[1], P[1] - l[1] * off - t * l[0]

@@ -15,12 +15,23 @@ from typing import Any, NoReturn, cast
 from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel import kinds
 from graphplan.kernel.incidence import Heading, Total, bearing, incident, laid_off
-from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, worded
+from graphplan.kernel.kinds import (
+    CIRCLE,
+    FAILURES,
+    LINE,
+    OPENING,
+    POINT,
+    TABLE,
+    Choice,
+    Movement,
+    Primitive,
+    parameter_text,
+)
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.origin import Origin, on_pose, origin
 from graphplan.kernel.panel import Panel as Panel
 from graphplan.kernel.plans import require_one_plan
-from graphplan.kernel.stages import Stage, Teller, staged
+from graphplan.kernel.stages import Stage, Teller, group_by_stage
 from graphplan.phrases import Said, arranged, phrase
 
 NUMBERED = {POINT: phrase("point {0}"), LINE: phrase("line {0}"), OPENING: phrase("opening {0}"),
@@ -172,11 +183,12 @@ class Board(Verbs):
             require_one_plan(op, [step.panel for step in read], [step.name or step.op.gives for step in read])
         against = sum([arg.against for arg in args])
         if against and op.reversal and args[0].against:
-            params = op.reversed(params)
+            params = op.reverse_parameters(params)
         places = tuple([step.index for step in read])
         heading = bearing(op, [arg.heading for arg in args], len(self.steps))
         set_square = op.movement is Movement.PARALLEL or op.movement is Movement.PERPENDICULAR
-        key = (*heading, places[1]) if set_square else (*_key(op, places, params), *(quantity.own if quantity else ()))
+        key = (*heading, places[1]) if set_square else (*_key(op, places, params),
+                                                        *(quantity.sharing_key if quantity else ()))
         total = laid_off(*(arg.total for arg in args)) if op.movement is Movement.LAID_OFF and not params else None
         if total is not None:
             key = (panel, *total)
@@ -287,7 +299,8 @@ class Program:
 
     def given_vector(self, step: Step) -> bool:
         """Whether a point is the end of a given vector: of a quantity, and laid off by it from where a plan begins."""
-        return all((step.name, step.quantity, step.op.scaled, step.root is not None and self.steps[step.root].op.free))
+        return all((step.name, step.quantity, step.op.has_size, step.root is not None
+                    and self.steps[step.root].op.free))
 
     @cached_property
     def givens(self) -> int:
@@ -310,13 +323,13 @@ class Program:
 
     def spoken(self, step: Step, words: Callable[..., Said] | None = None) -> Said:
         """A step of these marks in its own words, or in others that are filled in with the same."""
-        params = {name: worded(value) for name, value in step.params.items()}
-        return (words or step.op.spoken)(list(map(self.text, step.args)), out=self.text(step.index), **params)
+        params = {name: parameter_text(value) for name, value in step.params.items()}
+        return (words or step.op.sentence_of)(list(map(self.text, step.args)), out=self.text(step.index), **params)
 
     @cached_property
     def stages(self) -> list[tuple[Stage, list[Step]]]:
         """The stages in drawing order, each with its steps; see :func:`graphplan.kernel.stages.staged`."""
-        return staged(self.steps)
+        return group_by_stage(self.steps)
 
     def told(self, index: int) -> Said:
         """A step in words, with the law or purpose where there is one."""
@@ -343,7 +356,7 @@ def evaluate(program: Program, domain: Domain, given: Mapping[Any, Mapping[str, 
     Fails with :class:`ConstructionError` naming the step, where the domain raises; arrays give nan instead.
     """
     values = about_origin(program, domain, given, after)
-    return program.origin.back(domain, on_pose(program.steps), values) if program.origin else values
+    return program.origin.absolute_marks(domain, on_pose(program.steps), values) if program.origin else values
 
 
 def about_origin(program: Program, domain: Domain, given: Mapping[Any, Mapping[str, Any]] | None = None,
@@ -355,9 +368,9 @@ def about_origin(program: Program, domain: Domain, given: Mapping[Any, Mapping[s
         other = given.get(step.name) or given.get(step.index)
         params = {**step.params, **other} if other and other.keys() <= step.params.keys() else step.params
         if origin and step.op.movement is Movement.GIVEN:
-            params = origin.about(domain, **params)
+            params = origin.relative_coordinates(domain, **params)
         try:
-            values.append(domain.whole(step.op.rule(domain, *[values[arg] for arg in step.args], **params)))
+            values.append(domain.mask_refused(step.op.rule(domain, *[values[arg] for arg in step.args], **params)))
         except Undrawable as fault:
             raise error_at(program, step, fault) from None
         if after is not None:

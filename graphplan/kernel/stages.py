@@ -43,7 +43,7 @@ class Equation(NamedTuple):
     vectors: tuple[Vector, ...]
 
     @property
-    def underlined(self) -> list[tuple[int, int, int]]:
+    def underlines(self) -> list[tuple[int, int, int]]:
         """Of each vector as it is written, from which letter to which, and how many times it is underlined."""
         found, at = list[tuple[int, int, int]](), 0
         for vector in self.vectors:
@@ -57,23 +57,23 @@ class Equation(NamedTuple):
     def sum(cls, left: Vector, right: Iterable[Vector]) -> Self:
         """A vector is the sum of others."""
         vectors = left, *right
-        return cls(f"{left.name} = {_added(vectors[1:])}", vectors)
+        return cls(f"{left.name} = {_sum_text(vectors[1:])}", vectors)
 
     @classmethod
-    def closed(cls, vectors: Iterable[Vector]) -> Self:
+    def zero_sum(cls, vectors: Iterable[Vector]) -> Self:
         """Vectors whose sum is nothing."""
         found = tuple(vectors)
-        return cls(f"{_added(found)} = 0", found)
+        return cls(f"{_sum_text(found)} = 0", found)
 
     @classmethod
     def moments(cls, forces: Iterable[Vector], about: str, couples: Iterable[str] = ()) -> Self:
         """Forces whose moments about a point are nothing together, with those of couples."""
-        found = tuple(forces)
-        return cls(f"{_added([*(Vector(f'M_{about}({force.name})') for force in found), *map(Vector, couples)])} = 0",
-                   found)
+        acting = tuple(forces)
+        moments = [*(Vector(f"M_{about}({force.name})") for force in acting), *map(Vector, couples)]
+        return cls(f"{_sum_text(moments)} = 0", acting)
 
 
-def _added(vectors: Iterable[Vector]) -> str:
+def _sum_text(vectors: Iterable[Vector]) -> str:
     return " + ".join(vector.name for vector in vectors).replace("+ -", "- ")
 
 
@@ -118,7 +118,7 @@ class Staged(Protocol):
 S = TypeVar("S", bound=Staged)
 
 
-def staged(steps: Sequence[S]) -> list[tuple[Stage, list[S]]]:
+def group_by_stage(steps: Sequence[S]) -> list[tuple[Stage, list[S]]]:
     """The stages of steps in their order, each with those that come one after the other; steps of none are left out.
 
     A stage that others interrupt, as where its vectors are brought to another plan, is there once more.

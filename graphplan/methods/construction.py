@@ -10,14 +10,14 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.errors import ConstructionError
-from graphplan.kernel.claims import broken
+from graphplan.kernel.claims import broken_claims
 from graphplan.kernel.drawing import Compound, Drawing, Values
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander
 from graphplan.kernel.faithful import Faithful, faithful
 from graphplan.kernel.kinds import LINE, POINT, plain
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.origin import on_pose, shifted
-from graphplan.kernel.passes import gathered
+from graphplan.kernel.origin import on_pose, shift_steps
+from graphplan.kernel.passes import gather_by_plan
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.kernel.tolerances import FORM_TOL
 from graphplan.kernel.window import EVERYWHERE, Window
@@ -120,7 +120,7 @@ class Construction(Recorded, Given):
     def truth(self) -> list[Any]:
         """The float value of every step of `program`, in the scene's pose."""
         values, origin = self._faithful.values, self.program.origin
-        return origin.back(Floats(), on_pose(self.program.steps), values) if origin else values
+        return origin.absolute_marks(Floats(), on_pose(self.program.steps), values) if origin else values
 
     @cached_property
     def _faithful(self) -> Faithful:
@@ -132,7 +132,7 @@ class Construction(Recorded, Given):
         points, origin = dict[str, list[tuple[float, float]]](), self.program.origin
         program = self.program
         if origin:
-            program = replace(program, steps=shifted(program.steps, -origin.x, -origin.y))
+            program = replace(program, steps=shift_steps(program.steps, -origin.x, -origin.y))
         truth = self._faithful.values
         for step in program.steps:
             if step.op.gives == POINT:
@@ -145,12 +145,12 @@ class Construction(Recorded, Given):
     @cached_property
     def _gathered(self) -> tuple[Program, Sequence[Any], list[int]]:
         """The program in single movements, the values of its steps, and the place of each among those drawn out."""
-        program, order = gathered(self._expander.run())
+        program, order = gather_by_plan(self._expander.run())
         values, origin = [self._expander.values[index] for index in order], self.program.origin
         if origin is None:
             return program, values, order
-        drawn = replace(program, steps=shifted(program.steps, origin.x, origin.y))
-        return drawn, origin.back(Floats(), on_pose(program.steps), values), order
+        drawn = replace(program, steps=shift_steps(program.steps, origin.x, origin.y))
+        return drawn, origin.absolute_marks(Floats(), on_pose(program.steps), values), order
 
     @cached_property
     def compounds(self) -> Sequence[Compound]:
@@ -178,8 +178,8 @@ class Construction(Recorded, Given):
         """
         with suppress(ConstructionError):
             extent, blur = self.scene.extent, self._faithful.blur
-            return next(chain(broken(self.drawn, self.values, FORM_TOL, extent, blur),
-                              broken(self.program, self.truth, extent=extent, blur=blur)), "")
+            return next(chain(broken_claims(self.drawn, self.values, FORM_TOL, extent, blur),
+                              broken_claims(self.program, self.truth, extent=extent, blur=blur)), "")
         return ""
 
     @cached_property
@@ -266,15 +266,15 @@ class Construction(Recorded, Given):
     def _curvatures(self) -> Iterator[str]:
         """How centres of curvature and inflection circles are found, each way once."""
         chosen = (step.choice for step in self.drawn.steps if step.choice)
-        forms = (choice.form for choice in chosen if choice.compound.claimed("curved") or
-                 choice.compound.claimed("conjugate"))
+        forms = (choice.form for choice in chosen if choice.compound.claim_operands("curved") or
+                 choice.compound.claim_operands("conjugate"))
         yield from dict.fromkeys([*map(said, forms), *self.paths_by])
 
     def _loci(self, kind: str) -> Iterator[Said]:
         """The forms in which the loci of a kind's plans are drawn, auxiliary points with their letters."""
         letters = self._letters()
         for step in self.drawn.steps:
-            if step.choice is None or not step.choice.compound.claimed("locus"):
+            if step.choice is None or not step.choice.compound.claim_operands("locus"):
                 continue
             if (step.panel.whole in (N_PLAN, ACCELERATION_PLAN)) == (kind == kinds.ACCELERATION):
                 form = step.choice.best.form
@@ -295,7 +295,7 @@ class Construction(Recorded, Given):
 
     def _letters(self) -> list[str]:
         """The letters of the auxiliary points."""
-        names = {step.names.get("Q", "") for step in self.program.steps if step.op.claimed("locus")}
+        names = {step.names.get("Q", "") for step in self.program.steps if step.op.claim_operands("locus")}
         drawn = {step.name for step in self.drawn.steps}
         return sorted(name for name in names & drawn if name)
 

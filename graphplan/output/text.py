@@ -43,7 +43,7 @@ def protocol(composition: Composition, structure: Iterable[str] = (), drafting: 
         "Vectors are underlined twice of which magnitude and direction are known, once where one of the two or a "
         "locus is.")), ""), *_passages(told.passages, say, movements), *_results(SheetWords(plans), composition.scales,
                                                                                  say)]
-    lines += ["", say(said("Cost: {0}.", counts(drawing.drawn).told))]
+    lines += ["", say(said("Cost: {0}.", counts(drawing.drawn).text))]
     lines += [line for told in drafting for line in _wrapped(say(told), "")]
     if drawing.forms:
         lines += ["", say(said("Forms chosen for this pose:"))]
@@ -103,7 +103,7 @@ def _head(passage: Passage, say: Tongue) -> Iterator[str]:
 def _underlines(equation: Equation) -> str:
     """Rules under the vectors of an equation."""
     line = [" "] * len(equation.text)
-    for start, end, times in equation.underlined:
+    for start, end, times in equation.underlines:
         line[start:end] = RULES[times] * (end - start)
     return "".join(line).rstrip()
 
@@ -171,7 +171,7 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
         "kappa": drawing.kappa,
         "method": drawing.method,
         "forms": list(map(say, drawing.forms)),
-        "cost": say(counts(drawn).told),
+        "cost": say(counts(drawn).text),
         "stages": [_stage(stage, say) for stage in stages],
         "compounds": [say(compound.sentence) for compound in drawing.compounds],
         "entries": [{"steps": [one.number for one in entry.movements], "stage": passage.number, "plan": passage.plan,

@@ -25,7 +25,7 @@ class Block(NamedTuple):
     columns: tuple[int, ...]
 
     @property
-    def transposed(self) -> Block:
+    def transpose(self) -> Block:
         """The block of the transposed system, where the blocks follow each other the other way."""
         return Block(self.columns, self.rows)
 
@@ -70,7 +70,7 @@ def by_blocks(rows: Sequence[Mapping[int, Any]], ready: Callable[[Sequence[Mappi
         before = [[(j, value) for j, value in rows[i].items() if j not in local] for i in block.rows]
         parts.append((block, before, ready(own)))
 
-    def solved(right: Sequence[Any]) -> list[Any]:
+    def solve_for(right: Sequence[Any]) -> list[Any]:
         values: list[Any] = [0] * len(rows)
         for block, before, solve in parts:
             sides = [sum((-(value * values[j]) for j, value in known), right[i])
@@ -79,4 +79,4 @@ def by_blocks(rows: Sequence[Mapping[int, Any]], ready: Callable[[Sequence[Mappi
                 values[column] = value
         return values
 
-    return solved
+    return solve_for

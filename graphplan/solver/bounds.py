@@ -40,20 +40,20 @@ class Bounded:
         return Bounded(abs(self.value), self.error, self.size)
 
     def __add__(self, other: Any) -> Bounded:
-        two = other if type(other) is Bounded else bounded(other)
+        two = other if type(other) is Bounded else bounded_number(other)
         if not two.size:
             return self
         value = self.value + two.value
         return Bounded(value, MARGIN * (self.error + two.error + ROUNDOFF * abs(value)), self.size + two.size)
 
     def __sub__(self, other: Any) -> Bounded:
-        return self + -bounded(other)
+        return self + -bounded_number(other)
 
     def __rsub__(self, other: Any) -> Bounded:
-        return bounded(other) + -self
+        return bounded_number(other) + -self
 
     def __mul__(self, other: Any) -> Bounded:
-        two = other if type(other) is Bounded else bounded(other)
+        two = other if type(other) is Bounded else bounded_number(other)
         if two.value in (0.0, 1.0, -1.0) and not two.error:
             return Bounded(self.value * two.value, self.error * abs(two.value), self.size * abs(two.value))
         value, a, b = self.value * two.value, abs(self.value), abs(two.value)
@@ -61,7 +61,7 @@ class Bounded:
         return Bounded(value, MARGIN * error, max(a * two.size, b * self.size))
 
     def __truediv__(self, other: Any) -> Bounded:
-        two = other if type(other) is Bounded else bounded(other)
+        two = other if type(other) is Bounded else bounded_number(other)
         least = abs(two.value) - two.error
         if not least > 0:
             raise Unproven("a divisor may be zero")
@@ -70,7 +70,7 @@ class Bounded:
         return Bounded(value, MARGIN * error, max(self.size, abs(value) * two.size) / abs(two.value))
 
     def __rtruediv__(self, other: Any) -> Bounded:
-        return bounded(other) / self
+        return bounded_number(other) / self
 
     __radd__, __rmul__ = __add__, __mul__
 
@@ -79,12 +79,12 @@ class Bounded:
 
     def __eq__(self, other: object) -> bool:
         """Whether the two are known to be one number."""
-        two = bounded(other)
+        two = bounded_number(other)
         return self.value == two.value and not (self.error or two.error)
 
     def __ge__(self, other: Any) -> bool:
         """Whether it may be so."""
-        two = bounded(other)
+        two = bounded_number(other)
         return self.value + self.error >= two.value - two.error
 
     def __lt__(self, other: Any) -> bool:
@@ -107,7 +107,7 @@ class Bounded:
         return abs(self.value - other.value) <= MARGIN * (self.error + other.error)
 
 
-def bounded(number: Any) -> Bounded:
+def bounded_number(number: Any) -> Bounded:
     """A whole number or fraction, rounded to a float, or a float as the binary fraction that it is."""
     if type(number) is Bounded:
         return number

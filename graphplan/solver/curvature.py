@@ -20,7 +20,7 @@ def centre(rates: Rates, point: str, link: str) -> Pair:
 
     A point at rest that turns about a pivot, as at a dead centre, has that as its centre: if it may, that of the link.
     """
-    v, a = _of(rates, point)
+    v, a = _point_rates(rates, point)
     scene = rates.equations.scene
     try:
         return plus(scene.points[point], times(dot(v, v) / dot(turned(v), a), turned(v)))
@@ -35,7 +35,7 @@ def centre(rates: Rates, point: str, link: str) -> Pair:
 def curvature(rates: Rates, point: str) -> Pair:
     """The vector from a point towards the centre of curvature of its path, as long as one over the radius; divides by
     zero where the point rests, unless it is on a link that slides on the frame."""
-    v, a = _of(rates, point)
+    v, a = _point_rates(rates, point)
     square, links = dot(v, v), rates.equations.scene.links_of[point]
     try:
         return times(dot(turned(v), a) / square / square, turned(v))
@@ -47,21 +47,21 @@ def curvature(rates: Rates, point: str) -> Pair:
 
 def from_pole(rates: Rates, point: str, link: str) -> Pair:
     """The vector from the pole of a link's motion to its point; divides by zero where the link does not turn."""
-    return over(turned(rates.velocity[point]), -rates.omega[link])
+    return divide_vector(turned(rates.velocity[point]), -rates.omega[link])
 
 
 def inflection_pole(rates: Rates, link: str) -> Pair:
     """The point opposite the pole on a link's inflection circle; divides by zero where the link does not turn."""
     base, omega = rates.equations.bases[link], rates.omega[link]
     tangential = times(-rates.alpha[link], turned(from_pole(rates, base, link)))
-    towards = over(plus(rates.acceleration[base], tangential), omega)
-    return plus(rates.equations.scene.points[base], over(towards, omega))
+    towards = divide_vector(plus(rates.acceleration[base], tangential), omega)
+    return plus(rates.equations.scene.points[base], divide_vector(towards, omega))
 
 
-def over(a: Pair, number: Any) -> Pair:
+def divide_vector(a: Pair, number: Any) -> Pair:
     """A vector over a number."""
     return a[0] / number, a[1] / number
 
 
-def _of(rates: Rates, point: str) -> tuple[Any, Any]:
+def _point_rates(rates: Rates, point: str) -> tuple[Any, Any]:
     return rates.velocity[point], rates.acceleration[point]

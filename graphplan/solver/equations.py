@@ -120,7 +120,7 @@ class Equations:
         return max((abs(float(part)) for arm in self.arms for part in arm), default=0.0) or 1.0
 
     @cached_property
-    def prescribed(self) -> list[Pair]:
+    def prescribed_rates(self) -> list[Pair]:
         """The velocity and the acceleration that each statement prescribes, times the length of its guide's direction.
         """
         return [times(self.root(dot(fact.direction, fact.direction)), (fact.rate, fact.change))
@@ -129,13 +129,13 @@ class Equations:
     @property
     def velocities(self) -> list[Number]:
         """The right-hand side for the velocities."""
-        return [rate for rate, _ in self.prescribed]
+        return [rate for rate, _ in self.prescribed_rates]
 
     def accelerations(self, rates: dict[str, Rate]) -> list[Number]:
         """The right-hand side for the accelerations, from the velocities of every link."""
         sides = {fact.ends: self.sides(*fact.ends, rates) for fact in self.facts}  # a joint's two facts have one
         return [change + fact.left_over(sides[fact.ends])
-                for fact, (_, change) in zip(self.facts, self.prescribed, strict=True)]
+                for fact, (_, change) in zip(self.facts, self.prescribed_rates, strict=True)]
 
     def sides(self, one: tuple[str, str], other: tuple[str, str], rates: dict[str, Rate]) -> Sides:
         """Two links, each at a point, with these rates."""
@@ -156,7 +156,7 @@ class Equations:
         For the forces that hold the facts: one column a fact, the equilibrium conditions of each link as rows.
         """
         if exact:
-            require_fractions(self.scene, chain(*(row.values() for row in self.rows), *self.prescribed))
+            require_fractions(self.scene, chain(*(row.values() for row in self.rows), *self.prescribed_rates))
             return (Elimination(transpose(self.rows, self.width), len(self.facts)) if forces
                     else Elimination(self.rows, self.width))
         from graphplan.solver.floating import Floating  # numpy is imported there: fractions do without it
@@ -186,23 +186,24 @@ def require_fractions(scene: Scene, used: Iterable[Number]) -> None:
         raise Refused("exact numbers", why, "ask for floats, without --exact")
 
 
-def moved(scene: Scene, root: Callable[[Any], Any] = reach) -> Equations:
+def motion_equations(scene: Scene, root: Callable[[Any], Any] = reach) -> Equations:
     """The equations of the motion: what all pairs state, drives and given motions among them."""
-    return Equations(scene, tuple(_stated(scene, scene.pairs)), root)
+    return Equations(scene, tuple(_statements(scene, scene.pairs)), root)
 
 
-def held(scene: Scene) -> Equations:
+def force_equations(scene: Scene) -> Equations:
     """The equations of what holds the links against forces: the pairs, and the balances in the place of the drives."""
     balances = scene.loads.balances if scene.loads else ()
-    return Equations(scene, (*_stated(scene, scene.binding), *(fact for one in balances for fact in one.states(scene))))
+    return Equations(scene,
+                     (*_statements(scene, scene.binding), *(fact for one in balances for fact in one.states(scene))))
 
 
 def bound(scene: Scene) -> int:
     """How many statements the pairs make without their drives: the first ones of either system."""
-    return sum(1 for _ in _stated(scene, scene.binding))
+    return sum(1 for _ in _statements(scene, scene.binding))
 
 
-def _stated(scene: Scene, pairs: Iterable[KinematicPair]) -> Iterator[Statement]:
+def _statements(scene: Scene, pairs: Iterable[KinematicPair]) -> Iterator[Statement]:
     """What these pairs state, in large mechanisms joints of many links by a pin of their own."""
     large = 3 * len(scene.moving) > TOGETHER
     for pair in pairs:

@@ -31,18 +31,18 @@ class Entries:
         self.rows, self.columns, self.values, self.shape = rows, columns, values, shape
 
     @classmethod
-    def of(cls, sparse: Sparse, width: int) -> Entries:
+    def from_rows(cls, sparse: Sparse, width: int) -> Entries:
         """The numbers of sparse rows as floats."""
         found = [(i, j, float(value)) for i, row in enumerate(sparse) for j, value in row.items()]
         rows, columns, values = zip(*found, strict=True) if found else ((), (), ())
         return cls(np.array(rows, np.intp), np.array(columns, np.intp), np.array(values, float), (len(sparse), width))
 
     @property
-    def transposed(self) -> Entries:
+    def transpose(self) -> Entries:
         """The columns as rows."""
         return Entries(self.columns, self.rows, self.values, self.shape[::-1])
 
-    def scaled(self, rows: Array, columns: Array) -> Entries:
+    def scale(self, rows: Array, columns: Array) -> Entries:
         """Each entry times a factor of its row and one of its column."""
         return Entries(self.rows, self.columns, self.values * rows[self.rows] * columns[self.columns], self.shape)
 
@@ -101,7 +101,7 @@ class Decomposed:
         missed = np.abs(outside @ (outside.T @ rest))
         return bool(np.any(missed > tolerance * self.blur * max(np.linalg.norm(rest), np.linalg.norm(sides))))
 
-    def back(self, sides: Array, values: Array) -> None:
+    def solve_transposed(self, sides: Array, values: Array) -> None:
         """The same for the transposed system, from the last block to the first, of a system that is regular."""
         parts = (self._right @ sides[self.columns])[: self._rank] / self.sigma[: self._rank]
         values[self.rows] = self._left[:, : self._rank] @ parts
@@ -115,13 +115,13 @@ class Floating:
     """
 
     def __init__(self, sparse: Sparse, scales: Sequence[float], forces: bool = False):
-        entries, rows, columns = equilibrated(sparse, scales)
+        entries, rows, columns = equilibrate(sparse, scales)
         found = blocks(sparse, len(scales))
         if forces:
-            entries, rows, columns = entries.transposed, columns, rows
-            found = [block.transposed for block in reversed(found)]
+            entries, rows, columns = entries.transpose, columns, rows
+            found = [block.transpose for block in reversed(found)]
         self._entries, self._rows, self._columns, self._blocks = entries, rows, columns, found
-        self._parts, self._free = decomposed(entries, found)
+        self._parts, self._free = decompose(entries, found)
         self._tolerance = max(entries.shape, default=0) * SINGULAR_TOL
 
     @property
@@ -135,9 +135,9 @@ class Floating:
             return float(sigma[0] / sigma[-1]) if sigma.size else 1.0
         if self._free.size:
             return float("inf")
-        across = self._entries.transposed
+        across = self._entries.transpose
         square = (_growth(lambda vector: across @ (self._entries @ vector), self._entries.shape[1])
-                  * _growth(lambda vector: self._inverse(self._back(vector))[0], self._entries.shape[1]))
+                  * _growth(lambda vector: self._inverse(self._solve_transposed(vector))[0], self._entries.shape[1]))
         return math.sqrt(square)
 
     def solve(self, right: Sequence[Number]) -> list[float] | None:
@@ -157,11 +157,11 @@ class Floating:
             contradicted |= part.solve(sides, values, self._tolerance)
         return values, contradicted
 
-    def _back(self, sides: Array) -> Array:
+    def _solve_transposed(self, sides: Array) -> Array:
         """A solution of the transposed system."""
         values, rest = np.zeros(self._entries.shape[0]), sides.copy()
         for part in reversed(self._parts):
-            part.back(rest, values)
+            part.solve_transposed(rest, values)
         return values
 
     @property
@@ -172,14 +172,14 @@ class Floating:
 
     def conflict(self, right: Sequence[Number]) -> frozenset[int]:
         """The rows that contradict each other with this right-hand side."""
-        sides, across = self._sides(right), [block.transposed for block in reversed(self._blocks)]
-        parts, free = decomposed(self._entries.transposed, across)
+        sides, across = self._sides(right), [block.transpose for block in reversed(self._blocks)]
+        parts, free = decompose(self._entries.transpose, across)
         outside, blur = np.linalg.qr(free)[0], max(part.blur for part in parts)
         missed = np.abs(outside @ (outside.T @ sides))
         return frozenset(int(i) for i in np.flatnonzero(missed > self._tolerance * blur * np.linalg.norm(sides)))
 
 
-def decomposed(entries: Entries, found: Sequence[Block]) -> tuple[list[Decomposed], Array]:
+def decompose(entries: Entries, found: Sequence[Block]) -> tuple[list[Decomposed], Array]:
     """The blocks by singular values, and the vectors that they leave undetermined."""
     home = np.zeros(entries.shape[0], np.intp)
     for k, block in enumerate(found):
@@ -206,12 +206,12 @@ def _growth(step: Callable[[Array], Array], width: int) -> float:
 
 def independent(sparse: Sparse, scales: Sequence[float]) -> list[int]:
     """As many rows as there are unknowns, none following from others: of each block those that come first."""
-    entries, *_ = equilibrated(sparse, scales)
-    parts, _ = decomposed(entries, blocks(sparse, len(scales)))
-    return sorted(int(part.rows[i]) for part in parts for i in _first(part.matrix))
+    entries, *_ = equilibrate(sparse, scales)
+    parts, _ = decompose(entries, blocks(sparse, len(scales)))
+    return sorted(int(part.rows[i]) for part in parts for i in _independent_rows(part.matrix))
 
 
-def _first(matrix: Array) -> list[int]:
+def _independent_rows(matrix: Array) -> list[int]:
     """The rows that do not follow from those before them, in a matrix of rows near unit length."""
     kept: list[int] = []
     known = np.zeros((0, matrix.shape[1]))
@@ -224,14 +224,14 @@ def _first(matrix: Array) -> list[int]:
     return kept
 
 
-def equilibrated(sparse: Sparse, scales: Sequence[float]) -> tuple[Entries, Array, Array]:
+def equilibrate(sparse: Sparse, scales: Sequence[float]) -> tuple[Entries, Array, Array]:
     """The rows as a matrix with rows and columns near unit length, and the factors of its rows and of its columns.
 
     Unknowns are first measured by `scales`, so that the result does not depend on the unit of length.
     """
-    matrix = Entries.of(sparse, len(scales))
+    matrix = Entries.from_rows(sparse, len(scales))
     rows, columns = np.ones(len(sparse)), 1.0 / np.array(scales)
     for _ in range(SWEEPS):
-        rows /= matrix.scaled(rows, columns).lengths()
-        columns /= matrix.scaled(rows, columns).transposed.lengths()
-    return matrix.scaled(rows, columns), rows, columns
+        rows /= matrix.scale(rows, columns).lengths()
+        columns /= matrix.scale(rows, columns).transpose.lengths()
+    return matrix.scale(rows, columns), rows, columns

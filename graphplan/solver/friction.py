@@ -23,9 +23,9 @@ from graphplan.mechanism.pairs.pair import Along, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.units import metre
 from graphplan.solver.equations import Equations
-from graphplan.solver.higher_pairs import first_held, force, held_at, leant
+from graphplan.solver.higher_pairs import first_held, force, held_at, leaning_statements
 from graphplan.solver.rates import Rates
-from graphplan.solver.statics import Reactions, asked, equilibrium, reactions
+from graphplan.solver.statics import Reactions, equilibrium, reactions, required_loads
 from graphplan.solver.tolerances import FORCE_TOL, FRICTION_TOL, POWER_TOL, SLIP_TOL
 
 GROWING = tuple(Fraction(share, 4) for share in (1, 2, 3, 4))
@@ -56,34 +56,34 @@ def with_friction(scene: Scene, rounds: int = 0, exact: bool = False) -> Frictio
     against = rubbing(scene, plain.rates)
     if rounds:
         for _ in range(rounds):
-            last = further(last, against, exact)
+            last = next_reactions(last, against, exact)
     else:
         for share in GROWING:
-            last = settled(last, against.part(share), exact)
-    return finished(plain, last, against)
+            last = converge_reactions(last, against.scale_coefficients(share), exact)
+    return frictional_forces(plain, last, against)
 
 
-def settled(last: Reactions, against: Rubbing, exact: bool) -> Reactions:
+def converge_reactions(last: Reactions, against: Rubbing, exact: bool) -> Reactions:
     """The reactions that lean as they themselves say, from reactions that do nearly so."""
     close = FRICTION_TOL * last.condition
     for _ in range(ROUNDS):
-        now = further(last, against, exact)
+        now = next_reactions(last, against, exact)
         if max(map(math.dist, forces(now), forces(last)), default=0.0) <= close * largest(now):
             return now
         last = now
-    raise locked(last.equations.scene)
+    raise self_locking_error(last.equations.scene)
 
 
-def further(last: Reactions, against: Rubbing, exact: bool) -> Reactions:
+def next_reactions(last: Reactions, against: Rubbing, exact: bool) -> Reactions:
     """The reactions that lean as the last ones say."""
     scene = last.equations.scene
     try:
-        return equilibrium(Equations(scene, tuple(_leant(last, against))), last.rates, exact)
+        return equilibrium(Equations(scene, tuple(_leaning_supports(last, against))), last.rates, exact)
     except SingularPose:
-        raise locked(scene) from None
+        raise self_locking_error(scene) from None
 
 
-def _leant(last: Reactions, against: Rubbing) -> Iterator[Statement]:
+def _leaning_supports(last: Reactions, against: Rubbing) -> Iterator[Statement]:
     """The supports of the scene, each pair's turned aside by friction as its last force says; none by no force."""
     least = FORCE_TOL * last.condition * largest(last)
 
@@ -122,8 +122,8 @@ def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
                     yield fact
         elif isinstance(pair, Gear | Contact):
             along = first_held(last.equations, pair)
-            yield from leant(last.equations, pair, lean(pair, along, last.higher[pair.name][0]))
-    for balance in asked(scene).balances:
+            yield from leaning_statements(last.equations, pair, lean(pair, along, last.higher[pair.name][0]))
+    for balance in required_loads(scene).balances:
         yield from balance.states(scene)
 
 
@@ -135,7 +135,7 @@ def forces(found: Reactions) -> list[Pair]:
               for pair in pairs if pair.name in found.higher)]
 
 
-def borne(found: Reactions) -> dict[str, Pair]:
+def contact_forces(found: Reactions) -> dict[str, Pair]:
     """The forces in slides, gears and contacts, each on its first link, with what leans in them."""
     scene, facts, whole = found.equations.scene, iter(found.equations.facts), dict[str, Pair]()
     for pair in scene.binding:
@@ -163,14 +163,14 @@ def largest(found: Reactions) -> float:
     return max((*(math.hypot(*force) for force in pushes), *(abs(float(m)) / arm for m in moments)), default=0.0)
 
 
-def locked(scene: Scene) -> SingularPose:
+def self_locking_error(scene: Scene) -> SingularPose:
     """The error that no balance keeps the motion up, with the links that rub."""
-    rubbed = {link for f in asked(scene).frictions for link in f.links or scene.links_of[f.at]}
+    rubbed = {link for f in required_loads(scene).frictions for link in f.links or scene.links_of[f.at]}
     why = "self-locking: with this friction no balance keeps up the motion"
     return SingularPose(why, tuple(link for link in scene.moving if link in rubbed))
 
 
-def finished(plain: Reactions, last: Reactions, against: Rubbing) -> Frictional:
+def frictional_forces(plain: Reactions, last: Reactions, against: Rubbing) -> Frictional:
     """The last round's forces with what friction is in them: a slide's is along its guide."""
     unit, couples, drags = metre(plain.equations.scene.units), dict[tuple[str, str], Number](), dict[str, Pair]()
     for name, circle in against.journals.items():
@@ -181,7 +181,7 @@ def finished(plain: Reactions, last: Reactions, against: Rubbing) -> Frictional:
         drags[slide.name] = times(against.guides[slide] * max(size, -size), slide.direction)
     slides = {name: (plus(force, drags[name]), moment) for name, (force, moment) in last.slides.items()}
     return Frictional(last.equations, last.joints, slides, last.higher, last.balances, last.rates, couples,
-                      drags, efficiency(delivered(plain), delivered(last)))
+                      drags, efficiency(delivered_power(plain), delivered_power(last)))
 
 
 # --- which way friction acts: against the turning in each journal and the slip in each slide -----------------------
@@ -198,7 +198,7 @@ class Rubbing:
     journals: dict[tuple[str, str], Number]
     guides: dict[Slide | Contact, Number]
 
-    def part(self, share: Number) -> Rubbing:
+    def scale_coefficients(self, share: Number) -> Rubbing:
         """The same with all coefficients smaller."""
         journals = {name: share * circle for name, circle in self.journals.items()}
         return Rubbing(journals, {pair: share * coefficient for pair, coefficient in self.guides.items()})
@@ -209,7 +209,7 @@ def rubbing(scene: Scene, rates: Rates) -> Rubbing:
 
     What rounding could make of what moves fastest does not move.
     """
-    loads, reach = asked(scene), rates.equations.reach
+    loads, reach = required_loads(scene), rates.equations.reach
     points = (abs(float(x)) for v in (rates.velocity, rates.slide_velocity) for pair in v.values() for x in pair)
     still = SLIP_TOL * rates.condition * max(*points, *(abs(float(turn)) * reach for turn in rates.omega.values()), 0.0)
     circles = {f.at: f.radius * f.coefficient for f in loads.frictions}
@@ -280,11 +280,11 @@ def sign(value: float, least: float) -> int:
 # --- the efficiency, from the powers of the balances ----------------------------------------------------------------
 
 
-def delivered(found: Reactions) -> Number:
+def delivered_power(found: Reactions) -> Number:
     """The power that the balances give, in force * length/s."""
     scene, rates = found.equations.scene, found.rates
     power: Number = Fraction(0)
-    for balance, value in zip(asked(scene).balances, found.balances, strict=True):
+    for balance, value in zip(required_loads(scene).balances, found.balances, strict=True):
         (one, other), omega = balance.links, {**rates.omega, FRAME: 0}
         if isinstance(value, tuple):
             power += dot(value, less(moved_with(rates, one, balance.at), moved_with(rates, other, balance.at)))

@@ -54,7 +54,7 @@ def pushes(equations: Equations, sizes: Sizes) -> Iterator[Force]:
                 yield Force(link, gear.centres[0], value)
 
 
-def leant(equations: Equations, pair: Gear | Contact, lean: Number) -> Iterator[Statement]:
+def leaning_statements(equations: Equations, pair: Gear | Contact, lean: Number) -> Iterator[Statement]:
     """What holds the links of a gear or a contact by a force that leans by so much from its first direction."""
     first, *others = pair.states(equations.scene)
     x, y, lever = held_at(equations, first)

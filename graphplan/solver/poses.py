@@ -19,7 +19,7 @@ from graphplan.mechanism.order import with_values
 from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
 from graphplan.solver.blocks import Block, blocks
-from graphplan.solver.equations import Equations, Row, held, moved
+from graphplan.solver.equations import Equations, Row, force_equations, motion_equations
 from graphplan.solver.higher_pairs import pushes
 from graphplan.solver.tolerances import POSE_SINGULAR_TOL
 
@@ -42,22 +42,22 @@ class Sized:
         return Sized(-self.value, self.size)
 
     def __add__(self, other: Any) -> Sized:
-        two = sized(other)
+        two = with_size(other)
         return Sized(self.value + two.value, self.size + two.size)
 
     def __sub__(self, other: Any) -> Sized:
-        return self + -sized(other)
+        return self + -with_size(other)
 
     def __rsub__(self, other: Any) -> Sized:
-        return sized(other) + -self
+        return with_size(other) + -self
 
     def __mul__(self, other: Any) -> Sized:
-        two = sized(other)
+        two = with_size(other)
         size = np.maximum(np.abs(self.value) * two.size, np.abs(two.value) * self.size)
         return Sized(self.value * two.value, size)
 
     def __truediv__(self, other: Any) -> Sized:
-        two = sized(other)
+        two = with_size(other)
         with np.errstate(divide="ignore", invalid="ignore"):  # in a pose where it divides by nothing it is not a number
             value, least = self.value / two.value, np.abs(two.value)
             return Sized(value, np.maximum(self.size, np.abs(value) * two.size) / least)
@@ -65,24 +65,24 @@ class Sized:
     __radd__, __rmul__ = __add__, __mul__
 
 
-def sized(number: Any) -> Sized:
+def with_size(number: Any) -> Sized:
     """A number, or an array of them, as it is given."""
     return number if isinstance(number, Sized) else Sized(np.asarray(number, dtype=float))
 
 
-def posed(scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any],
+def scene_in_poses(scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any],
           loads: Mapping[str, Any] | None = None) -> Scene:
     """The scene in n poses at once: coordinates and directions that change are arrays of shape (n,).
 
     `points` gives them by name as complex arrays, `guides` the directions of pairs that no two points give; complex
     numbers give the scene in one other pose. `loads` are those that change, by their letters: forces as complex arrays.
     """
-    def where(name: str) -> Any:
+    def place_of(name: str) -> Any:
         return _pair(points[name]) if name in points else tuple(map(float, scene.points[name]))
 
     def direction(pair: Any) -> Any:
         if pair.through is not None:
-            (ax, ay), (bx, by) = map(where, pair.through)
+            (ax, ay), (bx, by) = map(place_of, pair.through)
             return bx - ax, by - ay
         return _pair(guides[pair.name]) if pair.name in guides else tuple(map(float, pair.direction))
 
@@ -90,7 +90,7 @@ def posed(scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any],
     acting = mapped(scene.loads, float)
     if loads:
         acting = with_values(acting, {name: _pair(z) if np.iscomplexobj(z) else z for name, z in loads.items()})
-    return replace(driven, loads=acting).posed({name: where(name) for name in scene.points},
+    return replace(driven, loads=acting).posed({name: place_of(name) for name in scene.points},
                         lambda one: one.direction if isinstance(one, Balance) else direction(one), float)
 
 
@@ -99,23 +99,23 @@ def solve(scene: Scene, n: int, sizes: bool = False) -> rates.Rates:
 
     With `sizes` they are arrays that know the size of what cancels in them.
     """
-    equations = moved(scene, np.sqrt)
+    equations = motion_equations(scene, np.sqrt)
     zero: Any = Sized(np.zeros(n)) if sizes else np.zeros(n)
     scales = [1.0, 1.0, _reach(equations)] * len(equations.columns) + [1.0, 1.0] * len(equations.pins)
     found = blocks(equations.rows, equations.width, TOGETHER)
-    return rates.motion(equations, lambda right: _solved(equations.rows, right, n, scales, sizes, found), zero)
+    return rates.motion(equations, lambda right: _solve_unknowns(equations.rows, right, n, scales, sizes, found), zero)
 
 
 def reactions(scene: Scene, motion: rates.Rates, n: int, sizes: bool = False) -> statics.Reactions:
     """The reactions and balances of a scene with loads in n poses, from its rates there, as arrays as those are."""
-    equations = replace(held(scene), root=np.sqrt)
+    equations = replace(force_equations(scene), root=np.sqrt)
     scales = [1.0 if isinstance(fact, Along) else 1 / _reach(equations) for fact in equations.facts]
-    blocked = [block.transposed for block in reversed(blocks(equations.rows, equations.width, TOGETHER))]
+    blocked = [block.transpose for block in reversed(blocks(equations.rows, equations.width, TOGETHER))]
     rows = transpose(equations.rows, equations.width)
 
     def solve(more: Iterable[Force] = ()) -> statics.Reactions:
         right = [-value for value in statics.resultants(equations, (*statics.acting(scene, motion), *more))]
-        values = _solved(rows, right, n, scales, sizes, blocked)
+        values = _solve_unknowns(rows, right, n, scales, sizes, blocked)
         return statics.read(equations, values, statics.repeating(equations), motion)
 
     found = solve()
@@ -129,7 +129,7 @@ def _reach(equations: Equations) -> float:
     return max(map(float, parts), default=0.0) or 1.0
 
 
-def _solved(rows: Sequence[Row], right: Sequence[Any], n: int, scales: Sequence[float], sizes: bool,
+def _solve_unknowns(rows: Sequence[Row], right: Sequence[Any], n: int, scales: Sequence[float], sizes: bool,
             found: Sequence[Block]) -> Sequence[Any]:
     """The unknowns, which `scales` make comparable, each over all poses; with `sizes` they know theirs."""
     values: list[Any] = [0.0] * len(scales)
@@ -139,7 +139,7 @@ def _solved(rows: Sequence[Row], right: Sequence[Any], n: int, scales: Sequence[
         matrix, sides = np.zeros((n, len(block.rows), len(place))), np.empty((n, len(block.rows), 1))
         terms, known = np.empty_like(sides), np.zeros((n, 1, 1))
         for k, i in enumerate(block.rows):
-            side = sized(right[i]) if sizes else right[i]
+            side = with_size(right[i]) if sizes else right[i]
             for j, value in rows[i].items():
                 if j in place:
                     matrix[:, k, place[j]] = value

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.solver.blocks import Block, blocks
-from graphplan.solver.bounds import Bounded, Unproven, bounded
+from graphplan.solver.bounds import Bounded, Unproven, bounded_number
 from graphplan.solver.tolerances import MIN_BOUND, ROUNDOFF
 
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ class Found(NamedTuple):
     errors: Array
     sizes: Array
 
-    def some(self, columns: Places) -> Found:
+    def select_columns(self, columns: Places) -> Found:
         """Those of some columns."""
         return Found(self.values[columns], self.errors[columns], self.sizes[columns])
 
@@ -51,7 +51,7 @@ class Proven:
         width = len(scales)
         if len(rows) != width:
             raise Unproven("the system is not square")
-        entries = [{j: bounded(number) for j, number in row.items()} for row in rows]
+        entries = [{j: bounded_number(number) for j, number in row.items()} for row in rows]
         self._parts = [_Part(entries, block, np.array(scales)) for block in blocks(rows, width)]
         home = {column: k for k, part in enumerate(self._parts) for column in part.columns.tolist()}
         self._sources = [sorted({home[column] for column in part.before.tolist()}) for part in self._parts]
@@ -61,13 +61,13 @@ class Proven:
 
     def solve(self, right: Sequence[Any]) -> list[Bounded]:
         """The unknowns; fails with `Unproven` where no bound holds."""
-        given = [bounded(number) for number in right]
+        given = [bounded_number(number) for number in right]
         sides = Found(*(np.array([getattr(number, part) for number in given]) for part in ("value", "error", "size")))
         found = Found(*np.zeros((3, len(given))))
         passed: list[Array] = []
         for part, sources in zip(self._parts, self._sources, strict=True):
             coming = [part.coming(self._parts[k], passed[k]) for k in sources]
-            own, vectors = part.solve(sides.some(part.rows), found.some(part.before),
+            own, vectors = part.solve(sides.select_columns(part.rows), found.select_columns(part.before),
                                       np.hstack([np.zeros((part.before.size, 0)), *coming]))
             passed.append(vectors)
             for whole, some in zip(found, own, strict=True):
@@ -125,16 +125,16 @@ class _Part:
         rounded = self._slack * (parts + self._known_sizes @ np.abs(known.values) + np.abs(sides.values))
         residual = (np.abs(given - self._matrix @ values) + rounded + self._off @ np.abs(values) + sides.errors
                     + self._known_off @ (np.abs(known.values) + known.errors))
-        shaken, lost = self._shaken(vectors)
+        shaken, lost = self._propagate_errors(vectors)
         up = 1 + float(_roundings(np.array(2 * values.size + vectors.shape[1])))  # of the sums that make a bound
         errors = self._errors(up * (self._far @ residual + np.abs(shaken).sum(axis=1) + lost) + MIN_BOUND, up)
         terms = self._far @ (parts + self._known_sizes @ known.sizes + sides.sizes)
-        own = Found(values, errors, self._own(values, terms, known.sizes * self._known_scales))
+        own = Found(values, errors, self._cancelling_sizes(values, terms, known.sizes * self._known_scales))
         box = np.diag(up * (self._miss @ errors + lost) + MIN_BOUND)
         passed = np.hstack([shaken, self._inverse * (up * residual), box])[self.outlets]
-        return own, _held(passed, self._scales[self.outlets])
+        return own, _enclosing_box(passed, self._scales[self.outlets])
 
-    def _shaken(self, vectors: Array) -> tuple[Array, Array]:
+    def _propagate_errors(self, vectors: Array) -> tuple[Array, Array]:
         """By how much the errors of earlier unknowns move those of the block, and the rounding of this."""
         rounding = _roundings(np.array(self.columns.size + self.before.size))
         lost = rounding * (self._far @ (np.abs(self._known) @ np.abs(vectors).sum(axis=1)))
@@ -150,7 +150,7 @@ class _Part:
                 return wider
         raise Unproven("the system is too near to a singular one for floats")
 
-    def _own(self, values: Array, terms: Array, known: Array) -> Array:
+    def _cancelling_sizes(self, values: Array, terms: Array, known: Array) -> Array:
         """The size of what cancels in each unknown: its share of all terms, of which the unknowns are what is left.
 
         So what vanishes in a sound system counts beside what made it vanish, and a lost digit of a system near to a
@@ -161,7 +161,7 @@ class _Part:
         return np.maximum(np.abs(values), terms * (min(left / whole, 1.0) if whole else 0.0))
 
 
-def _held(vectors: Array, scales: Array) -> Array:
+def _enclosing_box(vectors: Array, scales: Array) -> Array:
     """As many vectors as unknowns, and a box for their rounding, of which the sums hold all sums of the given ones."""
     if not vectors.size:
         return vectors

@@ -13,7 +13,7 @@ from graphplan.mechanism.equations import Elimination
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.numbers import dot, less, times
 from graphplan.mechanism.pairs.pair import Rate, Sides
-from graphplan.solver.equations import Equations, Solution, moved
+from graphplan.solver.equations import Equations, Solution, motion_equations
 
 if TYPE_CHECKING:
     from graphplan.solver.floating import Floating
@@ -41,8 +41,8 @@ def solve(scene: Scene, exact: bool = False) -> Rates:
     Fails with `Refused` where fractions are asked of an irrational scene, and with `SingularPose`, which names the
     links, where the motion is not determined or is impossible.
     """
-    equations = moved(scene)
-    return motion(equations, partial(solved, equations, equations.ready(exact)), Fraction(0) if exact else 0.0)
+    equations = motion_equations(scene)
+    return motion(equations, partial(solve_uniquely, equations, equations.ready(exact)), Fraction(0) if exact else 0.0)
 
 
 def motion(equations: Equations, solve: Callable[[Sequence[Number]], Sequence[Number]], zero: Number) -> Rates:
@@ -52,7 +52,7 @@ def motion(equations: Equations, solve: Callable[[Sequence[Number]], Sequence[Nu
     return read(equations, first, second)
 
 
-def solved(equations: Equations, linear: Floating | Elimination, right: Sequence[Number]) -> Sequence[Number]:
+def solve_uniquely(equations: Equations, linear: Floating | Elimination, right: Sequence[Number]) -> Sequence[Number]:
     """The unknowns for one right-hand side; fails with `SingularPose` unless there is exactly one solution."""
     free, values = linear.free, linear.solve(right)
     if values is not None and not free:
@@ -100,11 +100,12 @@ def read(equations: Equations, first: dict[str, Rate], second: dict[str, Rate]) 
                       for p, link in carriers.items()},
         omega={link: first[link].turn for link in equations.columns},
         alpha={link: second[link].turn for link in equations.columns},
-        slide_velocity={s.name: along(s, sides(s, first).slip) for s in slides},
-        slide_acceleration={s.name: along(s, less(sides(s, second).slip, sides(s, first).surplus)) for s in slides},
+        slide_velocity={s.name: component_along(s, sides(s, first).slip) for s in slides},
+        slide_acceleration={s.name: component_along(s, less(sides(s, second).slip, sides(s, first).surplus))
+                            for s in slides},
     )
 
 
-def along(slide: Slide, vector: Pair) -> Pair:
+def component_along(slide: Slide, vector: Pair) -> Pair:
     """The part of a vector along the slide's direction: all of it, but for rounding."""
     return times(dot(vector, slide.direction) / dot(slide.direction, slide.direction), slide.direction)

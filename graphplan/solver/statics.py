@@ -32,9 +32,9 @@ from graphplan.mechanism.numbers import less, times, turned
 from graphplan.mechanism.pairs.pair import Along, Rate
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.units import inertia, metre, weight
-from graphplan.solver.equations import Equations, Solution, bound, held, require_fractions
+from graphplan.solver.equations import Equations, Solution, bound, force_equations, require_fractions
 from graphplan.solver.higher_pairs import pushes
-from graphplan.solver.rates import Rates, bound_by, moved_by, solve, solved
+from graphplan.solver.rates import Rates, bound_by, moved_by, solve, solve_uniquely
 
 Load = Force | Moment
 
@@ -63,7 +63,7 @@ def reactions(scene: Scene, exact: bool = False) -> Reactions:
     Fails with `Refused` where the scene has no loads or fractions are asked of an irrational one, and with
     `SingularPose`, which names the links, where its motion or its forces are not determined.
     """
-    found = equilibrium(held(scene), solve(scene, exact), exact)
+    found = equilibrium(force_equations(scene), solve(scene, exact), exact)
     apart = tuple(pushes(found.equations, found.higher))
     return equilibrium(found.equations, found.rates, exact, apart) if apart else found
 
@@ -76,7 +76,7 @@ def equilibrium(equations: Equations, rates: Rates, exact: bool, more: tuple[For
         require_fractions(equations.scene, right)
     linear = equations.ready(exact, forces=True)
     values, free = linear.solve(right), linear.free
-    if values is None or (free and not equations.scene.redundant) or free & balanced(equations):
+    if values is None or (free and not equations.scene.redundant) or free & balance_unknowns(equations):
         raise not_held(equations, exact)
     return read(equations, values, free, rates)
 
@@ -87,7 +87,7 @@ def repeating(equations: Equations) -> frozenset[int]:
     return frozenset(i for i, fact in enumerate(equations.facts[:count]) if fact.condition.pair in names)
 
 
-def balanced(equations: Equations) -> frozenset[int]:
+def balance_unknowns(equations: Equations) -> frozenset[int]:
     """The unknowns that are balances."""
     return frozenset(range(bound(equations.scene), len(equations.facts)))
 
@@ -98,7 +98,7 @@ def not_held(equations: Equations, exact: bool) -> SingularPose:
     if not play:
         twice = bound_by(equations, equations.ready(exact, forces=True).free)
         return SingularPose("statically indeterminate: more holds these links than their equilibrium can tell", twice)
-    one = len(balanced(equations)) == 1
+    one = len(balance_unknowns(equations)) == 1
     balance, does = ("the balance", "it does") if one else ("the balances", "they do")
     why = f"{balance} cannot hold the motion in this pose: these links can move while {does} no work"
     return SingularPose(why, moved_by(equations, play))
@@ -121,12 +121,14 @@ def read(equations: Equations, values: Iterable[Number], free: Container[int], r
             continue
         if isinstance(pair, Slide):
             across = found["across"]
-            slides[pair.name] = times(across, turned(pair.direction)), scaled(1 / unit, found.get("turn", 0 * across))
+            slides[pair.name] = times(across, turned(pair.direction)), scale_number(1 / unit,
+                                                                                    found.get("turn", 0 * across))
         elif isinstance(pair, Gear | Contact):
             higher[pair.name] = tuple(found.values())
-    for balance, value in zip(asked(scene).balances, unknown, strict=True):
+    for balance, value in zip(required_loads(scene).balances, unknown, strict=True):
         if value is not None:
-            balances.append(scaled(1 / unit, value) if balance.direction is None else times(value, balance.direction))
+            balances.append(scale_number(1 / unit, value) if balance.direction is None
+                            else times(value, balance.direction))
     whole = {(at, link): (x, y) for (at, link), (x, y) in joints.items()
              if x is not None and y is not None and link != scene.links_of[at][0]}
     return Reactions(equations, whole, slides, higher, tuple(balances), rates)
@@ -135,7 +137,7 @@ def read(equations: Equations, values: Iterable[Number], free: Container[int], r
 # --- what acts on the links besides each other -----------------------------------------------------------------------
 
 
-def asked(scene: Scene) -> Loads:
+def required_loads(scene: Scene) -> Loads:
     """The loads of the scene; fails with `Refused` where it has none."""
     if scene.loads is None:
         raise Refused("reactions", "the scene has no loads", "give it [[forces]], [[moments]] or [masses]")
@@ -144,20 +146,20 @@ def asked(scene: Scene) -> Loads:
 
 def acting(scene: Scene, rates: Rates) -> tuple[Load, ...]:
     """Every load on a link, in the scene's units of force and force * m."""
-    loads = asked(scene)
-    own = (load for link, mass in loads.masses.items() for load in carried(scene, link, mass, rates))
+    loads = required_loads(scene)
+    own = (load for link, mass in loads.masses.items() for load in inertia_loads(scene, link, mass, rates))
     return (*loads.forces, *loads.moments, *own)
 
 
-def carried(scene: Scene, link: str, mass: Mass, rates: Rates) -> Iterator[Load]:
+def inertia_loads(scene: Scene, link: str, mass: Mass, rates: Rates) -> Iterator[Load]:
     """By d'Alembert: weight and inertia force m g - m a_S at the centre of mass S, and the couple -I alpha."""
-    weigh, (x, y) = times(weight(scene.units), asked(scene).gravity), rates.acceleration[mass.centre]
-    resist = scaled(inertia(scene.units), x), scaled(inertia(scene.units), y)
+    weigh, (x, y) = times(weight(scene.units), required_loads(scene).gravity), rates.acceleration[mass.centre]
+    resist = scale_number(inertia(scene.units), x), scale_number(inertia(scene.units), y)
     yield Force(link, mass.centre, times(mass.mass, less(weigh, resist)))
-    yield Moment(link, scaled(-weight(scene.units), mass.inertia * rates.alpha[link]))
+    yield Moment(link, scale_number(-weight(scene.units), mass.inertia * rates.alpha[link]))
 
 
-def scaled(factor: Fraction, number: Any) -> Any:
+def scale_number(factor: Fraction, number: Any) -> Any:
     """A number times a factor of units: an array times a float, as it would multiply fractions one by one."""
     return (float(factor) if hasattr(number, "dtype") else factor) * number
 
@@ -174,7 +176,7 @@ def resultants(equations: Equations, loads: tuple[Load, ...]) -> list[Number]:
 def weights(equations: Equations, load: Load) -> Rate:
     """A load's force (x, y) and, in force * length, its moment about its link's base: what each rate gives of power."""
     if isinstance(load, Moment):
-        return Rate(0, 0, scaled(metre(equations.scene.units), load.value))
+        return Rate(0, 0, scale_number(metre(equations.scene.units), load.value))
     arm, fact = equations.arm(load.on, load.at), Along(load.on, FRAME, load.at, load.value, "held")
     return fact.weights((arm, arm), equations.root)[0]
 
@@ -190,14 +192,14 @@ def power(scene: Scene, exact: bool = False) -> tuple[Pair | Number, ...]:
 
     Fails as `reactions` does.
     """
-    rates, balances = solve(scene, exact), asked(scene).balances
+    rates, balances = solve(scene, exact), required_loads(scene).balances
     loads, motions = acting(scene, rates), list(virtual(rates, exact))
     system = Elimination([{k: sum(powers(rates, unit(balance), motion)) for k, balance in enumerate(balances)}
                           for motion in motions], len(balances))
     right = [-sum(powers(rates, loads, motion)) for motion in motions]
     if exact:
         require_fractions(scene, right)
-    rows, values = held(scene), system.solve(right)
+    rows, values = force_equations(scene), system.solve(right)
     if values is None or system.free or rows.ready(exact).free:
         raise not_held(rows, exact)
     found: Iterable[Number] = values if exact else map(float, values)
@@ -211,7 +213,7 @@ def virtual(rates: Rates, exact: bool) -> Iterator[dict[str, Rate]]:
     linear, first = equations.ready(exact), bound(equations.scene)
     for drive in range(first, first + len(equations.scene.drives)):
         right = [Fraction(i == drive) for i in range(len(equations.facts))]
-        yield equations.rates(solved(equations, linear, right), zero)
+        yield equations.rates(solve_uniquely(equations, linear, right), zero)
 
 
 def unit(balance: Balance) -> tuple[Load, ...]:

@@ -13,7 +13,7 @@ import graphplan as gp
 from graphplan.accuracy.survey.problem import Problem, TimedRun
 from graphplan.mechanism.model import Scene
 from graphplan.solver import poses
-from graphplan.solver.equations import Equations, moved
+from graphplan.solver.equations import Equations, motion_equations
 
 SCENES = ("four-bar", "slider-crank", "alt-eight-link", "rosenauer-example-2")
 N = 32_768
@@ -49,9 +49,9 @@ def equations(scene: Scene, places: Mapping[str, Any], root: Callable[[Any], Any
         (ax, ay), (bx, by) = (everywhere[name] for name in one.through)
         return bx - ax, by - ay
 
-    floats = poses.posed(scene, {}, {})
+    floats = poses.scene_in_poses(scene, {}, {})
     everywhere = floats.points | dict(places)
-    return moved(floats.posed(everywhere, direction), root)
+    return motion_equations(floats.posed(everywhere, direction), root)
 
 
 def run(problem: Problem, call: Callable[[], Any], pose: Callable[[Any, int], Any]) -> TimedRun:

@@ -147,11 +147,11 @@ def test_notes_tell_shocks_and_steep_angles() -> None:
 
 def test_drawn_steps_keep_their_claims() -> None:
     """Each step of the inversion is one of the table, and lies where it should."""
-    from graphplan.kernel.claims import broken
+    from graphplan.kernel.claims import broken_claims
 
     for name, turns in EVERYWHERE:
         found = drawn(cam(name, turns))
-        assert not list(broken(found.program, found.values, FORM_TOL))
+        assert not list(broken_claims(found.program, found.values, FORM_TOL))
 
 
 def test_a_pose_is_a_scene_with_a_contact() -> None:

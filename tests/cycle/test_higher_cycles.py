@@ -249,7 +249,7 @@ def test_random_mechanisms_move_as_the_solver_says() -> None:
         if high - low < 0.1:
             continue
         turn, links, span = motion.turn(travel), motion.links_at(travel), tuple(map(math.degrees, travel[[0, -1]]))
-        truth = poses.solve(poses.posed(scene, turn.points, turn.guides), travel.size)
+        truth = poses.solve(poses.scene_in_poses(scene, turn.points, turn.guides), travel.size)
         for link in scene.moving:
             gap = np.abs(abs(float(scene.drives[0].rate)) * links[link].spin - truth.omega[link])
             assert gap.max() <= 1e-9 * (2 + np.max(np.abs(truth.omega[link]))), (scene.name, link)

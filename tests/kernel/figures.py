@@ -15,7 +15,7 @@ from typing import Any
 from graphplan.errors import GraphplanError
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE, Board, Mark, Primitive, Program
 from graphplan.kernel.closures import Attitude, Closure, Hinge, Pin
-from graphplan.kernel.loci import Curve, ahead, along
+from graphplan.kernel.loci import Curve, cubic_direction, cubic_point
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
@@ -121,8 +121,8 @@ def _curve_and_arc(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tu
     """A curve and an arc that cross in a place which is a little off the cubic."""
     places, (x, y) = [_at(b, mark) for mark in p[:4]], _at(b, p[4])
     u, off = r.uniform(-0.5, 1.5), (0.125, -0.25)
-    X = tuple(one + two for one, two in zip(along(Floats(), places, u), off, strict=True))
-    slope = 2 * dot((X[0] - x, X[1] - y), ahead(places, u))
+    X = tuple(one + two for one, two in zip(cubic_point(Floats(), places, u), off, strict=True))
+    slope = 2 * dot((X[0] - x, X[1] - y), cubic_direction(places, u))
     params["curve"] = Curve("a curve", [u], [off], [[1 / (slope or 1.0)]])
     return *p[:4], b.circle(p[4], b.opening(p[4], b.given(x=X[0], y=X[1], name="X")))
 
@@ -131,9 +131,9 @@ def _two_curves(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple
     """Two curves that cross in a place which is a little off both cubics."""
     own = [[_at(b, mark) for mark in p[k : k + 4]] for k in (0, 4)]
     at, X = [r.uniform(-0.5, 1.5) for _ in own], _at(b, p[8])
-    offs = [tuple(one - two for one, two in zip(X, along(Floats(), *pair), strict=True))
+    offs = [tuple(one - two for one, two in zip(X, cubic_point(Floats(), *pair), strict=True))
             for pair in zip(own, at, strict=True)]
-    (a, c), (e, f) = (ahead(*pair) for pair in zip(own, at, strict=True))
+    (a, c), (e, f) = (cubic_direction(*pair) for pair in zip(own, at, strict=True))
     whole = (c * e - a * f) or 1.0
     params["curve"] = Curve("a curve", at, offs, [[-f / whole, e / whole]])
     return tuple(p[:8])

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from tiers import sample
 
 from graphplan.kernel import Board
-from graphplan.kernel.claims import broken, unmet
+from graphplan.kernel.claims import broken_claims, unmet
 from graphplan.kernel.numbers import Fractions
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
@@ -28,7 +28,7 @@ def test_claims_hold(name: str, r: Random) -> None:
     values = drawn(program, Floats())
     assume(values is not None)
     assert values is not None
-    assert list(broken(program, values)) == []
+    assert list(broken_claims(program, values)) == []
 
 
 @each("name", NAMES)
@@ -39,7 +39,7 @@ def test_claims_hold_in_degenerate_figures(name: str, place: Place) -> None:
     for _ in range(sample(30, 300)):
         program = figure(name, r, place)
         values = drawn(program, Floats())
-        assert values is None or list(broken(program, values)) == []
+        assert values is None or list(broken_claims(program, values)) == []
 
 
 @each("name", NAMES)
@@ -47,7 +47,7 @@ def test_claims_hold_of_fractions(name: str) -> None:
     """Claims are tested on fractions too."""
     r = Random(name)
     exact = [(program, drawn(program, Fractions())) for program in (figure(name, r) for _ in range(20))]
-    assert all(list(broken(program, values)) == [] for program, values in exact if values is not None)
+    assert all(list(broken_claims(program, values)) == [] for program, values in exact if values is not None)
 
 
 def test_unmet_claim_is_named() -> None:
@@ -56,7 +56,7 @@ def test_unmet_claim_is_named() -> None:
     A, B = b.given(x=0, y=0, name="A"), b.given(x=2, y=0, name="B")
     program = freeze(b, [b.midpoint(A, B, name="M")])
     assert unmet(program.steps[2], [(0.0, 0.0), (2.0, 0.0), (1.0, 0.0)]) == []
-    assert list(broken(program, [(0.0, 0.0), (2.0, 0.0), (1.5, 0.0)])) == [
+    assert list(broken_claims(program, [(0.0, 0.0), (2.0, 0.0), (1.5, 0.0)])) == [
         "step 1 (M = midpoint(A, B)): M B is not the vector A M; by 5.0e-01 of its size"]
 
 

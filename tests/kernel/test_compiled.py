@@ -22,14 +22,14 @@ from graphplan.kernel.tape import compiled
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A cache folder of its own, and nothing compiled yet."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    compiled.compiled.cache_clear()
+    compiled.compile_c.cache_clear()
     yield tmp_path / "graphplan" / "tapes"
-    compiled.compiled.cache_clear()
+    compiled.compile_c.cache_clear()
 
 
 def tripled(add: float = 0.0) -> bool:
     """Whether machine code, compiled anew in this process, gives 3 x + add, over an odd number of poses."""
-    compiled.compiled.cache_clear()
+    compiled.compile_c.cache_clear()
     tape = Symbols().tape
     x = tape.input("x")
     numbers, found = np.arange(2.0 * LANES + 1), np.empty(2 * LANES + 1)

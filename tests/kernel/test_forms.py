@@ -16,10 +16,10 @@ from tiers import sample
 
 from graphplan.errors import Undrawable
 from graphplan.kernel import FAILURES, LINE, TABLE, Mark, Program
-from graphplan.kernel.claims import broken
+from graphplan.kernel.claims import broken_claims
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, FormBoard
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.passes import pruned
+from graphplan.kernel.passes import prune
 
 FORMS = [(name, form) for name in COMPOUNDS for form in TABLE[name].forms]
 KEEPS = {"all but itself": frozenset(TABLE), "set squares": BY_SET_SQUARE, "strict": STRICT}
@@ -91,7 +91,7 @@ def test_leaving_off_finds_the_best(name: str, monkeypatch: pytest.MonkeyPatch) 
         expander, marks = laid_out(program, values, name)
         expander.keep = STRICT
         ask = partial(expander.attempts, TABLE[name], marks, program.steps[-1].params)
-        monkeypatch.setattr(expander, "_allowed", lambda *_: math.inf)
+        monkeypatch.setattr(expander, "_movement_limit", lambda *_: math.inf)
         every = [attempt.rating for attempt in ask()]
         monkeypatch.undo()
         assert [attempt.rating for attempt in ask(tried=True)][:1] == every[:1]
@@ -121,6 +121,6 @@ def test_expansion_keeps_values_and_claims(name: str, keep: str) -> None:
             assert same(program.steps[out].op.gives, values[out], expander.values[expanded.wanted[0]],
                         50 * size(program, values))
             assert drawn(expanded, Floats()) == expander.values
-            assert list(broken(pruned(expanded), drawn(pruned(expanded), Floats()) or [], 1e-6)) == []
+            assert list(broken_claims(prune(expanded), drawn(prune(expanded), Floats()) or [], 1e-6)) == []
             left += keep == "strict" and any(step.op.name not in STRICT for step in expanded.steps)
     assert left == 0

@@ -34,7 +34,7 @@ def test_elementary_counts(draw: Draw, told: str) -> None:
     A, B, C = (board.given(x=x, y=y) for x, y in ((0, 0), (4, 0), (1, 3)))
     program = freeze(board, [draw(board, A, B, C)])
     strict = Expander(program, evaluate(program, Floats()), STRICT).run()
-    assert counts(strict).told == told
+    assert counts(strict).text == told
 
 
 def test_compasses_keep_their_opening() -> None:
@@ -61,7 +61,7 @@ def test_scale_work_is_counted_apart() -> None:
     board = Board()
     A, B = (board.given(x=x, y=0) for x in (0, 4))
     found = counts(freeze(board, [board.line(A, board.step_off(A, B, B, ratio=2))]))
-    assert found.told == "2 R1 + 1 R2: simplicity 3, exactitude 2, by the scale 1"
+    assert found.text == "2 R1 + 1 R2: simplicity 3, exactitude 2, by the scale 1"
 
 
 def test_set_squares_are_counted_plainly() -> None:
@@ -71,11 +71,11 @@ def test_set_squares_are_counted_plainly() -> None:
     l = board.line(A, B)
     found = counts(freeze(board, [board.meet(board.parallel(l, C), board.perpendicular(l, B))]))
     assert not found.strict
-    assert found.told == "3 operations: lines 1, arcs 0, by set squares 2"
+    assert found.text == "3 operations: lines 1, arcs 0, by set squares 2"
 
 
 def test_what_no_form_draws_is_counted_by_its_instrument() -> None:
     """A compound that stays one step, as no form of it serves in a pose, is told with its instrument whatever that is.
     """
     for instrument in {op.instrument for op in TABLE.values() if op.compound} - {SCALE}:
-        assert str(Counts(others={instrument: 3}).told).endswith(" 3")
+        assert str(Counts(others={instrument: 3}).text).endswith(" 3")

@@ -12,7 +12,7 @@ from each import each
 from figures import LENGTHS, NAMES, drawn, figure
 
 from graphplan.kernel import TABLE
-from graphplan.kernel.claims import broken
+from graphplan.kernel.claims import broken_claims
 from graphplan.kernel.numbers.floats import Floats
 
 Rule = Callable[..., Any]
@@ -142,7 +142,7 @@ def complaints(name: str) -> list[str]:
         program = figure(name, r)
         values = drawn(program, Floats())
         if values is not None:
-            found += list(broken(program, values))
+            found += list(broken_claims(program, values))
     return found
 
 

@@ -16,7 +16,7 @@ from graphplan.kernel import LINE, OPENING, POINT, TABLE, Board, Mark, Primitive
 from graphplan.kernel.expand import Expander
 from graphplan.kernel.numbers import Domain, Fractions
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.passes import freeze, gathered
+from graphplan.kernel.passes import freeze, gather_by_plan
 from graphplan.kernel.plans import PlansApart
 from graphplan.kernel.program import Panel, evaluate
 
@@ -45,12 +45,12 @@ def test_a_foot_across_plans_is_not_recorded() -> None:
     assert board.steps == before
 
 
-@each("name", [name for name in NAMES if len(TABLE[name].near) > 1])
+@each("name", [name for name in NAMES if len(TABLE[name].same_plan_operands) > 1])
 def test_what_is_joined_lies_on_one_plan(name: str) -> None:
     """Whatever operation: with one of the operands that it joins on another plan it is not recorded."""
     board, there, here = two_plans()
     op = TABLE[name]
-    other = next(place for place in op.near if place != op.where % len(op.reads))
+    other = next(place for place in op.same_plan_operands if place != op.where % len(op.reads))
     args = [mark_of(board, kind, there if place == other else here) for place, kind in enumerate(op.reads)]
     params: dict[str, Any] = dict.fromkeys(op.params, 1)
     with pytest.raises(PlansApart, match=f"^{name} "):
@@ -126,7 +126,7 @@ def test_a_trial_figure_begins_on_the_plan_of_its_locus() -> None:
     board, (A, B, C), (o, p, q) = two_plans()
     locus = board.carry(A, board.line(o, p), B, board.line(o, q), C, turn="perpendicular")
     program = freeze(board, [locus])
-    ordered, _ = gathered(Expander(program, evaluate(program, Floats()), prefer="trial figure").run())
+    ordered, _ = gather_by_plan(Expander(program, evaluate(program, Floats()), prefer="trial figure").run())
     picks = [step for step in ordered.steps if step.op.name == "pick"]
     assert picks
     assert {ordered.steps[arg].panel for step in picks for arg in step.args} == {N_PLAN}
@@ -139,8 +139,8 @@ def test_a_trial_figure_begins_on_the_plan_of_its_locus() -> None:
 def test_it_is_drawn_among_what_is_near(name: str) -> None:
     """The operand on whose plan it is drawn is none of those that may be elsewhere; no operand is in two groups."""
     op = TABLE[name]
-    places = [*op.near, *(place for group in op.afar for place in group)]
-    assert op.where % len(op.reads) in op.near
+    places = [*op.same_plan_operands, *(place for group in op.afar for place in group)]
+    assert op.where % len(op.reads) in op.same_plan_operands
     assert sorted(places) == list(range(len(op.reads)))
 
 
@@ -160,7 +160,7 @@ def test_only_lengths_and_directions_of_what_is_afar_count(name: str) -> None:
                 assert_same(op, again(op, domain, step.params, read, group), values[step.index], (0, 0))
                 told += 1
             if "group" not in op.params:  # which is known to close where it was
-                assert_same(op, again(op, domain, step.params, read, op.near), values[step.index], ALONG)
+                assert_same(op, again(op, domain, step.params, read, op.same_plan_operands), values[step.index], ALONG)
                 told += 1
             break
     assert told > 3 or "group" in op.params
@@ -170,7 +170,7 @@ def again(op: Primitive, domain: Domain, params: dict[str, Any], read: Sequence[
     """What an operation gives with some of its operands moved along."""
     args = [moved(op.reads[k], value, ALONG) if k in places else value for k, value in enumerate(read)]
     try:
-        return domain.whole(op.rule(domain, *args, **params))
+        return domain.mask_refused(op.rule(domain, *args, **params))
     except GraphplanError:
         pytest.fail(f"{op.name} cannot be drawn when {places} are moved")
 

@@ -16,7 +16,7 @@ from tiers import sample
 
 from graphplan.kernel import TABLE, Board, Mark, Program
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.passes import freeze, gathered, pruned
+from graphplan.kernel.passes import freeze, gather_by_plan, prune
 from graphplan.kernel.program import Panel, evaluate
 
 
@@ -44,13 +44,13 @@ def test_pruning_moves_no_mark(r: Random) -> None:
     """What nothing needs is left out; the wanted marks have the same values, and pruning again changes nothing."""
     board, marks = scribble(r)
     whole = Program(tuple(board.steps), tuple(mark.step.index for mark in r.sample(marks, 3)))
-    short = pruned(whole)
+    short = prune(whole)
     all_values, values = drawn(whole, Floats()), drawn(short, Floats())
     if all_values is not None:
         assert values is not None
         assert [all_values[k] for k in whole.wanted] == [values[k] for k in short.wanted]
     assert len(short) <= len(whole)
-    assert [step.key for step in pruned(short).steps] == [step.key for step in short.steps]
+    assert [step.key for step in prune(short).steps] == [step.key for step in short.steps]
 
 
 @settings(max_examples=sample(6, 40), deadline=None)
@@ -59,7 +59,7 @@ def test_gathering_changes_only_the_order(r: Random) -> None:
     """Steps gathered plan by plan are the same steps, each after what it reads."""
     board, marks = scribble(r)
     program = freeze(board, r.sample(marks, 3))
-    ordered, places = gathered(program)
+    ordered, places = gather_by_plan(program)
     assert sorted(places) == list(range(len(program)))
     assert [program.steps[k].op for k in places] == [step.op for step in ordered.steps]
     assert [places[k] for k in ordered.wanted] == list(program.wanted)

@@ -142,15 +142,15 @@ def test_reversal_makes_the_same_again(op: Primitive) -> None:
     if op.reversal:
         for (first, *rest), params in samples(op):
             turned = [tuple(-part for part in first), *rest] if op.reads[0] == LINE else [*rest, first]
-            assert made(op, turned, op.reversed(params)) == pytest.approx(made(op, [first, *rest], params))
-            assert op.reversed(op.reversed(params)) == params
+            assert made(op, turned, op.reverse_parameters(params)) == pytest.approx(made(op, [first, *rest], params))
+            assert op.reverse_parameters(op.reverse_parameters(params)) == params
 
 
 @EACH
 def test_what_lays_off_has_a_root(op: Primitive) -> None:
     """A point that is laid off has a point as its root; where its size is given, so is a parameter."""
     assert op.root is None or (op.gives, op.reads[op.root]) == (POINT, POINT)
-    assert not op.scaled or op.params
+    assert not op.has_size or op.params
     assert not op.spans or op.reads == (POINT, POINT)
     assert not op.crossing or set(op.reads) <= {LINE, CIRCLE}
 

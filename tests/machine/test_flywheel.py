@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from graphplan.errors import Refused
-from graphplan.kernel.claims import broken
+from graphplan.kernel.claims import broken_claims
 from graphplan.machine.flywheel.drawing import drawn
 from graphplan.machine.flywheel.energy import steady
 from graphplan.machine.flywheel.other_methods import methods, rectangles
@@ -122,7 +122,7 @@ def test_drawn_construction(cycle):
     wheel, gaps = sized(cycle, UNEVENNESS), []
     for positions in (12, 24, 48, 96):
         drawing = drawn(cycle, wheel, positions)
-        assert not [*broken(drawing.program, drawing.values)]
+        assert not [*broken_claims(drawing.program, drawing.values)]
         gaps.append(abs(drawing.inertia / wheel.inertia - 1))
     assert gaps == sorted(gaps, reverse=True)
     assert gaps[1] < 5e-3

@@ -15,7 +15,7 @@ from linkages_with_masses import four_bar, slider_crank
 from graphplan.check.balance import balancing, mass_motion
 from graphplan.commands import main
 from graphplan.errors import Refused
-from graphplan.kernel.claims import broken
+from graphplan.kernel.claims import broken_claims
 from graphplan.machine.linkages.mass_centre import mass_centre
 from graphplan.mechanism.model import Loads, Mass
 from graphplan.mechanism.scene import load, parse
@@ -38,7 +38,7 @@ def test_principal_vectors_of_a_four_bar() -> None:
 def test_steps_keep_their_claims(scene: object) -> None:
     """Each step of the construction is what it says, and each link's principal point is marked on it."""
     found = mass_centre(scene)  # type: ignore[arg-type]
-    assert not [*broken(found.program, found.values)]
+    assert not [*broken_claims(found.program, found.values)]
     assert {step.name for step in found.program.steps} >= {"H_1", "H_2", "H_3", "S"}
 
 

@@ -84,10 +84,10 @@ def together(_: Program, __: int) -> Panel:
 def apart(program: Program, index: int) -> Panel:
     """What the last operation may take from another plan is there, with what that is drawn with."""
     steps, near = program.steps, set[int]()
-    waiting = [steps[-1].args[place] for place in steps[-1].op.near]
+    waiting = [steps[-1].args[place] for place in steps[-1].op.same_plan_operands]
     while waiting:
         near.add(mark := waiting.pop())
-        waiting += [steps[mark].args[place] for place in steps[mark].op.near]
+        waiting += [steps[mark].args[place] for place in steps[mark].op.same_plan_operands]
     return MECHANISM if index in near or not steps[-1].op.afar else TWO
 
 

@@ -58,7 +58,7 @@ def apart(scene: Scene, turn: Turn) -> float:
                              for own in (turn.points, turn.guides, turn.loads))
     drawn = construct(scene).evaluate(points, guides, loads=loads)
     ours, kept = drawn.results, [k for k in range(len(there)) if k not in drawn.faults]
-    posed = poses.posed(scene, points, guides, loads)
+    posed = poses.scene_in_poses(scene, points, guides, loads)
     right = force_truth(posed, ours, poses.reactions(posed, poses.solve(posed, len(there)), len(there)))
     worst = 0.0
     for kind, named in ours.items():

@@ -17,7 +17,7 @@ from graphplan.machine.integrals import settled
 from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.mechanism.model import Scene
 from graphplan.solver import poses
-from graphplan.solver.friction import delivered
+from graphplan.solver.friction import delivered_power
 
 LINKAGES = sample(3, 20)
 TOGETHER = 5
@@ -42,13 +42,13 @@ def reductions(seeds: range) -> Iterator[tuple[int, Scene, Reduction]]:
             yield seed, scene, reduction(scene, (low * unit, high * unit))
 
 
-def delivered_power(scene: Scene, found: Reduction, travel: np.ndarray) -> np.ndarray:
+def delivered_by_balances(scene: Scene, found: Reduction, travel: np.ndarray) -> np.ndarray:
     """The power of the balances that keep the drives at constant rates, by the solver's reactions; in N m/s."""
     turn = found.motion.turn(travel)
     even = scene.with_drives(drive.driven_at(drive.rate, 0) for drive in scene.drives)
-    posed = poses.posed(even, turn.points, turn.guides)
+    posed = poses.scene_in_poses(even, turn.points, turn.guides)
     held = poses.reactions(posed, poses.solve(posed, travel.size), travel.size)
-    return np.asarray(delivered(held), float) * found.motion.metres
+    return np.asarray(delivered_power(held), float) * found.motion.metres
 
 
 @pytest.mark.parametrize("first", range(0, LINKAGES, TOGETHER))
@@ -64,7 +64,7 @@ def test_reductions_agree_with_the_solver_and_close_the_energy_balance(first: in
             continue
 
         def powers(travel: np.ndarray, scene: Scene = scene, found: Reduction = found) -> np.ndarray:
-            done = delivered_power(scene, found, travel) / (abs(float(scene.drives[0].rate)) or 1.0)
+            done = delivered_by_balances(scene, found, travel) / (abs(float(scene.drives[0].rate)) or 1.0)
             return np.array([done, found.at(travel).moment * found.unit])
 
         try:

@@ -24,7 +24,7 @@ def strays(program: Program, domain: Domain, size: Any, near: float = 0.0) -> li
         if step.op.movement is Movement.BEGUN:
             after.append(tuple(map(domain.lift, begun[step.panel])))
         else:
-            after.append(domain.whole(step.op.rule(domain, *[after[arg] for arg in step.args], **step.params)))
+            after.append(domain.mask_refused(step.op.rule(domain, *[after[arg] for arg in step.args], **step.params)))
     return [f"{program.sentence(step.index)} ({step.panel})" for step in program.steps
             if any(off > near for off in gaps(step, before[step.index], after[step.index],
                                               begun.get(step.panel, (0, 0)), size))]

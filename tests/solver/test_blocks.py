@@ -19,7 +19,7 @@ from graphplan.mechanism.model import FRAME, Balance, Force, Loads, Mass, Scene
 from graphplan.solver import blocks as blocks_of
 from graphplan.solver import poses, reactions, solve
 from graphplan.solver.blocks import TOGETHER, blocks
-from graphplan.solver.equations import moved
+from graphplan.solver.equations import motion_equations
 
 DYADS = 30  # of a chain that is several blocks
 
@@ -82,7 +82,7 @@ def test_the_bounds_grow_no_faster_than_the_chain() -> None:
 @pytest.mark.parametrize("kind", SCENES)
 def test_no_block_is_larger_than_it_must(kind: str) -> None:
     """A chain of dyads is many blocks in whatever order it is written, and every row stands in just one."""
-    equations = moved(SCENES[kind]())
+    equations = motion_equations(SCENES[kind]())
     found = blocks(equations.rows, equations.width)
     assert max(len(block.columns) for block in found) <= TOGETHER
     assert sorted(i for block in found for i in block.rows) == list(range(len(equations.rows)))
@@ -144,7 +144,8 @@ def test_many_poses_of_many_links_are_solved_as_each_alone(sizes: bool) -> None:
     assert scene.loads is not None
     scene = replace(scene, loads=replace(scene.loads, gravity=(0, 0), forces=()))
     turns = np.exp(1j * np.array([0.0, 0.7, 4.0]))
-    posed = poses.posed(scene, {name: complex(*map(float, at)) * turns for name, at in scene.points.items()}, {})
+    posed = poses.scene_in_poses(scene, {name: complex(*map(float, at)) * turns for name, at in scene.points.items()},
+                                 {})
     rates = poses.solve(posed, len(turns), sizes)
     alone, many = reactions(scene), poses.reactions(posed, rates, len(turns), sizes)
     for one, other in ((alone.rates.velocity, rates.velocity), (alone.rates.acceleration, rates.acceleration),

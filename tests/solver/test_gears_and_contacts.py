@@ -218,7 +218,7 @@ def test_all_numbers_say_the_same(name: str) -> None:
     """Floats, floats with bounds, enclosures and arrays of poses give what fractions give; the condition is sound."""
     scene, exact = SCENES[name], analytic.solve(SCENES[name], exact=True)
     single = analytic.solve(scene)
-    many = poses.solve(poses.posed(scene, {p: np.full(2, at(z)) for p, z in scene.points.items()}, {}), 2)
+    many = poses.solve(poses.scene_in_poses(scene, {p: np.full(2, at(z)) for p, z in scene.points.items()}, {}), 2)
     assert single.condition < 100
     for by in (FLOATS, enclosures(200)):
         with by.working():

@@ -29,7 +29,7 @@ def test_each_pose_is_solved_as_alone(name: str) -> None:
     alone = gp.analytic.solve(scene)
     points = {name: complex(*map(float, at)) * TURNS for name, at in scene.points.items()}
     guides = {pair.name: complex(*map(float, pair.direction)) * TURNS for pair in scene.guided if pair.direction}
-    turned = poses.posed(scene, points, guides)
+    turned = poses.scene_in_poses(scene, points, guides)
     rates = poses.solve(turned, len(TURNS))
     for one, many in (alone.velocity, rates.velocity), (alone.acceleration, rates.acceleration):
         size = max(abs(complex(*value)) for value in one.values())
@@ -50,6 +50,6 @@ def test_a_singular_pose_among_others_is_no_number() -> None:
     scene = gp.load("four-bar")
     (ax, ay), (cx, cy) = scene.points["A"], scene.points["C"]
     B = np.array([complex(*map(float, scene.points["B"])), complex(ax + cx, ay + cy) / 2])
-    rates = poses.solve(poses.posed(scene, {"B": B}, {}), 2)
+    rates = poses.solve(poses.scene_in_poses(scene, {"B": B}, {}), 2)
     assert rates.velocity["B"][0][0] == pytest.approx(gp.analytic.solve(scene).velocity["B"][0])
     assert not np.isfinite(rates.velocity["B"][0][1]) or abs(rates.velocity["B"][0][1]) > 1e12

@@ -77,7 +77,7 @@ def stages(links: Sequence[int] = LINKS, rounds: int = ROUNDS,
            tell: Callable[[str], None] = lambda said: None) -> Iterator[StageTime]:
     """Every stage of every chain, an even number of links each, four at least; all take turns. What is under way is
     told."""
-    four, steps = poses.posed(chain(1), {}, {}), dict[int, int]()
+    four, steps = poses.scene_in_poses(chain(1), {}, {}), dict[int, int]()
     runs: dict[tuple[int, str], tuple[Callable[[], object], int]] = {(0, ""): (lambda: solve(four), 1)}
     left = dict[str, str]()
     for count in links:

@@ -229,7 +229,7 @@ ARITHMETICS: dict[str, Callable[[Problem, Construction], TimedRun]] = {
 
 def _run_solver(exact: bool, problem: Problem) -> TimedRun:
     """The solver, one pose after the other."""
-    lift = place_points if exact else partial(poses.posed, guides={})
+    lift = place_points if exact else partial(poses.scene_in_poses, guides={})
 
     def solve_one(scene: Scene) -> Rates | Reactions:
         return solve(scene, exact) if scene.loads is None else reactions(scene, exact)
@@ -246,7 +246,7 @@ def _run_lapack(problem: Problem) -> TimedRun:
 
     def solve_block(start: int, count: int) -> Results:
         block = {name: z[start : start + count] for name, z in problem.points.items()}
-        scene = poses.posed(problem.scene, block, {})
+        scene = poses.scene_in_poses(problem.scene, block, {})
         rates = poses.solve(scene, count)
         return _requested_results(scene, rates if scene.loads is None else poses.reactions(scene, rates, count))
 

@@ -39,7 +39,7 @@ class Domain(ABC):
         """A number that Newton's method may go on from, without what is not known of it."""
         return value
 
-    def whole(self, value: Any) -> Any:
+    def mask_refused(self, value: Any) -> Any:
         """A rule's answer, nothing of it left for poses that it could not draw."""
         return value
 

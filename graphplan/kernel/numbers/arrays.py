@@ -21,12 +21,12 @@ class Arrays(Domain):
         return np.asarray(value, dtype=float)
 
     def sqrt(self, value: Any, code: str, why: str) -> Any:
-        return np.sqrt(self._masked(value, np.less(value, 0), code, why))
+        return np.sqrt(self._mask(value, np.less(value, 0), code, why))
 
     def nonzero(self, value: Any, scale: Any, code: str, why: str) -> Any:
-        return self._masked(value, np.abs(value) <= ROUNDOFF_TOL * scale, code, why)
+        return self._mask(value, np.abs(value) <= ROUNDOFF_TOL * scale, code, why)
 
-    def _masked(self, value: Any, bad: Any, code: str, why: str) -> Any:
+    def _mask(self, value: Any, bad: Any, code: str, why: str) -> Any:
         if not np.any(bad):
             return value
         self.faults.append((code, why, bad))
@@ -36,6 +36,6 @@ class Arrays(Domain):
     def sign(self, value: Any, scale: Any) -> Any:
         return np.where(np.abs(value) <= ROUNDOFF_TOL * scale, 0.0, np.sign(value))
 
-    def whole(self, value: Any) -> Any:
+    def mask_refused(self, value: Any) -> Any:
         bad, self._bad = self._bad, None
         return value if bad is None else tuple(np.where(bad, np.nan, number) for number in value)

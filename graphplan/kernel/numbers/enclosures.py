@@ -101,10 +101,10 @@ class Enclosure:
         return bool(one.mid() == two.mid() and one.rad() == two.rad())
 
     def __lt__(self, other: Any) -> bool:
-        return self._decided(self.ball < ball(other), not self.ball >= ball(other))
+        return self._decide(self.ball < ball(other), not self.ball >= ball(other))
 
     def __gt__(self, other: Any) -> bool:
-        return self._decided(self.ball > ball(other), not self.ball <= ball(other))
+        return self._decide(self.ball > ball(other), not self.ball <= ball(other))
 
     def __le__(self, other: Any) -> bool:
         return not self > other
@@ -112,7 +112,7 @@ class Enclosure:
     def __ge__(self, other: Any) -> bool:
         return not self < other
 
-    def _decided(self, certain: bool, possible: bool) -> bool:
+    def _decide(self, certain: bool, possible: bool) -> bool:
         """What is certain, provided that nothing else is possible."""
         if possible and not certain:
             raise Undecided("two numbers cannot be told apart")
@@ -157,14 +157,14 @@ def solve(rows: Sequence[Mapping[int, Any]]) -> Callable[[Sequence[Any]], list[E
     size = len(rows)
     matrix = arb_mat(size, size, [ball(row.get(column, 0)) for row in rows for column in range(size)])
 
-    def solved(right: Sequence[Any]) -> list[Enclosure]:
+    def solution_for(right: Sequence[Any]) -> list[Enclosure]:
         try:
             solution = matrix.solve(arb_mat(size, 1, [ball(value) for value in right]))
         except ZeroDivisionError:
             raise Undecided("whether the equations have one solution cannot be told") from None
         return [Enclosure(solution[row, 0]) for row in range(size)]
 
-    return solved
+    return solution_for
 
 
 def _exactly(point: arb) -> Fraction:

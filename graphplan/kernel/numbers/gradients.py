@@ -79,7 +79,7 @@ class Gradients(Domain):
         partials[list(places)] = np.inf
         return Gradient(value, partials)
 
-    def shaken(self, value: float, errors: Iterable[tuple[int, float]]) -> Any:
+    def with_errors(self, value: float, errors: Iterable[tuple[int, float]]) -> Any:
         """A number with these errors, each by its place and with its derivative; without any that is not nothing it is
         steady."""
         partials = None

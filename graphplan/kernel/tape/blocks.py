@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.kernel.tape.record import Question, Tape, operands
-from graphplan.kernel.tape.written import PYTHON, asked_of, compiled
+from graphplan.kernel.tape.written import PYTHON, asked_of, compile_python
 from graphplan.kernel.tolerances import NORM_MARGIN, ROUNDOFF_TOL, UNDERFLOW
 
 NOWHERE = np.empty(0, np.intp)
@@ -25,7 +25,7 @@ CALLS = {"+": "add", "-": "subtract", "*": "multiply", "/": "divide", "neg": "ne
          "sqrt": "sqrt", "sign": "sign"}
 BOUNDED = ("+", "-", "*", "neg", "abs")  # what is no larger than its operands' sizes make it
 HEAD = ("from numpy import absolute, add, divide, minimum, multiply, negative, sqrt, subtract",
-        "from graphplan.kernel.tape.blocks import largest, least, refused, sign")
+        "from graphplan.kernel.tape.blocks import largest, least_size, refused_poses, sign")
 
 
 class Blocks:
@@ -33,7 +33,7 @@ class Blocks:
 
     def __init__(self, tape: Tape, inputs: Sequence[int], outputs: Sequence[int]):
         writer = BlockWriter(tape, inputs, outputs)
-        self._registers, self._block = writer.registers, compiled(writer.text(), "block")
+        self._registers, self._block = writer.registers, compile_python(writer.text(), "block")
         self.length = max(SHORTEST, min(BLOCK, CACHE // (8 * max(1, self._registers))))
 
     def run(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> Any:
@@ -56,7 +56,7 @@ class Blocks:
         return np.concatenate(left)
 
 
-def refused(before: Any, value: Any, scale: Any = None) -> Any:
+def refused_poses(before: Any, value: Any, scale: Any = None) -> Any:
     """The poses in which a question fails, or one before it did: nonzero beside the scale? Without one: not negative?
     """
     size = np.absolute(value)
@@ -69,7 +69,7 @@ def largest(numbers: Any) -> float:
     return NORM_MARGIN * math.sqrt(float(numbers.dot(numbers)) + UNDERFLOW)
 
 
-def least(numbers: Any) -> float:
+def least_size(numbers: Any) -> float:
     """The least size in a block; nan where any is."""
     low = float(np.minimum.reduce(numbers))
     if low >= 0.0:
@@ -97,10 +97,10 @@ class BlockWriter:
         for k, place in enumerate(outputs):
             self.outputs.setdefault(place, []).append(k)
         self.names: dict[int, str] = {}
-        self.marks = set(tape.needed(outputs))
-        self.high = self._sources((q.scale for q in tape.questions if q.scale is not None), self._summed)
+        self.marks = set(tape.needed_places(outputs))
+        self.high = self._sources((q.scale for q in tape.questions if q.scale is not None), self._is_bounded_by_sums)
         self.low = self._sources((q.value for q in tape.questions), self._grows)
-        needed = tape.needed([*outputs, *self.low, *self.high])
+        needed = tape.needed_places([*outputs, *self.low, *self.high])
         self.marks.update(needed)
         self.registers, self.free = 0, list[str]()
         self.lines: list[str] = []
@@ -118,7 +118,7 @@ class BlockWriter:
         body = [*unpack, "bad = None", *self.lines, "return bad"]
         return "\n".join([*HEAD, "\n    ".join(["def block(I, O, R):", *body])])
 
-    def _summed(self, place: int) -> bool:
+    def _is_bounded_by_sums(self, place: int) -> bool:
         """Whether a number is no larger than sums of products of its operands' sizes."""
         return self.tape.entries[place][0] in BOUNDED
 
@@ -160,7 +160,7 @@ class BlockWriter:
             if place in self.high:
                 self.lines.append(f"m{place} = largest({self._name(place)})")
             if place in self.low:
-                least = "minimum.reduce" if self._never_negative(place) else "least"
+                least = "minimum.reduce" if self._never_negative(place) else "least_size"
                 self.lines.append(f"l{place} = {least}({self._name(place)})")
             for question in asked.get(place, []):
                 self._ask(question)
@@ -193,19 +193,20 @@ class BlockWriter:
 
     def _ask(self, question: Question) -> None:
         """The question by its bounds; where they leave it open, pose by pose."""
-        value = self._each(question.value)
+        value = self._pointwise_expression(question.value)
         if question.scale is None:
-            self.lines.append(f"if not minimum.reduce({value}) >= 0.0: bad = refused(bad, {value})")
+            self.lines.append(f"if not minimum.reduce({value}) >= 0.0: bad = refused_poses(bad, {value})")
             return
-        self.lines.append(f"if not {self._least(question.value)} > {ROUNDOFF_TOL!r} * {self._largest(question.scale)}: "
-                          f"bad = refused(bad, {value}, {self._each(question.scale)})")
+        lower_bound = self._lower_bound_expression(question.value)
+        self.lines.append(f"if not {lower_bound} > {ROUNDOFF_TOL!r} * {self._largest(question.scale)}: "
+                          f"bad = refused_poses(bad, {value}, {self._pointwise_expression(question.scale)})")
 
-    def _each(self, place: int) -> str:
+    def _pointwise_expression(self, place: int) -> str:
         """An expression for a number pose by pose."""
         op, *args = self.tape.entries[place]
         if op == "constant" or place in self.marks:
             return self._name(place)
-        return PYTHON.written[op].format(*map(self._each, args))
+        return PYTHON.written[op].format(*map(self._pointwise_expression, args))
 
     def _read(self, question: Question) -> Iterator[int]:
         """The numbers that a question reads pose by pose."""
@@ -231,14 +232,14 @@ class BlockWriter:
                 self.lines.append(f"m{place} = {one} {'*' if op == '*' else '+'} {two}")
         return self._bounded[place]
 
-    def _least(self, place: int) -> str:
+    def _lower_bound_expression(self, place: int) -> str:
         """An expression for a bound of a number's sizes from below."""
         op, *args = self.tape.entries[place]
         if op == "constant":
             return repr(abs(args[0]))
         if place in self.low:
             return f"l{place}"
-        return PYTHON.written[op].format(*map(self._least, args)).replace("abs", "")
+        return PYTHON.written[op].format(*map(self._lower_bound_expression, args)).replace("abs", "")
 
     def _never_negative(self, place: int) -> bool:
         op, *args = self.tape.entries[place]

@@ -22,7 +22,7 @@ LONG = 1_000_000  # characters: from there on choosing registers well takes long
 
 
 @lru_cache(maxsize=256)
-def compiled(text: str, name: str, *arguments: Any) -> Callable[..., None]:
+def compile_c(text: str, name: str, *arguments: Any) -> Callable[..., None]:
     """The function of this name, which takes these arguments of `ctypes`; the same text is compiled once."""
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
@@ -31,7 +31,7 @@ def compiled(text: str, name: str, *arguments: Any) -> Callable[..., None]:
     engine = llvm.create_mcjit_compiler(llvm.parse_assembly(text), machine)
     key = "\n".join([str(llvm.llvm_version_info), triple, cpu, features, text])
     file = _folder() / f"{sha256(key.encode()).hexdigest()}.o"
-    engine.set_object_cache(lambda _, made: _keep(file, made), lambda _: _kept(file))
+    engine.set_object_cache(lambda _, made: _keep(file, made), lambda _: _cached_code(file))
     engine.finalize_object()
     made: Any = ctypes.CFUNCTYPE(None, *arguments)(engine.get_function_address(name))
     made.engine = engine  # holds the code
@@ -45,7 +45,7 @@ def _folder() -> Path:
     return Path(base if os.path.isabs(base) else os.path.expanduser("~/.cache"), "graphplan", "tapes")
 
 
-def _kept(file: Path) -> bytes | None:
+def _cached_code(file: Path) -> bytes | None:
     """The code in a file; none where there is no such file, or it is not whole."""
     try:
         told, made = (content := file.read_bytes())[:32], content[32:]

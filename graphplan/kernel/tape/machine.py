@@ -52,10 +52,10 @@ class Machine:
     def _loop(self, read: Layout, write: Layout) -> Any:
         """The compiled loop for arrays that are laid out so."""
         if (read, write) not in self._loops:
-            from graphplan.kernel.tape.compiled import compiled
+            from graphplan.kernel.tape.compiled import compile_c
 
             text = assembly(self.tape, self.inputs, self.outputs, read, write)
-            self._loops[read, write] = compiled(text, "poses", ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p,
+            self._loops[read, write] = compile_c(text, "poses", ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p,
                                                 ctypes.c_int64)
         return self._loops[read, write]
 
@@ -181,7 +181,7 @@ def _body(writer: Writer, outputs: Sequence[int], layout: Layout) -> Iterator[st
     """All numbers and questions, each output stored as soon as it is there, and the mask."""
     due, j, asked, failed = 0, 0, 0, NOUGHT
 
-    def stored() -> Iterator[str]:
+    def output_stores() -> Iterator[str]:
         """The groups of outputs that are finished."""
         nonlocal due, j
         while j < len(layout) and all(place in writer.text for place in outputs[due : due + layout[j]]):
@@ -191,12 +191,12 @@ def _body(writer: Writer, outputs: Sequence[int], layout: Layout) -> Iterator[st
     for name, text in writer.terms(outputs, writer.tape.questions):
         yield text
         if name:
-            yield from stored()
+            yield from output_stores()
         else:
             asked += 1
             yield f"%bad{asked} = or {MASK} {failed}, %vq{asked}"
             failed = f"%bad{asked}"
-    yield from stored()
+    yield from output_stores()
     yield f"%mask = zext {MASK} {failed} to <{LANES} x i8>"
     yield "%masked = getelementptr i8, ptr %failed, i64 %k1"
     yield f"store <{LANES} x i8> %mask, ptr %masked, align 1"

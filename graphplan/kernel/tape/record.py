@@ -41,15 +41,15 @@ class Tape:
 
     def input(self, name: str) -> Symbol:
         """A number that is told at the replay."""
-        return self._entered("in", name)
+        return self._symbol_for("in", name)
 
     def place(self, number: Any) -> int:
         """Where a number stands on the tape: a symbol, or a constant."""
         if isinstance(number, Symbol):
             return number.place
-        return self._entered("constant", float(number)).place
+        return self._symbol_for("constant", float(number)).place
 
-    def _entered(self, *entry: Any) -> Symbol:
+    def _symbol_for(self, *entry: Any) -> Symbol:
         place = self._places.setdefault(entry, len(self.entries))
         if place == len(self.entries):
             self.entries.append(entry)
@@ -65,23 +65,23 @@ class Tape:
     def add(self, a: int, b: int) -> Symbol:
         if self.is_constant(b, 0.0):
             return Symbol(self, a)
-        if (c := self._negated(b)) is not None:
+        if (c := self._negative_of(b)) is not None:
             return self.sub(a, c)
-        if (c := self._negated(a)) is not None:
+        if (c := self._negative_of(a)) is not None:
             return self.sub(b, c)
-        return self._entered("+", *sorted((a, b)))
+        return self._symbol_for("+", *sorted((a, b)))
 
     def sub(self, a: int, b: int) -> Symbol:
         if self.is_constant(b, 0.0):
             return Symbol(self, a)
         if self.is_constant(a, 0.0):
             return self.neg(b)
-        if (c := self._negated(b)) is not None:
+        if (c := self._negative_of(b)) is not None:
             return self.add(a, c)
-        if (c := self._negated(a)) is not None:
+        if (c := self._negative_of(a)) is not None:
             return -self.add(c, b)
         mirrored = self._places.get(("-", b, a))
-        return self._entered("-", a, b) if mirrored is None else self.neg(mirrored)
+        return self._symbol_for("-", a, b) if mirrored is None else self.neg(mirrored)
 
     def mul(self, a: int, b: int) -> Symbol:
         for one, other in (a, b), (b, a):
@@ -89,54 +89,54 @@ class Tape:
                 return Symbol(self, other)
             if self.is_constant(one, -1.0):
                 return self.neg(other)
-            if (c := self._negated(one)) is not None:
+            if (c := self._negative_of(one)) is not None:
                 return -self.mul(c, other)
-        return self._entered("*", *sorted((a, b)))
+        return self._symbol_for("*", *sorted((a, b)))
 
     def div(self, a: int, b: int) -> Symbol:
         if self.is_constant(b, 1.0):
             return Symbol(self, a)
-        if (c := self._negated(a)) is not None:
+        if (c := self._negative_of(a)) is not None:
             return -self.div(c, b)
-        if (c := self._negated(b)) is not None:
+        if (c := self._negative_of(b)) is not None:
             return -self.div(a, c)
-        return self._entered("/", a, b)
+        return self._symbol_for("/", a, b)
 
     def neg(self, a: int) -> Symbol:
-        c = self._negated(a)
-        return self._entered("neg", a) if c is None else Symbol(self, c)
+        c = self._negative_of(a)
+        return self._symbol_for("neg", a) if c is None else Symbol(self, c)
 
     def abs(self, a: int) -> Symbol:
-        c = self._negated(a)
-        return self._entered("abs", a if c is None else c)
+        c = self._negative_of(a)
+        return self._symbol_for("abs", a if c is None else c)
 
     def sqrt(self, a: int) -> Symbol:
         self.questions[Question(a, None)] = None
-        return self._entered("sqrt", a)
+        return self._symbol_for("sqrt", a)
 
     def root(self, a: int) -> Symbol:
         """The square root of what is never negative: nothing is asked."""
-        return self._entered("sqrt", a)
+        return self._symbol_for("sqrt", a)
 
-    def done(self, operation: str, *operands: int) -> Symbol:
+    def worded_operation(self, operation: str, *operands: int) -> Symbol:
         """What no rule does, but the words that tell of a drawing; its language must have a word for it."""
-        return self._entered(operation, *operands)
+        return self._symbol_for(operation, *operands)
 
     def sign(self, a: int, scale: int) -> Symbol:
-        return self._entered("sign", a, scale)
+        return self._symbol_for("sign", a, scale)
 
     def nonzero(self, a: int, scale: int) -> Symbol:
         self.questions[Question(a, scale)] = None
         return Symbol(self, a)
 
-    def _negated(self, a: int) -> int | None:
+    def _negative_of(self, a: int) -> int | None:
         """What an entry is the negative of."""
         entry = self.entries[a]
         return entry[1] if entry[0] == "neg" else None
 
     # ---- reading ----------------------------------------------------------------------------------------------
 
-    def needed(self, wanted: Iterable[int]) -> list[int]:
+    def needed_places(self, wanted: Iterable[int]) -> list[int]:
         """The places on which the wanted ones rest, each after its operands and not long before it is used.
 
         What the first of them rests on comes first: few numbers are then waiting to be used at any time.
@@ -159,7 +159,8 @@ def operands(entry: Entry) -> tuple[int, ...]:
     return () if entry[0] in LEAVES else entry[1:]
 
 
-def _recorded(operation: Callable[[Tape, int, int], Symbol], swapped: bool = False) -> Callable[[Symbol, Any], Symbol]:
+def _record_arithmetic(operation: Callable[[Tape, int, int], Symbol], swapped: bool = False) -> Callable[[Symbol, Any],
+                                                                                                         Symbol]:
     """Arithmetic of a symbol with another number; `swapped`, that number comes first."""
 
     def record(symbol: Symbol, other: Any) -> Symbol:
@@ -177,10 +178,10 @@ class Symbol:
     def __init__(self, tape: Tape, place: int):
         self.tape, self.place = tape, place
 
-    __add__ = __radd__ = _recorded(Tape.add)
-    __sub__, __rsub__ = _recorded(Tape.sub), _recorded(Tape.sub, swapped=True)
-    __mul__ = __rmul__ = _recorded(Tape.mul)
-    __truediv__, __rtruediv__ = _recorded(Tape.div), _recorded(Tape.div, swapped=True)
+    __add__ = __radd__ = _record_arithmetic(Tape.add)
+    __sub__, __rsub__ = _record_arithmetic(Tape.sub), _record_arithmetic(Tape.sub, swapped=True)
+    __mul__ = __rmul__ = _record_arithmetic(Tape.mul)
+    __truediv__, __rtruediv__ = _record_arithmetic(Tape.div), _record_arithmetic(Tape.div, swapped=True)
 
     def __neg__(self) -> Symbol:
         return self.tape.neg(self.place)

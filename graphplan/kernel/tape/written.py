@@ -75,7 +75,7 @@ class Writer:
     def terms(self, wanted: Sequence[int], questions: Iterable[Question] = ()) -> Iterator[tuple[str, str]]:
         """Name and text of each number that has a name; of a question, once it can be asked, the text and no name."""
         asked = [asked_of(question) for question in questions]
-        needed = self.tape.needed([*wanted, *(place for places in asked for place in places)])
+        needed = self.tape.needed_places([*wanted, *(place for places in asked for place in places)])
         self._count(wanted, needed, asked)
         after = dict(zip(needed, range(len(needed)), strict=True))
         waiting: dict[int, list[tuple[int, ...]]] = {}
@@ -84,7 +84,7 @@ class Writer:
         names, answers = (map(f"{self.prefix}{letter}{{}}".format, count(1)) for letter in ("", "q"))
         name = next(names)
         for place in needed:
-            if self._named(place, name):
+            if self._is_named(place, name):
                 text, self.text[place] = self.text[place], name
                 yield name, text
                 name = next(names)
@@ -105,7 +105,7 @@ class Writer:
         self._uses.update(place for entry in needed if entries[entry][0] == TWICE for place in operands(entries[entry]))
         self._uses.update(2 * [place for places in asked for place in places])
 
-    def _named(self, place: int, name: str) -> bool:
+    def _is_named(self, place: int, name: str) -> bool:
         """Whether a number, whose text is written, is to bear this name."""
         op, *args = self.tape.entries[place]
         self._depth[place] = 0
@@ -146,8 +146,8 @@ def function(tape: Tape, inputs: Sequence[int], told: Any) -> Callable[..., Any]
     """
     names = {place: f"x{k}" for k, place in enumerate(inputs)}
     writer = Writer(tape, PYTHON, names)
-    body = [*writer.statements(list(places(told)), tape.questions), f"return {shaped(told, writer.text)}"]
-    return compiled("\n    ".join([f"def replay({', '.join(names.values())}):", *body]), "replay")
+    body = [*writer.statements(list(places(told)), tape.questions), f"return {shape_expression(told, writer.text)}"]
+    return compile_python("\n    ".join([f"def replay({', '.join(names.values())}):", *body]), "replay")
 
 
 def places(told: Any) -> Iterator[int]:
@@ -159,17 +159,18 @@ def places(told: Any) -> Iterator[int]:
             yield from places(part)
 
 
-def shaped(told: Any, text: Mapping[int, str], brackets: str = "()") -> str:
+def shape_expression(told: Any, text: Mapping[int, str], brackets: str = "()") -> str:
     """The expression for what is told; tuples in these brackets."""
     if isinstance(told, dict):
-        return "{" + ", ".join(f"{name!r}: {shaped(part, text, brackets)}" for name, part in told.items()) + "}"
+        return "{" + ", ".join(f"{name!r}: {shape_expression(part, text, brackets)}" for name,
+                               part in told.items()) + "}"
     if isinstance(told, tuple):
-        return brackets[0] + "".join(f"{shaped(part, text, brackets)}, " for part in told) + brackets[1]
+        return brackets[0] + "".join(f"{shape_expression(part, text, brackets)}, " for part in told) + brackets[1]
     return text[told]
 
 
 @lru_cache(maxsize=64)
-def compiled(text: str, name: str) -> Callable[..., Any]:
+def compile_python(text: str, name: str) -> Callable[..., Any]:
     """The function of this name in a written text; the same text is compiled once."""
     space: dict[str, Any] = {"sqrt": math.sqrt, "copysign": math.copysign, "inf": math.inf}
     exec(compile(text, "<graphplan tape>", "exec"), space)

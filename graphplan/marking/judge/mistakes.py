@@ -233,7 +233,7 @@ def _(at: Occasion) -> Iterable[Mistake]:
 
 @mistake("wrong side", phrase("the other of the two crossings"), lambda op: op.crossing and bool(op.reversal))
 def _(at: Occasion) -> Iterable[Mistake]:
-    return [at.made(said("the other of the two crossings"), params=at.step.op.reversed(at.step.params))]
+    return [at.made(said("the other of the two crossings"), params=at.step.op.reverse_parameters(at.step.params))]
 
 
 @mistake("mirrored figure", phrase("the figure is mirrored"),

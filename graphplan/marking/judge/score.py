@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from graphplan.accuracy.hand import decimal, read_settings
 from graphplan.errors import Refused
-from graphplan.kernel.passes import needed
+from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.asked import results
 from graphplan.marking.judge.exchanged import EXCHANGED, WORDS
@@ -157,6 +157,6 @@ def served(drawing: Construction) -> list[str]:
     groups = [FORCE if drawing.scene.loads else VELOCITY] * len(drawn)
     for group in (ACCELERATION, VELOCITY):
         kinds = (reading for reading in drawing.readings if reading.kind.group == group)
-        for index in needed(drawn.steps, {drawn.wanted[place] for reading in kinds for place in reading.marks}):
+        for index in steps_behind(drawn.steps, {drawn.wanted[place] for reading in kinds for place in reading.marks}):
             groups[index] = group
     return [POSE] * drawn.givens + groups[drawn.givens:]

@@ -214,7 +214,7 @@ class StudentSheet:
             arm, here = (z - fit.centre) * turn, first + 2 * k
             x = (lead, arm.real), (lead + 1, -arm.imag), (own + 2, shift), (here, blur)
             y = (lead, arm.imag), (lead + 1, arm.real), (own + 3, shift), (here + 1, blur)
-            yield self.domain.shaken(z.real, x), self.domain.shaken(z.imag, y)
+            yield self.domain.with_errors(z.real, x), self.domain.with_errors(z.imag, y)
 
     def residual(self, step: Step, expected: Any, spots: Sequence[tuple[Any, Any]], drawn: Sequence[Any]) -> Residual:
         """How far a trace is from what a step should make."""

@@ -55,7 +55,7 @@ def across(letter: str, links: Sequence[str], forms: Collection[str] = ()) -> St
 
 def closed(letter: str, links: Sequence[str], forces: tuple[Vector, ...], forms: Collection[str] = ()) -> Stage:
     """Forces that close the polygon of some links."""
-    return Stage(_equilibrium(letter, links), CLOSED, (Equation.closed(forces),))
+    return Stage(_equilibrium(letter, links), CLOSED, (Equation.zero_sum(forces),))
 
 
 def _equilibrium(letter: str, links: Sequence[str]) -> Said:
@@ -64,7 +64,7 @@ def _equilibrium(letter: str, links: Sequence[str]) -> Said:
 
 def joint(point: str, forces: tuple[Vector, ...] = ()) -> Stage:
     """The last force of a joint from those of its other links."""
-    return Stage(said("Forces at the joint {0}", point), JOINT, (Equation.closed(forces),) if forces else ())
+    return Stage(said("Forces at the joint {0}", point), JOINT, (Equation.zero_sum(forces),) if forces else ())
 
 
 def false_position(letter: str) -> Stage:

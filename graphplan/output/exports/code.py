@@ -11,7 +11,7 @@ import json
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from graphplan.kernel.tape.written import JAVASCRIPT, C, Language, Writer, shaped
+from graphplan.kernel.tape.written import JAVASCRIPT, C, Language, Writer, shape_expression
 from graphplan.mechanism.order import changing_loads
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import kind_of
@@ -167,7 +167,7 @@ def javascript(construction: Construction) -> str:
         head=code.head(), table=code.table("x", "y"), inputs=_names(code.inputs), outputs=_names(code.outputs),
         parameters="".join(f"x{k}, " for k in range(count)), arguments="".join(f"x[{k}][k], " for k in range(count)),
         body="\n  ".join(statements), given="\n  ".join(given), count=len(outputs),
-        results=shaped(told, {k: f"y[{k}]" for k in range(len(outputs))}, "[]"))
+        results=shape_expression(told, {k: f"y[{k}]" for k in range(len(outputs))}, "[]"))
 
 
 def _names(numbers: Sequence[Number]) -> str:

@@ -210,7 +210,7 @@ def lettering(runs: Runs, bold: bool = False, words: bool = False) -> str:
 def equation(told: Equation) -> str:
     """An equation with its vectors underlined as often as is known of them."""
     found, done = "", 0
-    for start, end, times in told.underlined:
+    for start, end, times in told.underlines:
         vector = lettering(equation_runs(told.text[start:end]))
         found += lettering(equation_runs(told.text[done:start])) + r"\underline{" * times + vector + "}" * times
         done = end

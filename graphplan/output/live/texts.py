@@ -175,7 +175,7 @@ def html(runs: Runs) -> str:
 def _equation(equation: Equation) -> str:
     """An equation whose vectors are underlined as often as numbers of them are known."""
     told, done = "", 0
-    for start, end, times in equation.underlined:
+    for start, end, times in equation.underlines:
         told += html(equation_runs(equation.text[done:start]))
         told += f'<span class="known-{times}">{html(equation_runs(equation.text[start:end]))}</span>'
         done = end

@@ -133,7 +133,7 @@ class Number(Unknown):
     def __round__(self, places: int) -> Number:
         if places != 1:
             raise TypeError("only rounding to tenths is recorded")
-        return Number(self.later, self.later.tape.done("tenths", self.symbol.place))
+        return Number(self.later, self.later.tape.worded_operation("tenths", self.symbol.place))
 
     def __lt__(self, other: Any) -> bool:
         return self.later.positive(other - self)
@@ -160,7 +160,7 @@ class Number(Unknown):
         """What is worked out of the numbers of a sum."""
         tape = self.later.tape
         places = (tape.place(getattr(number, "symbol", number)) for number in numbers)
-        return Number(self.later, tape.done(operation, *places))
+        return Number(self.later, tape.worded_operation(operation, *places))
 
     def printed(self, number: Any, kind: str) -> Said:
         symbol = getattr(number, "symbol", number)
@@ -169,7 +169,7 @@ class Number(Unknown):
     def hypot(self, other: Any) -> Number:
         tape = self.later.tape
         other = other.symbol if isinstance(other, Number) else other
-        return Number(self.later, tape.done("hypot", self.symbol.place, tape.place(other)))
+        return Number(self.later, tape.worded_operation("hypot", self.symbol.place, tape.place(other)))
 
     def place(self, count: int) -> str:
         return f"{PLACE}{self.later.output(self.symbol)}:{count}{END}"

@@ -96,7 +96,7 @@ def _spoken(op: Primitive) -> Said:
     letters = {kind: iter(names) for kind, names in ANYTHING.items()}
     read = [next(letters[kind]) for kind in op.reads]
     made = {"point": "X", LINE: "x"}.get(op.gives) or next(letters[op.gives])
-    return op.spoken(read, out=made, **{name: f"`{name}`" for name in op.params})
+    return op.sentence_of(read, out=made, **{name: f"`{name}`" for name in op.params})
 
 
 def _failures(page: SitePage) -> Table:

@@ -99,7 +99,7 @@ class Plans:
         steps = self.drawing.drawn.steps
         marks_of: dict[int, list[int]] = {step.index: [] for step in steps if step.op.gives in (LINE, CIRCLE)}
         for step in steps:
-            for place in step.op.claimed("on"):
+            for place in step.op.claim_operands("on"):
                 pair = step.index, step.args[place]
                 curve, mark = pair if steps[pair[1]].op.gives == POINT else pair[::-1]
                 if curve in marks_of and steps[mark].op.gives == POINT:

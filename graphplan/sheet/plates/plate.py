@@ -67,7 +67,7 @@ class Plates:
             if name not in points:
                 (x, y), index = self.plans.place(name), min((0, *(mark.index for mark in points.values()))) - 1
                 step = Step(index, name, made_by(Movement.GIVEN), (), {"x": x, "y": y}, MECHANISM)
-                sentence = step.op.spoken((), out=name, x=digits(x, 6), y=digits(y, 6))
+                sentence = step.op.sentence_of((), out=name, x=digits(x, 6), y=digits(y, 6))
                 points[name] = DrawnStep(step, 0, MECHANISM, self.views[MECHANISM], (), (x, y),
                                          self.plans.tongue(sentence))
         return points

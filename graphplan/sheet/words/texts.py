@@ -174,7 +174,7 @@ class SheetWords:
             yield from (TextRow((Cell(self.indent, line),), step=step, keep=1) for line in wrap(runs, SIZE, wide))
             return
         rules = tuple((equation_runs(lettered[:start]), equation_runs(lettered[:end]), times)
-                      for start, end, times in equation.underlined if times)
+                      for start, end, times in equation.underlines if times)
         yield TextRow((Cell(self.indent, runs, rules=rules),), gap=0.3, step=step, keep=1,
                       tall=UNDERLINED_HEIGHT * SIZE)
 

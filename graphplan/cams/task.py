@@ -11,8 +11,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from graphplan.cams.law import Law, Stage
-from graphplan.cams.motions import DWELL, MOTIONS, TABLE, spline
+from graphplan.cams.law import DWELL, MOTIONS, TABLE, Law, Stage, spline
 from graphplan.cams.tolerances import LIFT_TOL
 from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
 from graphplan.mechanism.items import Faults, Item, Vector, described

@@ -23,8 +23,7 @@ from graphplan.errors import Disagreement, Refused
 from graphplan.machine.linkages.added_dyads import Dyads, added_dyads
 from graphplan.machine.linkages.counterweights import Counterweight, along_guide, balanced, full
 from graphplan.machine.linkages.engine import Engine, engine
-from graphplan.machine.linkages.mass_centre import MassCentre, mass_centre
-from graphplan.machine.linkages.shaking import Shaking, shaking
+from graphplan.machine.linkages.mass_centre import MassCentre, Shaking, mass_centre, shaking
 from graphplan.machine.linkages.spanning import spanning_tree
 from graphplan.mechanism.model import FRAME, Find, Loads, Scene
 from graphplan.mechanism.numbers import times

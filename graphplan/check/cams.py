@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 
 from graphplan.cams.construction import CamDrawing
-from graphplan.cams.law import Stretch
-from graphplan.cams.motions import ORDERS
-from graphplan.cams.pose import END, FOLLOWER, motion, scene_text
+from graphplan.cams.exports import END, FOLLOWER, motion, scene_text
+from graphplan.cams.law import ORDERS, Stretch
 from graphplan.cams.profile import Cam
 from graphplan.check.compared import require_agreement, require_claims
 from graphplan.check.tolerances import CAM_STEP, CAM_TOL

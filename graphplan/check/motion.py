@@ -31,7 +31,7 @@ from graphplan.check.tolerances import (
     STEP_TOL,
 )
 from graphplan.errors import Disagreement
-from graphplan.machine.flywheel.found import FlywheelResult
+from graphplan.machine.flywheel.result import FlywheelResult
 from graphplan.machine.integrals import Reals
 from graphplan.machine.motion.drawing import MotionDrawing
 from graphplan.machine.motion.runs import Run

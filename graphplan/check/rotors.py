@@ -16,9 +16,8 @@ import numpy as np
 from graphplan.check.compared import require_agreement, require_claims
 from graphplan.check.tolerances import SUM_TOL
 from graphplan.machine.rotors.polygons import Correction
-from graphplan.machine.rotors.rotor import Eccentric, Rotor
+from graphplan.machine.rotors.rotor import Eccentric, Marked, Rotor, ThreeRuns, TrialWeights
 from graphplan.machine.rotors.rotor_balance import Answer, Balanced
-from graphplan.machine.rotors.trial import Marked, ThreeRuns, TrialWeights
 from graphplan.machine.rotors.trial_runs import Effect, angle_of
 
 Pair = tuple[tuple[Eccentric, ...], Answer]  # unbalances, and what balances them

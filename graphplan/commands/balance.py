@@ -60,7 +60,7 @@ def run(options: argparse.Namespace) -> int:
         return balance_rotor.run(options, text)
     from graphplan.check.balance import balancing
     from graphplan.mechanism.scene import parse
-    from graphplan.output.machine.balance_numbers import numbers, table
+    from graphplan.output.subjects.balance_numbers import numbers, table
 
     scene = parse(text, options.scene, by_drive=True)
     said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
@@ -83,12 +83,12 @@ def run(options: argparse.Namespace) -> int:
     if found.note:
         messages.remark(found.note)
     if ending in SHEETS:
-        from graphplan.output.machine.balance_sheet import sheets
+        from graphplan.output.subjects.balance_sheet import sheets
 
         write_sheets(sheets(found, scene.sheet.paper or None), options.output, ending.removeprefix("."), options.dpi)
     else:
-        from graphplan.output.machine.balance_sheet import BalanceSheet
         from graphplan.output.panelled import PAPERS
+        from graphplan.output.subjects.balance_sheet import BalanceSheet
 
         paper = scene.sheet.paper or PAPERS[0]
         data = with_steps(options, numbers(found), lambda: BalanceSheet(paper, found))

@@ -19,8 +19,8 @@ def run(options: argparse.Namespace, text: str) -> int:
     from graphplan.check.rotors import check_rotor
     from graphplan.machine.rotors.rotor import parse
     from graphplan.machine.rotors.rotor_balance import balanced
-    from graphplan.output.machine.rotor_numbers import numbers, table
-    from graphplan.output.machine.rotor_sheet import one_sheet, sheets
+    from graphplan.output.subjects.rotor_numbers import numbers, table
+    from graphplan.output.subjects.rotor_sheet import one_sheet, sheets
 
     ending = kind(options.output, ENDINGS, "rotor")
     _asked(options, ending)

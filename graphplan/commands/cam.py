@@ -97,7 +97,7 @@ def run(options: argparse.Namespace) -> int:
         messages.remark(f"{task.name}: {note}")
     tolerance = TOLERANCE if options.tolerance is None else options.tolerance
     if ending in DRAWN:
-        from graphplan.output.cams.sheet import sheets
+        from graphplan.output.subjects.cam_sheet import sheets
 
         write_sheets(sheets(drawing, check, task.sheet.paper or None), options.output, ending, options.dpi)
     else:
@@ -125,13 +125,13 @@ def _data(drawing: CamDrawing, ending: str, options: argparse.Namespace, toleran
           check: dict[str, float]) -> str | bytes:
     """What is no sheet: the profile for CAD, the numbers, or a scene."""
     if ending == "toml":
-        from graphplan.cams.pose import scene_text
+        from graphplan.cams.exports import scene_text
 
         return scene_text(drawing.cam, options.at or 0.0)
     if ending == "json":
-        from graphplan.cams.numbers import numbers
-        from graphplan.output.cams.sheet import CamSheet
+        from graphplan.cams.exports import numbers
         from graphplan.output.panelled import PAPERS
+        from graphplan.output.subjects.cam_sheet import CamSheet
 
         data = numbers(drawing, options.positions or POSITIONS, tolerance, check)
         paper = drawing.cam.task.sheet.paper or PAPERS[0]

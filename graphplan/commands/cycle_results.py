@@ -17,7 +17,7 @@ from graphplan.mechanism.units import KILOGRAMS, NEWTONS
 from graphplan.methods.kinds import CYCLE
 
 if TYPE_CHECKING:
-    from graphplan.machine.flywheel.found import FlywheelResult
+    from graphplan.machine.flywheel.result import FlywheelResult
 
 MOMENT, INERTIA, CLOSING, FLYWHEEL = CYCLE
 PLACES = {MOMENT: "moment", INERTIA: "inertia"}  # by their names among what there is at a plan
@@ -34,7 +34,7 @@ class CycleResults:
     def flywheel(self) -> FlywheelResult | None:
         if self.scene.flywheel is None or self.scene.drives[0].slides:
             return None
-        from graphplan.machine.flywheel.found import flywheel
+        from graphplan.machine.flywheel.result import flywheel
 
         return flywheel(self.scene)
 

@@ -35,9 +35,9 @@ from graphplan.errors import Refused
 
 if TYPE_CHECKING:
     from graphplan.accuracy.hand import Pencil
-    from graphplan.machine.flywheel.found import FlywheelResult
+    from graphplan.machine.flywheel.result import FlywheelResult
     from graphplan.mechanism.model import Scene
-    from graphplan.output.machine.flywheel_sheet import FlywheelSheet
+    from graphplan.output.subjects.flywheel_sheet import FlywheelSheet
 
 ENDINGS = (".json", ".csv", *SHEETS)
 FEWEST, MOST = 12, 360
@@ -62,9 +62,9 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.check.motion import check_flywheel
-    from graphplan.machine.flywheel.found import flywheel
+    from graphplan.machine.flywheel.result import flywheel
     from graphplan.mechanism.scene import parse, source_text
-    from graphplan.output.machine.flywheel_numbers import numbers, table
+    from graphplan.output.subjects.flywheel_numbers import numbers, table
 
     ending, messages = kind(options.output, ENDINGS, "flywheel"), Messages(options.quiet)
     refuse_steps(options, ending)
@@ -79,7 +79,7 @@ def run(options: argparse.Namespace) -> int:
     for note in result.notes:
         messages.remark(f"{scene.name}: {note}")
     if ending in SHEETS:
-        from graphplan.output.machine.flywheel_sheet import sheets
+        from graphplan.output.subjects.flywheel_sheet import sheets
 
         pages = sheets(result, scene.sheet.paper or None, options.task)
         write_sheets(pages, options.output, ending[1:], options.dpi)
@@ -95,7 +95,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _sheet(result: FlywheelResult) -> FlywheelSheet:
     """The sheet on the scene's paper, or on A2."""
-    from graphplan.output.machine.flywheel_sheet import PAPERS, FlywheelSheet
+    from graphplan.output.subjects.flywheel_sheet import PAPERS, FlywheelSheet
 
     return FlywheelSheet(result.scene.sheet.paper or PAPERS[0], result)
 

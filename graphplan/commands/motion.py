@@ -45,7 +45,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.machine.motion.drawing import drawn
     from graphplan.machine.motion.runs import run as motion_of
     from graphplan.mechanism.scene import parse, source_text
-    from graphplan.output.machine import motion_numbers
+    from graphplan.output.subjects import motion_numbers
 
     ending = kind(options.output, ENDINGS, "motion")
     refuse_steps(options, ending)
@@ -64,14 +64,14 @@ def run(options: argparse.Namespace) -> int:
     if found.reduction.friction is not None:
         messages.remark(f"{scene.name}: friction is taken as it is at the speed of the drive in the scene")
     if ending in SHEETS:
-        from graphplan.output.machine.motion_sheet import sheets
+        from graphplan.output.subjects.motion_sheet import sheets
 
         pages = sheets(found, min(positions, MOST), scene.sheet.paper or None)
         write_sheets(pages, options.output, ending[1:], options.dpi)
     elif ending == ".csv":
         write(motion_numbers.text(found, positions), options.output)
     else:
-        from graphplan.output.machine.motion_sheet import PAPERS, MotionSheet
+        from graphplan.output.subjects.motion_sheet import PAPERS, MotionSheet
 
         data = with_steps(options, motion_numbers.numbers(found, drawing, check, positions), lambda: MotionSheet(
             scene.sheet.paper or PAPERS[0], found, min(positions, MOST)))

@@ -14,7 +14,7 @@ from graphplan.errors import Refused
 if TYPE_CHECKING:
     from graphplan.machine.rotors.rotor_balance import Answer
     from graphplan.marking.answers import AnswerVerdict, Expected
-    from graphplan.output.machine.rotor_sheet import RotorSheet
+    from graphplan.output.subjects.rotor_sheet import RotorSheet
 
 
 def of_rotor(options: argparse.Namespace, text: str) -> int:
@@ -22,7 +22,7 @@ def of_rotor(options: argparse.Namespace, text: str) -> int:
     from graphplan.check.rotors import check_rotor
     from graphplan.machine.rotors.rotor import parse
     from graphplan.machine.rotors.rotor_balance import balanced
-    from graphplan.output.machine.rotor_sheet import one_sheet
+    from graphplan.output.subjects.rotor_sheet import one_sheet
 
     found = balanced(parse(text, options.scene))
     sheet = one_sheet(found, check_rotor(found), pencil(options))

@@ -9,8 +9,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from graphplan.cams.law import HARD, SOFT, Law, Stage
-from graphplan.cams.motions import MOTIONS, ORDERS, spline
+from graphplan.cams.law import HARD, MOTIONS, ORDERS, SOFT, Law, Stage, spline
 
 EXACT = {name for name, pieces in MOTIONS.items() if not any(piece.waves for piece in pieces)}
 LARGEST = {  # of velocity and acceleration, in strokes by stages (Ozols 1974, 20-2), and the jerk's where it is finite

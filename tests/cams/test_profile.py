@@ -11,7 +11,7 @@ from test_base import ARM, BOTH, ROLLER, text
 
 from graphplan.cams.base import based
 from graphplan.cams.construction import drawn
-from graphplan.cams.pose import scene_text
+from graphplan.cams.exports import scene_text
 from graphplan.cams.profile import Cam, made
 from graphplan.cams.task import parse
 from graphplan.check.cams import check_cam

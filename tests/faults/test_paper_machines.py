@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from graphplan.commands import main
-from graphplan.machine.flywheel.found import flywheel
+from graphplan.machine.flywheel.result import flywheel
 from graphplan.mechanism.scene import parse
 
 HERE = Path(__file__).parent / "paper"

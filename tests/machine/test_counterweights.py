@@ -16,7 +16,7 @@ from graphplan.errors import Refused
 from graphplan.machine.linkages.counterweights import along_guide, balanced, full
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
-from graphplan.output.machine.balance_numbers import links, variant
+from graphplan.output.subjects.balance_numbers import links, variant
 
 FOUR_BAR = [(2, 0.06, 0), (3, 0.15, 0), (4, 0.12, 0)]
 ENGINE = [(2, 0.06, 0), (3, 0.15, 0), (4, 0, 0)]

@@ -11,10 +11,9 @@ import pytest
 from graphplan.errors import Refused
 from graphplan.kernel.claims import broken_claims
 from graphplan.machine.flywheel.drawing import drawn
-from graphplan.machine.flywheel.energy import steady
 from graphplan.machine.flywheel.other_methods import methods, rectangles
-from graphplan.machine.flywheel.wittenbauer import by_mean_energy, sized, turning
-from graphplan.machine.reduced.machine_size import MachineSize
+from graphplan.machine.flywheel.steady_cycle import by_mean_energy, sized, steady, turning
+from graphplan.machine.reduced.reduction import MachineSize
 
 TURN = 2 * math.pi
 SPEED, UNEVENNESS = 15.0, 1 / 30

@@ -15,7 +15,7 @@ from graphplan.check.motion import check_flywheel
 from graphplan.commands import main
 from graphplan.commands.result_schemas import printed
 from graphplan.errors import Disagreement, Refused
-from graphplan.machine.flywheel.found import FlywheelResult, flywheel
+from graphplan.machine.flywheel.result import FlywheelResult, flywheel
 from graphplan.mechanism.model import Flywheel, Moment, Scene
 from graphplan.mechanism.scene import load, parse, source_text
 from tests.shared.linkages_with_masses import centres, scene

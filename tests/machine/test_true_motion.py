@@ -11,8 +11,8 @@ import pytest
 
 from graphplan.errors import Refused
 from graphplan.machine.integrals import Reals, settled
-from graphplan.machine.motion.characteristics import nominal, run_up, steady
 from graphplan.machine.motion.driven import Driven, SpeedLaw
+from graphplan.machine.motion.runs import nominal, run_up, steady
 from graphplan.machine.motion.strips import baranov, by_energy, parabola, times
 from graphplan.machine.motion.true_motion import moved
 

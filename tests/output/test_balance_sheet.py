@@ -11,7 +11,7 @@ from linkages_with_masses import four_bar
 from graphplan.check.balance import balancing
 from graphplan.commands import main
 from graphplan.mechanism.scene import load
-from graphplan.output.machine.balance_sheet import BalanceSheet, sheets
+from graphplan.output.subjects.balance_sheet import BalanceSheet, sheets
 from graphplan.sheet.plates.display import Arrow, Sheet
 
 LINKAGE = four_bar([(2, 0.06, 0.02), (3, 0.2, -0.03), (4, 0.12, 0.01)])

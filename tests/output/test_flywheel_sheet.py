@@ -9,10 +9,10 @@ import pytest
 
 from graphplan.commands import main
 from graphplan.machine.flywheel.drawing import FLYWHEEL
-from graphplan.machine.flywheel.found import FlywheelResult, flywheel
+from graphplan.machine.flywheel.result import FlywheelResult, flywheel
 from graphplan.mechanism.scene import load, parse, source_text
-from graphplan.output.machine.flywheel_sheet import FlywheelSheet, sheets
-from graphplan.output.machine.lever_figures import LEVERS
+from graphplan.output.subjects.flywheel_sheet import FlywheelSheet, sheets
+from graphplan.output.subjects.lever_figures import LEVERS
 from graphplan.output.svg import svg
 from graphplan.phrases import digits
 from graphplan.sheet.lettering.lettering import plain

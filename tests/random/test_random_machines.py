@@ -14,7 +14,7 @@ from machines import Machine
 from graphplan.check import motion as of_motions
 from graphplan.check.balance import balancing
 from graphplan.errors import Refused
-from graphplan.machine.flywheel.found import flywheel
+from graphplan.machine.flywheel.result import flywheel
 from graphplan.machine.motion.runs import run
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse

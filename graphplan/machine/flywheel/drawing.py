@@ -23,9 +23,8 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage
-from graphplan.machine.flywheel.energy import SteadyCycle
-from graphplan.machine.flywheel.room import Room, laid_out, plans_of
-from graphplan.machine.flywheel.wittenbauer import Flywheel, Touch
+from graphplan.machine.flywheel.diagram_layout import Room, laid_out, plans_of
+from graphplan.machine.flywheel.steady_cycle import Flywheel, SteadyCycle, Touch
 from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Reals
 from graphplan.machine.tolerances import LINE_TOL_MM, PLAN_TOL

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.machine.flywheel.energy import SteadyCycle
+from graphplan.machine.flywheel.steady_cycle import SteadyCycle
 from graphplan.machine.integrals import Piecewise, Reals
 from graphplan.machine.tolerances import AREA_TOL
 from graphplan.phrases import Said, said

@@ -1,11 +1,13 @@
-"""The mass centre of the moving links as a construction: principal vectors laid off head to tail from a fixed hinge.
+"""The mass centre of the moving links as a construction, and the shaking force that its acceleration is a measure of.
 
-A link's principal vector goes along with the link: h_i = [m_i s_i + (the mass that hangs on its next joint) l_i]/m,
-with a part square to the link where its mass centre lies off the line of its joints. The vectors are constant on their
-links, so the steps serve every pose, and laid off from the pole with the velocities of the points in their places they
-give the velocity of the mass centre, with the accelerations its acceleration.
+Principal vectors are laid off head to tail from a fixed hinge. A link's principal vector goes along with the link:
+h_i = [m_i s_i + (the mass that hangs on its next joint) l_i]/m, with a part square to the link where its mass centre
+lies off the line of its joints. The vectors are constant on their links, so the steps serve every pose, and laid off
+from the pole with the velocities of the points in their places they give the velocity of the mass centre, with the
+accelerations its acceleration. The shaking force and moment, what the inertia of all links does to the frame, are in
+newtons and newton metres, whatever the scene's units.
 
-Source: Ozols 1974, 16-2, (16.8), (16.9), figs. 16-4, 16-5 (Fischer's method); the polygon of masses is his (2).
+Source: Ozols 1974, 16-2, (16.1) to (16.9), figs. 16-4, 16-5 (Fischer's method); the polygon of masses is his (2).
 """
 
 from __future__ import annotations
@@ -24,8 +26,9 @@ from graphplan.kernel.program import Board, Mark, Program, evaluate
 from graphplan.kernel.stages import Stage
 from graphplan.machine.linkages.spanning import SpanningTree, as_multiple, moments_of_mass, spanning_tree
 from graphplan.machine.tolerances import VECTOR_TOL
-from graphplan.mechanism.model import Mass, Number, Scene
+from graphplan.mechanism.model import FRAME, Mass, Number, Scene
 from graphplan.mechanism.numbers import less
+from graphplan.mechanism.units import KILOGRAMS, METRES
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said, digits, said
 
@@ -164,3 +167,40 @@ def _stage(vector: PrincipalVector) -> Stage:
     return Stage(said("Principal vector of link {0}", vector.link),
                  said("the link's mass by the distance of its centre, and the masses beyond by the distance of their "
                       "joint, over the whole mass"))
+
+
+# ---- what shakes the frame ------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Shaking:
+    """The inertia forces -m a_S of the links, complex arrays of shape (n,) in N, by link; and the moment of all of them
+    with the couples -I alpha about a point `about`, in N m."""
+
+    about: complex
+    parts: dict[str, Any]
+    moment: Any
+
+    @cached_property
+    def force(self) -> Any:
+        """The shaking force, the sum of its parts."""
+        return sum(self.parts.values())
+
+
+def shaking(centre: MassCentre, places: Mapping[str, Any], accelerations: Mapping[str, Any],
+            alphas: Mapping[str, Any]) -> Shaking:
+    """The shaking force and its moment about the hinge from which the principal vectors are laid off, or where that
+    moves, about the scene's origin.
+
+    Reads where the mass centres of the links are, how they are accelerated (complex arrays of shape (n,) by point, in
+    scene units), and the angular accelerations of the links.
+    """
+    scene = centre.scene
+    about = complex(*map(float, scene.points[centre.base])) if FRAME in scene.links_of[centre.base] else 0j
+    long, heavy, parts, moment = float(METRES[scene.units.length]), float(KILOGRAMS[scene.units.mass]), {}, 0.0
+    for link, mass in centre.masses.items():
+        force = -heavy * long * float(mass.mass) * accelerations[mass.centre]
+        parts[link] = force
+        moment = moment + long * ((places[mass.centre] - about).conjugate() * force).imag
+        moment = moment - heavy * float(mass.inertia) * alphas[link]
+    return Shaking(about, parts, moment)

@@ -26,8 +26,8 @@ from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage
 from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Reals
+from graphplan.machine.motion.diagram_layout import Layout, Room
 from graphplan.machine.motion.driven import Driven
-from graphplan.machine.motion.room import Layout, Room
 from graphplan.machine.motion.strips import parabola
 from graphplan.machine.motion.true_motion import TrueMotion
 from graphplan.phrases import Said, digits, said

@@ -34,11 +34,9 @@ from graphplan.cycle.linkage import Array
 from graphplan.cycle.turn import Turn
 from graphplan.errors import Refused
 from graphplan.machine.integrals import settled
-from graphplan.machine.reduced.breaks import refined, samples
-from graphplan.machine.reduced.friction_drawing import rubbed_drawing, with_resting_pairs
-from graphplan.machine.reduced.recordings import Recordings, Results
-from graphplan.machine.reduced.reduced_loads import LoadValues, acting
-from graphplan.machine.reduced.unit_motion import Rates, UnitMotion, at_unit_rate
+from graphplan.machine.reduced.force_drawings import rubbed_drawing, with_resting_pairs
+from graphplan.machine.reduced.reduced_loads import LoadValues, acting, refined, samples
+from graphplan.machine.reduced.unit_motion import Rates, Recordings, Results, UnitMotion, at_unit_rate
 from graphplan.machine.tolerances import BALANCE_TOL, BREAK_OFFSET, SIGNLESS_TOL
 from graphplan.mechanism.model import FRAME, Find, Force, Friction, Loads, Scene, Slide
 from graphplan.mechanism.numbers import times

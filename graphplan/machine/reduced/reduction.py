@@ -8,6 +8,10 @@ changes comes of the accelerations at a constant unit rate: dI/dphi = 2 sum(m v.
 
 Of a drive that slides it is a reduced mass and force. Travels count upwards in the sense in which the first drive
 moves, and a reduced moment is positive that way.
+
+Rounding is no measure of itself: the moment of a weight that moves across gravity is some 1e-16 of what the weight
+could do, and the work of that moment, over a cycle, is as much of itself as it happens to be. So the size of the
+machine is known beside them: its inertia and the moments that its loads could have.
 """
 
 from __future__ import annotations
@@ -16,7 +20,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -25,15 +29,21 @@ from graphplan.cycle.pose import in_pose
 from graphplan.cycle.travel import check_drives, travels
 from graphplan.cycle.turn import RangeOfMotion, whole_motion
 from graphplan.errors import Refused
-from graphplan.machine.reduced.breaks import breaks, common_period, in_order
+from graphplan.machine.reduced.force_drawings import lever_drawing
 from graphplan.machine.reduced.friction import M_F, CycleLosses, FrictionOverCycle, cycle_losses
-from graphplan.machine.reduced.lever_drawing import lever_drawing
-from graphplan.machine.reduced.machine_size import MachineSize, machine_size
-from graphplan.machine.reduced.reduced_loads import LoadValues, SpeedLoad, acting, loads_with
+from graphplan.machine.reduced.reduced_loads import (
+    LoadValues,
+    SpeedLoad,
+    acting,
+    breaks,
+    common_period,
+    in_order,
+    loads_with,
+)
 from graphplan.machine.reduced.unit_motion import ACCELERATIONS, VELOCITIES, Rates, UnitMotion, moving_points
-from graphplan.mechanism.model import FRAME, Find, Mass, Scene
+from graphplan.mechanism.model import FRAME, Find, Force, Mass, Moment, Scene
 from graphplan.mechanism.travel import TURN, travel_text
-from graphplan.mechanism.units import KILOGRAMS
+from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.phrases import said
@@ -227,3 +237,37 @@ def _reached(scene: Scene, motion: RangeOfMotion, low: float, high: float) -> No
         if limit and beyond >= abs(limit.travel):
             raise Refused("the cycle", said("the mechanism stops at a {0} at {1}", limit.kind,
                                             travel_text(scene, limit.travel, 10)), "a span that ends before")
+
+
+# ---- the size of a machine ------------------------------------------------------------------------------------------
+
+
+class MachineSize(NamedTuple):
+    """The reduced inertia (kg m^2) and moment (N m) if all masses and loads moved as fast as the mechanism's reach, and
+    the inertia's change by a unit of travel; of a sliding drive in kg and N."""
+
+    inertia: float
+    moment: float
+    slope: float
+
+
+def machine_size(scene: Scene) -> MachineSize:
+    """The size of a scene's machine."""
+    loads, units, turns = scene.loads, scene.units, not scene.drives[0].slides
+    assert loads is not None
+    metres = float(METRES[units.length])
+    unit = 1.0 if turns else metres  # of travel, in SI
+    arm = scene.extent * metres if turns else 1.0
+    masses = [float(m.mass) * arm**2 + float(m.inertia) / unit**2 for m in loads.masses.values()]
+    weights = [float(m.mass) * math.hypot(*map(float, loads.gravity)) * arm for m in loads.masses.values()]
+    forces = [_largest(load) * arm for load in loads.forces] + [_largest(load) / unit for load in loads.moments]
+    kilogram, newton = float(KILOGRAMS[units.mass]), float(NEWTONS[units.force])
+    inertia = kilogram * sum(masses)
+    return MachineSize(inertia, kilogram * sum(weights) + newton * sum(forces), inertia / unit)
+
+
+def _largest(load: Force | Moment) -> float:
+    """The largest value of a load: of a table that of its rows."""
+    here = math.hypot(*map(float, load.value)) if isinstance(load, Force) else abs(float(load.value))
+    rows = load.table.rows if load.table else ()
+    return max([here, *(abs(float(value)) for _, value in rows)])

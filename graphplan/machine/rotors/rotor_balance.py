@@ -29,8 +29,7 @@ from graphplan.machine.rotors.polygons import (
     corrected,
     sums,
 )
-from graphplan.machine.rotors.rotor import PLANES, Eccentric, Rotor, RotorTask
-from graphplan.machine.rotors.trial import ThreeRuns, TrialWeights
+from graphplan.machine.rotors.rotor import PLANES, Eccentric, Rotor, RotorTask, ThreeRuns, TrialWeights
 from graphplan.machine.rotors.trial_runs import Effect, draw, effect, read
 from graphplan.phrases import Said, digits, said, unit
 

@@ -31,8 +31,7 @@ from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.machine.rotors.polygons import Pair, RotorDrawing
-from graphplan.machine.rotors.rotor import PLANES
-from graphplan.machine.rotors.trial import Marked, ThreeRuns, Trial, TrialWeights, Vibration
+from graphplan.machine.rotors.rotor import PLANES, Marked, ThreeRuns, Trial, TrialWeights, Vibration
 from graphplan.machine.tolerances import HARMONIC_TOL, MIN_EFFECT, PREDICTION_TOL, VIBRATION_TOL
 from graphplan.phrases import said
 

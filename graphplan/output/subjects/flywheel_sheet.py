@@ -18,14 +18,14 @@ from graphplan.kernel.drawing import Drawing, PlanScale, Values
 from graphplan.kernel.passes import put_together
 from graphplan.kernel.program import Panel
 from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing, drawn
-from graphplan.machine.flywheel.found import FlywheelResult
 from graphplan.machine.flywheel.other_methods import NEGLECTS_NOTHING
+from graphplan.machine.flywheel.result import FlywheelResult
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import Figures
-from graphplan.output.machine.flywheel_figure import FlywheelFigure, room_in
-from graphplan.output.machine.given_words import masses_and_loads
-from graphplan.output.machine.lever_figures import LEVERS, LeverFigures
 from graphplan.output.panelled import Blank, Panelled, Words, beside, pages, under
+from graphplan.output.subjects.flywheel_figure import FlywheelFigure, room_in
+from graphplan.output.subjects.given_facts import masses_and_loads
+from graphplan.output.subjects.lever_figures import LEVERS, LeverFigures
 from graphplan.output.tolerances import RANGE_TOL
 from graphplan.phrases import Said, arranged, digits, joined, phrase, said, unit
 from graphplan.sheet.frames.title import TASK

@@ -1,4 +1,5 @@
-"""What the sheet of a linkage's balancing says: masses, drives, principal vectors, counterweights, forces, checks."""
+"""What the sheet of a linkage's balancing says: masses, drives, principal vectors, counterweights, forces, checks.
+"""
 
 from __future__ import annotations
 
@@ -13,8 +14,8 @@ from graphplan.check.balance import FULL, GUIDED, NONE, SHARED, Balancing, MassM
 from graphplan.machine.linkages.engine import Engine
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.units import KILOGRAMS, METRES
-from graphplan.output.machine.balance_numbers import links, principal_vectors, variant, weight_told
 from graphplan.output.panelled import Words
+from graphplan.output.subjects.balance_numbers import links, principal_vectors, variant, weight_told
 from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arranged, digits, joined, said, unit
 

@@ -1,4 +1,5 @@
-"""The flywheel that a scene asks for: its steady cycle, the wheel, what other methods find, and its drawing."""
+"""The flywheel that a scene asks for: its steady cycle, the wheel, what other methods find, and its drawing.
+"""
 
 from __future__ import annotations
 
@@ -12,9 +13,16 @@ import numpy as np
 
 from graphplan.errors import Refused
 from graphplan.machine.flywheel.drawing import FlywheelDrawing, drawn
-from graphplan.machine.flywheel.energy import SteadyCycle, reduced_rows, steady
 from graphplan.machine.flywheel.other_methods import Found, Speeds, methods
-from graphplan.machine.flywheel.wittenbauer import Flywheel, by_mean_energy, sized, turning
+from graphplan.machine.flywheel.steady_cycle import (
+    Flywheel,
+    SteadyCycle,
+    by_mean_energy,
+    reduced_rows,
+    sized,
+    steady,
+    turning,
+)
 from graphplan.machine.integrals import Reals
 from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.machine.tolerances import MOTOR_TOL

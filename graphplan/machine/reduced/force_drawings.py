@@ -1,29 +1,35 @@
-"""Zhukovsky's lever of a reduction: the loads of one pose at the ends of the orthogonal velocities, drawn step by step.
+"""The forces of one pose as they are drawn: Zhukovsky's lever of a reduction, and force polygons with friction.
 
 The moment on the driven link, or of a sliding drive the force along its guide, that keeps the lever in balance is the
 opposite of the reduced one. All drives go in pace at a unit rate of the first, so one lever has the power of all
-(Ozols 1974, 13-3; method A2). Without accelerations masses have their weights alone.
+(Ozols 1974, 13-3; method A2). Without accelerations masses have their weights alone. Pairs that never move rub nowhere.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
+import numpy as np
+
+from graphplan.cycle.linkage import Array
 from graphplan.kernel.program import Mark
-from graphplan.machine.reduced.unit_motion import moving_points
-from graphplan.mechanism.model import Balance, Find, Loads, Scene
+from graphplan.machine.reduced.unit_motion import Rates, UnitMotion, moving_points
+from graphplan.machine.tolerances import DEAD_POINT_TOL
+from graphplan.mechanism.model import FRAME, Balance, Find, Loads, Scene
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.forces.free_bodies import Shown, balance_letter
+from graphplan.methods.forces.groups import ForceTransfer, pairs
 from graphplan.methods.forces.lever import Lever
-from graphplan.methods.forces.loaded import force_arrows
+from graphplan.methods.forces.loaded import Loaded, force_arrows
 from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.motion.acceleration import Normal
 from graphplan.methods.motion.alternatives import ways
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import LeverPlan
+from graphplan.methods.panels import JointForce, LeverPlan
 from graphplan.methods.styles import Style
 
 
@@ -63,3 +69,33 @@ def lever_drawing(scene: Scene, loads: Loads) -> Construction:
     given = replace(scene, loads=replace(loads, balances=(balance,), frictions=()), find=find)
     found = ways(Network(given), "", lambda planner: LeverDraughtsman(given, planner, Style()).draw())
     return next(found)[0]
+
+
+# ---- force polygons with friction -----------------------------------------------------------------------------------
+
+
+def rubbed_drawing(scene: Scene, method: str = "") -> Construction:
+    """The polygons of a scene with friction, drawn by the best way of its motion, by a method if one is named."""
+    plans = ForceTransfer(scene)
+    return next(ways(Network(scene), method, lambda planner: Loaded(
+        scene, planner, Style(lever=False), plans).draw()))[0]
+
+
+def with_resting_pairs(scene: Scene, motion: UnitMotion, travel: Array) -> Scene:
+    """The scene with the names of the journals and slides that stand still at all of these travels."""
+    assert scene.loads is not None
+    slides = tuple(slide.name for slide in scene.slides)
+    whole = UnitMotion(scene, motion.motion, Find((), (), (), scene.moving, slides))
+    rates = whole.velocities(whole.turn(travel))
+    return replace(scene, loads=replace(scene.loads, resting=frozenset(_resting(scene, motion, rates))))
+
+
+def _resting(scene: Scene, motion: UnitMotion, rates: Rates) -> Iterator[str]:
+    for point, link, pin in pairs(scene):
+        one, other = (0.0 if name == FRAME else rates.of(kinds.OMEGA, name) for name in (link, pin))
+        if np.max(np.abs(one - other), initial=0.0) <= DEAD_POINT_TOL:
+            yield JointForce(point, link).name
+    reach = scene.extent * motion.metres if motion.turns else 1.0
+    for slide in scene.slides:
+        if np.max(np.abs(rates.of(kinds.SLIDE_VELOCITY, slide.name)), initial=0.0) <= DEAD_POINT_TOL * reach:
+            yield slide.name

@@ -1,4 +1,5 @@
-"""A motion as numbers: speed, time and acceleration over the travel, and what they come to."""
+"""A motion as numbers: speed, time and acceleration over the travel, and what they come to.
+"""
 
 from __future__ import annotations
 

@@ -18,9 +18,9 @@ import numpy as np
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import LINE
 from graphplan.kernel.program import Step
+from graphplan.machine.flywheel.diagram_layout import HEAD, Room, laid_out, plans_of
 from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing
-from graphplan.machine.flywheel.found import FlywheelResult
-from graphplan.machine.flywheel.room import HEAD, Room, laid_out, plans_of
+from graphplan.machine.flywheel.result import FlywheelResult
 from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Piecewise
 from graphplan.output.graphs import AXIS, HEADED, Figures, Graph

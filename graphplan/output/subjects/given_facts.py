@@ -1,4 +1,5 @@
-"""What is given of a machine, in words: its masses and inertias, its loads."""
+"""What is given of a machine, in words: its masses and inertias, its loads.
+"""
 
 from __future__ import annotations
 

@@ -15,8 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphplan.cycle.curves import round_scale
-from graphplan.machine.flywheel.energy import SteadyCycle
-from graphplan.machine.flywheel.wittenbauer import Flywheel
+from graphplan.machine.flywheel.steady_cycle import Flywheel, SteadyCycle
 from graphplan.machine.frames import AxisScale, Frame
 from graphplan.machine.integrals import Reals
 from graphplan.machine.tolerances import MOMENT_JUMP, ORDINATE_TOL

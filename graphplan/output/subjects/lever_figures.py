@@ -1,4 +1,5 @@
-"""Zhukovsky's levers over the cycle: the given pose large with its steps, the others small beside it."""
+"""Zhukovsky's levers over the cycle: the given pose large with its steps, the others small beside it.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""The sheet of a rotor: its views, the polygons or trials that balance it, and in words what is given and found."""
+"""The sheet of a rotor: its views, the polygons or trials that balance it, and in words what is given and found.
+"""
 
 from __future__ import annotations
 
@@ -15,14 +16,13 @@ from graphplan.kernel.drawing import Drawing, Values
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Panel
 from graphplan.machine.rotors.polygons import END_VIEW, FORCES, MOMENTS, Correction
-from graphplan.machine.rotors.rotor import PLANES, direction
+from graphplan.machine.rotors.rotor import PLANES, Marked, ThreeRuns, TrialWeights, direction
 from graphplan.machine.rotors.rotor_balance import Answer, Balanced
-from graphplan.machine.rotors.trial import Marked, ThreeRuns, TrialWeights
 from graphplan.machine.rotors.trial_runs import AMPLITUDE, TRIAL_PLANS, Effect
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.units import NEWTONS
-from graphplan.output.machine.rotor_figures import AROUND, MANY, RotorFigures
 from graphplan.output.panelled import Panelled, Words, beside, pages, under
+from graphplan.output.subjects.rotor_figures import AROUND, MANY, RotorFigures
 from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arranged, digits, joined, phrase, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up

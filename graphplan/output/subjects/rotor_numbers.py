@@ -1,4 +1,5 @@
-"""A balanced rotor as numbers: corrections, disbalances, what trials found, reactions, steps, and what is checked."""
+"""A balanced rotor as numbers: corrections, disbalances, what trials found, reactions, steps, and what is checked.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +11,7 @@ from graphplan.machine.rotors.polygons import Correction
 from graphplan.machine.rotors.rotor import direction
 from graphplan.machine.rotors.rotor_balance import Answer, Balanced
 from graphplan.mechanism.units import KILOGRAMS
-from graphplan.output.machine.rotor_sheet import RotorSheet
+from graphplan.output.subjects.rotor_sheet import RotorSheet
 
 HEADINGS = "what", "place", "mass_radius [kg m]", "angle [deg]"
 

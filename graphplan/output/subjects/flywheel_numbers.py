@@ -1,4 +1,5 @@
-"""A flywheel as numbers: the machine reduced over its cycle, the wheel, other methods, and what a drawing gives."""
+"""A flywheel as numbers: the machine reduced over its cycle, the wheel, other methods, and what a drawing gives.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.machine.flywheel.found import FlywheelResult
 from graphplan.machine.flywheel.other_methods import NEGLECTS_NOTHING
-from graphplan.machine.flywheel.wittenbauer import Flywheel, Touch
+from graphplan.machine.flywheel.result import FlywheelResult
+from graphplan.machine.flywheel.steady_cycle import Flywheel, Touch
 from graphplan.machine.reduced.friction import M_F
 
 HEADINGS = ("travel [deg]", "I [kg*m^2]", "M_r [N*m]", "M [N*m]", "E [J]", "omega [rad/s]")
@@ -120,4 +121,3 @@ def _plain(result: FlywheelResult, key: str, value: Any) -> Any:
         first, last = result.cycle.ends
         return _told(result, first + (value - first) % (last - first))
     return [_told(result, at) for at in value] if isinstance(value, tuple) else value
-

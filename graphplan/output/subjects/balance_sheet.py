@@ -24,9 +24,9 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.graphs import CURVES, Figures, Graph, Polar, Span, scale_words, smoothed, stacked, through
-from graphplan.output.machine.balance_words import BalanceWords, cleaned
 from graphplan.output.panelled import Panelled, Words, beside, pages, under
 from graphplan.output.step_ink import HEAD, StepInk
+from graphplan.output.subjects.balance_words import BalanceWords, cleaned
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish

@@ -1,0 +1,170 @@
+"""A cam for others to read: as numbers over the turn, and in one pose as a scene.
+
+The numbers are base circle, law, profile, pressure angle and curvature over the turn, and what is checked. The scene
+has profiles that touch, by their centres of curvature, and the cam as the drive: the velocity and the acceleration of
+the follower in that pose exactly; in others it is the mechanism in which the profile goes on as the circle of curvature
+that it has here. Where pieces of the law meet it is that of the piece that begins.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from graphplan.cams.base import region
+from graphplan.cams.construction import CamDrawing
+from graphplan.cams.follower import FlatOscillating, Oscillating, Rolled, Translating
+from graphplan.cams.law import HARD, ORDERS
+from graphplan.cams.profile import Cam
+from graphplan.cams.task import TURNS
+from graphplan.cams.tolerances import ZERO_LENGTH
+from graphplan.mechanism.numbers import shown
+
+# ---- numbers --------------------------------------------------------------------------------------------------------
+
+
+TABLED = ("lift", "velocity", "acceleration", "jerk")
+
+
+def numbers(drawing: CamDrawing, count: int, tolerance: float, check: Mapping[str, float]) -> dict[str, Any]:
+    """All of it, plain data for JSON: lengths in the task's unit, angles in degrees, s; of an oscillating follower
+    degrees, rad/s, rad/s^2, rad/s^3. What is infinite is null."""
+    cam, program = drawing.cam, drawing.program
+    task = cam.task
+    turns = next(word for word, sense in TURNS.items() if sense == cam.pair.sense)
+    found: dict[str, Any] = {
+        "title": task.title, "units": {"length": task.units.length},
+        "cam": {"turns": turns, "omega": task.cam.omega, "base_radius": cam.pair.base, **_placed(cam)},
+        "pressure_angle": {name: {"at": angle, "largest": size} for name, way in (("rise", 1), ("return", -1))
+                           for angle, size in [cam.steepest[way]] if isinstance(cam.pair, Rolled)},
+        "least_radius": dict(zip(("at", "radius"), cam.narrowest, strict=True)),
+        "shocks": [{"at": float(jump.angle), "of": "velocity" if jump.order == HARD else "acceleration",
+                    "before": _rate(cam, jump.before, jump.order), "after": _rate(cam, jump.after, jump.order)}
+                   for jump in cam.law.jumps],
+        "notes": [str(note) for note in cam.notes],
+        "positions": _positions(cam, 360.0 * np.arange(count) / count),
+        "outline": {"tolerance": tolerance,
+                    "arcs": [[arc.start.real, arc.start.imag, arc.bulge] for arc in cam.arcs(tolerance)]},
+        "steps": [{"step": program.number(step.index), "stage": str(stage.title),
+                   "sentence": str(program.told(step.index))} for stage, steps in program.stages for step in steps],
+        "check": dict(check),
+    }
+    return found
+
+
+def _placed(cam: Cam) -> dict[str, Any]:
+    """Offset, or the angle of the arm where it is lowest; and the tangents to the curve x(s) where there are such."""
+    pair, limits = cam.pair, cam.task.cam.limits
+    if not isinstance(pair, Translating):
+        angle = getattr(pair, "angle", None)
+        return {} if angle is None else {"arm_angle": math.degrees(angle)}
+    found: dict[str, Any] = {"offset": pair.offset, "depth": pair.depth}
+    if limits is not None:
+        where = region(cam.law, limits)
+        tangents = {"rise": where.rise, **({"return": where.back} if where.back else {})}
+        found["tangents"] = {name: {"at": one.angle, "passes": one.intercept,
+                                    "angle": math.degrees(math.atan(one.slope))} for name, one in tangents.items()}
+    return found
+
+
+def _rate(cam: Cam, value: float, order: int) -> float:
+    """A derivative of the law by time."""
+    return value * cam.task.cam.omega**order
+
+
+def _positions(cam: Cam, angles: Any) -> list[dict[str, Any]]:
+    """Position by position."""
+    touch, rates = cam.touch(angles), [cam.law.at(angles, order) * cam.task.cam.omega**order for order in range(ORDERS)]
+    if cam.task.follower.oscillates:
+        rates[0] = np.degrees(rates[0])
+    profile, pitch = (cam.pair.turned(spots, angles) for spots in (touch.point, touch.roller))
+    found = []
+    for k, angle in enumerate(angles):
+        row: dict[str, Any] = {"angle": float(angle)}
+        row |= {name: float(values[k]) + 0.0 for name, values in zip(TABLED, rates, strict=True)}
+        row |= {"profile": [float(profile[k].real), float(profile[k].imag)]}
+        if cam.roller:
+            row |= {"roller": [float(pitch[k].real), float(pitch[k].imag)]}
+        radius = float(touch.radius[k])
+        row |= {"pressure_angle": math.degrees(float(touch.pressure[k])) + 0.0,
+                "radius_of_curvature": radius if math.isfinite(radius) else None}
+        found.append(row)
+    return found
+
+
+# ---- one pose as a scene --------------------------------------------------------------------------------------------
+
+
+CAM, FOLLOWER = "1", "2"
+CENTRE, PIVOT, PROFILE, END, TOUCHED = "O", "B", "C", "A", "K"  # letters of points
+STRAIGHT = 1e12  # of the base circle's radius: a profile so little curved is straight
+
+
+def scene_text(cam: Cam, angle: float) -> str:
+    """The scene of a cam that has turned by an angle in degrees, as TOML."""
+    touch, pair = cam.touch([angle]), cam.pair
+    point, centre, end = (complex(spot[0]) for spot in (touch.point, touch.centre, touch.roller))
+    tangent = 1j * complex(touch.normal[0])
+    straight = not abs(touch.radius[0]) < STRAIGHT * pair.base
+    points = {CENTRE: 0j, TOUCHED: point}
+    own, touching = _follower(cam, points, end)
+    middle = "" if straight else CENTRE if abs(centre) < ZERO_LENGTH * pair.base else PROFILE
+    if middle == PROFILE:
+        points[PROFILE] = centre
+    profile = f'"{middle}"' if middle else _vector(tangent)
+    body = f"{CENTRE} {PROFILE}" if middle == PROFILE else f"{CENTRE} K{CAM}"
+    points |= {} if middle == PROFILE else {f"K{CAM}": point}
+    lines = [*_head(cam, angle), "", "[points]", *(f"{name} = {_vector(spot)}" for name, spot in points.items()),
+             "", "[links]", f'{CAM} = "{body}"', *own, "", "[[contacts]]", f'links = ["{CAM}", "{FOLLOWER}"]',
+             f'at = "{TOUCHED}"', f"centres = [{profile}, {touching if touching else _vector(tangent)}]",
+             "", "[[drive]]", f'link = "{CAM}"', f"omega = {pair.sense * cam.task.cam.omega!r}", *_asked(cam)]
+    return "\n".join(lines) + "\n"
+
+
+def _head(cam: Cam, angle: float) -> Iterator[str]:
+    """Title, source and units."""
+    title = cam.task.title or "Cam"
+    yield f"title = {_quoted(f'{title}: at {shown(angle)} degrees')}"
+    if cam.task.source:
+        yield f"source = {_quoted(cam.task.source)}"
+    yield from ("", "[units]", f'length = "{cam.task.units.length}"')
+
+
+def _follower(cam: Cam, points: dict[str, complex], end: complex) -> tuple[list[str], str]:
+    """The lines of the follower and of what holds it, and its centre of curvature if it has one; its points are added.
+    """
+    pair, flat = cam.pair, cam.task.follower.flat
+    if isinstance(pair, Oscillating | FlatOscillating):
+        points |= {PIVOT: complex(pair.distance), END: end}
+        return [f'{FOLLOWER} = "{PIVOT} {END}"', f'frame = "{CENTRE} {PIVOT}"'], "" if flat else f'"{END}"'
+    across = pair.sense * pair.offset if isinstance(pair, Translating) else 0.0
+    points[END] = complex(across, end.imag)
+    held = [f'{FOLLOWER} = "{END}"', f'frame = "{CENTRE}"', "", "[[slides]]", f'link = "{FOLLOWER}"',
+            'along = "frame"', f'at = "{END}"', "direction = [0, 1]"]
+    return held, "" if flat else f'"{END}"'
+
+
+def _asked(cam: Cam) -> Iterator[str]:
+    """What is asked for: the motion of the follower."""
+    yield from ("", "[find]", f'velocity = ["{END}"]', f'acceleration = ["{END}"]')
+    if cam.task.follower.oscillates:
+        yield f'links = ["{FOLLOWER}"]'
+
+
+def _vector(z: complex) -> str:
+    """Two numbers as TOML, each as near as a float is."""
+    return f"[{z.real + 0.0!r}, {z.imag + 0.0!r}]"
+
+
+def _quoted(text: str) -> str:
+    """A text as TOML."""
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def motion(cam: Cam, angle: float) -> tuple[float, float]:
+    """What the law says of the follower there: velocity and acceleration of its point, or its omega and alpha."""
+    rate, change = (float(cam.law.at([angle], order)[0]) * cam.task.cam.omega**order for order in (1, 2))
+    return (-rate, -change) if cam.task.follower.oscillates else (rate, change)

@@ -1,1 +1,0 @@
-"""Sheets and numbers of the machine over its cycle, and of balancing."""

@@ -57,36 +57,36 @@ class Cost:
     @property
     def data(self) -> dict[str, Any]:
         """All of it, as data; simplicity and exactitude, which know no set squares, of a strict drawing alone."""
-        found = self.counts
+        counts = self.counts
         return {
-            "said": found.text, "steps": self.steps, "operations": found.operations, "lines": found.R2,
-            "arcs": found.C3, "scale": found.scale, "set squares": found.others.get(SET_SQUARES, 0),
-            "dividers": found.others.get(DIVIDERS, 0), "instrument changes": found.changes,
-            "simplicity": found.simplicity if found.strict else None,
-            "exactitude": found.exactitude if found.strict else None,
+            "said": counts.text, "steps": self.steps, "operations": counts.operations, "lines": counts.R2,
+            "arcs": counts.C3, "scale": counts.scale, "set squares": counts.others.get(SET_SQUARES, 0),
+            "dividers": counts.others.get(DIVIDERS, 0), "instrument changes": counts.changes,
+            "simplicity": counts.simplicity if counts.strict else None,
+            "exactitude": counts.exactitude if counts.strict else None,
             "crossings": [{"step": c.number, "mark": c.mark, "degrees": c.degrees} for c in self.crossings],
             "off the sheet": list(self.off_sheet),
         }
 
     def lines(self) -> list[Said]:
         """The cost in words, a line each."""
-        told = [said("Changes of instrument: {0}.", self.counts.changes)]
+        lines = [said("Changes of instrument: {0}.", self.counts.changes)]
         if self.flattest:
             angle = f"{self.flattest.degrees:.0f}"
-            told.append(said("Flattest crossing: {0}°, step {1}.", angle, self.flattest.number))
+            lines.append(said("Flattest crossing: {0}°, step {1}.", angle, self.flattest.number))
         if self.off_sheet:
-            told.append(said("Outside the paper of their plans: steps {0}.", ", ".join(map(str, self.off_sheet))))
-        return told
+            lines.append(said("Outside the paper of their plans: steps {0}.", ", ".join(map(str, self.off_sheet))))
+        return lines
 
 
 def cost(drawing: Construction, composition: Composition) -> Cost:
     """What drawing a construction costs on its sheet."""
-    drawn = drawing.drawn
-    crossings = [Crossing(drawn.number(step.index), drawn.text(step.index), crossing(step, drawing.values))
-                 for step in drawn.steps if step.op.crossing]
+    program = drawing.drawn
+    crossings = [Crossing(program.number(step.index), program.text(step.index), crossing(step, drawing.values))
+                 for step in program.steps if step.op.crossing]
     points = (plate for plate in composition.plates.steps if plate.kind == POINT)
     off_sheet = tuple(point.number for point in points if not point.view.rect.holds(point.spot))
-    return Cost(counts(drawn), len(drawn) - drawn.givens, tuple(crossings), off_sheet)
+    return Cost(counts(program), len(program) - program.givens, tuple(crossings), off_sheet)
 
 
 @dataclass(frozen=True)
@@ -100,8 +100,8 @@ class Errors:
     @property
     def worst(self) -> Result | None:
         """The result whose error is largest beside the largest value of its kind; none where nothing is."""
-        seen = [result for result in self.results if result.relative is not None]
-        return max(seen, key=lambda result: result.relative or 0.0, default=None)
+        with_size = [result for result in self.results if result.relative is not None]
+        return max(with_size, key=lambda result: result.relative or 0.0, default=None)
 
     @property
     def error(self) -> float:
@@ -110,10 +110,10 @@ class Errors:
 
     def step_name(self, index: int) -> Said:
         """A step by its number, a point of the pose by its name."""
-        drawn = self.drawing.drawn
-        if index >= drawn.givens:
-            return said("step {0}", drawn.number(index))
-        return said("the given point {0}", drawn.text(index))
+        program = self.drawing.drawn
+        if index >= program.givens:
+            return said("step {0}", program.number(index))
+        return said("the given point {0}", program.text(index))
 
     @property
     def deviations(self) -> Deviations:
@@ -170,10 +170,10 @@ class Drafted(Errors):
         off: dict[ResultKind, list[Said]] = {}
         for result in self.results:
             off.setdefault(result.kind, []).append(joined((result.thing, arranged("±{0}", result.deviation.text)), " "))
-        told = [joined((kind.words, joined(found)), ": ") for kind, found in off.items()]
+        lines = [joined((kind.words, joined(deviations)), ": ") for kind, deviations in off.items()]
         controls = control_errors(self.drawing, self.hand, self.composition.scales)
-        told += [said("control of link {0}: ±{1} mm", control.link, Deviation(mm).text) for control, mm in controls]
-        return [*self.cost.lines(), said("Drawing errors on {0}: {1}", self.paper, self.description), *told]
+        lines += [said("control of link {0}: ±{1} mm", control.link, Deviation(mm).text) for control, mm in controls]
+        return [*self.cost.lines(), said("Drawing errors on {0}: {1}", self.paper, self.description), *lines]
 
     @property
     def data(self) -> dict[str, Any]:
@@ -196,9 +196,9 @@ class Drafted(Errors):
         return {"kind": worst.kind, "of": worst.of, "relative": _finite_or_none(worst.relative), "shares": shares}
 
     def _step(self, index: int) -> dict[str, Any]:
-        drawn, say = self.drawing.drawn, self.composition.plans.tongue
-        number = drawn.number(index) if index >= drawn.givens else 0
-        return {"number": number, "makes": say(drawn.text(index)), "sentence": say(drawn.sentence(index))}
+        program, say = self.drawing.drawn, self.composition.plans.tongue
+        number = program.number(index) if index >= program.givens else 0
+        return {"number": number, "makes": say(program.text(index)), "sentence": say(program.sentence(index))}
 
 
 def percent(part: float) -> Said:
@@ -236,5 +236,5 @@ def draft(drawing: Construction, pencil: Pencil, paper: str | None = None,
 
 def _in_one_figure(result: Result) -> Result:
     """A result whose error is told in one figure, or in two of which one is in mm."""
-    known = 1.0 if math.isfinite(result.deviation.value) else math.inf
-    return replace(result, deviation=Deviation(known, None if result.deviation.mm is None else known))
+    figure = 1.0 if math.isfinite(result.deviation.value) else math.inf
+    return replace(result, deviation=Deviation(figure, None if result.deviation.mm is None else figure))

@@ -84,7 +84,7 @@ def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Resu
     domain, values = _draw_with_slips(hand)
     owner = np.repeat(np.arange(len(hand.slips)), [len(slips) for slips in hand.slips])
     plan_of_step, largest = Plans(drawing).plan_of_step, largest_values(drawing, hand.values)
-    found = []
+    results = []
     for reading, _, value in readings(drawing, values, domain):
         if not reading.marks:
             continue  # it is given, not drawn
@@ -92,17 +92,17 @@ def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Resu
         off = math.sqrt(float(np.sum(squares)))
         if math.isinf(off):
             squares = np.isinf(squares)
-        wanted = [drawing.drawn.wanted[position] for position in reading.marks]
-        of_mm = _of_mm(reading.kind, [hand.values[index] for index in wanted], scales, plan_of_step[wanted[-1]])
+        marks = [drawing.drawn.wanted[position] for position in reading.marks]
+        of_mm = _of_mm(reading.kind, [hand.values[index] for index in marks], scales, plan_of_step[marks[-1]])
         shares = np.bincount(owner, squares, len(hand.slips))
         thing = thing_named(drawing.scene, reading.kind, reading.of)
         group, arm = _group_and_arm(drawing.scene, reading.kind)
         beside = math.inf if math.isinf(off) else None
         if largest[group] > ZERO_TOL * arm * off:
             beside = arm * off / largest[group]
-        found.append(Result(reading.kind, reading.of, thing, Deviation(off, off / of_mm if of_mm else None), beside,
-                            tuple(shares.tolist())))
-    return tuple(found)
+        results.append(Result(reading.kind, reading.of, thing, Deviation(off, off / of_mm if of_mm else None), beside,
+                              tuple(shares.tolist())))
+    return tuple(results)
 
 
 def _draw_with_slips(hand: Hand) -> tuple[Gradients, list[Any]]:
@@ -111,17 +111,17 @@ def _draw_with_slips(hand: Hand) -> tuple[Gradients, list[Any]]:
     domain = Gradients(starts[-1])
 
     def errors(step: int) -> list[Any]:
-        return [domain.error(starts[step] + i, size) for i, size in enumerate(hand.slips[step])]
+        return [domain.error(starts[step] + i, deviation) for i, deviation in enumerate(hand.slips[step])]
 
     def unsteady_mark(step: int) -> list[Any]:
-        return [domain.unsteady(part, range(starts[step], starts[step + 1])) for part in hand.values[step]]
+        return [domain.unsteady(coordinate, range(starts[step], starts[step + 1])) for coordinate in hand.values[step]]
 
     return domain, hand.draw(domain, errors, unsteady_mark)
 
 
 def _variances(domain: Gradients, value: Any) -> Any:
     """The variance of a number or a vector by each slip: infinite where it has no bound, or no derivative."""
-    squares = np.sum([domain.partials(part) ** 2 for part in components(value)], axis=0)
+    squares = np.sum([domain.partials(component) ** 2 for component in components(value)], axis=0)
     return np.where(np.isfinite(squares), squares, np.inf)
 
 
@@ -136,19 +136,19 @@ def deviation(hand: Hand, reading: Callable[[Sequence[Any]], Any]) -> float:
 def control_errors(drawing: Construction, hand: Hand, scales: Scales) -> list[tuple[Control, float]]:
     """By how many mm each control's pole misses the third line, by standard deviation."""
     domain, values = _draw_with_slips(hand) if drawing.controls else (Gradients(0), [])
-    found = []
+    misses = []
     for control in drawing.controls:
         off = math.sqrt(float(np.sum(_variances(domain, control.off(values)))))
         start, end = (hand.values[mark] for mark in control.marks[-1])
-        found.append((control, off / math.dist(start, end) / scales.lengths_per_mm(MECHANISM)))
-    return found
+        misses.append((control, off / math.dist(start, end) / scales.lengths_per_mm(MECHANISM)))
+    return misses
 
 
 def readings(drawing: Construction, values: Sequence[Any], domain: Domain) -> Iterator[tuple[Reading, list[Any], Any]]:
     """What is read from drawn values: each reading with its marks and its value."""
-    wanted = [values[index] for index in drawing.drawn.wanted]
+    outputs = [values[index] for index in drawing.drawn.wanted]
     for reading in drawing.readings:
-        marks = [wanted[position] for position in reading.marks]
+        marks = [outputs[position] for position in reading.marks]
         yield reading, marks, drawing.value(reading, marks, domain)
 
 
@@ -201,14 +201,14 @@ def sample_hands(drawing: Construction, hand: Hand, hands: int = HANDS) -> Scatt
     missed = np.zeros(hands, dtype=bool)
     with np.errstate(all="ignore"):
         domain = Arrays()
-        values = hand.draw(domain, lambda step: [normal(0.0, size, hands) for size in hand.slips[step]],
+        values = hand.draw(domain, lambda step: [normal(0.0, deviation, hands) for deviation in hand.slips[step]],
                            lambda step: [np.full(hands, np.nan) for _ in hand.values[step]])
         for reading, _, value in readings(drawing, values, domain):
             if not reading.marks:
                 continue  # it is given, not drawn
-            parts = np.broadcast_arrays(*components(value), missed)[:-1]
-            missed = missed | np.isnan(parts).any(axis=0)
-            mean, variance = np.nanmean(parts, axis=1), np.nanvar(parts, axis=1)
+            samples = np.broadcast_arrays(*components(value), missed)[:-1]
+            missed = missed | np.isnan(samples).any(axis=0)
+            mean, variance = np.nanmean(samples, axis=1), np.nanvar(samples, axis=1)
             spread = Spread(tuple(mean.tolist()), float(variance.sum() ** 0.5))
             results.setdefault(reading.kind, {})[reading.of] = spread
     return Scatter(results, float(missed.mean()))

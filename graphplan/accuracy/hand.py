@@ -54,13 +54,13 @@ class Hand:
 
         What floats cannot draw lies too near to a singular pose for any pencil: `beyond` gives its mark.
         """
-        drawn: list[Any] = []
+        marks: list[Any] = []
         for step in self.program.steps:
             try:
-                drawn.append(self.draw_step(step, domain, drawn, errors))
+                marks.append(self.draw_step(step, domain, marks, errors))
             except Undrawable:
-                drawn.append(beyond(step.index))
-        return drawn
+                marks.append(beyond(step.index))
+        return marks
 
     def draw_step(self, step: Step, domain: Domain, drawn: Sequence[Any], errors: Errors) -> Any:
         """One step, from what it reads as it is drawn; it fails as its rule does."""
@@ -98,9 +98,9 @@ class Hand:
         With (a, b) turned to (a - t b, b + t a) about (x, y), c grows by t (b x - a y).
         """
         a, b, c = exact
-        (x, y), *rest = places(self.program, self.values, step)
+        (x, y), *second_place = places(self.program, self.values, step)
         line = self.values[step.index]
-        turn = (other - offset) / _distance_along(line, (x, y), rest[0]) if rest else other
+        turn = (other - offset) / _distance_along(line, (x, y), second_place[0]) if second_place else other
         return a - turn * b, b + turn * a, c + turn * (b * x - a * y) - _normal_length(exact) * offset
 
 
@@ -149,13 +149,13 @@ def _abreast(line: Any, points: Sequence[Any]) -> Any:
 
 def _unit(line: Any) -> tuple[float, float]:
     """The unit normal of a line."""
-    size = math.hypot(line[0], line[1])
-    return line[0] / size, line[1] / size
+    length = math.hypot(line[0], line[1])
+    return line[0] / length, line[1] / length
 
 
 def _normal_length(line: Any) -> Any:
     """The length of a line's normal, without errors of first order."""
-    a, b = (getattr(part, "value", part) for part in line[:2])
+    a, b = (getattr(coefficient, "value", coefficient) for coefficient in line[:2])
     return (a * a + b * b) ** 0.5
 
 
@@ -188,7 +188,7 @@ class Pencil:
 
     def times(self, factor: float) -> Pencil:
         """A pencil that is so many times as unsteady."""
-        return Pencil(*(size * factor for size in asdict(self).values()))
+        return Pencil(*(deviation * factor for deviation in asdict(self).values()))
 
     @property
     def model(self) -> dict[str, float]:
@@ -237,17 +237,17 @@ UNITS = {"point": "mm", "edge": "mm", "angle": "degrees", "opening": "mm"}
 
 def pencil(text: str) -> Pencil:
     """The pencil that a text such as `point=0.2,angle=0.1` speaks of; what it leaves out stays as it is by default."""
-    known = [field.name for field in fields(Pencil)]
-    return Pencil(**read_settings("--pencil", text, known, "a pencil has no such error", read_deviation))
+    names = [field.name for field in fields(Pencil)]
+    return Pencil(**read_settings("--pencil", text, names, "a pencil has no such error", read_deviation))
 
 
 def read_deviation(name: str, text: str) -> float:
     """A standard deviation: a number of millimetres or degrees, below those of a sheet or of a right angle's half."""
-    size, most = decimal(text), 45.0 if name == "angle" else MAX_DEVIATION_MM
-    if not 0 <= size < most:
-        right = f"a standard deviation in {UNITS[name]}, from 0 to below {most:g}"
+    deviation, limit = decimal(text), 45.0 if name == "angle" else MAX_DEVIATION_MM
+    if not 0 <= deviation < limit:
+        right = f"a standard deviation in {UNITS[name]}, from 0 to below {limit:g}"
         raise Refused(f"--pencil {name}={text}", "not a size of an error", right)
-    return size
+    return deviation
 
 
 def read_settings(option: str, text: str, known: Collection[str], unknown: str,
@@ -256,15 +256,15 @@ def read_settings(option: str, text: str, known: Collection[str], unknown: str,
 
     Fails with `Refused`, in the words `unknown`, where it names another one, and where it names one twice.
     """
-    found: dict[str, float] = {}
+    settings: dict[str, float] = {}
     for entry in filter(None, text.split(",")):
-        name, _, given = (part.strip() for part in entry.partition("="))
+        name, _, value = (word.strip() for word in entry.partition("="))
         if name not in known:
             raise Refused(f"{option} {entry}", unknown, f"one of {', '.join(known)}")
-        if name in found:
+        if name in settings:
             raise Refused(f"{option} {text}", f"{name} is given twice", "give it once")
-        found[name] = size(name, given)
-    return found
+        settings[name] = size(name, value)
+    return settings
 
 
 def decimal(text: str) -> float:

@@ -71,8 +71,9 @@ class Form:
         if self.drafted is None:
             assert self.refusal is not None
             return said("{0}: cannot be drawn: {1}", self.name, reason(self.refusal))
-        told = said("{0}: {1} operations, error {2}", self.name, self.drafted.operations, percent(self.drafted.error))
-        return arranged("{0} ({1})", told, self.drafted.worst.label) if self.drafted.worst else told
+        summary = said("{0}: {1} operations, error {2}", self.name, self.drafted.operations,
+                       percent(self.drafted.error))
+        return arranged("{0} ({1})", summary, self.drafted.worst.label) if self.drafted.worst else summary
 
 
 @dataclass(frozen=True)
@@ -96,8 +97,9 @@ def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False,
         except GraphplanError as refusal:
             return [Form((method,), None, refusal) for method in methods]
 
-    ways = constructions(scene, plan=plan, strict=strict, inertia=inertia, construct=construct)
-    return sorted([form for way in ways for form in draft_forms(*way)], key=lambda form: FORMS.index(form.methods[0]))
+    programs = constructions(scene, plan=plan, strict=strict, inertia=inertia, construct=construct)
+    return sorted([form for program in programs for form in draft_forms(*program)],
+                  key=lambda form: FORMS.index(form.methods[0]))
 
 
 def constructions(scene: Scene, *, construct: Constructing = unchecked,
@@ -123,16 +125,16 @@ def _drawn_once(scene: Scene, how: dict[str, Any], construct: Constructing, know
 def led_to(draw: Constructing,
            program: Callable[[Construction], Program]) -> list[tuple[list[str], Construction | GraphplanError]]:
     """The constructions of different programs to which methods lead, each with these; or why they lead to none."""
-    found: dict[Any, tuple[list[str], Construction | GraphplanError]] = {}
+    by_program: dict[Any, tuple[list[str], Construction | GraphplanError]] = {}
     for method in FORMS:
-        one: Construction | GraphplanError
+        result: Construction | GraphplanError
         try:
-            one = draw(method=method)
-            key: Any = tuple([step.key for step in program(one).steps])
+            result = draw(method=method)
+            key: Any = tuple([step.key for step in program(result).steps])
         except GraphplanError as refusal:
-            one, key = refusal, str(refusal)
-        found.setdefault(key, ([], one))[0].append(method)
-    return list(found.values())
+            result, key = refusal, str(refusal)
+        by_program.setdefault(key, ([], result))[0].append(method)
+    return list(by_program.values())
 
 
 def preferred_form(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "", plan: str = "",
@@ -146,20 +148,20 @@ def preferred_form(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "
         raise Refused(f"--prefer {prefer}", "unknown preference", f"choose one of {', '.join(WEIGHED)}")
     if method:
         raise Refused(f"--prefer {prefer}", f"--method {method} already names the form", "leave out one of the two")
-    found = _on_one_paper(forms(scene, pencil, plan=plan, strict=strict, inertia=inertia, paper=paper,
-                                construct=construct, sheets=plans_alone))
-    if found[0].refusal is not None and all(form.refusal for form in found):
-        raise found[0].refusal
-    return choose_form(found, prefer)
+    all_forms = _on_one_paper(forms(scene, pencil, plan=plan, strict=strict, inertia=inertia, paper=paper,
+                                    construct=construct, sheets=plans_alone))
+    if all_forms[0].refusal is not None and all(form.refusal for form in all_forms):
+        raise all_forms[0].refusal
+    return choose_form(all_forms, prefer)
 
 
-def choose_form(found: Sequence[Form], prefer: str) -> Preference:
+def choose_form(all_forms: Sequence[Form], prefer: str) -> Preference:
     """The best of some forms, of which one at least is drawn; of equals the first."""
-    drawn = [(form, form.drafted) for form in found if form.drafted is not None]
+    drawable = [(form, form.drafted) for form in all_forms if form.drafted is not None]
     word, weigh = WEIGHED[prefer]
-    best, on = min(drawn, key=lambda pair: weigh(pair[1]))
+    best, on = min(drawable, key=lambda pair: weigh(pair[1]))
     head = said("{0} form preferred: {1}; compared on {2}:", word(), best.name, on.paper)
-    return Preference(best.methods[0], (head, *(form.verdict for form in found)))
+    return Preference(best.methods[0], (head, *(form.verdict for form in all_forms)))
 
 
 def _on_one_paper(found: list[Form]) -> list[Form]:
@@ -215,9 +217,9 @@ class Comparison:
         """Costs and errors as two tables, and the forms that cannot be drawn with their reasons."""
         tools = "compasses and straightedge" if self.strict else "set squares, compasses and dividers"
         head = (*COUNTED, *(STRICTLY if self.strict else BY_SQUARES), *DRAWN)
-        costs = [head, *(self._cost_row(name, one) for name, one in self.drawn_forms)]
+        costs = [head, *(self._cost_row(name, draft) for name, draft in self.drawn_forms)]
         errors = [(*OFF, *(("hands", "missed") if self.hands else ())),
-                  *(self._error_row(name, one) for name, one in self.drawn_forms)]
+                  *(self._error_row(name, draft) for name, draft in self.drawn_forms)]
         refused = [form.verdict for form in self.forms if form.drafted is None]
         return ["", f"{self.plan.capitalize()} plans, with {tools}:",
                 *(align_columns(costs) if self.drawn_forms else ()),
@@ -231,34 +233,34 @@ class Comparison:
 
     def _form_data(self, form: Form) -> dict[str, Any]:
         """Cost and errors of a form, or why it cannot be drawn."""
-        one = form.drafted
-        if one is None:
+        draft = form.drafted
+        if draft is None:
             return {"refused": str(form.refusal)}
-        hands = {"hands": asdict(sample_hands(one.drawing, one.hand, self.hands))} if self.hands else {}
-        return {"cost": one.cost.data, "pencil": one.data, **hands}
+        hands = {"hands": asdict(sample_hands(draft.drawing, draft.hand, self.hands))} if self.hands else {}
+        return {"cost": draft.cost.data, "pencil": draft.data, **hands}
 
-    def _cost_row(self, name: str, one: Drafted) -> tuple[str, ...]:
+    def _cost_row(self, name: str, draft: Drafted) -> tuple[str, ...]:
         """One form's row of counts."""
-        cost, found = one.cost, one.cost.counts
-        pair = ((found.simplicity, found.exactitude) if self.strict
-                else (found.others.get(SET_SQUARES, 0), found.others.get(DIVIDERS, 0)))
+        cost, counts = draft.cost, draft.cost.counts
+        pair = ((counts.simplicity, counts.exactitude) if self.strict
+                else (counts.others.get(SET_SQUARES, 0), counts.others.get(DIVIDERS, 0)))
         flattest = f"{cost.flattest.degrees:.0f}° at {cost.flattest.number}" if cost.flattest else ""
-        numbers = cost.steps, found.operations, found.R2, found.C3, *pair, found.changes
-        return name, one.paper, *map(str, numbers), flattest, str(len(cost.off_sheet))
+        numbers = cost.steps, counts.operations, counts.R2, counts.C3, *pair, counts.changes
+        return name, draft.paper, *map(str, numbers), flattest, str(len(cost.off_sheet))
 
-    def _error_row(self, name: str, one: Drafted) -> tuple[str, ...]:
+    def _error_row(self, name: str, draft: Drafted) -> tuple[str, ...]:
         """One form's row of errors: those of its worst result, and how it scatters beside what is expected."""
-        worst = one.worst
+        worst = draft.worst
         if worst is None:
             return name, *[""] * (len(OFF) - 1 + 2 * bool(self.hands))
-        own, mm = worst.deviation.value, worst.deviation.mm
-        row = (name, worst.label, percent(one.error), f"{Deviation(own).text} {worst.unit(self.scene)}",
-               "" if mm is None else Deviation(mm).text, one.step_name(worst.worst_step))
+        deviation, mm = worst.deviation.value, worst.deviation.mm
+        row = (name, worst.label, percent(draft.error), f"{Deviation(deviation).text} {worst.unit(self.scene)}",
+               "" if mm is None else Deviation(mm).text, draft.step_name(worst.worst_step))
         if not self.hands:
             return row
-        scatter = sample_hands(one.drawing, one.hand, self.hands)
+        scatter = sample_hands(draft.drawing, draft.hand, self.hands)
         off = scatter.results[worst.kind][worst.of].deviation
-        ratio = f"×{digits(off / own, 3)}" if 0 < own < math.inf else ""
+        ratio = f"×{digits(off / deviation, 3)}" if 0 < deviation < math.inf else ""
         return *row, ratio, percent(scatter.missed)
 
 
@@ -271,7 +273,7 @@ LEGEND = (
 
 def legend(hands: int) -> list[str]:
     """What the columns of the tables mean."""
-    return ["", *(line for told in LEGEND[: 2 if hands else 1] for line in textwrap.wrap(told, TABLE_WIDTH))]
+    return ["", *(line for sentence in LEGEND[: 2 if hands else 1] for line in textwrap.wrap(sentence, TABLE_WIDTH))]
 
 
 def align_columns(rows: Sequence[Sequence[str]]) -> list[str]:

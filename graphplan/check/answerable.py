@@ -99,8 +99,8 @@ def reasons_at_rest(scene: Scene) -> Reasons:
 
 def with_extras(scene: Scene, items: Sequence[Item]) -> Scene:
     """The scene with no extras but these."""
-    kept: dict[str, Any] = {kind: tuple(name for own, name in items if own == kind) for kind in EXTRAS}
-    return replace(scene, find=replace(scene.find, **kept))
+    finds: dict[str, Any] = {kind: tuple(name for kind_asked, name in items if kind_asked == kind) for kind in EXTRAS}
+    return replace(scene, find=replace(scene.find, **finds))
 
 
 def asks_more(scene: Scene) -> bool:
@@ -177,10 +177,10 @@ def _journals_bear(smooth: Scene, journals: set[str]) -> bool:
     from graphplan.solver.statics import reactions
 
     try:
-        borne = reactions(smooth, exact=True)
+        forces = reactions(smooth, exact=True)
     except SingularPose:
         return True
-    return any(any(force) for (point, _), force in borne.joints.items() if point in journals)
+    return any(any(force) for (point, _), force in forces.joints.items() if point in journals)
 
 
 def _resting_pairs(scene: Scene) -> frozenset[str]:
@@ -215,11 +215,11 @@ def report_regular_part(scene: Scene, reported: Callable[[Scene], R]) -> R:
     try:
         return reported(scene)
     except SingularPose:
-        part = regular_part(scene)
-        if part is None:
+        regular = regular_part(scene)
+        if regular is None:
             raise
-        found = reported(part.scene)
-        return replace(found, whole=scene, missing=join_reasons(part.missing, found.missing))
+        partial_report = reported(regular.scene)
+        return replace(partial_report, whole=scene, missing=join_reasons(regular.missing, partial_report.missing))
 
 
 def regular_part(scene: Scene) -> RegularPart | None:
@@ -227,38 +227,39 @@ def regular_part(scene: Scene) -> RegularPart | None:
     if scene.assembly is not None:
         return None
     dead = _singular_links(scene)
-    kept = [link for link in scene.moving if link not in dead]
-    loads, untold = _regular_loads(scene, kept, dead)
-    bare = _scene_of_links(scene, kept)
-    known, missing = _regular_questions(scene, dead)
-    part = replace(bare, find=known, loads=loads)
+    regular_links = [link for link in scene.moving if link not in dead]
+    loads, untold = _regular_loads(scene, regular_links, dead)
+    bare = _scene_of_links(scene, regular_links)
+    questions, missing = _regular_questions(scene, dead)
+    regular_scene = replace(bare, find=questions, loads=loads)
     missing |= untold
-    return RegularPart(part, missing) if kept and _answers(scene, known, kept, loads) else None
+    return RegularPart(regular_scene, missing) if regular_links and _answers(scene, questions, regular_links,
+                                                                             loads) else None
 
 
 def _answers(scene: Scene, known: Find, kept: Collection[str], loads: Loads | None) -> bool:
     """Whether anything is answered: where nothing is asked by name, what drives prescribe is no answer."""
-    told = (known.velocity, known.acceleration, known.links, known.slides, known.poles, known.curvature,
-            known.inflection)
+    findings = (known.velocity, known.acceleration, known.links, known.slides, known.poles, known.curvature,
+                known.inflection)
     if loads is None and scene.find.by_default:
         return not {*structure(scene).driving}.issuperset(kept)
-    return any(told) or loads is not None
+    return any(findings) or loads is not None
 
 
 def _singular_links(scene: Scene) -> dict[str, str]:
     """The links whose motion is not determined in this pose, each with the reason."""
-    kept: list[str] = []
+    regular_links: list[str] = []
     dead: dict[str, str] = {}
     for stage in stages(System(scene)):
         team = [name for sort, name in stage if sort == "link"]
-        part = _scene_of_links(scene, [*kept, *team])
+        partial_scene = _scene_of_links(scene, [*regular_links, *team])
         try:
-            if team and not bracing(part).sound:
+            if team and not bracing(partial_scene).sound:
                 dead |= dict.fromkeys(team, f"it hangs on what is singular: {_links_text(dead)}")
                 continue
             if team:
-                solve(part, exact=not scene.irrational)
-            kept += team
+                solve(partial_scene, exact=not scene.irrational)
+            regular_links += team
         except SingularPose as singular:
             dead |= dict.fromkeys(team, f"singular pose of {_links_text(team)}: {singular.why}")
     return dead
@@ -266,13 +267,14 @@ def _singular_links(scene: Scene) -> dict[str, str]:
 
 def _scene_of_links(scene: Scene, links: Collection[str]) -> Scene:
     """The scene with these moving links alone, and nothing asked."""
-    own = {FRAME, *links}
-    kept = {link: points for link, points in scene.links.items() if link in own}
-    on = {point for points in kept.values() for point in points}
-    return replace(scene, links=kept, written=tuple(pair for pair in scene.written if own.issuperset(pair.links)),
+    own_links = {FRAME, *links}
+    kept_links = {link: points for link, points in scene.links.items() if link in own_links}
+    on = {point for points in kept_links.values() for point in points}
+    return replace(scene, links=kept_links,
+                   written=tuple(pair for pair in scene.written if own_links.issuperset(pair.links)),
                    motions={point: motion for point, motion in scene.motions.items() if point in on}, loads=None,
-                   find=Find((), (), (), (), ()), redundant=_conditions_on(scene.redundant, own),
-                   repeating=_conditions_on(scene.repeating, own))
+                   find=Find((), (), (), (), ()), redundant=_conditions_on(scene.redundant, own_links),
+                   repeating=_conditions_on(scene.repeating, own_links))
 
 
 def _conditions_on(conditions: tuple[Condition, ...], own: Collection[str]) -> tuple[Condition, ...]:
@@ -310,8 +312,8 @@ def _regular_questions(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Mis
         or any(pair.name == name and not _first_reason(pair.links, dead) for pair in scene.guided))
     links, slides, poles, curvature, inflection = (
         tuple(name for name in of[key] if name not in missing[key]) for key in of)
-    known = Find(velocity, acceleration, pairs, links, slides, poles, curvature, inflection)
-    return known, {key: named for key, named in missing.items() if named}
+    questions = Find(velocity, acceleration, pairs, links, slides, poles, curvature, inflection)
+    return questions, {key: named for key, named in missing.items() if named}
 
 
 def _first_reason(links: Collection[str], dead: Mapping[str, str]) -> str:
@@ -339,20 +341,20 @@ def _regular_loads(scene: Scene, kept: Collection[str], dead: Mapping[str, str])
     if loads is None:
         return None, {}
     loaded = _loaded_links(scene, dead)
-    own = {FRAME, *kept}
-    found = replace(loads, masses={link: mass for link, mass in loads.masses.items() if link in own},
-                    forces=tuple(force for force in loads.forces if force.on in own),
-                    moments=tuple(moment for moment in loads.moments if moment.on in own),
-                    frictions=tuple(one for one in loads.frictions if own.issuperset(
+    own_links = {FRAME, *kept}
+    regular_loads = replace(loads, masses={link: mass for link, mass in loads.masses.items() if link in own_links},
+                            forces=tuple(force for force in loads.forces if force.on in own_links),
+                            moments=tuple(moment for moment in loads.moments if moment.on in own_links),
+                            frictions=tuple(one for one in loads.frictions if own_links.issuperset(
                         one.links or scene.links_of[one.at])))
     why = next(iter(dead.values()), "")
-    part = replace(_scene_of_links(scene, kept), loads=found)
+    partial_scene = replace(_scene_of_links(scene, kept), loads=regular_loads)
     try:
-        if any(balance.link in dead for balance in loads.balances) or not bracing(part, balanced=True).sound:
+        if any(balance.link in dead for balance in loads.balances) or not bracing(partial_scene, balanced=True).sound:
             raise SingularPose(why)
         from graphplan.solver.statics import reactions
 
-        reactions(part)
+        reactions(partial_scene)
     except SingularPose as singular:
         reason = why or singular.why
         return None, {"balance": dict.fromkeys(loads.named_balances, reason),
@@ -360,7 +362,7 @@ def _regular_loads(scene: Scene, kept: Collection[str], dead: Mapping[str, str])
     untold = {"balance": {name: why for name, one in loads.named_balances.items() if one.link in loaded},
               "reactions": {name: why for name, links in _reactions(scene)
                             if not loaded.isdisjoint(links) and _bears_lost_load(links, loaded, dead)}}
-    return found, {key: named for key, named in untold.items() if named}
+    return regular_loads, {key: named for key, named in untold.items() if named}
 
 
 def _bears_lost_load(links: Collection[str], loaded: Collection[str], dead: Mapping[str, str]) -> bool:
@@ -378,12 +380,12 @@ def _loaded_links(scene: Scene, dead: Collection[str]) -> set[str]:
         for link in pair.links:
             if link in near:
                 near[link] |= {*pair.links} - {link, FRAME}
-    found, waiting = set(dead), [*dead]
+    loaded, waiting = set(dead), [*dead]
     for link in waiting:
-        more = {other for other in near[link] if order.get(other, 0) <= order.get(link, 0)} - found
-        found |= more
+        more = {neighbour for neighbour in near[link] if order.get(neighbour, 0) <= order.get(link, 0)} - loaded
+        loaded |= more
         waiting += more
-    return found
+    return loaded
 
 
 def _reactions(scene: Scene) -> Iterator[tuple[str, tuple[str, ...]]]:

@@ -118,28 +118,28 @@ def enclose_scene(scene: Scene, by: Bounds) -> Scene:
 
     try:
         points = _points(scene, by)
-        found = scene.posed(points, direction)
+        posed = scene.posed(points, direction)
     except Misfit as misfit:
         raise Refused(f"{scene.name}: points", misfit.what, misfit.instead) from None
     except by.doubt:
         raise by.doubt("whether the arcs of its points meet cannot be told") from None
-    found = found.with_drives(map(enclose_drive, found.drives))
-    parts = {part: getattr(found, part) for part in ("points", "written", "loads", "motions")}
-    return replace(found, **mapped(parts, lambda number: by.lift(number) if isinstance(number, float) else number))
+    posed = posed.with_drives(map(enclose_drive, posed.drives))
+    values = {field_name: getattr(posed, field_name) for field_name in ("points", "written", "loads", "motions")}
+    return replace(posed, **mapped(values, lambda number: by.lift(number) if isinstance(number, float) else number))
 
 
 def _points(scene: Scene, by: Bounds) -> dict[str, Pair]:
     """Every point where its placement puts it; coinciding ones are the very same."""
     if not scene.irrational or scene.assembly is not None:
         return scene.points
-    placed = placed_by(scene.placements, by.reckoning)
+    placements = placed_by(scene.placements, by.reckoning)
     first: dict[Pair, Pair] = {}
     points: dict[str, Pair] = {}
     for name, at in scene.points.items():
-        here = at if is_exact(at) else placed.get(name, at)
-        other = first.setdefault(at, here)
-        same = all(by.lift(p).overlaps(by.lift(q)) for p, q in zip(here, other, strict=True))
-        points[name] = other if same else here
+        place = at if is_exact(at) else placements.get(name, at)
+        first_place = first.setdefault(at, place)
+        same = all(by.lift(p).overlaps(by.lift(q)) for p, q in zip(place, first_place, strict=True))
+        points[name] = first_place if same else place
     return points
 
 
@@ -174,23 +174,24 @@ def enclose_assembly(scene: Scene, given: Scene, by: Bounds) -> Scene:
     assert scene.assembly is not None
     assembly = replace(scene.assembly, given=given, moves=moved_on(given, scene.assembly.shifts, by.reckoning))
     board = Board()
-    drawn = Assembler(board, scene, assembly)
-    guides = {slide: drawn.guide(slide) for slide in scene.slides}
-    program = freeze(board, [*(drawn.mark(name) for name in scene.points), *guides.values()])
+    assembler = Assembler(board, scene, assembly)
+    guides = {slide: assembler.guide(slide) for slide in scene.slides}
+    program = freeze(board, [*(assembler.mark(name) for name in scene.points), *guides.values()])
     values = evaluate(program, Proofs(by))
     marks = [values[index] for index in program.wanted]
     points = dict(zip(scene.points, marks, strict=False))
-    ways = {slide: (b, -a) for slide, (a, b, _) in zip(guides, marks[len(points):], strict=True)}
-    return replace(scene.posed(points, lambda one: ways.get(one, one.direction)), assembly=assembly)
+    directions = {slide: (b, -a) for slide, (a, b, _) in zip(guides, marks[len(points):], strict=True)}
+    return replace(scene.posed(points, lambda one: directions.get(one, one.direction)), assembly=assembly)
 
 
 def placing_error(scene: Scene) -> float:
     """How far a constructed point is off at most, by rounding alone, as floats prove it; infinite where they cannot."""
     try:
-        known = enclose_scene(scene, FLOATS)
+        bounded_scene = enclose_scene(scene, FLOATS)
     except Unproven:
         return math.inf
-    return max(math.hypot(*(FLOATS.lift(part).error for part in at)) for at in known.points.values())
+    return max(math.hypot(*(FLOATS.lift(coordinate).error for coordinate in at))
+               for at in bounded_scene.points.values())
 
 
 # ---- the solver's own equations, in numbers that know how far they may be off ---------------------------------------
@@ -199,9 +200,9 @@ def placing_error(scene: Scene) -> float:
 def bounded_rates(scene: Scene, by: Bounds) -> Rates:
     """The rates of a scene in numbers with bounds; fails where the pose may be singular as far as they tell."""
     equations = motion_equations(scene, by.root)
-    kept = independent_facts(equations)
-    solve = by.solve([equations.rows[i] for i in kept], equations.scales)
-    return motion(equations, lambda right: _consistent(equations, right, kept, solve, by), by.lift(0))
+    independent = independent_facts(equations)
+    solve = by.solve([equations.rows[i] for i in independent], equations.scales)
+    return motion(equations, lambda right: _consistent(equations, right, independent, solve, by), by.lift(0))
 
 
 def independent_facts(equations: Equations) -> list[int]:
@@ -218,7 +219,7 @@ def _consistent(equations: Equations, right: Sequence[Any], kept: Sequence[int],
     """The solution of the rows that are kept; fails where it certainly does not meet the others."""
     values = solve([right[i] for i in kept])
     for i in set(range(len(equations.rows))).difference(kept):
-        left = sum((by.lift(value) * values[j] for j, value in equations.rows[i].items()), by.lift(0))
-        if not left.overlaps(by.lift(right[i])):
+        left_side = sum((by.lift(value) * values[j] for j, value in equations.rows[i].items()), by.lift(0))
+        if not left_side.overlaps(by.lift(right[i])):
             raise by.doubt("the redundant facts contradict the others")
     return values

@@ -109,18 +109,18 @@ def balancing(scene: Scene, positions: int, way: str = "", keep: Sequence[str] =
     alone, by a share of what reciprocates, or not; the links that keep their masses, and radii of counterweights.
     Fails as :func:`mass_motion` does, and with `Refused` where it cannot be balanced so.
     """
-    before, found, note = mass_motion(scene, positions), engine(scene), ""
+    before, crank_engine, note = mass_motion(scene, positions), engine(scene), ""
     if keep or radii:
         way = way or FULL
     try:
-        weights = _counterweights(scene, way or FULL, keep, radii or {}, share, found)
+        weights = _counterweights(scene, way or FULL, keep, radii or {}, share, crank_engine)
     except Refused as refused:
         if way:
             raise
         weights, note = (), f"{refused.what}: {refused.why}"
     way = way or (NONE if note else FULL)
     after = mass_motion(balanced(scene, weights), positions, before.links) if weights else None
-    driven = found if found and found.omega else None
+    driven = crank_engine if crank_engine and crank_engine.omega else None
     check = {**before.check, **_counterweight_gap(after or before, way),
              **(_orders_gap(before, driven) if driven else {})}
     require_agreement(scene.name, check, SUM_TOL)
@@ -154,43 +154,47 @@ def _counterweight_gap(motion: MassMotion, way: str) -> dict[str, float]:
     return {"counterweights": float(abs(path - path[0]).max()) / scene.extent}
 
 
-def _orders_gap(motion: MassMotion, found: Engine) -> dict[str, float]:
+def _orders_gap(motion: MassMotion, crank_engine: Engine) -> dict[str, float]:
     """By how much all orders together differ from the shaking force, where the crank turns evenly and is short enough
     for its orders to come to an end."""
-    scene, there = motion.centre.scene, np.isfinite(motion.path)
-    if any(drive.change for drive in scene.drives) or not there.all() or found.orders[-1] > len(found.series) // 2:
+    scene, reached = motion.centre.scene, np.isfinite(motion.path)
+    if any(drive.change
+           for drive in scene.drives) or not reached.all() or crank_engine.orders[-1] > len(crank_engine.series) // 2:
         return {}
-    crank = motion.points[found.pin(scene)] - motion.points[found.hinge]
-    force = found.force(np.angle(crank / found.ahead), found.orders) * found.ahead
+    crank = motion.points[crank_engine.pin(scene)] - motion.points[crank_engine.hinge]
+    force = crank_engine.force(np.angle(crank / crank_engine.ahead), crank_engine.orders) * crank_engine.ahead
     return {"orders": _gap(force, [*motion.shaking.parts.values()])}
 
 
 def _solver_gaps(motion: MassMotion) -> dict[str, float]:
     """By how much the opinions differ, each beside the largest of what it adds up."""
     centre, scene = motion.centre, motion.centre.scene
-    there = np.flatnonzero(np.isfinite(motion.path))
-    points, ways = ({name: z[there] for name, z in arrays.items()} for arrays in (motion.points, motion.links.guides))
+    reached = np.flatnonzero(np.isfinite(motion.path))
+    points, directions = ({name: z[reached] for name, z in arrays.items()}
+                          for arrays in (motion.points, motion.links.guides))
     alone = _with_inertia_loads_only(scene)
-    posed = poses.scene_in_poses(alone, points, ways)
-    rates = poses.solve(posed, there.size)
-    parts = {link: float(mass.mass / centre.mass) for link, mass in centre.masses.items()}
+    posed = poses.scene_in_poses(alone, points, directions)
+    rates = poses.solve(posed, reached.size)
+    mass_shares = {link: float(mass.mass / centre.mass) for link, mass in centre.masses.items()}
     reach = max(abs(z - points[centre.base]).max() for z in points.values())
-    found = {"path": _gap(motion.path[there], [parts[link] * points[mass.centre] for link, mass
-                                               in centre.masses.items()], reach)}
-    rate = _largest_rate(motion, there)
+    gaps = {"path": _gap(motion.path[reached], [mass_shares[link] * points[mass.centre] for link, mass
+                                                in centre.masses.items()], reach)}
+    rate = _largest_rate(motion, reached)
     speed, sharp = reach * rate, reach * rate**2
-    for kind, ours, theirs, size in (("velocity", motion.velocity, rates.velocity, speed),
-                                     ("acceleration", motion.acceleration, rates.acceleration, sharp)):
-        terms = [parts[link] * _complex(theirs[mass.centre], there.size) for link, mass in centre.masses.items()]
-        found[kind] = _gap(ours[there], terms, size)
-    borne = _frame_reactions(alone, poses.reactions(posed, rates, there.size), points, motion.shaking.about, there.size)
-    if borne is not None:
+    for kind, ours, theirs, least in (("velocity", motion.velocity, rates.velocity, speed),
+                                      ("acceleration", motion.acceleration, rates.acceleration, sharp)):
+        terms = [mass_shares[link] * _complex(theirs[mass.centre], reached.size)
+                 for link, mass in centre.masses.items()]
+        gaps[kind] = _gap(ours[reached], terms, least)
+    reactions = _frame_reactions(alone, poses.reactions(posed, rates, reached.size), points, motion.shaking.about,
+                                 reached.size)
+    if reactions is not None:
         metre, weight = float(METRES[scene.units.length]), float(KILOGRAMS[scene.units.mass] * centre.mass)
-        size = weight * metre * sharp
-        found["shaking force"] = _gap(motion.shaking.force[there], [force for force, _ in borne], size)
-        found["shaking moment"] = _gap(motion.shaking.moment[there], [moment for _, moment in borne],
-                                       size * metre * reach)
-    return found
+        least = weight * metre * sharp
+        gaps["shaking force"] = _gap(motion.shaking.force[reached], [force for force, _ in reactions], least)
+        gaps["shaking moment"] = _gap(motion.shaking.moment[reached], [moment for _, moment in reactions],
+                                      least * metre * reach)
+    return gaps
 
 
 def _largest_rate(motion: MassMotion, there: Any) -> float:
@@ -265,14 +269,14 @@ def check_added_dyads(scene: Scene) -> tuple[Dyads, dict[str, float]]:
     """
     centre, rates = mass_centre(scene), solve(scene)
     added = added_dyads(centre)
-    drawn = construct(parse(added.text, scene.name, by_drive=True))
-    parts = [(float(mass.mass / centre.mass), mass.centre) for mass in centre.masses.values()]
-    found = {kind: _gap(ours[added.point], [part * complex(*map(float, theirs[point])) for part, point in parts])
-             for kind, ours, theirs in (("velocity", drawn.velocity, rates.velocity),
-                                        ("acceleration", drawn.acceleration, rates.acceleration))}
-    require_agreement(scene.name, {f"{quantity} of the mass centre": gap for quantity, gap in found.items()}, SUM_TOL,
+    construction = construct(parse(added.text, scene.name, by_drive=True))
+    mass_shares = [(float(mass.mass / centre.mass), mass.centre) for mass in centre.masses.values()]
+    gaps = {kind: _gap(ours[added.point], [share * complex(*map(float, theirs[point])) for share, point in mass_shares])
+            for kind, ours, theirs in (("velocity", construction.velocity, rates.velocity),
+                                       ("acceleration", construction.acceleration, rates.acceleration))}
+    require_agreement(scene.name, {f"{quantity} of the mass centre": gap for quantity, gap in gaps.items()}, SUM_TOL,
                       "by added dyads")
-    return added, found
+    return added, gaps
 
 
 # ---- the motion of all links over the cycle, constructed once and compared: so move all their points -----------------
@@ -305,14 +309,15 @@ class LinkMotion:
         places, velocities, accelerations = dict[str, Any](), dict[str, Any](), dict[str, Any]()
         still = np.zeros(self.travel.shape, dtype=complex)
         for name in names:
-            given, links = complex(*map(float, scene.points[name])), scene.links_of[name]
+            place, links = complex(*map(float, scene.points[name])), scene.links_of[name]
             link = FRAME if FRAME in links else links[0]
             if link == FRAME:
-                places[name], velocities[name], accelerations[name] = still + given, still, still
+                places[name], velocities[name], accelerations[name] = still + place, still, still
                 continue
-            moved, pin = self.moved[link], self.at[link]
-            places[name] = moved.base + moved.turn * (given - moved.origin)
-            arm = places[name] - (moved.base + moved.turn * (complex(*map(float, scene.points[pin])) - moved.origin))
+            link_moved, pin = self.moved[link], self.at[link]
+            places[name] = link_moved.base + link_moved.turn * (place - link_moved.origin)
+            arm = places[name] - (link_moved.base + link_moved.turn * (complex(*map(float, scene.points[pin]))
+                                                                       - link_moved.origin))
             velocities[name] = self.velocity[pin] + 1j * self.omega[link] * arm
             accelerations[name] = self.acceleration[pin] + (1j * self.alpha[link] - self.omega[link] ** 2) * arm
         return places, velocities, accelerations
@@ -327,18 +332,20 @@ def link_motion(scene: Scene, positions: int) -> LinkMotion:
     at = {hanging.link: hanging.at for hanging in spanning_tree(scene).hangings}
     pins = tuple(dict.fromkeys(at.values()))
     bare = replace(scene, loads=None, find=Find(pins, pins, links=scene.moving))
-    found = cycle(bare, positions, span)
-    if len(found.faults) == positions:
-        raise Refused(f"{scene.name}: the cycle", next(iter(found.faults.values())), "another pose")
-    if found.wrong:
-        raise Disagreement(scene.name, "motion", f"otherwise in pose {found.wrong[0]}", "by the solver", math.nan)
+    over_cycle = cycle(bare, positions, span)
+    if len(over_cycle.faults) == positions:
+        raise Refused(f"{scene.name}: the cycle", next(iter(over_cycle.faults.values())), "another pose")
+    if over_cycle.wrong:
+        raise Disagreement(scene.name, "motion", f"otherwise in pose {over_cycle.wrong[0]}", "by the solver", math.nan)
     motion, travel = motion_and_travel(bare, positions, span)
-    lost = np.isnan(found.gaps["velocity"])
-    moved = {link: one._replace(base=np.where(lost, np.nan, one.base)) for link, one in motion.links_at(travel).items()}
-    still, results = np.zeros(positions, dtype=complex), found.results
+    lost = np.isnan(over_cycle.gaps["velocity"])
+    links_moved = {link: link_moved._replace(base=np.where(lost, np.nan, link_moved.base))
+                   for link, link_moved in motion.links_at(travel).items()}
+    still, results = np.zeros(positions, dtype=complex), over_cycle.results
     velocity, acceleration = ({name: results[kind].get(name, still) for name in pins}
                               for kind in ("velocity", "acceleration"))
-    return LinkMotion(travel, closed, found.turn.points, found.turn.guides, found.faults, moved, at,
+    return LinkMotion(travel, closed, over_cycle.turn.points, over_cycle.turn.guides, over_cycle.faults, links_moved,
+                      at,
                       velocity, acceleration, results["omega"], results["alpha"])
 
 

@@ -66,20 +66,23 @@ class Certified(Report):
     def disagreement(self) -> Disagreement:
         """The error that names the first number in which the two certainly differ, else the step that breaks a claim.
         """
-        for part in (part for parts in self._kinds_by_group.values() for part in parts):
-            for name, ours in self.results[part].items():
-                for one, two in zip(components(ours), components(self.truths[part][name]), strict=True):
-                    if not Enclosure(one - two).overlaps(Enclosure(0)):
-                        gap = abs(float(one - two)) / max(abs(float(one)), abs(float(two)))
-                        return Disagreement(self.scene.name, f"{part} of {name}", f"{float(one)}", f"{float(two)}", gap)
+        for kind in (kind for kinds_of_group in self._kinds_by_group.values() for kind in kinds_of_group):
+            for name, ours in self.results[kind].items():
+                for ours_number, theirs_number in zip(components(ours), components(self.truths[kind][name]),
+                                                      strict=True):
+                    if not Enclosure(ours_number - theirs_number).overlaps(Enclosure(0)):
+                        gap = abs(float(ours_number - theirs_number)) / max(abs(float(ours_number)),
+                                                                            abs(float(theirs_number)))
+                        return Disagreement(self.scene.name, f"{kind} of {name}", f"{float(ours_number)}",
+                                            f"{float(theirs_number)}", gap)
         return BrokenClaim(self.scene.name, self.drawing.broken)
 
     @cached_property
     def errors(self) -> dict[str, Fraction]:
         """The most that a number of each kind may be off, before its last digit is rounded."""
-        return {kind: max((value.error for part in parts
-                           for value in self._weighted_components(part, self.results[part])),
-                          default=Fraction(0)) for kind, parts in self._kinds_by_group.items()}
+        return {kind: max((value.error for reading_kind in reading_kinds
+                           for value in self._weighted_components(reading_kind, self.results[reading_kind])),
+                          default=Fraction(0)) for kind, reading_kinds in self._kinds_by_group.items()}
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -99,18 +102,20 @@ class Certified(Report):
     @cached_property
     def _kinds_by_group(self) -> dict[str, list[str]]:
         """The readings that there are, by the kind that they count for."""
-        known: dict[str, list[str]] = {}
-        for part in sorted(self.results, key=lambda part: kinds.ORDER.get(kinds.kind_of(part), len(kinds.ORDER))):
-            if part != kinds.SLIDE_ARM:
-                known.setdefault(kinds.kind_of(part).group, []).append(part)
-        return known
+        grouped: dict[str, list[str]] = {}
+        for reading_kind in sorted(self.results, key=lambda reading_kind: kinds.ORDER.get(kinds.kind_of(reading_kind),
+                                                                                          len(kinds.ORDER))):
+            if reading_kind != kinds.SLIDE_ARM:
+                grouped.setdefault(kinds.kind_of(reading_kind).group, []).append(reading_kind)
+        return grouped
 
     @cached_property
     def _sizes(self) -> dict[str, Fraction]:
         """The largest value of each kind, or where all are nothing what is drawn as large as the mechanism."""
         sizes = {}
-        for kind, parts in self._kinds_by_group.items():
-            values = [value for part in parts for value in self._weighted_components(part, self.results[part])]
+        for kind, reading_kinds in self._kinds_by_group.items():
+            values = [value for reading_kind in reading_kinds
+                      for value in self._weighted_components(reading_kind, self.results[reading_kind])]
             least = max((abs(value.middle) - value.error for value in values), default=Fraction(0))
             sizes[kind] = least if least > 0 else Fraction(drawn_sizes(self.drawing)[kind])
         return sizes
@@ -122,9 +127,9 @@ class Certified(Report):
 
     def _gaps(self, kind: str) -> Iterator[Enclosure]:
         """What the construction exceeds the solver by."""
-        for part in self._kinds_by_group[kind]:
-            ours, truth = self.results[part], self.truths[part]
-            yield from self._weighted_components(part,
+        for reading_kind in self._kinds_by_group[kind]:
+            ours, truth = self.results[reading_kind], self.truths[reading_kind]
+            yield from self._weighted_components(reading_kind,
                                                  {name: tuple([p - q for p, q in zip(components(value),
                                                                                      components(truth[name]),
                                                                                      strict=True)])
@@ -133,18 +138,18 @@ class Certified(Report):
     def _texts(self, entry: Any, key: str = "") -> Any:
         """Printed data with every enclosure as a decimal, beside the largest value of what its key names."""
         if isinstance(entry, dict):
-            return {name: self._texts(part, name) for name, part in entry.items()}
+            return {name: self._texts(item, name) for name, item in entry.items()}
         if isinstance(entry, list):
-            return [self._texts(part, key) for part in entry]
+            return [self._texts(item, key) for item in entry]
         if not isinstance(entry, Enclosure):
             return entry
         return decimal(entry, self.digits, self._reference_size(key))
 
     def _reference_size(self, key: str) -> Fraction:
         """The largest value of what a key of the printed data names."""
-        size = Fraction(self.scene.extent)
+        extent = Fraction(self.scene.extent)
         lengths = "acts_at", "at", "centre", "radius", "pole", "inflection_pole", "diameter"
-        if key in (plain := {**dict.fromkeys(lengths, size), "efficiency": Fraction(1), "direction": Fraction(1)}):
+        if key in (plain := {**dict.fromkeys(lengths, extent), "efficiency": Fraction(1), "direction": Fraction(1)}):
             return plain[key]
         kind = {"omega": kinds.OMEGA, "alpha": kinds.ALPHA, "moment": kinds.SLIDE_MOMENT}.get(key)
         return self._sizes[kind.group] / Fraction(weight(self.drawing, kind)) if kind else self._sizes[key]
@@ -160,20 +165,20 @@ def certify(scene: Scene, digits: int, *, method: str = "", plan: str = "", iner
     if not 1 <= digits <= MAX_DIGITS:
         raise Refused(f"--digits {digits}", "out of range", f"a number from 1 to {MAX_DIGITS}")
     for load in changing_loads(scene.loads).values():
-        where = load.table.where if load.table else ""
-        if digits > FLOAT_DIGITS and IRRATIONAL.format(where) in scene.irrational:
-            raise Refused(f"--digits {digits}", f"{where} has its value in this pose to the digits of a float",
+        table_name = load.table.where if load.table else ""
+        if digits > FLOAT_DIGITS and IRRATIONAL.format(table_name) in scene.irrational:
+            raise Refused(f"--digits {digits}", f"{table_name} has its value in this pose to the digits of a float",
                           f"at most {FLOAT_DIGITS}, or a load that is a fraction in this pose")
     scene, locks = decide_friction(scene)
     how: dict[str, Any] = {"method": method, "plan": plan, "inertia": inertia}
     missing: Reasons = report(scene, refuse=False, alone=True, **how).missing if extras(scene) else {}
-    found, reasons = answer_what_exists(drop_extras(scene, missing),
-                                        lambda asked: _to_digits(asked, digits, how, locks))
+    certified, reasons = answer_what_exists(drop_extras(scene, missing),
+                                            lambda asked: _to_digits(asked, digits, how, locks))
     every = join_reasons(missing, reasons)
     if not every:
-        return found
-    with precision(found.bits):
-        explained = replace(found, whole=scene, missing=every)
+        return certified
+    with precision(certified.bits):
+        explained = replace(certified, whole=scene, missing=every)
         assert explained.has_digits
     return explained
 
@@ -186,9 +191,9 @@ def _to_digits(scene: Scene, digits: int, how: dict[str, str], locks: str) -> Ce
         with precision(bits):
             try:
                 solved = reference_solution(scene, enclosures(bits))
-                found = _attempt(solved, digits, bits, how, locks, patient=bits < PATIENT_FACTOR * least)
-                if found.has_digits:
-                    return found
+                certified = _attempt(solved, digits, bits, how, locks, patient=bits < PATIENT_FACTOR * least)
+                if certified.has_digits:
+                    return certified
             except Undecided as undecided:
                 doubt = undecided
         if bits == least and _certainly_singular(scene):
@@ -221,15 +226,16 @@ def _of_fractions(scene: Scene, digits: int, bits: int, how: dict[str, str]) -> 
         results = _enclose(exact.results)
         truths = _enclose({kind: exact.truth(kind) for kind in exact.results})
         forces = exact.forces and replace(exact.forces, results=results, exact=False, bounded=True)
-        found = Certified(exact.drawing, exact.rates, results, False, forces, digits=digits, bits=bits, truths=truths,
-                          fault=exact.fault)
-        return found if found.has_digits else None
+        certified = Certified(exact.drawing, exact.rates, results, False, forces, digits=digits, bits=bits,
+                              truths=truths,
+                              fault=exact.fault)
+        return certified if certified.has_digits else None
 
 
 def _enclose(value: Any) -> Any:
     """Fractions between bounds: one, a vector of them, or a table."""
     if isinstance(value, dict):
-        return {name: _enclose(part) for name, part in value.items()}
+        return {name: _enclose(number) for name, number in value.items()}
     return tuple(map(Enclosure, value)) if isinstance(value, tuple) else Enclosure(value)
 
 
@@ -240,13 +246,13 @@ def _attempt(solved: ReferenceSolution, digits: int, bits: int, how: dict[str, s
     `Undecided` where the precision is too low for a way, as long as we are `patient`.
     """
     doubts: list[ConstructionError] = []
-    found = first_sound(solved.scene, how, lambda drawing: _certify_drawing(drawing, solved, digits, bits, locks,
+    first = first_sound(solved.scene, how, lambda drawing: _certify_drawing(drawing, solved, digits, bits, locks,
                                                                             doubts))
-    if isinstance(found, Certified) and (found.agrees or not doubts):
-        return found
+    if isinstance(first, Certified) and (first.agrees or not doubts):
+        return first
     if doubts and patient:
         raise Undecided(doubts[0].why) from doubts[0]
-    return found if isinstance(found, Certified) else _certify_solver(solved, digits, bits, locks, *found)
+    return first if isinstance(first, Certified) else _certify_solver(solved, digits, bits, locks, *first)
 
 
 def _certify_drawing(drawing: Construction, solved: ReferenceSolution, digits: int, bits: int, locks: str,

@@ -55,21 +55,21 @@ Numbers = dict[str, dict[str, tuple[ComparedNumber, ...]]]
 
 
 def compare(drawing: Construction, ours: Results, theirs: Results,
-            floor: Callable[[str, str], float] = lambda part, name: 0.0) -> Numbers:
+            floor: Callable[[str, str], float] = lambda kind, name: 0.0) -> Numbers:
     """All readings that the solver knows, beside what it says of them; none counts beside less than its `floor`."""
     largest = scales(drawing, theirs)
-    found: Numbers = {}
-    for part, named in ours.items():
-        if part in theirs:
-            scale = (drawing.scene.extent if part == kinds.SLIDE_ARM
-                     else largest[kinds.kind_of(part).group] / weight(drawing, part))
-            least = scale if part in UNBOUNDED else PROVEN_ZERO * scale
-            found[part] = {
-                name: tuple(_compare_vector(components(ours[part][name]), components(theirs[part][name]),
-                                            max(least, floor(part, name),
-                                                sliding_size(drawing.scene, theirs, part, name)), scale))
+    numbers: Numbers = {}
+    for kind, named in ours.items():
+        if kind in theirs:
+            scale = (drawing.scene.extent if kind == kinds.SLIDE_ARM
+                     else largest[kinds.kind_of(kind).group] / weight(drawing, kind))
+            least = scale if kind in UNBOUNDED else PROVEN_ZERO * scale
+            numbers[kind] = {
+                name: tuple(_compare_vector(components(ours[kind][name]), components(theirs[kind][name]),
+                                            max(least, floor(kind, name),
+                                                sliding_size(drawing.scene, theirs, kind, name)), scale))
                 for name in named}
-    return found
+    return numbers
 
 
 def sliding_size(scene: Scene, theirs: Results, part: str, name: str) -> Any:
@@ -91,14 +91,14 @@ def plain_number(number: Any) -> Any:
 
 def scales(drawing: Construction, theirs: Results) -> dict[str, float]:
     """The largest number of each kind, or what is drawn as large as the mechanism if that is larger."""
-    found = drawn_sizes(drawing)
-    for part, named in theirs.items():
-        if part != kinds.SLIDE_ARM:
-            sizes = (abs(float(number)) * weight(drawing, part) for value in named.values()
+    largest = drawn_sizes(drawing)
+    for kind, named in theirs.items():
+        if kind != kinds.SLIDE_ARM:
+            sizes = (abs(float(number)) * weight(drawing, kind) for value in named.values()
                      for number in components(value))
-            group = kinds.kind_of(part).group
-            found[group] = max([found[group], *sizes])
-    return found
+            group = kinds.kind_of(kind).group
+            largest[group] = max([largest[group], *sizes])
+    return largest
 
 
 def drawn_sizes(drawing: Construction) -> dict[str, float]:
@@ -122,10 +122,10 @@ def _compare_vector(ours: tuple[Any, ...], theirs: tuple[Any, ...], least: float
                     scale: float) -> Iterator[ComparedNumber]:
     """The components of a vector beside the size of the whole."""
     numbers = [_compare_number(*pair, scale) for pair in zip(ours, theirs, strict=True)]
-    size = max([least, *(number.size for number in numbers)])
+    largest = max([least, *(number.size for number in numbers)])
     for number in numbers:
-        close = number.close or number.gap <= ROUNDING_TOL * size
-        yield number._replace(size=size, close=close, near=bool(number.gap <= ROUNDING_TOL * scale))
+        close = number.close or number.gap <= ROUNDING_TOL * largest
+        yield number._replace(size=largest, close=close, near=bool(number.gap <= ROUNDING_TOL * scale))
 
 
 def _compare_number(ours: Any, theirs: Any, scale: float) -> ComparedNumber:
@@ -150,8 +150,8 @@ def _compare_enclosures(ours: Any, theirs: Any) -> ComparedNumber:
     printed = 0.0 if abs(ours.middle) <= ours.error else float(ours.middle)
     bound = upper_float(max(abs(ours.middle - Fraction(printed)), theirs.error) + ours.error)
     truth = float(theirs.middle)
-    size, gap = max(abs(printed), abs(truth)), float(abs(ours.middle - theirs.middle))
-    return ComparedNumber(printed, truth, gap, bound, size, apart=not ours.overlaps(theirs))
+    magnitude, gap = max(abs(printed), abs(truth)), float(abs(ours.middle - theirs.middle))
+    return ComparedNumber(printed, truth, gap, bound, magnitude, apart=not ours.overlaps(theirs))
 
 
 def upper_float(bound: Fraction) -> float:
@@ -167,19 +167,20 @@ def round_fractions(numbers: Numbers) -> Numbers:
         return ComparedNumber(value, float(number.truth), upper_float(number.gap), bound, float(number.size),
                               number.apart)
 
-    return {part: {name: tuple(map(round_number, vector)) for name, vector in named.items()}
-            for part, named in numbers.items()}
+    return {kind: {name: tuple(map(round_number, vector)) for name, vector in named.items()}
+            for kind, named in numbers.items()}
 
 
 def printed_results(results: Results, numbers: Numbers, plain: Callable[[Any], Any]) -> dict[str, dict[str, Any]]:
     """The results as they are printed: numbers that are compared as they were, others made `plain`."""
-    def value(part: str, name: str, one: Any) -> Any:
-        if part not in numbers:
-            return tuple(map(plain, one)) if isinstance(one, tuple) else plain(one)
-        values = tuple(number.value for number in numbers[part][name])
-        return values if isinstance(one, tuple) else values[0]
+    def value(kind: str, name: str, result: Any) -> Any:
+        if kind not in numbers:
+            return tuple(map(plain, result)) if isinstance(result, tuple) else plain(result)
+        values = tuple(number.value for number in numbers[kind][name])
+        return values if isinstance(result, tuple) else values[0]
 
-    return {part: {name: value(part, name, one) for name, one in named.items()} for part, named in results.items()}
+    return {kind: {name: value(kind, name, result) for name, result in named.items()}
+            for kind, named in results.items()}
 
 
 # ---- what every subject's check asks of its results ------------------------------------------------------------------

@@ -59,8 +59,8 @@ class Cycle:
         find, paths = self.scene.find, self.scene.sheet.curves
         points = {p: self.turn.points[p] for p in self.scene.points
                   if p in {*find.velocity, *find.acceleration, *paths}}
-        return points | {f"{kind} centrode {links}": places for links, found in self.centrodes.items()
-                         for kind, places in zip(("fixed", "moving"), found, strict=True)}
+        return points | {f"{kind} centrode {links}": places for links, curves in self.centrodes.items()
+                         for kind, places in zip(("fixed", "moving"), curves, strict=True)}
 
     @property
     def check(self) -> dict[str, float]:
@@ -83,34 +83,35 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
     motion, travel = motion_and_travel(scene, positions, span,
                                        lambda part: report_progress("positions")(round(part * positions), positions))
     turn = motion.turn(travel, machine)
-    left = PoseBatch.of_reached(scene, turn.points, turn.guides, turn.loads)
-    found = Cycle(scene, drawing, turn, drawing.blank(positions), dict(turn.faults),
-                  {kind: np.full(positions, np.nan) for kind in compared_groups(drawing)},
-                  centrodes=sheet_centrodes(motion, travel))
+    remaining = PoseBatch.of_reached(scene, turn.points, turn.guides, turn.loads)
+    results_so_far = Cycle(scene, drawing, turn, drawing.blank(positions), dict(turn.faults),
+                           {kind: np.full(positions, np.nan) for kind in compared_groups(drawing)},
+                           centrodes=sheet_centrodes(motion, travel))
 
     def elsewhere() -> Iterator[tuple[str, Scene]]:
         """Poses in which nothing was drawn yet: their steps rely on nothing that coincides in the given pose alone."""
-        for _ in range(MAX_OTHER_POSES if found.faults.keys() & {*left.places.tolist()} else 0):
-            pose = int(left.places[left.places.size // 2])
+        for _ in range(MAX_OTHER_POSES if results_so_far.faults.keys() & {*remaining.places.tolist()} else 0):
+            pose = int(remaining.places[remaining.places.size // 2])
             yield f"the steps of pose {pose}", in_pose(scene, turn, pose)
 
-    for name, other in _forms(drawing, elsewhere(), method, plan, inertia):
-        drawn = other.evaluate(left.points, left.guides, loads=left.loads, workers=workers, compiled=machine,
-                               progress=report_progress("plans"))
-        apart = pose_gaps(left, other, drawn.results, report_progress("check"))
-        kept = sound_poses(left, other, drawn.results, apart)
-        if other is drawing:
-            found.faults.update((int(left.places[k]), why) for k, why in drawn.faults.items())
+    for name, alternative in _forms(drawing, elsewhere(), method, plan, inertia):
+        poses = alternative.evaluate(remaining.points, remaining.guides, loads=remaining.loads, workers=workers,
+                                     compiled=machine,
+                                     progress=report_progress("plans"))
+        apart = pose_gaps(remaining, alternative, poses.results, report_progress("check"))
+        sound = sound_poses(remaining, alternative, poses.results, apart)
+        if alternative is drawing:
+            results_so_far.faults.update((int(remaining.places[k]), why) for k, why in poses.faults.items())
         else:
-            found.otherwise.update((int(place), name) for place in left.places[kept])
-        _enter_results(found, left, drawn.results, apart, kept | (other is drawing))
-        left = left.select(~kept)
-        if not left.places.size:
+            results_so_far.otherwise.update((int(place), name) for place in remaining.places[sound])
+        _enter_results(results_so_far, remaining, poses.results, apart, sound | (alternative is drawing))
+        remaining = remaining.select(~sound)
+        if not remaining.places.size:
             break
-    faults = {k: why for k, why in sorted(found.faults.items()) if k not in found.otherwise}
-    for z in (*(z for named in found.results.values() for z in named.values()), *found.gaps.values()):
+    faults = {k: why for k, why in sorted(results_so_far.faults.items()) if k not in results_so_far.otherwise}
+    for z in (*(z for named in results_so_far.results.values() for z in named.values()), *results_so_far.gaps.values()):
         z[list(faults)] = np.nan  # near a limit there are numbers, and they say nothing
-    return replace(found, faults=faults, wrong=tuple(int(k) for k in left.places if k not in faults))
+    return replace(results_so_far, faults=faults, wrong=tuple(int(k) for k in remaining.places if k not in faults))
 
 
 def _construct(scene: Scene, **how: str) -> Construction:
@@ -127,12 +128,12 @@ def _forms(drawing: Construction, elsewhere: Iterator[tuple[str, Scene]], method
     that are recorded elsewhere."""
     yield "", drawing
     for name in () if method else METHODS:
-        other = _construct_or_none(drawing.scene, name, plan, inertia)
-        if other and other.ways != drawing.ways:
-            yield ", ".join(other.ways), other
+        alternative = _construct_or_none(drawing.scene, name, plan, inertia)
+        if alternative and alternative.ways != drawing.ways:
+            yield ", ".join(alternative.ways), alternative
     for name, scene in elsewhere:
-        if other := _construct_or_none(scene, method, plan, inertia):
-            yield name, other
+        if alternative := _construct_or_none(scene, method, plan, inertia):
+            yield name, alternative
 
 
 def _construct_or_none(scene: Scene, method: str, plan: str, inertia: str) -> Construction | None:
@@ -188,11 +189,12 @@ def scene_asking_for(scene: Scene, wanted: Sequence[PlotQuantity]) -> Scene:
     """The scene, asking also for what these quantities are told by."""
     find = scene.find
     points = [point for quantity in wanted for point in quantity.points]
-    velocity, acceleration = (tuple(p for p in scene.points if p in {*asked, *points})
-                              for asked in (find.velocity, find.acceleration))
+    velocity, acceleration = (tuple(p for p in scene.points if p in {*requested, *points})
+                              for requested in (find.velocity, find.acceleration))
     names = [quantity.name for quantity in wanted]
-    links, slides = (None if asked is None else tuple(name for name in known if name in {*asked, *names})
-                     for asked, known in ((find.links, scene.moving), (find.slides, [s.name for s in scene.slides])))
+    links, slides = (None if requested is None else tuple(name for name in available if name in {*requested, *names})
+                     for requested, available in ((find.links, scene.moving),
+                                                  (find.slides, [s.name for s in scene.slides])))
     return replace(scene, find=replace(find, velocity=velocity, acceleration=acceleration, links=links, slides=slides))
 
 
@@ -227,8 +229,8 @@ def _plot_quantity(scene: Scene, name: str) -> PlotQuantity:
     if point in scene.points and axis in ("x", "y"):
         return PlotQuantity(name, said("{0} of {1}", axis, point), length, (point,))
     links = [link for link in scene.moving if len(scene.links[link]) > 1]
-    known = [*links, *(s.name for s in scene.slides), *(f"{p}.x" for p in scene.points)]
-    raise Refused(f"diagram of {name}", "unknown quantity", f"one of {', '.join(known)}")
+    available = [*links, *(s.name for s in scene.slides), *(f"{p}.x" for p in scene.points)]
+    raise Refused(f"diagram of {name}", "unknown quantity", f"one of {', '.join(available)}")
 
 
 def _side(scene: Scene, link: str) -> tuple[str, str]:

@@ -40,22 +40,22 @@ from graphplan.solver.statics import read as read_forces
 
 def bounded_reactions(scene: Scene, motion: Rates, by: Bounds) -> Reactions:
     """The reactions and balances of a scene with loads, from its rates."""
-    found = _equilibrium(replace(force_equations(scene), root=by.root), motion, by)
-    apart = tuple(pushes(found.equations, found.higher))
-    return _equilibrium(found.equations, motion, by, apart) if apart else found
+    first = _equilibrium(replace(force_equations(scene), root=by.root), motion, by)
+    apart = tuple(pushes(first.equations, first.higher))
+    return _equilibrium(first.equations, motion, by, apart) if apart else first
 
 
 def _equilibrium(equations: Equations, motion: Rates, by: Bounds, more: tuple[Force, ...] = ()) -> Reactions:
     """What holds the links by these facts against their loads and `more`."""
     scene = equations.scene
     right = [-value for value in resultants(equations, (*acting(scene, motion), *more))]
-    kept = independent_facts(equations)
-    facts = [equations.facts[i] for i in kept]
+    independent = independent_facts(equations)
+    facts = [equations.facts[i] for i in independent]
     scales = [_scale(equations, fact) for fact in facts]
-    solve = by.solve(transpose([equations.rows[i] for i in kept], equations.width), scales)
-    values = dict(zip(kept, solve(right), strict=True))
-    told = (values.get(i, 0) for i in range(len(equations.facts)))
-    return read_forces(equations, told, repeating(equations), motion)
+    solve = by.solve(transpose([equations.rows[i] for i in independent], equations.width), scales)
+    values = dict(zip(independent, solve(right), strict=True))
+    holding = (values.get(i, 0) for i in range(len(equations.facts)))
+    return read_forces(equations, holding, repeating(equations), motion)
 
 
 def _scale(equations: Equations, fact: Statement) -> float:
@@ -113,16 +113,16 @@ def force_truth(scene: Scene, results: Results, found: Reactions,
     """What the solver says of the forces that a construction gives, with friction among them, and of the power balance.
     """
     arms = {s.name: _arm(s, scene, found) for s in scene.slides if s.name in results.get(kinds.SLIDE_ARM, {})}
-    told = _reactions(found, smooth_forces(found))
-    told[kinds.SLIDE_ARM] = arms
+    truth = _reactions(found, smooth_forces(found))
+    truth[kinds.SLIDE_ARM] = arms
     if rough is not None:
-        told |= {kinds.WITH_FRICTION[kind]: named for kind, named in _reactions(rough, contact_forces(rough)).items()}
+        truth |= {kinds.WITH_FRICTION[kind]: named for kind, named in _reactions(rough, contact_forces(rough)).items()}
     named = required_loads(scene).named_balances
-    for way in kinds.BY_PLANS, kinds.BY_LEVER, kinds.RUBBED:
-        last = found if way != kinds.RUBBED else rough
+    for kind_of_way in kinds.BY_PLANS, kinds.BY_LEVER, kinds.RUBBED:
+        last = found if kind_of_way != kinds.RUBBED else rough
         for (name, balance), value in zip(named.items(), last.balances, strict=True) if last else ():
-            told.setdefault(kinds.balance_kind(way, balance), {})[name] = value
-    return told | powers(found.balances)
+            truth.setdefault(kinds.balance_kind(kind_of_way, balance), {})[name] = value
+    return truth | powers(found.balances)
 
 
 def smooth_forces(found: Reactions) -> dict[str, Any]:
@@ -131,7 +131,7 @@ def smooth_forces(found: Reactions) -> dict[str, Any]:
     pairs: list[Gear | Contact] = [*scene.gears, *scene.contacts]
     higher = {pair.name: force(found.equations, pair, found.higher[pair.name])
               for pair in pairs if pair.name in found.higher}
-    return {name: both[0] for name, both in found.slides.items()} | higher
+    return {name: sides[0] for name, sides in found.slides.items()} | higher
 
 
 def _reactions(found: Reactions, borne: dict[str, Any]) -> dict[str, dict[str, Any]]:
@@ -141,16 +141,16 @@ def _reactions(found: Reactions, borne: dict[str, Any]) -> dict[str, dict[str, A
         kinds.SLIDE_REACTION: scene.slides, kinds.GEAR_REACTION: scene.gears, kinds.CONTACT_REACTION: scene.contacts}
     return {kinds.REACTION: {JointForce(point, link).name: force for (point, link), force in found.joints.items()},
             kinds.SLIDE_MOMENT: {name: moment for name, (_, moment) in found.slides.items()},
-            **{kind: {pair.name: borne[pair.name] for pair in own if pair.name in borne}
-               for kind, own in pairs.items()}}
+            **{kind: {pair.name: borne[pair.name] for pair in pairs_of_kind if pair.name in borne}
+               for kind, pairs_of_kind in pairs.items()}}
 
 
 def powers(found: Iterable[Any]) -> dict[str, dict[str, Any]]:
     """Balances in their order as readings of the power balance."""
-    told: dict[str, dict[str, Any]] = {kinds.POWER: {}, kinds.POWER_MOMENT: {}}
+    readings: dict[str, dict[str, Any]] = {kinds.POWER: {}, kinds.POWER_MOMENT: {}}
     for number, value in enumerate(found, 1):
-        told[kinds.POWER if isinstance(value, tuple) else kinds.POWER_MOMENT][str(number)] = value
-    return told
+        readings[kinds.POWER if isinstance(value, tuple) else kinds.POWER_MOMENT][str(number)] = value
+    return readings
 
 
 def _arm(slide: Slide, scene: Scene, found: Reactions) -> Any:
@@ -168,11 +168,11 @@ def undrawn_forces(scene: Scene, results: Results, truth: Results) -> dict[str, 
         for name, value in truth.get(kind, {}).items():
             if (asked_for is None or pair_of.get(name, name) in asked_for) and name not in results.get(kind, {}):
                 missing.setdefault(kind, {})[name] = value
-    for ways in ((kinds.BY_PLANS, kinds.BY_LEVER), (kinds.RUBBED,)):
-        drawn = balances(scene, results, ways)
+    for kinds_of_way in ((kinds.BY_PLANS, kinds.BY_LEVER), (kinds.RUBBED,)):
+        drawn_balances = balances(scene, results, kinds_of_way)
         for name, balance in required_loads(scene).named_balances.items():
-            kind = kinds.balance_kind(ways[0], balance)
-            if name not in drawn and name in truth.get(kind, {}):
+            kind = kinds.balance_kind(kinds_of_way[0], balance)
+            if name not in drawn_balances and name in truth.get(kind, {}):
                 missing.setdefault(kind, {})[name] = truth[kind][name]
     return missing
 
@@ -213,10 +213,10 @@ class Forces:
 
     def values(self, rubs: bool) -> dict[str, Any]:
         """The reactions and the balances among the results, with friction or without it, by `labels`."""
-        own = {kind: kinds.WITH_FRICTION[kind] if rubs else kind for kind in kinds.WITH_FRICTION}
-        ways = (kinds.RUBBED,) if rubs else (kinds.BY_PLANS, kinds.BY_LEVER)
-        return labelled_forces({kind: self.results.get(name, {}) for kind, name in own.items()},
-                               balances(self.scene, self.results, ways))
+        kinds_wanted = {kind: kinds.WITH_FRICTION[kind] if rubs else kind for kind in kinds.WITH_FRICTION}
+        kinds_of_balances = (kinds.RUBBED,) if rubs else (kinds.BY_PLANS, kinds.BY_LEVER)
+        return labelled_forces({kind: self.results.get(name, {}) for kind, name in kinds_wanted.items()},
+                               balances(self.scene, self.results, kinds_of_balances))
 
     def arm(self, slide: Slide, force: Any, moment: Any) -> Any:
         """From a slide's point along its guide to where a force with a moment about the point acts."""
@@ -242,13 +242,13 @@ class Forces:
         """The instantaneous efficiency of what is drawn: of the balances' powers without friction and with it."""
         if not self.friction_balances:
             return None
-        smooth, rough = (delivered_power(replace(self.reactions, balances=tuple(found.values())))
-                         for found in (balances(self.scene, self.results), self.friction_balances))
+        smooth, rough = (delivered_power(replace(self.reactions, balances=tuple(balance_values.values())))
+                         for balance_values in (balances(self.scene, self.results), self.friction_balances))
         return efficiency(smooth, rough) if self.bounded else efficiency(plain_number(smooth), plain_number(rough))
 
 
 def labelled_forces(reactions: Results, named: Mapping[str, Any]) -> dict[str, Any]:
     """Reactions by the names of their pairs, and with moments and balances called that in front of their names."""
-    told = {name: value for kind in kinds.REACTIONS for name, value in reactions[kind].items()}
-    told |= {f"moment {name}": value for name, value in reactions[kinds.SLIDE_MOMENT].items()}
-    return told | {f"balance {name}": value for name, value in named.items()}
+    labelled = {name: value for kind in kinds.REACTIONS for name, value in reactions[kind].items()}
+    labelled |= {f"moment {name}": value for name, value in reactions[kinds.SLIDE_MOMENT].items()}
+    return labelled | {f"balance {name}": value for name, value in named.items()}

@@ -49,23 +49,23 @@ def result_data(found: Report, each: bool = False) -> dict[str, Any]:
 def reasons(found: Report) -> Reasons:
     """Why what is asked for is null, by the printed key and the name of the thing."""
     results, find = found.results, found.scene.find
-    drawn = {name for kind in (kinds.POLE, kinds.POLE_HEADING) for name in results.get(kind, {})}
-    told = {
-        "poles": {name: AT_REST for name in find.poles if name not in drawn},
+    poles_drawn = {name for kind in (kinds.POLE, kinds.POLE_HEADING) for name in results.get(kind, {})}
+    named_reasons = {
+        "poles": {name: AT_REST for name in find.poles if name not in poles_drawn},
         "inflection": {link: TRANSLATES for link in find.inflection if link in results.get(kinds.TRANSLATION, {})},
         **force_reasons(found),
     }
-    keys = dict.fromkeys((*found.missing, *told))
-    every = {key: {**told.get(key, {}), **found.missing.get(key, {})} for key in keys}
+    keys = dict.fromkeys((*found.missing, *named_reasons))
+    every = {key: {**named_reasons.get(key, {}), **found.missing.get(key, {})} for key in keys}
     return {key: named for key, named in every.items() if named}
 
 
 def _poles(found: Report) -> dict[str, Any]:
     """The instant centres, if any are asked for: each where it is, or which way it lies at infinity; none of links that
     do not move relative to each other."""
-    asked = found.given_scene.find.poles
-    poles = _merge_readings(found, "", asked, at=kinds.POLE, direction=kinds.POLE_HEADING)
-    return {"poles": {name: poles.get(name, {"at": None}) for name in asked}} if asked else {}
+    requested = found.given_scene.find.poles
+    poles = _merge_readings(found, "", requested, at=kinds.POLE, direction=kinds.POLE_HEADING)
+    return {"poles": {name: poles.get(name, {"at": None}) for name in requested}} if requested else {}
 
 
 def _pose(found: Report) -> dict[str, Any]:
@@ -73,29 +73,32 @@ def _pose(found: Report) -> dict[str, Any]:
     if found.scene.assembly is None:
         return {}
     travels = [float(travel) for travel in found.scene.assembly.travels]
-    points = {name: [json_number(part) for part in map(float, at)] for name, at in found.scene.points.items()}
+    points = {name: [json_number(coordinate) for coordinate in map(float, at)]
+              for name, at in found.scene.points.items()}
     extreme = found.scene.assembly.extreme
-    told = {} if extreme is None else {"extreme": extreme.way, "link": extreme.link, "time_ratio": extreme.time_ratio}
-    return {"pose": {"travel": travels[0] if len(travels) == 1 else travels, **told, "points": points}}
+    extreme_data = {} if extreme is None else {"extreme": extreme.way, "link": extreme.link,
+                                               "time_ratio": extreme.time_ratio}
+    return {"pose": {"travel": travels[0] if len(travels) == 1 else travels, **extreme_data, "points": points}}
 
 
 def _paths(found: Report) -> dict[str, Any]:
     """Centres of curvature and inflection circles, where they are asked for."""
     find, results, missing = found.given_scene.find, found.results, found.missing
-    told = {
+    tables = {
         "curvature": {name: None if name in missing.get("curvature", {})
                       else _curvature(found, name, found.scene.points[point])
                       for name, (point, _) in find.traced.items()},
         "inflection": {link: None if link in missing.get("inflection", {}) else _inflection(results, link, found.exact)
                        for link in find.inflection},
     }
-    return {key: named for key, named in told.items() if named}
+    return {key: named for key, named in tables.items() if named}
 
 
 def _curvature(found: Report, name: str, point: Any) -> dict[str, Any]:
     """The centre and the radius of curvature; none where the path is straight, the point itself at a cusp."""
     results = found.results
-    at = tuple(part if found.exact or not isinstance(part, Fraction) else float(part) for part in point)
+    at = tuple(coordinate if found.exact or not isinstance(coordinate, Fraction) else float(coordinate)
+               for coordinate in point)
     centre = at if name in results.get(kinds.CUSP, {}) else results.get(kinds.CENTRE, {}).get(name)
     if centre is None:
         x, y = results[kinds.STRAIGHT][name]
@@ -149,11 +152,11 @@ def _plain(values: dict[Any, Any]) -> dict[Any, Any]:
 def _number_bounds(found: Report) -> dict[str, Any]:
     """The bounds of all printed numbers, by kind and name; those of a vector's components as a list."""
     def bounds(value: Any, vector: tuple[ComparedNumber, ...]) -> Any:
-        told = list(_plain(dict(enumerate(number.relative("bound") for number in vector))).values())
-        return told if isinstance(value, tuple) else told[0]
+        relative_bounds = list(_plain(dict(enumerate(number.relative("bound") for number in vector))).values())
+        return relative_bounds if isinstance(value, tuple) else relative_bounds[0]
 
-    return {part: {name: bounds(value, found.numbers[part][name]) for name, value in named.items()}
-            for part, named in found.results.items() if part in found.numbers}
+    return {kind: {name: bounds(value, found.numbers[kind][name]) for name, value in named.items()}
+            for kind, named in found.results.items() if kind in found.numbers}
 
 
 def _merge_readings(found: Report, key: str, names: Iterable[str], **kinds: str) -> dict[str, Any]:
@@ -175,7 +178,7 @@ def _merge_readings(found: Report, key: str, names: Iterable[str], **kinds: str)
 def json_number(value: Any) -> Any:
     """A number or a vector: floats as they are, fractions as a string p/q, none as null."""
     if isinstance(value, tuple):
-        return [json_number(part) for part in value]
+        return [json_number(component) for component in value]
     return str(value) if isinstance(value, Fraction) else None if value is None else value + 0.0
 
 
@@ -227,9 +230,9 @@ class _ForceTable:
     @property
     def data(self) -> dict[str, Any]:
         """Balances, one alone as it is, and reactions."""
-        told = [self.balance(name, self._value(f"balance {name}", "balance", name)) for name in self._balances]
-        kept = {"balance": told[0] if len(told) == 1 else told} if told else {}
-        return {**kept, "reactions": list(self._reactions())}
+        balances = [self.balance(name, self._value(f"balance {name}", "balance", name)) for name in self._balances]
+        balance_data = {"balance": balances[0] if len(balances) == 1 else balances} if balances else {}
+        return {**balance_data, "reactions": list(self._reactions())}
 
     @property
     def missing_balances(self) -> Iterator[tuple[str, str]]:
@@ -272,8 +275,8 @@ class _ForceTable:
     @cached_property
     def _requested_reactions(self) -> list[tuple[str, dict[str, str]]]:
         """The reactions that are asked for: their names, and between which links they act."""
-        scene, asked = self.found.given_scene, self.found.given_scene.find.reactions
-        return [(name, entry) for pair, name, entry in _entries(scene) if asked is None or pair in asked]
+        scene, requested = self.found.given_scene, self.found.given_scene.find.reactions
+        return [(name, entry) for pair, name, entry in _entries(scene) if requested is None or pair in requested]
 
     def _slide_details(self, name: str) -> dict[str, Any]:
         """Of a slide's reaction its moment, and a point of its line where that lies near."""
@@ -299,8 +302,8 @@ class _ForceTable:
 def _entries(scene: Scene) -> Iterator[tuple[str, str, dict[str, str]]]:
     """Every reaction: the pair as it is asked for, the name of the force, and between which links it acts."""
     for joint in scene.revolutes:
-        pin, *others = joint.links
-        for link in others:
+        pin, *links = joint.links
+        for link in links:
             yield joint.at, JointForce(joint.at, link).name, {"at": joint.at, "on": link, "from": pin}
     for slide in scene.slides:
         yield slide.name, slide.name, {"slide": slide.name, "on": slide.link, "from": slide.along}
@@ -311,10 +314,10 @@ def _entries(scene: Scene) -> Iterator[tuple[str, str, dict[str, str]]]:
 
 def _indeterminate(scene: Scene) -> dict[str, Any]:
     """The pairs whose reactions are asked for, though equilibrium does not tell them."""
-    asked = scene.find.reactions
+    requested = scene.find.reactions
     of_joint = {JointForce(point, link).name: point for point in scene.joints for link in scene.links_of[point]}
     names = [name for name in scene.indeterminate_pairs
-             if asked is None or name in asked or of_joint.get(name) in asked]
+             if requested is None or name in requested or of_joint.get(name) in requested]
     return {"indeterminate": names} if names else {}
 
 
@@ -322,9 +325,9 @@ def _friction(found: Report, forces: Forces) -> dict[str, Any]:
     """The efficiency with friction, in how many rounds it is drawn, and where further rounds stand."""
     if forces.locks:
         return {}
-    told = {"efficiency": json_number(forces.efficiency), "rounds": forces.rounds}
+    friction_data = {"efficiency": json_number(forces.efficiency), "rounds": forces.rounds}
     if not forces.bounded:
         printed, standing = _ForceTable(found, forces, True), forces.by_balance(forces.standing.balances)
         balances = [printed.balance(name, value) for name, value in standing.items()]
-        told["stands"] = {"balance": balances, "efficiency": json_number(forces.standing.efficiency)}
-    return {"friction": told}
+        friction_data["stands"] = {"balance": balances, "efficiency": json_number(forces.standing.efficiency)}
+    return {"friction": friction_data}

@@ -145,8 +145,8 @@ class _Piece:
         travel = min(max(travel, self.low), self.high)
         away = (2 * travel - self.low - self.high) / (self.high - self.low) - self.points
         if not away.all():
-            found: Reals = self.values[:, int(np.argmin(abs(away)))]
-            return found
+            node_values: Reals = self.values[:, int(np.argmin(abs(away)))]
+            return node_values
         count = len(self.points)
         weights = (-1.0) ** np.arange(count) * np.sin(np.pi * (np.arange(count) + 0.5) / count) / away
         summed: Reals = self.values @ weights / weights.sum()
@@ -183,7 +183,7 @@ class ReferenceMotion:
         """Inertia, slope and moment, and of each load over a speed its arm and that speed, as rows."""
         opinion = ReferenceReduction(self.reduction, travel, 1)
         truth = opinion.truth
-        rows = [truth[what].value + 0 * travel for what in ("inertia", "slope", "moment")]
+        rows = [truth[quantity].value + 0 * travel for quantity in ("inertia", "slope", "moment")]
         rows[2] += opinion.friction
         for load, table in self._over_speeds():
             rows += [self._arm(opinion, load) + 0 * travel, self._speed(opinion, table) + 0 * travel]
@@ -199,7 +199,7 @@ class ReferenceMotion:
             (ax, ay), (bx, by) = (opinion.posed.points[name] for name in load.through)
             x, y = bx - ax, by - ay
         length = np.hypot(np.asarray(x, float), np.asarray(y, float))
-        vx, vy = (part.value for part in opinion.rates.velocity[load.at])
+        vx, vy = (component.value for component in opinion.rates.velocity[load.at])
         return (vx * x + vy * y) / length * newton * opinion.metres / opinion.unit
 
     def _speed(self, opinion: ReferenceReduction, table: LoadTable) -> Any:
@@ -250,15 +250,15 @@ class ReferenceMotion:
         stops = np.union1d(places, [edge * unit + turn * period for edge in self.edges
                                     for turn in range(math.ceil((places[-1] - start) / period) + 1)])
         state, time, rows = np.array([start, omega, 0.0]), 0.0, []
-        size = np.array([places[-1] - start, max(omega, LEAST_SPEED), 1.0])
-        for there in stops[(stops > start) & (stops <= places[-1])]:
-            middle = (state[0] + there) / 2
+        scale = np.array([places[-1] - start, max(omega, LEAST_SPEED), 1.0])
+        for stop in stops[(stops > start) & (stops <= places[-1])]:
+            middle = (state[0] + stop) / 2
             turn = math.floor((middle / unit - self.first) / (self.last - self.first)) if self.reduction.closed else 0
             k = int(np.searchsorted(self.edges, (middle - turn * period) / unit)) - 1
-            state, spent, size = _integrate_to(self.equation_of_motion(self._piece(k), turn * period), state,
-                                               float(there), size)
+            state, spent, scale = _integrate_to(self.equation_of_motion(self._piece(k), turn * period), state,
+                                                float(stop), scale)
             time += spent
-            if there in places:
+            if stop in places:
                 rows.append((state[1], time, state[2]))
         omegas, times, works = np.array(rows).T
         return omegas, times, works
@@ -279,21 +279,23 @@ class ReferenceMotion:
         return float(speeds[best(speeds)])
 
 
-def _integrate_to(rates: Callable[[Reals], Reals], state: Reals, end: float, size: Reals) -> tuple[Reals, float, Reals]:
+def _integrate_to(rates: Callable[[Reals], Reals], state: Reals, end: float,
+                  scale: Reals) -> tuple[Reals, float, Reals]:
     """The state at a travel, the time until then, and how large states have been."""
     time, first = 0.0, rates(state)
     step = 0.1 * (end - state[0]) / max(state[1], math.sqrt(abs(first[1]) * (end - state[0])))
     for _ in range(MAX_STEPS):
-        size, left = np.maximum(size, abs(state)), end - state[0]
-        step = min(step, 1.1 * left / max(state[1], math.sqrt(abs(first[1]) * left)))  # no farther than is known
+        scale, remaining = np.maximum(scale, abs(state)), end - state[0]
+        step = min(step,
+                   1.1 * remaining / max(state[1], math.sqrt(abs(first[1]) * remaining)))  # no farther than is known
         after, apart, last = _runge_kutta_step(rates, state, first, step)
-        error = float((apart / size).max()) / STEP_TOL
+        error = float((apart / scale).max()) / STEP_TOL
         if not error <= 1:
             step *= max(0.2, 0.9 * error**-0.2) if 1 < error < math.inf else 0.5
             continue
         if after[0] >= end:
             step = _step_to_angle(rates, state, first, step, end)
-            return _runge_kutta_step(rates, state, first, step)[0], time + step, size
+            return _runge_kutta_step(rates, state, first, step)[0], time + step, scale
         state, first, time = after, last, time + step
         step *= min(5.0, 0.9 * max(error, LEAST_ERROR) ** -0.2)
     raise Disagreement("motion", "time", "that of the energy", f"more than {MAX_STEPS} steps", math.inf)

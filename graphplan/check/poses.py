@@ -51,8 +51,8 @@ class PoseBatch:
     def of_reached(cls, scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any],
                    loads: Mapping[str, Any] | None = None) -> PoseBatch:
         """The poses in which every point has its place."""
-        there = np.all([np.isfinite(z) for z in points.values()], axis=0)
-        return cls(scene, np.arange(there.size), points, guides, loads or {}).select(there)
+        reached = np.all([np.isfinite(z) for z in points.values()], axis=0)
+        return cls(scene, np.arange(reached.size), points, guides, loads or {}).select(reached)
 
     def select(self, kept: Any) -> PoseBatch:
         """Those of the poses that a mask or a slice keeps."""
@@ -68,34 +68,34 @@ class PoseBatch:
 def points_where_sound(drawing: Construction, points: Mapping[str, Any], guides: Mapping[str, Any],
                        loads: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Where points are in the poses in which the construction agrees with the solver; nan in others."""
-    part = PoseBatch.of_reached(drawing.scene, points, guides, loads)
-    results = drawing.evaluate(part.points, part.guides, loads=part.loads).results
-    there = np.zeros(len(next(iter(points.values()))), dtype=bool)
-    there[part.places] = sound_poses(part, drawing, results, pose_gaps(part, drawing, results))
-    return {name: np.where(there, z, np.nan) for name, z in points.items()}
+    batch = PoseBatch.of_reached(drawing.scene, points, guides, loads)
+    results = drawing.evaluate(batch.points, batch.guides, loads=batch.loads).results
+    is_sound = np.zeros(len(next(iter(points.values()))), dtype=bool)
+    is_sound[batch.places] = sound_poses(batch, drawing, results, pose_gaps(batch, drawing, results))
+    return {name: np.where(is_sound, z, np.nan) for name, z in points.items()}
 
 
-def pose_gaps(part: PoseBatch, drawing: Construction, results: Results,
+def pose_gaps(batch: PoseBatch, drawing: Construction, results: Results,
               progress: Callable[[int, int], None] = lambda done, of: None) -> dict[str, Any]:
     """For each kind of result the largest difference from the solver beside the number's own size, in each pose."""
-    n, found = part.places.size, list[dict[str, Any]]()
+    n, blocks = batch.places.size, list[dict[str, Any]]()
     for start in range(0, n, BLOCK_POSES):
         block = slice(start, min(start + BLOCK_POSES, n))
         ours = {kind: {name: z[block] for name, z in named.items()} for kind, named in results.items()}
-        found.append(_block_gaps(part.select(block), drawing, ours))
+        blocks.append(_block_gaps(batch.select(block), drawing, ours))
         progress(block.stop, n)
-    return {kind: np.concatenate([apart[kind] for apart in found]) for kind in found[0]}
+    return {kind: np.concatenate([apart[kind] for apart in blocks]) for kind in blocks[0]}
 
 
 def compared_groups(drawing: Construction) -> list[str]:
     """What results are compared by: velocity and acceleration, kinds of places that are asked for, forces."""
-    own = [group for group, kinds in MOTION.items() if not kinds[0].place or {*kinds} & {*drawing.kinds}]
-    return [*own, *([FORCES] if drawing.scene.loads else [])]
+    motion_groups = [group for group, kinds in MOTION.items() if not kinds[0].place or {*kinds} & {*drawing.kinds}]
+    return [*motion_groups, *([FORCES] if drawing.scene.loads else [])]
 
 
-def _block_gaps(part: PoseBatch, drawing: Construction, ours: Results) -> dict[str, Any]:
+def _block_gaps(batch: PoseBatch, drawing: Construction, ours: Results) -> dict[str, Any]:
     """The differences in one block of poses."""
-    n, scene = part.places.size, part.posed_scene
+    n, scene = batch.places.size, batch.posed_scene
     motion = poses.solve(scene, n, sizes=True)
     truth = rates_by_kind(motion, ours)
     if scene.loads is not None:
@@ -103,7 +103,7 @@ def _block_gaps(part: PoseBatch, drawing: Construction, ours: Results) -> dict[s
 
         truth |= force_truth(scene, ours, poses.reactions(scene, motion, n, sizes=True))
     apart: dict[str, Any] = {kind: np.zeros(n) for kind in compared_groups(drawing)}
-    least = {kind: PROVEN_ZERO * size for kind, size in drawn_sizes(drawing).items()}
+    least = {kind: PROVEN_ZERO * scale for kind, scale in drawn_sizes(drawing).items()}
     for kind, named in ours.items():
         for name, value in named.items() if kind in truth else ():
             group, numbers = kind_of(kind).group, components(truth[kind][name])
@@ -111,8 +111,8 @@ def _block_gaps(part: PoseBatch, drawing: Construction, ours: Results) -> dict[s
             besides = _relative_vectors_size(scene, truth, kind, name), sliding_size(scene, truth, kind, name)
             sizes = (np.full(n, least[group] / weight(drawing, kind)), *(number.size for number in numbers), *besides,
                      _rolling_size(scene, motion, kind), _contact_size(scene, truth, kind, name))
-            size = np.max(np.broadcast_arrays(*sizes), axis=0)
-            gap = np.abs(value - true) / size
+            scale = np.max(np.broadcast_arrays(*sizes), axis=0)
+            gap = np.abs(value - true) / scale
             if kind == SLIDE_ARM:  # where no force acts at a slide it has no line of action
                 gap = np.where(np.isnan(true), 0.0, gap)
             apart[group] = np.maximum(apart[group], gap)
@@ -126,7 +126,7 @@ def _relative_vectors_size(scene: Scene, truth: Results, kind: str, name: str) -
     vectors, points = truth[kind_of(kind).group], scene.links[name]
     ends: Any = combinations([scene.points[point] for point in points], 2)
     longest = max((float(np.max(np.hypot(a[0] - b[0], a[1] - b[1]))) for a, b in ends), default=0.0)
-    sizes = [np.abs(plain_number(part)) for point in points for part in vectors[point]]
+    sizes = [np.abs(plain_number(component)) for point in points for component in vectors[point]]
     return np.max(np.broadcast_arrays(*sizes), axis=0) / longest if longest else 0.0
 
 
@@ -155,32 +155,32 @@ def _contact_size(scene: Scene, truth: Results, kind: str, name: str) -> Any:
     the slide's arm by them; of other results nothing."""
     sizes: list[Any] = [0.0]
     if kind in (SLIDE_MOMENT, SLIDE_ARM):
-        whole = np.hypot(*(plain_number(part) for part in truth[SLIDE_REACTION][name]))
+        whole = np.hypot(*(plain_number(component) for component in truth[SLIDE_REACTION][name]))
         of = whole if kind == SLIDE_ARM else float(metre(scene.units))
         slide = next(slide for slide in scene.slides if slide.name == name)
-        for contact in (one for one in scene.contacts if one.name in truth[CONTACT_REACTION]):
+        for contact in (candidate for candidate in scene.contacts if candidate.name in truth[CONTACT_REACTION]):
             if not {*contact.links}.isdisjoint(slide.links):
                 (x, y), (u, v) = (np.asarray(scene.points[point], float) for point in (contact.at, slide.at))
-                force = np.hypot(*(plain_number(part) for part in truth[CONTACT_REACTION][contact.name]))
+                force = np.hypot(*(plain_number(component) for component in truth[CONTACT_REACTION][contact.name]))
                 sizes.append(force * np.hypot(x - u, y - v) / of)
     return np.max(np.broadcast_arrays(*sizes), axis=0)
 
 
-def sound_poses(part: PoseBatch, drawing: Construction, results: Results, apart: Mapping[str, Any]) -> Any:
+def sound_poses(batch: PoseBatch, drawing: Construction, results: Results, apart: Mapping[str, Any]) -> Any:
     """In which poses the results are there, and differ from the solver's by no more than rounding.
 
     Where that is proven of a pose, `apart` has the differences beside what is proven to cancel there.
     """
     worst = np.max(list(apart.values()), axis=0)
     worst[np.isnan(worst)] = np.inf
-    kept = worst <= ROUNDING_TOL
-    for k in np.flatnonzero(~kept & np.isfinite(worst)):
+    is_sound = worst <= ROUNDING_TOL
+    for k in np.flatnonzero(~is_sound & np.isfinite(worst)):
         ours = {kind: {name: _as_vector(z[k]) for name, z in named.items()} for kind, named in results.items()}
-        if proven := _prove_pose(part.select(k), drawing, ours, worst[k]):
-            kept[k] = True
+        if proven := _prove_pose(batch.select(k), drawing, ours, worst[k]):
+            is_sound[k] = True
             for group, gap in proven.items():
                 apart[group][k] = gap
-    return kept
+    return is_sound
 
 
 def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Results, worst: float) -> dict[str, float]:
@@ -192,8 +192,8 @@ def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Results, worst: fl
     """
     scene = single_pose(pose.posed_scene)
     try:
-        told = reference_solution(scene, FLOATS)
-        truth = told.truth(ours)
+        reference = reference_solution(scene, FLOATS)
+        truth = reference.truth(ours)
     except Unproven:
         try:
             holds = worst <= SAFETY_FACTOR * EPSILON * solve(scene).condition
@@ -201,8 +201,8 @@ def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Results, worst: fl
             holds = False
         return {kind_of(kind).group: float(worst) for kind in ours} if holds else {}
     numbers = compare(drawing, ours, truth, lambda part, name: max(
-        float(_relative_vectors_size(scene, truth, part, name)), float(_rolling_size(scene, told.rates, part))))
-    found, largest = dict.fromkeys(compared_groups(drawing), 0.0), scales(drawing, truth)
+        float(_relative_vectors_size(scene, truth, part, name)), float(_rolling_size(scene, reference.rates, part))))
+    proven, largest = dict.fromkeys(compared_groups(drawing), 0.0), scales(drawing, truth)
     for kind, named in numbers.items():
         scale = largest[kind_of(kind).group] / weight(drawing, kind)
         for number in (number for vector in named.values() for number in vector):
@@ -210,8 +210,8 @@ def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Results, worst: fl
             if not (number.close or nothing or number.gap <= SAFETY_FACTOR * (number.bound - number.gap)):
                 return {}
             gap = number.gap / scale if nothing else number.relative("gap")
-            found[kind_of(kind).group] = max(found[kind_of(kind).group], float(gap))
-    return found
+            proven[kind_of(kind).group] = max(proven[kind_of(kind).group], float(gap))
+    return proven
 
 
 def single_pose(scene: Scene) -> Scene:

@@ -36,13 +36,13 @@ Gaps = dict[str, Any]
 def reduction_gaps(reduction: Reduction, travel: Any, side: int = 1) -> Gaps:
     """For inertia, moment and slope the difference from the solver beside the number's own size, in each pose."""
     travel = np.atleast_1d(np.asarray(travel, dtype=float))
-    found: dict[str, list[Any]] = {}
+    blocks: dict[str, list[Any]] = {}
     for start in range(0, max(1, travel.size), BLOCK_POSES):
-        own = travel[start : start + BLOCK_POSES]
-        opinion = ReferenceReduction(reduction, own, side)
-        for what, gap in opinion.gaps(reduction.at(own, side)).items():
-            found.setdefault(what, []).append(gap)
-    return {what: np.concatenate(parts) for what, parts in found.items()}
+        block = travel[start : start + BLOCK_POSES]
+        opinion = ReferenceReduction(reduction, block, side)
+        for quantity, gap in opinion.gaps(reduction.at(block, side)).items():
+            blocks.setdefault(quantity, []).append(gap)
+    return {quantity: np.concatenate(gaps) for quantity, gaps in blocks.items()}
 
 
 def frictionless(found: Reduced, what: str) -> Any:
@@ -57,21 +57,21 @@ def check_reduction(reduction: Reduction, travel: Any, side: int = 1) -> dict[st
     Fails with `Disagreement` where one is more than rounding, beside the condition of the solver's rates.
     """
     travel = np.atleast_1d(np.asarray(travel, dtype=float))
-    found = reduction_gaps(reduction, travel, side)
-    for what, gap in found.items():
+    gaps = reduction_gaps(reduction, travel, side)
+    for quantity, gap in gaps.items():
         for k in np.flatnonzero(~(gap <= ROUNDING_TOL)):
             opinion = ReferenceReduction(reduction, travel[k : k + 1], side)
-            ours = frictionless(reduction.at(travel[k : k + 1], side), what)[0]
-            truth = opinion.truth[what].value[0]
-            if abs(ours - truth) <= ROUNDING_TOL * getattr(reduction.size, what):
+            ours = frictionless(reduction.at(travel[k : k + 1], side), quantity)[0]
+            truth = opinion.truth[quantity].value[0]
+            if abs(ours - truth) <= ROUNDING_TOL * getattr(reduction.size, quantity):
                 gap[k] = 0.0  # beside what these masses and loads do elsewhere both are nothing
             elif not gap[k] <= SAFETY_FACTOR * EPSILON * opinion.condition:
-                where = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
-                raise Disagreement(where, f"reduced {what}", f"{ours:.15g}", f"{truth:.15g}", float(gap[k]))
-    others = {} if reduction.friction is None else {"friction": friction_gap(reduction, travel)}
+                place = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
+                raise Disagreement(place, f"reduced {quantity}", f"{ours:.15g}", f"{truth:.15g}", float(gap[k]))
+    other_gaps = {} if reduction.friction is None else {"friction": friction_gap(reduction, travel)}
     if any(reduction.loads.gravity):
-        others["weights"] = weights_gap(reduction, travel)
-    return {what: float(np.max(gap, initial=0.0)) for what, gap in found.items()} | others
+        other_gaps["weights"] = weights_gap(reduction, travel)
+    return {quantity: float(np.max(gap, initial=0.0)) for quantity, gap in gaps.items()} | other_gaps
 
 
 def weights_gap(reduction: Reduction, travel: Any) -> float:
@@ -82,8 +82,8 @@ def weights_gap(reduction: Reduction, travel: Any) -> float:
     by, projected = reduction.at(travel).by, reduction.projections(travel)
     worst = max((float(np.max(np.abs(by[name] - moment))) for name, moment in projected.items()), default=0.0)
     least = MACHINE_SHARE * reduction.size.moment
-    size = max([least, *(float(np.max(np.abs(moment), initial=0.0)) for moment in projected.values())])
-    gap = worst / size if worst else 0.0
+    largest = max([least, *(float(np.max(np.abs(moment), initial=0.0)) for moment in projected.values())])
+    gap = worst / largest if worst else 0.0
     if gap > ROUNDING_TOL:
         raise Disagreement(reduction.scene.name, "weights", "otherwise by the lever", "by their projections", gap)
     return gap
@@ -94,19 +94,19 @@ def check_lever(reduction: Reduction, travel: float = 0.0) -> tuple[Construction
 
     Fails with `Disagreement` where that is more than rounding, beside the condition of the solver's rates.
     """
-    drawing, found = reduction.drawing(travel), reduction.at([travel])
+    drawing, reduced = reduction.drawing(travel), reduction.at([travel])
     (balance,) = drawing.balances
     drive = reduction.motion.scene.drives[0]
     if drive.slides:
         x, y = map(float, drawing.scene.driven_slide(drive).direction)
         balance = (complex(balance) * complex(x, -y)).real / abs(complex(x, y))
-    drawn = -reduction.sense * balance * float(NEWTONS[reduction.scene.units.force])
-    told = float(frictionless(found, "moment")[0])
-    size = max([MACHINE_SHARE * reduction.size.moment, *(abs(float(part[0])) for part in found.by.values())])
-    gap = abs(drawn - told) / size if drawn != told else 0.0
+    by_lever = -reduction.sense * balance * float(NEWTONS[reduction.scene.units.force])
+    by_reduction = float(frictionless(reduced, "moment")[0])
+    scale = max([MACHINE_SHARE * reduction.size.moment, *(abs(float(moment[0])) for moment in reduced.by.values())])
+    gap = abs(by_lever - by_reduction) / scale if by_lever != by_reduction else 0.0
     if gap > ROUNDING_TOL and not gap <= SAFETY_FACTOR * EPSILON * ReferenceReduction(reduction, np.array([travel]),
                                                                                       1).condition:
-        raise Disagreement(reduction.scene.name, "lever", f"{drawn:.15g}", f"{told:.15g}", gap)
+        raise Disagreement(reduction.scene.name, "lever", f"{by_lever:.15g}", f"{by_reduction:.15g}", gap)
     return drawing, float(gap)
 
 
@@ -121,21 +121,23 @@ def friction_gap(reduction: Reduction, travel: Any) -> float:
     travel = rubbing.beside(np.atleast_1d(np.asarray(travel, dtype=float)))
     turn = reduction.motion.turn(travel)
     rates = reduction.motion.velocities(turn)
-    found, values = rubbing.at(travel), rubbing.loads(travel, turn, rates)
+    friction_moments, values = rubbing.at(travel), rubbing.loads(travel, turn, rates)
     worst, usual = 0.0, reduction.size.moment
     for k in range(travel.size):
         assert rubbing.scene.loads is not None
         acting = loads_with(rubbing.scene.loads, {name: complex(z[k]) for name, z in values.items()})
-        given = replace(rubbing.scene, loads=acting)
-        own = PoseBatch(given, np.arange(travel.size), turn.points, turn.guides).select(k)
-        told = with_friction(single_pose(own.posed_scene))
-        work = float(delivered_power(told)) * rubbing.power
-        size = max(abs(float(found.balance[k])), abs(work), -sum(float(loss[k]) for loss in found.losses.values()))
-        gap = abs(work - float(found.balance[k] - found.moment[k])) / size if size > ROUNDING_TOL * usual else 0.0
-        if gap > max(FRICTION_TOL, SAFETY_FACTOR * EPSILON * told.condition):
-            where = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
-            drawn = f"{float(found.balance[k] - found.moment[k]):.15g}"
-            raise Disagreement(where, "balance with friction", drawn, f"{work:.15g}", gap)
+        loaded = replace(rubbing.scene, loads=acting)
+        batch = PoseBatch(loaded, np.arange(travel.size), turn.points, turn.guides).select(k)
+        reference = with_friction(single_pose(batch.posed_scene))
+        work = float(delivered_power(reference)) * rubbing.power
+        scale = max(abs(float(friction_moments.balance[k])), abs(work),
+                    -sum(float(loss[k]) for loss in friction_moments.losses.values()))
+        gap = abs(work - float(friction_moments.balance[k]
+                               - friction_moments.moment[k])) / scale if scale > ROUNDING_TOL * usual else 0.0
+        if gap > max(FRICTION_TOL, SAFETY_FACTOR * EPSILON * reference.condition):
+            place = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
+            by_drawing = f"{float(friction_moments.balance[k] - friction_moments.moment[k]):.15g}"
+            raise Disagreement(place, "balance with friction", by_drawing, f"{work:.15g}", gap)
         worst = max(worst, gap)
     return worst
 
@@ -179,13 +181,13 @@ class ReferenceReduction:
         return {"inertia": self._kinetic(self.rates.velocity, self.rates.omega), "moment": self._power(),
                 "slope": twice * (2 / self.unit)}
 
-    def gaps(self, found: Reduced) -> Gaps:
+    def gaps(self, reduced: Reduced) -> Gaps:
         """The differences of what was found."""
-        told: Gaps = {}
-        for what, truth in self.truth.items():
-            apart, size = np.abs(frictionless(found, what) - truth.value), truth.size
-            told[what] = np.divide(apart, size, out=np.where(apart > 0, np.inf, 0.0), where=size > 0)
-        return told
+        gaps: Gaps = {}
+        for quantity, truth in self.truth.items():
+            apart, scale = np.abs(frictionless(reduced, quantity) - truth.value), truth.size
+            gaps[quantity] = np.divide(apart, scale, out=np.where(apart > 0, np.inf, 0.0), where=scale > 0)
+        return gaps
 
     def _kinetic(self, vectors: Any, turnings: Any) -> Sized:
         """The sum of m v.w + I omega epsilon over all masses, of velocities and others."""
@@ -194,9 +196,9 @@ class ReferenceReduction:
         for link, mass in self.scene.loads.masses.items():
             if link != FRAME:
                 (vx, vy), (wx, wy) = self.rates.velocity[mass.centre], vectors[mass.centre]
-                moved = (with_size(vx) * wx + with_size(vy) * wy) * (self.metres / self.unit) ** 2
-                turned = with_size(self.rates.omega[link]) * turnings[link] * (1 / self.unit) ** 2
-                total = total + (moved * float(mass.mass) + turned * float(mass.inertia)) * kilogram
+                translation = (with_size(vx) * wx + with_size(vy) * wy) * (self.metres / self.unit) ** 2
+                rotation = with_size(self.rates.omega[link]) * turnings[link] * (1 / self.unit) ** 2
+                total = total + (translation * float(mass.mass) + rotation * float(mass.inertia)) * kilogram
         return total
 
     def _power(self) -> Sized:

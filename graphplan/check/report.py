@@ -70,8 +70,9 @@ class ReferenceSolution:
             return None
         from graphplan.check.forces import Forces
 
-        drawn = {(reading.kind, reading.of) for reading in drawing.readings}
-        alone = dict.fromkeys(name for kind, named in results.items() for name in named if (kind, name) not in drawn)
+        readings_drawn = {(reading.kind, reading.of) for reading in drawing.readings}
+        alone = dict.fromkeys(name for kind, named in results.items() for name in named
+                              if (kind, name) not in readings_drawn)
         return Forces(drawing.scene, results, self.reactions, self.power, drawing.rounds, exact, bounded,
                       self.with_friction(drawing.rounds), locks, tuple(alone))
 
@@ -86,47 +87,49 @@ class ReferenceSolution:
     def with_friction(self, rounds: int) -> Reactions | None:
         """The reactions with friction, after so many rounds where some are drawn; None where nothing rubs."""
         loads = self.scene.loads
-        if self.rounds is None or loads is None or not (loads.frictions and any(one.rate for one in self.scene.drives)):
+        if self.rounds is None or loads is None or not (loads.frictions
+                                                        and any(drive.rate for drive in self.scene.drives)):
             return None
         return self.rounds(rounds or loads.rounds or STANDING_ROUNDS)
 
 
 def reference_solution(scene: Scene, by: Arithmetic) -> ReferenceSolution:
     """What the solver says; fails with the arithmetic's doubt where its bounds are too wide to tell."""
-    known = scene if isinstance(by, Exact) else enclose_scene(scene, by)
-    rates = solve(scene, exact=True) if isinstance(by, Exact) else bounded_rates(known, by)
+    bounded_scene = scene if isinstance(by, Exact) else enclose_scene(scene, by)
+    rates = solve(scene, exact=True) if isinstance(by, Exact) else bounded_rates(bounded_scene, by)
     if scene.loads is None:
-        return ReferenceSolution(known, rates)
+        return ReferenceSolution(bounded_scene, rates)
     from graphplan.check.forces import bounded_reactions, friction_rounds
     from graphplan.solver.friction import with_friction
     from graphplan.solver.statics import power, reactions
 
     if isinstance(by, Exact):
-        return ReferenceSolution(known, rates, reactions(scene, exact=True),
+        return ReferenceSolution(bounded_scene, rates, reactions(scene, exact=True),
                                  lambda rounds: with_friction(scene, rounds, exact=True), power(scene, exact=True))
-    smooth, certain = bounded_reactions(known, rates, by), by
+    smooth, certain = bounded_reactions(bounded_scene, rates, by), by
     try:
         third = power(scene) if by is FLOATS else ()
     except SingularPose:  # for bare floats alone: better arithmetic will tell
         raise by.doubt from None
-    return ReferenceSolution(known, rates, smooth, lambda rounds: friction_rounds(smooth, rounds, certain), third)
+    return ReferenceSolution(bounded_scene, rates, smooth, lambda rounds: friction_rounds(smooth, rounds, certain),
+                             third)
 
 
 def rates_by_kind(rates: Rates, results: Results) -> dict[str, Any]:
     """The solver's rates, by the kinds of readings; its places as they are asked for by results."""
-    found: dict[str, Any] = {part: getattr(rates, part.replace(" ", "_")) for part in ORDER if not part.place}
-    for part, named in results.items():
-        if kind_of(part).group == POLES:
-            found[part] = {name: _pole(rates, name, value, part == POLE) for name, value in named.items()}
-    return found | path_truth(rates, results)
+    truth: dict[str, Any] = {kind: getattr(rates, kind.replace(" ", "_")) for kind in ORDER if not kind.place}
+    for kind, named in results.items():
+        if kind_of(kind).group == POLES:
+            truth[kind] = {name: _pole(rates, name, value, kind == POLE) for name, value in named.items()}
+    return truth | path_truth(rates, results)
 
 
 def _pole(rates: Rates, name: str, ours: Any, near: bool) -> Any:
     """The instant centre of two links, or the heading to it beside ours."""
-    found = relative(rates, *rates.equations.scene.link_pair(name))
+    centre = relative(rates, *rates.equations.scene.link_pair(name))
     if near:
-        return found.centre
-    return found.heading(ours if isinstance(ours, tuple) else (ours.real, ours.imag))
+        return centre.centre
+    return centre.heading(ours if isinstance(ours, tuple) else (ours.real, ours.imag))
 
 
 # ---- the construction beside it -------------------------------------------------------------------------------------
@@ -171,9 +174,9 @@ class Report:
     def displacement(self) -> float:
         """How far a constructed point is at most from where the cycle has it, beside the mechanism's extent."""
         drawing = self.drawing
-        found = ((step.index, self.scene.points[step.name]) for step in drawing.program.steps
+        marks = ((step.index, self.scene.points[step.name]) for step in drawing.program.steps
                  if step.name in self.scene.points and step.name)
-        return max((math.dist(drawing.truth[index], tuple(map(float, at))) for index, at in found),
+        return max((math.dist(drawing.truth[index], tuple(map(float, at))) for index, at in marks),
                    default=0.0) / self.scene.extent
 
     @cached_property
@@ -181,20 +184,20 @@ class Report:
         """For each kind how far any number is off at most, beside what cancels in it."""
         return self._largest("bound")
 
-    def _largest(self, part: str) -> dict[str, Any]:
-        found: dict[str, Any] = {}
+    def _largest(self, measure: str) -> dict[str, Any]:
+        largest: dict[str, Any] = {}
         for kind in (*MOTION, FORCES):
-            values = [number.relative(part) for reading, _, number in self._all_numbers
+            values = [number.relative(measure) for reading, _, number in self._all_numbers
                       if kind_of(reading).group == kind]
             if values or (kind == FORCES and self.forces is not None):
-                found[kind] = max(values, default=0)
-        return found
+                largest[kind] = max(values, default=0)
+        return largest
 
     def truth(self, part: str) -> dict[str, Any]:
         """The solver's values for one kind of reading."""
         def value(name: str, numbers: tuple[ComparedNumber, ...]) -> Any:
-            told = tuple([number.truth for number in numbers])
-            return told if isinstance(self.results[part][name], tuple) else told[0]
+            truths = tuple([number.truth for number in numbers])
+            return truths if isinstance(self.results[part][name], tuple) else truths[0]
 
         return {name: value(name, numbers) for name, numbers in self.numbers.get(part, {}).items()}
 
@@ -229,10 +232,10 @@ class Report:
     @property
     def _moving_links_without_pole(self) -> str:
         """Links of which no pole is told, as if they rested on each other, and that move as the solver has them."""
-        told = {name for kind in (POLE, POLE_HEADING) for name in self.results.get(kind, ())}
+        with_pole = {name for kind in (POLE, POLE_HEADING) for name in self.results.get(kind, ())}
         for name in self.scene.find.poles if self.fault is None else ():
             with suppress(SingularPose):  # so do fractions tell that they rest
-                if name not in told and relative(self.rates, *self.scene.link_pair(name)).moves:
+                if name not in with_pole and relative(self.rates, *self.scene.link_pair(name)).moves:
                     return f"links {name}: they move relative to each other, and have a pole"
         return ""
 
@@ -257,7 +260,7 @@ class Report:
     @property
     def _all_numbers(self) -> list[tuple[str, str, ComparedNumber]]:
         """Every number with its kind and name."""
-        return [(part, name, number) for part, named in self.numbers.items() for name, vector in named.items()
+        return [(kind, name, number) for kind, named in self.numbers.items() for name, vector in named.items()
                 for number in vector]
 
     @property
@@ -268,8 +271,8 @@ class Report:
             return BrokenClaim(self.scene.name, self.broken_claim)
         if not self._in_place:
             return Disagreement(self.scene.name, "position", "constructed", "followed", self.displacement)
-        part, name, number = max(self._all_numbers, key=lambda one: (one[2].apart, one[2].relative("gap")))
-        return Disagreement(self.scene.name, f"{part} of {name}", number_text(number.value), number_text(number.truth),
+        kind, name, number = max(self._all_numbers, key=lambda one: (one[2].apart, one[2].relative("gap")))
+        return Disagreement(self.scene.name, f"{kind} of {name}", number_text(number.value), number_text(number.truth),
                             float(number.relative("gap")))
 
 
@@ -297,7 +300,7 @@ OF_LINKS: dict[str, Callable[[Rates, str], Any]] = {
 def path_truth(rates: Rates, results: Mapping[str, Iterable[str]]) -> dict[str, dict[str, Any]]:
     """The solver's values by the kinds and names of results; fails with `SingularPose` where there is none."""
     traced = rates.equations.scene.find.traced
-    found: dict[str, dict[str, Any]] = {}
+    truths: dict[str, dict[str, Any]] = {}
     for kind, names in results.items():
         for name in names if kind in OF_POINTS or kind in OF_LINKS else ():
             point, link = traced.get(name, ("", name))
@@ -305,5 +308,5 @@ def path_truth(rates: Rates, results: Mapping[str, Iterable[str]]) -> dict[str, 
                 value = OF_POINTS[kind](rates, point, link) if kind in OF_POINTS else OF_LINKS[kind](rates, link)
             except ZeroDivisionError:
                 raise SingularPose(NOTHING_MOVES.format(name), (link,)) from None
-            found.setdefault(kind, {})[name] = value
-    return found
+            truths.setdefault(kind, {})[name] = value
+    return truths

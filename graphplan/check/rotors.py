@@ -42,27 +42,27 @@ def check_rotor(found: Balanced) -> dict[str, float]:
     return gaps
 
 
-def vector(one: Eccentric | Correction) -> complex:
+def vector(unbalance: Eccentric | Correction) -> complex:
     """Mass times radius vector, from its size and angle."""
-    size = one.size if isinstance(one, Eccentric) else one.mass_radius
-    return cmath.rect(size, math.radians(one.angle))
+    mass_radius = unbalance.size if isinstance(unbalance, Eccentric) else unbalance.mass_radius
+    return cmath.rect(mass_radius, math.radians(unbalance.angle))
 
 
-def axial_place(one: Eccentric | Correction) -> float:
+def axial_place(unbalance: Eccentric | Correction) -> float:
     """Where along the axis it is."""
-    return float(one.at or 0)
+    return float(unbalance.at or 0)
 
 
 def _residual_force(pair: Pair) -> float:
     """The force that is left with the corrections, beside the sum of its parts."""
-    return _relative_sum([vector(one) for part in pair for one in part])
+    return _relative_sum([vector(unbalance) for unbalances in pair for unbalance in unbalances])
 
 
 def _residual_moment(pair: Pair) -> float:
     """The moment about the middle of all places that is left, beside the sum of its parts."""
-    everything = [one for part in pair for one in part]
+    everything = [unbalance for unbalances in pair for unbalance in unbalances]
     middle = sum(map(axial_place, everything)) / len(everything)
-    return _relative_sum([(axial_place(one) - middle) * vector(one) for one in everything])
+    return _relative_sum([(axial_place(unbalance) - middle) * vector(unbalance) for unbalance in everything])
 
 
 def _relative_sum(parts: list[complex]) -> float:
@@ -87,19 +87,20 @@ def _plane_distances(rotor: Rotor, masses: Sequence[Eccentric]) -> list[float]:
 def _correction_gap(rotor: Rotor, masses: Sequence[Eccentric], answer: Answer) -> float:
     """How far the corrections are from equilibrium's, beside what masses would need that did not help each other."""
     wide = abs(float(rotor.planes[-1] - rotor.planes[0])) or math.inf
-    size = sum(mass.size * (1 + abs(arm) / wide) for mass, arm in zip(masses, _plane_distances(rotor, masses),
-                                                                      strict=True))
-    wanted = equilibrium(rotor, masses)
-    return max(abs(vector(one) - other) for one, other in zip(answer, wanted, strict=True)) / (size or 1.0)
+    scale = sum(mass.size * (1 + abs(arm) / wide) for mass, arm in zip(masses, _plane_distances(rotor, masses),
+                                                                       strict=True))
+    needed = equilibrium(rotor, masses)
+    return max(abs(vector(correction) - needed_vector)
+               for correction, needed_vector in zip(answer, needed, strict=True)) / (scale or 1.0)
 
 
-def _trial_gap(one: Effect, side: complex) -> float:
+def _trial_gap(effect: Effect, side: complex) -> float:
     """By how much the trial would have given other numbers, beside the largest, if this is the correction."""
-    trial, size = one.trial, float(one.trial.mass_radius)
-    at = cmath.rect(size, math.radians(float(trial.angle)))
+    trial, mass_radius = effect.trial, float(effect.trial.mass_radius)
+    at = cmath.rect(mass_radius, math.radians(float(trial.angle)))
     if isinstance(trial, ThreeRuns):
         first, second, third = map(float, trial.amplitudes)
-        grows = one.amplitude / size
+        grows = effect.amplitude / mass_radius
         return max(abs(abs(at - side) * grows - second), abs(abs(-at - side) * grows - third),
                    abs(abs(side) * grows - first)) / max(second, third)
     if isinstance(trial, Marked):
@@ -111,14 +112,15 @@ def _trial_gap(one: Effect, side: complex) -> float:
     angles = np.radians([angle_of(trial, k) for k in range(len(trial.weights))])
     rows = np.stack([np.ones(len(angles)), np.cos(angles), np.sin(angles)], 1)
     _, x, y = np.linalg.lstsq(rows, np.array([*map(float, trial.weights)]), rcond=None)[0]
-    return abs(complex(x, y) * size - side) / (size * float(max(trial.weights)) or 1.0)
+    return abs(complex(x, y) * mass_radius - side) / (mass_radius * float(max(trial.weights)) or 1.0)
 
 
-def bearing_reactions(found: Balanced, answer: Answer = ()) -> list[complex]:
+def bearing_reactions(balanced: Balanced, answer: Answer = ()) -> list[complex]:
     """What the bearings bear of the centrifugal forces, in N, turning with the rotor, with these corrections."""
-    rotor = found.task.rotor
-    parts: list[Eccentric | Correction] = [*found.masses, *answer]
-    forces, places = [vector(one) for one in parts], [axial_place(one) for one in parts]
+    rotor = balanced.task.rotor
+    unbalances: list[Eccentric | Correction] = [*balanced.masses, *answer]
+    forces, places = [vector(unbalance) for unbalance in unbalances], [axial_place(unbalance)
+                                                                       for unbalance in unbalances]
     rows = np.array([[1.0, 1.0], [*map(float, rotor.bearings)]])
-    borne = np.linalg.solve(rows, [sum(forces, 0j), np.dot(places, forces)])
-    return [complex(one) * float(found.task.kg_m) * rotor.omega**2 for one in borne]
+    reactions = np.linalg.solve(rows, [sum(forces, 0j), np.dot(places, forces)])
+    return [complex(unbalance) * float(balanced.task.kg_m) * rotor.omega**2 for unbalance in reactions]

@@ -49,26 +49,26 @@ class Shortcuts:
 
 def shortcuts(drawing: Construction) -> list[Shortcuts]:
     """The shortcuts wherever a drawing has a link with three loci on the N-plan, one of them of its middle."""
-    return [found for step in drawing.program.steps if step.op.claim_operands("locus") and step.panel.whole == N_PLAN
-            for found in _shortcuts_at(drawing, step)]
+    return [shortcut for step in drawing.program.steps if step.op.claim_operands("locus") and step.panel.whole == N_PLAN
+            for shortcut in _shortcuts_at(drawing, step)]
 
 
 def _shortcuts_at(drawing: Construction, carry: Step) -> Iterator[Shortcuts]:
     """The link whose loci this step carries together, if one of its three points halves the other two, whose loci meet.
     """
     steps, values = drawing.program.steps, drawing.truth
-    asked = {reading.of for reading in drawing.readings if reading.kind == "acceleration"}
+    requested = {reading.of for reading in drawing.readings if reading.kind == "acceleration"}
     for step in steps:
         if step.op.movement is Movement.MET and carry.index in step.args:
             A, alpha, B, beta, C = carry.args
             (gamma,) = (arg for arg in step.args if arg != carry.index)
             three = [(A, alpha), (B, beta), (C, gamma)]
             for middle in three:
-                one, two = (other for other in three if other is not middle)
-                halves = (complex(*values[one[0]]) + complex(*values[two[0]])) / 2
-                beta, gamma, name = values[one[1]], values[two[1]], steps[middle[0]].name
+                first, second = (joint for joint in three if joint is not middle)
+                halves = (complex(*values[first[0]]) + complex(*values[second[0]])) / 2
+                beta, gamma, name = values[first[1]], values[second[1]], steps[middle[0]].name
                 near = abs(halves - complex(*values[middle[0]])) < COLLINEAR_TOL * abs(halves)
-                if near and name in asked and _sine(beta, gamma):
+                if near and name in requested and _sine(beta, gamma):
                     yield _cost(drawing, name, values[middle[1]], beta, gamma)
 
 
@@ -78,12 +78,13 @@ def _cost(drawing: Construction, name: str, alpha: Line, beta: Line, gamma: Line
     a, end = (complex(*drawing.truth[drawing.program.wanted[mark]]) for mark in arrow.marks)
     corner = _meet(beta, gamma)
     median = end - corner
-    one, two = (complex(line[1], -line[0]) / math.hypot(*line[:2]) for line in (beta, gamma))
-    bisector = min((one + two, one - two), key=lambda way: _angle(way, median))
-    drawn = _meet(_line_through(corner, bisector), alpha)
+    first, second = (complex(line[1], -line[0]) / math.hypot(*line[:2]) for line in (beta, gamma))
+    bisector = min((first + second, first - second), key=lambda way: _angle(way, median))
+    by_bisector = _meet(_line_through(corner, bisector), alpha)
     short = _meet(_line_through(corner, median), _line_through(a, complex(alpha[1], -alpha[0])))
     length = abs(end - a)
-    return Shortcuts(name, math.degrees(_angle(bisector, median)), abs(drawn - end) / length, abs(short - end) / length)
+    return Shortcuts(name, math.degrees(_angle(bisector, median)), abs(by_bisector - end) / length,
+                     abs(short - end) / length)
 
 
 def _line_through(point: complex, way: complex) -> Line:

@@ -64,15 +64,15 @@ class Bench:
         for by in self._ladder():
             try:
                 with by.working():
-                    found = self._judge_in(drawing, by)
+                    judged = self._judge_in(drawing, by)
             except ConstructionError as error:
                 fault = error
                 continue
             except by.doubt:
                 continue
-            if found.proven or found.wrong:
-                return found
-            last, fault = found, None
+            if judged.proven or judged.wrong:
+                return judged
+            last, fault = judged, None
         regular = self._opinions.keys() - {FLOATS.name}  # as better arithmetic has found: then another way may serve
         if last is None and (fault is None or (self._singular is not None and not regular)):
             raise self._unproven(drawing)
@@ -83,19 +83,19 @@ class Bench:
 
     def solver_report(self, drawing: Construction, fault: ConstructionError) -> Report:
         """What the solver says of all that a construction would give, which has no numbers in this pose."""
-        found: Report | None = None
+        solved: Report | None = None
         for by in self._ladder():
             with suppress(by.doubt), by.working():
-                if isinstance(by, Exact) or (found is not None and found.proven):
+                if isinstance(by, Exact) or (solved is not None and solved.proven):
                     break
                 ours = solver_results(drawing, self._reference(by, drawing))
                 if by is FLOATS:
                     ours = {kind: {name: _middle(value) for name, value in named.items()}
                             for kind, named in ours.items()}
-                found = replace(self._report(drawing, by, ours), fault=fault)
-        if found is None:
+                solved = replace(self._report(drawing, by, ours), fault=fault)
+        if solved is None:
             raise fault
-        return found
+        return solved
 
     def _ladder(self) -> Iterator[Arithmetic]:
         """The arithmetics in their order; only fractions can tell of a singular pose that it is."""
@@ -111,8 +111,8 @@ class Bench:
 
     def _judge_in(self, drawing: Construction, by: Arithmetic) -> Report:
         """A construction beside the solver in one arithmetic; fails with its doubt where that cannot tell."""
-        known, domain = self._reference(by, drawing).scene, by.domain()
-        sharp = self._same_construction(known, drawing) if self.scene.irrational and by is not FLOATS else drawing
+        posed_scene, domain = self._reference(by, drawing).scene, by.domain()
+        sharp = self._same_construction(posed_scene, drawing) if self.scene.irrational and by is not FLOATS else drawing
         if sharp is None:
             raise by.doubt
         try:
@@ -157,25 +157,25 @@ class Bench:
 
     def _same_construction(self, known: Scene, drawing: Construction) -> Construction | None:
         """The same construction of the scene in enclosures: by the same steps."""
-        def steps(one: Construction) -> list[tuple[Primitive, tuple[int, ...]]]:
-            return [(step.op, step.args) for step in one.program.steps]
+        def steps(construction: Construction) -> list[tuple[Primitive, tuple[int, ...]]]:
+            return [(step.op, step.args) for step in construction.program.steps]
 
-        every = islice(constructions(known, **self.how), MAX_CONSTRUCTIONS)
-        return next((one for one in every if steps(one) == steps(drawing)), None)
+        candidates = islice(constructions(known, **self.how), MAX_CONSTRUCTIONS)
+        return next((construction for construction in candidates if steps(construction) == steps(drawing)), None)
 
     def _report(self, drawing: Construction, by: Arithmetic, ours: dict[str, dict[str, Any]]) -> Report:
         """The comparison in one arithmetic; fractions that are not asked for are printed as floats."""
-        told = self._opinions[by.name]
-        truth = told.truth(ours, drawing.rounds)
-        for kind, named in told.undrawn_forces(drawing, ours, truth).items():
+        reference = self._opinions[by.name]
+        truth = reference.truth(ours, drawing.rounds)
+        for kind, named in reference.undrawn_forces(drawing, ours, truth).items():
             ours = ours | {kind: ours.get(kind, {}) | {
                 name: _middle(value) if by is FLOATS else value for name, value in named.items()}}
-        numbers = compare(drawing, ours | told.power_readings, truth)
+        numbers = compare(drawing, ours | reference.power_readings, truth)
         if isinstance(by, Exact) and not self.exact:
             numbers = round_fractions(numbers)
         results = printed_results(ours, numbers, (lambda number: number) if self.exact else float)
-        forces = told.drawn_forces(drawing, results, self.locks, self.exact)
-        return Report(drawing, told.rates, results, self.exact, forces, by.name, numbers)
+        forces = reference.drawn_forces(drawing, results, self.locks, self.exact)
+        return Report(drawing, reference.rates, results, self.exact, forces, by.name, numbers)
 
 
 def solver_results(drawing: Construction, solved: ReferenceSolution) -> dict[str, dict[str, Any]]:
@@ -205,8 +205,9 @@ def missed_crossing(drawing: Construction, domain: Domain) -> str:
         return ""
     if flattest is None:
         return ""
-    one, two = (drawing.program.described(arg) for arg in flattest.args)
-    return f"{drawing.program.text(flattest.index)}, where {one} should meet {two}: the two lines are all but parallel"
+    first, second = (drawing.program.described(arg) for arg in flattest.args)
+    step = drawing.program.text(flattest.index)
+    return f"{step}, where {first} should meet {second}: the two lines are all but parallel"
 
 
 def _sine(drawing: Construction, lines: tuple[int, ...]) -> float:
@@ -265,10 +266,10 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
         raise Refused(f"{scene.name}: {irrational}", "fractions cannot hold this", "leave out --exact")
     scene, locks = decide_friction(scene, exact)
     how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia}
-    found, reasons = answer_what_exists(scene, lambda asked: _first_trusted(asked, how, exact, alone, locks))
-    if refuse and not found.agrees:
-        raise found.disagreement
-    return replace(found, whole=scene, missing=reasons) if reasons else found
+    answer, reasons = answer_what_exists(scene, lambda asked: _first_trusted(asked, how, exact, alone, locks))
+    if refuse and not answer.agrees:
+        raise answer.disagreement
+    return replace(answer, whole=scene, missing=reasons) if reasons else answer
 
 
 def _first_trusted(scene: Scene, how: dict[str, Any], exact: bool, alone: bool, locks: str) -> Report:
@@ -276,15 +277,15 @@ def _first_trusted(scene: Scene, how: dict[str, Any], exact: bool, alone: bool, 
     bench = Bench(scene, how, exact, locks)
     try:
         bench.refuse_singular_forces()
-        found = first_sound(scene, how, bench.judge)
+        first = first_sound(scene, how, bench.judge)
     except Refused:
         solve(scene, exact)  # where the pose is singular, that is why nothing can be drawn
         raise
-    if isinstance(found, Report):
-        return found
+    if isinstance(first, Report):
+        return first
     if alone and not exact:
-        return bench.solver_report(*found)
-    raise found[1]
+        return bench.solver_report(*first)
+    raise first[1]
 
 
 def first_sound(scene: Scene, how: dict[str, Any], judged: Callable[[Construction], Judged],
@@ -298,13 +299,13 @@ def first_sound(scene: Scene, how: dict[str, Any], judged: Callable[[Constructio
     try:
         for drawing in islice(constructions(scene, **how), MAX_CONSTRUCTIONS):
             try:
-                found = judged(drawing)
+                judgement = judged(drawing)
             except ConstructionError as error:
                 undrawn = undrawn or (drawing, error)
                 continue
-            if found.agrees:
-                return found
-            wrong = wrong or found
+            if judgement.agrees:
+                return judgement
+            wrong = wrong or judgement
     except Refused as refused:
         if wrong is None and undrawn is None:
             raise Refused(f"{scene.name}: {refused.what}", refused.why, refused.do) from None

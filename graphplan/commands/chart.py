@@ -80,10 +80,11 @@ def run(options: argparse.Namespace) -> int:
         if name == "machine":
             measured = {row.scene for row in rows}
             rows += [row for row in beside if row.scene in measured]
-        told = (hand.description,) if name in ("draughtsman", "stability") else ()
-        for part in PICTURES:
-            if hasattr(module, part):
-                write(drawn(getattr(module, part)(rows, *told)), str(options.folder / f"{name}{PICTURES[part]}.svg"))
+        arguments = (hand.description,) if name in ("draughtsman", "stability") else ()
+        for picture in PICTURES:
+            if hasattr(module, picture):
+                write(drawn(getattr(module, picture)(rows, *arguments)),
+                      str(options.folder / f"{name}{PICTURES[picture]}.svg"))
         write(table(getattr(module, CHARTS[name].row), rows), str(options.folder / f"{name}.csv"))
     return 0
 

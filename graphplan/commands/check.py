@@ -35,59 +35,59 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.methods.panels import redundancies
 
     scene = given(options)
-    found = report_regular_part(scene, lambda scene: reported(options, scene, exact=options.exact, refuse=False))
+    report = report_regular_part(scene, lambda scene: reported(options, scene, exact=options.exact, refuse=False))
     groups = structure(scene).lines()
-    notes = [str(note) for note in (*redundancies(scene), *shortcuts(found.drawing), *replacements(scene))]
-    notes += [f"{key} {name}: {why}" for key, named in reasons(found).items() for name, why in named.items()]
+    notes = [str(note) for note in (*redundancies(scene), *shortcuts(report.drawing), *replacements(scene))]
+    notes += [f"{key} {name}: {why}" for key, named in reasons(report).items() for name, why in named.items()]
     if options.json:
-        write(as_json(_data(found, groups, notes)))
+        write(as_json(_data(report, groups, notes)))
     else:
-        write("\n".join(_lines(found, groups, notes)) + "\n")
-    if found.drawing.broken:
-        error(f"check: {found.drawing.broken}")
-    if not found.numbers_agree:
-        error(str(found.disagreement))
-    return 0 if found.agrees else 1
+        write("\n".join(_lines(report, groups, notes)) + "\n")
+    if report.drawing.broken:
+        error(f"check: {report.drawing.broken}")
+    if not report.numbers_agree:
+        error(str(report.disagreement))
+    return 0 if report.agrees else 1
 
 
-def _lines(found: Report, groups: Sequence[str], notes: Sequence[str]) -> list[str]:
+def _lines(report: Report, groups: Sequence[str], notes: Sequence[str]) -> list[str]:
     """Both opinions as a table, and what there is to say of them."""
-    lines = [found.scene.title, *groups, "", _row("", "construction", "analytic solver", "difference", "own size")]
-    for part, ours in found.results.items():
-        truth = found.truth(part)
+    lines = [report.scene.title, *groups, "", _row("", "construction", "analytic solver", "difference", "own size")]
+    for part, ours in report.results.items():
+        truth = report.truth(part)
         lines += [_row(f"{part} {name}", _text(ours[name]), _text(truth[name]),
-                       *(f"{float(number):.2g}" for number in _sizes(found, part, name))) for name in ours]
-    powers = found.forces.by_balance(found.forces.power) if found.forces and found.forces.power else {}
+                       *(f"{float(number):.2g}" for number in _sizes(report, part, name))) for name in ours]
+    powers = report.forces.by_balance(report.forces.power) if report.forces and report.forces.power else {}
     lines += [_row(f"power balance {name}", "", _text(value)) for name, value in powers.items()]
     lines.append("")
-    for kind, difference in found.check.items():
-        bound = None if found.exact else found.bounds.get(kind)
+    for kind, difference in report.check.items():
+        bound = None if report.exact else report.bounds.get(kind)
         proof = "" if bound is None else f"; no number is further off than {float(bound):.2g} of it"
-        beside = "the number's own size" if kind in found.bounds else "the mechanism's extent"
+        beside = "the number's own size" if kind in report.bounds else "the mechanism's extent"
         lines.append(f"largest difference in {kind}: {float(difference):.2g} of {beside}{proof}")
     lines += notes
-    if found.forces and found.forces.efficiency is not None:
-        lines.append(f"instantaneous efficiency: {float(found.forces.efficiency):.4g} as drawn, "
-                     f"{float(found.forces.standing.efficiency or 0):.4g} in further rounds")
-    if not found.exact:
-        lines.append(f"arithmetic: {found.arithmetic}; condition of the mechanism: {found.condition:.3g}")
+    if report.forces and report.forces.efficiency is not None:
+        lines.append(f"instantaneous efficiency: {float(report.forces.efficiency):.4g} as drawn, "
+                     f"{float(report.forces.standing.efficiency or 0):.4g} in further rounds")
+    if not report.exact:
+        lines.append(f"arithmetic: {report.arithmetic}; condition of the mechanism: {report.condition:.3g}")
     return lines
 
 
-def _data(found: Report, groups: Sequence[str], notes: Sequence[str]) -> dict[str, Any]:
+def _data(report: Report, groups: Sequence[str], notes: Sequence[str]) -> dict[str, Any]:
     """The same as data: of every result what the construction and the solver say."""
-    results = {part: {name: {"construction": _plain(ours[name]), "solver": _plain(found.truth(part)[name]),
-                             **dict(zip(("difference", "size"), map(float, _sizes(found, part, name)), strict=False))}
-                      for name in ours} for part, ours in found.results.items()}
-    held = {"power balance": _plain(tuple(found.forces.power))} if found.forces else {}
-    if found.forces and found.forces.efficiency is not None:
-        held["efficiency"] = {"drawn": _plain(found.forces.efficiency),
-                              "stands": _plain(found.forces.standing.efficiency)}
-    condition = {} if found.exact else {"condition": found.condition}
-    return {"title": found.scene.title, "structure": list(groups), "results": results, **held,
-            "check": {kind: float(difference) for kind, difference in found.check.items()},
-            "bounds": {kind: float(bound) for kind, bound in found.bounds.items()}, "arithmetic": found.arithmetic,
-            "notes": list(notes), **condition, "agrees": found.agrees}
+    results = {part: {name: {"construction": _plain(ours[name]), "solver": _plain(report.truth(part)[name]),
+                             **dict(zip(("difference", "size"), map(float, _sizes(report, part, name)), strict=False))}
+                      for name in ours} for part, ours in report.results.items()}
+    force_data = {"power balance": _plain(tuple(report.forces.power))} if report.forces else {}
+    if report.forces and report.forces.efficiency is not None:
+        force_data["efficiency"] = {"drawn": _plain(report.forces.efficiency),
+                                    "stands": _plain(report.forces.standing.efficiency)}
+    condition = {} if report.exact else {"condition": report.condition}
+    return {"title": report.scene.title, "structure": list(groups), "results": results, **force_data,
+            "check": {kind: float(difference) for kind, difference in report.check.items()},
+            "bounds": {kind: float(bound) for kind, bound in report.bounds.items()}, "arithmetic": report.arithmetic,
+            "notes": list(notes), **condition, "agrees": report.agrees}
 
 
 def _row(name: str, *cells: str) -> str:
@@ -96,20 +96,20 @@ def _row(name: str, *cells: str) -> str:
     return f"{name:<24}" + "".join(f"  {cell:>{width}}" for cell, width in zip(cells, widths, strict=False))
 
 
-def _sizes(found: Report, part: str, name: str) -> tuple[Any, ...]:
+def _sizes(report: Report, kind: str, name: str) -> tuple[Any, ...]:
     """The largest difference of a quantity's numbers, and its own size; nothing where it is not compared."""
-    numbers = found.numbers.get(part, {}).get(name, ())
+    numbers = report.numbers.get(kind, {}).get(name, ())
     return (max(number.gap for number in numbers), numbers[0].size) if numbers else ()
 
 
 def _text(value: Any) -> str:
     if isinstance(value, tuple):
-        return "(" + ", ".join(_text(part) for part in value) + ")"
+        return "(" + ", ".join(_text(component) for component in value) + ")"
     return str(value) if isinstance(value, Fraction) else f"{value:.9g}"
 
 
 def _plain(value: Any) -> Any:
     """A number or a vector as JSON takes it: fractions as a string p/q."""
     if isinstance(value, tuple):
-        return [_plain(part) for part in value]
+        return [_plain(component) for component in value]
     return str(value) if isinstance(value, Fraction) else value

@@ -36,21 +36,22 @@ def run(options: argparse.Namespace) -> int:
 
     afford("--hands", options.hands, "hands", HAND)
     scene, hand, messages = load(options.scene), pencil(options), Messages(options.quiet)
-    found = []
+    comparisons = []
     for strict, plan in product((False, True), motion_plans(scene)):
         messages.progress(f"{plan} plans{', strict' if strict else ''}")
-        drawn = forms(scene, hand, plan=plan, strict=strict, paper=options.paper, construct=construct)
-        found.append(Comparison(scene, plan, strict, tuple(drawn), options.hands))
+        alternatives = forms(scene, hand, plan=plan, strict=strict, paper=options.paper, construct=construct)
+        comparisons.append(Comparison(scene, plan, strict, tuple(alternatives), options.hands))
     messages.progress("")
-    refusals = [form.refusal for one in found for form in one.forms]
+    refusals = [form.refusal for comparison in comparisons for form in comparison.forms]
     for refusal in refusals:
         if isinstance(refusal, Disagreement) or (refusal is not None and all(refusals)):
             raise refusal
     if options.json:
-        data = {"title": scene.title, "model": hand.model, "forms": [row for one in found for row in one.data()]}
+        data = {"title": scene.title, "model": hand.model,
+                "forms": [row for comparison in comparisons for row in comparison.data()]}
         write(as_json(data))
     else:
-        tables = [line for one in found for line in one.lines()]
+        tables = [line for comparison in comparisons for line in comparison.lines()]
         lines = [scene.title, f"Pencil, standard deviations: {hand.description}.", *tables, *legend(options.hands)]
         write("\n".join(lines) + "\n")
     return 0

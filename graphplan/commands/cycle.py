@@ -78,26 +78,26 @@ def run(options: argparse.Namespace) -> int:
         return 0
     scene = presented(options)
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
-    wanted = quantities(scene, options.of) if options.plot else ()
+    plotted = quantities(scene, options.of) if options.plot else ()
     messages = Messages(options.quiet)
-    found = cycle(scene_asking_for(scene, wanted), options.positions, span, method=options.method, plan=options.plan,
-                  inertia=options.inertia, workers=workers, machine=options.compiled,
-                  progress=lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else ""))
-    if found.wrong:
-        for k in found.wrong:
+    results = cycle(scene_asking_for(scene, plotted), options.positions, span, method=options.method, plan=options.plan,
+                    inertia=options.inertia, workers=workers, machine=options.compiled,
+                    progress=lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else ""))
+    if results.wrong:
+        for k in results.wrong:
             error(f"pose {k}: the construction and the analytic solver disagree")
         return 1
     if options.output or not options.plot:
-        write(_table(found, ending), options.output)
+        write(_table(results, ending), options.output)
     if options.plot:
         from graphplan.cycle.diagrams import diagram
         from graphplan.output.plots import diagrams
         from graphplan.words.tongue import tongue
 
-        drawn = [diagram(curve, options.strips) for curve in curves(found, wanted)]
-        write(diagrams(drawn, scene.title, tongue(scene.sheet.language)), options.plot)
-    _report_poses(found, messages)
-    return NOTHING_REACHED if len(found.faults) == options.positions else 0
+        plots = [diagram(curve, options.strips) for curve in curves(results, plotted)]
+        write(diagrams(plots, scene.title, tongue(scene.sheet.language)), options.plot)
+    _report_poses(results, messages)
+    return NOTHING_REACHED if len(results.faults) == options.positions else 0
 
 
 def _paths(options: argparse.Namespace) -> str:
@@ -124,10 +124,10 @@ def _table(found: Cycle, ending: str) -> str | bytes:
     """The table of all poses as a file of this kind."""
     from graphplan.output import tables as columns
 
-    parts = found.scene, found.turn.travel, found.requested_points, found.results, found.faults
+    columns_data = found.scene, found.turn.travel, found.requested_points, found.results, found.faults
     if ending == ".npz":
-        return columns.archive(*parts)
-    return columns.json(*parts) if ending == ".json" else columns.text(*parts)
+        return columns.archive(*columns_data)
+    return columns.json(*columns_data) if ending == ".json" else columns.text(*columns_data)
 
 
 def _report_poses(found: Cycle, messages: Messages) -> None:
@@ -145,8 +145,8 @@ def _report_poses(found: Cycle, messages: Messages) -> None:
 def _note_lines(notes: Mapping[int, str]) -> Iterator[str]:
     """Notes on poses, those of neighbours that say the same as one line."""
     for _, run in groupby(enumerate(notes), lambda at: (at[1] - at[0], _reason(notes[at[1]]))):
-        first, *rest = (k for _, k in run)
-        poses = f"pose {first}" if not rest else f"poses {first} to {rest[-1]} ({len(rest) + 1})"
+        first, *others = (k for _, k in run)
+        poses = f"pose {first}" if not others else f"poses {first} to {others[-1]} ({len(others) + 1})"
         yield f"{poses}: {notes[first]}"
 
 

@@ -38,16 +38,16 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.check.answerable import report_regular_part
     from graphplan.check.json_results import result_data
 
-    found = report_regular_part(given(options), lambda scene: reported(options, scene, exact=options.exact,
-                                                                       alone=not options.pencil))
-    printed = result_data(found, each=options.bounds)
+    report = report_regular_part(given(options), lambda scene: reported(options, scene, exact=options.exact,
+                                                                        alone=not options.pencil))
+    printed = result_data(report, each=options.bounds)
     if options.pencil:
         from graphplan.accuracy.drafted import draft
 
-        printed["pencil"] = draft(found.drawing, options.pencil, check=found.check).data
-    if after := beyond(found.scene):
-        told = result_data(reported(options, after, exact=options.exact, alone=not options.pencil))
-        printed["beyond"] = {part: told[part] for part in ("points", "links", "slides")}
+        printed["pencil"] = draft(report.drawing, options.pencil, check=report.check).data
+    if after := beyond(report.scene):
+        after_data = result_data(reported(options, after, exact=options.exact, alone=not options.pencil))
+        printed["beyond"] = {section: after_data[section] for section in ("points", "links", "slides")}
     write(as_json(printed, 2))
     return 0
 
@@ -65,8 +65,8 @@ def _run_certified(options: argparse.Namespace) -> int:
         how, _ = drawn_by(options, scene)
         return certify(scene, options.digits, method=how["method"], plan=options.plan, inertia=options.inertia)
 
-    found = report_regular_part(given(options), proven)
-    if not found.agrees:
-        raise found.disagreement
-    write(as_json(found.data, 2))
+    certified_report = report_regular_part(given(options), proven)
+    if not certified_report.agrees:
+        raise certified_report.disagreement
+    write(as_json(certified_report.data, 2))
     return 0

@@ -220,8 +220,8 @@ def _closing_rows(links: Sequence[LinkPose], closing: Closing, arms: Sequence[Ve
                   drives: Sequence[DriveState]) -> Iterator[Row]:
     """What a pair leaves open."""
     place, moves = links[closing.link].point(_arm(arms, closing.arm))
-    other, others = links[closing.on].point(_arm(arms, closing.rest))
-    gap, moves = less(place, other), _subtract_rates(moves, others)
+    far_end, far_moves = links[closing.on].point(_arm(arms, closing.rest))
+    gap, moves = less(place, far_end), _subtract_rates(moves, far_moves)
     if closing.far is not None:
         far, _ = arms[closing.far]
         yield {RESIDUE: (dot(gap, gap) - far * far) / (far + far),
@@ -236,24 +236,24 @@ def _closing_rows(links: Sequence[LinkPose], closing: Closing, arms: Sequence[Ve
     swing = dot(turned(ray), gap)
     row = _add_rates({k: dot(ray, move) for k, move in moves.items()},
                      {k: swing if w is None else w * swing for k, w in guide.spin.items()})
-    left = dot(ray, gap)
+    residual = dot(ray, gap)
     if closing.drive is not None:
         far, rate = drives[closing.drive]
-        left, row = left - far, _add_rates(row, {k: -w for k, w in _drive_rates(rate).items()})
+        residual, row = residual - far, _add_rates(row, {k: -w for k, w in _drive_rates(rate).items()})
     if closing.lever is not None:
-        one, two, (lever, _) = links[closing.link], links[closing.on], arms[closing.lever]
-        left = left + lever * (one.angle - two.angle)
-        row = _add_rates(row, _add_rates(_scaled_rates(lever, one.spin), _scaled_rates(-lever, two.spin)))
-    yield {RESIDUE: left, **row}
+        link, on_link, (lever, _) = links[closing.link], links[closing.on], arms[closing.lever]
+        residual = residual + lever * (link.angle - on_link.angle)
+        row = _add_rates(row, _add_rates(_scaled_rates(lever, link.spin), _scaled_rates(-lever, on_link.spin)))
+    yield {RESIDUE: residual, **row}
 
 
 def _mesh_row(links: Sequence[LinkPose], mesh: Mesh, arms: Sequence[Vector]) -> Row:
     """What a pair of gears leaves open: an angle, as linear in those of the links as it is."""
-    (k1, k2), row, left = arms[mesh.factors], Row(), 0.0
+    (k1, k2), row, residual = arms[mesh.factors], Row(), 0.0
     for weight, place in ((k1, mesh.one), (k2, mesh.other), (-(k1 + k2), mesh.carrier)):
-        left = left + weight * links[place].angle
+        residual = residual + weight * links[place].angle
         row = _add_rates(row, _scaled_rates(weight, links[place].spin))
-    return {RESIDUE: left, **row}
+    return {RESIDUE: residual, **row}
 
 
 def _scaled_rates(weight: Any, spin: Moves) -> Moves:
@@ -264,29 +264,29 @@ def _scaled_rates(weight: Any, spin: Moves) -> Moves:
 def _turning_row(links: Sequence[LinkPose], turning: Spin, drives: Sequence[DriveState]) -> Row:
     """What a pair leaves open that holds a link's turning to another's."""
     link, on = links[turning.link], links[turning.on or 0]
-    rest, spin = on.turn or (1.0, 0.0), on.spin
+    reference, spin = on.turn or (1.0, 0.0), on.spin
     if turning.drive is not None:
         (cos, sin, *_), rate = drives[turning.drive]
-        rest, spin = rotate(on.turn, (cos, sin)), _add_rates(spin, _drive_rates(rate))
-    mirrored = rest[0], -rest[1]
+        reference, spin = rotate(on.turn, (cos, sin)), _add_rates(spin, _drive_rates(rate))
+    mirrored = reference[0], -reference[1]
     cos, sin = rotate(link.turn or (1.0, 0.0), mirrored)
     apart = _add_rates({k: 1.0 if w is None else w for k, w in link.spin.items()},
                        {k: -1.0 if w is None else -w for k, w in spin.items()})
     return {RESIDUE: sin, **{k: cos * w for k, w in apart.items()}}
 
 
-def _add_rates(one: Moves, other: Moves) -> Moves:
+def _add_rates(first: Moves, second: Moves) -> Moves:
     """The sum of two sets of derivatives, of vectors or of numbers."""
-    found = dict(one)
-    for k, b in other.items():
-        a = found.get(k)
-        found[k] = b if a is None else plus(a, b) if isinstance(a, tuple) else a + b
-    return found
+    total = dict(first)
+    for k, b in second.items():
+        a = total.get(k)
+        total[k] = b if a is None else plus(a, b) if isinstance(a, tuple) else a + b
+    return total
 
 
-def _subtract_rates(one: Moves, other: Moves) -> Moves:
+def _subtract_rates(first: Moves, second: Moves) -> Moves:
     """The difference of two sets of derivatives of vectors."""
-    found = dict(one)
-    for k, (x, y) in other.items():
-        found[k] = less(found[k], (x, y)) if k in found else (-x, -y)
-    return found
+    difference = dict(first)
+    for k, (x, y) in second.items():
+        difference[k] = less(difference[k], (x, y)) if k in difference else (-x, -y)
+    return difference

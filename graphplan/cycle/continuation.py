@@ -95,11 +95,11 @@ class Path:
         nodes, table = self._knot_curves
         i = np.clip(np.searchsorted(self.travel, travel) - 1, 0, len(self.travel) - 2)
         around, coefficients = travel - nodes.take(i, axis=1), table.take(i, axis=1)
-        *rest, found = coefficients.reshape(2 * len(nodes), self._state.shape[1], len(travel))
-        for k, coefficient in reversed([*enumerate(rest)]):
-            found *= around[k // 2]
-            found += coefficient
-        return found, self._steps.take(i)
+        *lower, states = coefficients.reshape(2 * len(nodes), self._state.shape[1], len(travel))
+        for k, coefficient in reversed([*enumerate(lower)]):
+            states *= around[k // 2]
+            states += coefficient
+        return states, self._steps.take(i)
 
     @cached_property
     def _knot_curves(self) -> tuple[Array, Array]:
@@ -116,11 +116,11 @@ def divided_differences(travel: Array, state: Array, rate: Array) -> list[Array]
     """The divided differences of m knots, the first axis, with their rates: the coefficients of Newton's polynomial."""
     nodes, column = travel.repeat(2, axis=0), np.empty((2 * len(travel) - 1, *state.shape[1:]))
     column[::2], column[1::2] = rate, (state[1:] - state[:-1]) / (travel[1:] - travel[:-1])
-    found = [state[0], column[0]]
+    differences = [state[0], column[0]]
     for k in range(2, len(nodes)):
         column = (column[1:] - column[:-1]) / (nodes[k:] - nodes[:-k])
-        found.append(column[0])
-    return found
+        differences.append(column[0])
+    return differences
 
 
 class Continuation:
@@ -169,18 +169,18 @@ class Continuation:
         """The knots up to the goal, or to the limit before it; `done` so much of the path."""
         knots, at, step = [start], start.travel, math.copysign(FIRST_STEP * self.longest, goal - start.travel)
         while at != goal:
-            left = goal - at
-            step = left if abs(left) <= abs(step) + self.finest else step
-            travel = goal if step == left else at + step
+            remaining = goal - at
+            step = remaining if abs(remaining) <= abs(step) + self.finest else step
+            travel = goal if step == remaining else at + step
             predicted = _extrapolate(knots[-PREDICTOR_KNOTS:], travel)
-            size = float(self._step_length(abs(travel - at), predicted - knots[-1].state, knots[-1].state))
-            knot = self._solve_knot(travel, predicted, size)
+            length = float(self._step_length(abs(travel - at), predicted - knots[-1].state, knots[-1].state))
+            knot = self._solve_knot(travel, predicted, length)
             if isinstance(knot, int) or not knot.is_regular(start):
                 step /= 2
                 if abs(step) < self.finest:
                     return self._end_at_limit(knots, math.copysign(CROSSING_STEP * self.longest, step))
                 continue
-            missed = float(self._scaled_change(knot.state - predicted, predicted).max(initial=0.0)) / size
+            missed = float(self._scaled_change(knot.state - predicted, predicted).max(initial=0.0)) / length
             if missed <= LONGER_MISS and 2 * abs(step) <= self.longest:
                 step *= 2
             elif missed > SHORTER_MISS:
@@ -206,17 +206,17 @@ class Continuation:
 
     def _solve_knot(self, travel: float, predicted: Array, size: float) -> Knot | int:
         """The knot at this travel; the place of the first group in which Newton's method is not to be trusted there."""
-        placed, guess = dict[str, PoseNumbers](), predicted.tolist()
+        link_numbers, guess = dict[str, PoseNumbers](), predicted.tolist()
         state, rate, determinants = list[float](), list[float](), list[float]()
         for i, group in enumerate(self.groups):
-            found = group.settle(placed, travel, guess[self.ends[i] : self.ends[i + 1]], size)
-            if found is None:
+            settled = group.settle(link_numbers, travel, guess[self.ends[i] : self.ends[i + 1]], size)
+            if settled is None:
                 return i
-            last = found[1]
-            state += found[0]
+            last = settled[1]
+            state += settled[0]
             rate += last.rates
             determinants.append(last.determinant)
-            placed.update(zip(group.links, last.lies, strict=True))
+            link_numbers.update(zip(group.links, last.lies, strict=True))
         return Knot(travel, np.array(state), np.array(rate), np.array(determinants))
 
     def _end_at_limit(self, knots: list[Knot], step: float) -> tuple[list[Knot], Limit]:
@@ -238,17 +238,18 @@ class Continuation:
         ratio = beyond.determinants / before.determinants
         i = int(np.argmax(ratio <= 0))
         travel = before.travel + (travel - before.travel) / (1 - float(ratio[i]))
-        there = last._replace(travel=travel, state=_extrapolate([before, beyond], travel))
+        limit_knot = last._replace(travel=travel, state=_extrapolate([before, beyond], travel))
         knots = [knot for knot in knots if abs(knot.travel) < abs(travel)]
-        return [*knots, there], Limit(travel, CROSSING_STEP * abs(step), self.linkage.parts[i], True)
+        return [*knots, limit_knot], Limit(travel, CROSSING_STEP * abs(step), self.linkage.parts[i], True)
 
 
 def _extrapolate(knots: Sequence[Knot], travel: float) -> Array:
     """The state at this travel on the curve through these knots with their rates (Hermite, in Lagrange's form)."""
-    found: Array = 0.0
+    state: Array = 0.0
     for knot in knots:
-        gaps = [(knot.travel - other.travel, travel - other.travel) for other in knots if other is not knot]
+        gaps = [(knot.travel - neighbour.travel, travel - neighbour.travel) for neighbour in knots
+                if neighbour is not knot]
         weight, away = math.prod(far / gap for gap, far in gaps) ** 2, travel - knot.travel
         slope = 2 * sum(1 / gap for gap, _ in gaps)
-        found = found + weight * (1 - slope * away) * knot.state + weight * away * knot.rate
-    return found
+        state = state + weight * (1 - slope * away) * knot.state + weight * away * knot.rate
+    return state

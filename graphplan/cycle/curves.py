@@ -76,23 +76,23 @@ class KinematicCurve:
 
     def stretches(self, places: Places) -> list[Places]:
         """The places in stretches of two or more between which no position is unknown: a gap is never bridged."""
-        gaps, known = np.cumsum(~self.is_known), self.is_known
-        seen = places[known[places]]
-        parts = np.split(seen, np.flatnonzero(np.diff(gaps[seen])) + 1)
-        return [part for part in parts if len(part) > 1]
+        gaps, is_known = np.cumsum(~self.is_known), self.is_known
+        known_places = places[is_known[places]]
+        stretches = np.split(known_places, np.flatnonzero(np.diff(gaps[known_places])) + 1)
+        return [stretch for stretch in stretches if len(stretch) > 1]
 
     def values_at(self, quantity: str, times: Reals) -> Reals:
         """The values of s, v or a at other times: the cubic through the four positions about each; nan in gaps.
 
         It errs by the fourth order of the positions' distance, where the graphical methods err by the second.
         """
-        found = np.full(np.shape(times), np.nan)
+        values = np.full(np.shape(times), np.nan)
         slack = TIME_TOL * (self.time[-1] - self.time[0])
-        for part in self.stretches(np.arange(len(self.time))):
-            t, y = self.time[part], self.values(quantity)[part]
+        for stretch in self.stretches(np.arange(len(self.time))):
+            t, y = self.time[stretch], self.values(quantity)[stretch]
             inside = (times >= t[0] - slack) & (times <= t[-1] + slack)
-            found[inside] = _interpolate_cubic(t, y, times[inside])
-        return found
+            values[inside] = _interpolate_cubic(t, y, times[inside])
+        return values
 
 
 def curve_over_travel(name: str, unit: str, travel: Reals, rate: float, s: Reals, v: Reals, a: Reals, *,
@@ -115,9 +115,9 @@ def curve_over_travel(name: str, unit: str, travel: Reals, rate: float, s: Reals
 
 def _unwrap(angles: Reals) -> Reals:
     """Angles without jumps of a whole turn, also from one side of a gap to the other."""
-    known, found = np.isfinite(angles), angles.copy()
-    found[known] = np.unwrap(angles[known])
-    return found
+    finite, unwrapped = np.isfinite(angles), angles.copy()
+    unwrapped[finite] = np.unwrap(angles[finite])
+    return unwrapped
 
 
 def _interpolate_cubic(t: Reals, y: Reals, times: Reals) -> Reals:
@@ -126,9 +126,9 @@ def _interpolate_cubic(t: Reals, y: Reals, times: Reals) -> Reals:
     first = np.clip(np.searchsorted(t, times, side="right") - 2, 0, len(t) - count)
     nodes = [(t[first + k], y[first + k]) for k in range(count)]
     total = np.zeros(len(times))
-    for k, (here, value) in enumerate(nodes):
-        others = [there for i, (there, _) in enumerate(nodes) if i != k]
-        total += value * np.prod([(times - there) / (here - there) for there in others], axis=0)
+    for k, (node, value) in enumerate(nodes):
+        other_nodes = [other_node for i, (other_node, _) in enumerate(nodes) if i != k]
+        total += value * np.prod([(times - other_node) / (node - other_node) for other_node in other_nodes], axis=0)
     return total
 
 
@@ -195,14 +195,14 @@ def ordinate_spans(curve: KinematicCurve, places: Places) -> dict[str, float]:
     makes has no size, and nothing has where no place is known."""
     if not len(places):
         return dict.fromkeys(QUANTITIES, 0.0)
-    period, found = float(curve.time[-1] - curve.time[0]), {"s": float(np.ptp(curve.s[places]))}
+    period, spans = float(curve.time[-1] - curve.time[0]), {"s": float(np.ptp(curve.s[places]))}
     magnitude = float(np.abs(curve.s[places]).max())
     for rate in QUANTITIES[1:]:
         values = curve.values(rate)[places]
         span = float(max(values.max(), 0) - min(values.min(), 0))
-        found[rate] = span if span * period > RATE_TOL * magnitude else 0.0
+        spans[rate] = span if span * period > RATE_TOL * magnitude else 0.0
         magnitude = max(span, magnitude / period)
-    return found
+    return spans
 
 
 def _rate_scale(least: float, slope: Fraction) -> Fraction:

@@ -193,7 +193,7 @@ class _Stretch:
         figure = self._draw_by_chords(v, a)
         figure |= self._draw_by_tangents(v, a) if self.even else {}
         figure |= self._draw_integrals(v, a)
-        return {found: rays for found, rays in figure.items() if rays}
+        return {curve: rays for curve, rays in figure.items() if rays}
 
     def _draw_by_chords(self, v: Axes, a: Axes) -> dict[FoundCurve, list[Ray[Mark]]]:
         """The velocity in the middle of the strips, and from its chords the acceleration at the divisions between."""
@@ -240,8 +240,8 @@ def construct_diagram(curve: KinematicCurve, scales: DiagramScales, places: Plac
     spots = iter([values[index] for index in program.wanted])
     traces: Traces = {}
     for figure in figures:
-        for found, rays in figure.items():
-            traces.setdefault(found, []).append([Ray(*(next(spots) for _ in ray)) for ray in rays])
+        for curve_drawn, rays in figure.items():
+            traces.setdefault(curve_drawn, []).append([Ray(*(next(spots) for _ in ray)) for ray in rays])
     return program, traces
 
 
@@ -291,7 +291,7 @@ def diagram(curve: KinematicCurve, strips: int | None = None) -> KinematicDiagra
     scales = diagram_scales(curve, places)
     program, traces = construct_diagram(curve, scales, places)
     misses, halved = _misses(curve, scales, traces), _misses_at_other_width(curve, scales, places)
-    errors = tuple(_error(found, miss, halved) for found, miss in misses.items())
+    errors = tuple(_error(curve_drawn, miss, halved) for curve_drawn, miss in misses.items())
     return KinematicDiagram(curve, scales, places, program, traces, errors)
 
 
@@ -332,11 +332,11 @@ def _misses(curve: KinematicCurve, scales: DiagramScales,
             traces: Mapping[FoundCurve, list[list[Ray[Spot]]]]) -> dict[FoundCurve, _Misses]:
     """How far each curve found is from the plans; a quantity that stands still is left out."""
     misses, spans = dict[FoundCurve, _Misses](), ordinate_spans(curve, np.flatnonzero(curve.is_known))
-    for found, stretches in traces.items():
-        if spans[found.quantity]:
-            x, y = np.array([spot for part in _spots(found, stretches) for spot in part]).T
-            plans = scales.y(found.quantity, curve.values_at(found.quantity, scales.time(x)))
-            misses[found] = _Misses(y - plans, float(np.abs(plans).max()))
+    for curve_drawn, stretches in traces.items():
+        if spans[curve_drawn.quantity]:
+            x, y = np.array([spot for spots in _spots(curve_drawn, stretches) for spot in spots]).T
+            plans = scales.y(curve_drawn.quantity, curve.values_at(curve_drawn.quantity, scales.time(x)))
+            misses[curve_drawn] = _Misses(y - plans, float(np.abs(plans).max()))
     return misses
 
 
@@ -346,17 +346,17 @@ def _misses_at_other_width(curve: KinematicCurve, scales: DiagramScales,
     nothing where neither divides evenly."""
     positions, count = len(curve.time) - 1, len(places) - 1
     if positions % (2 * count) == 0:
-        other, ratio = 2 * count, 0.5
+        strips, ratio = 2 * count, 0.5
     elif positions % count == 0 and count % 2 == 0 and count >= MIN_STRIPS:
-        other, ratio = count // 2, 2.0
+        strips, ratio = count // 2, 2.0
     else:
         return {}, 1.0
-    return _misses(curve, scales, construct_diagram(curve, scales, _even_places(positions, other))[1]), ratio
+    return _misses(curve, scales, construct_diagram(curve, scales, _even_places(positions, strips))[1]), ratio
 
 
-def _error(found: FoundCurve, miss: _Misses, halved: tuple[dict[FoundCurve, _Misses], float]) -> Error:
+def _error(curve_drawn: FoundCurve, miss: _Misses, halved: tuple[dict[FoundCurve, _Misses], float]) -> Error:
     """The error of one curve found; its order is the power of the strips' width with which it goes."""
-    (others, ratio), order = halved, None
-    if found in others and min(miss.rms, others[found].rms) > ORDINATE_TOL * miss.largest:
-        order = math.log(others[found].rms / miss.rms, ratio)
-    return Error(found, float(np.abs(miss.by).max()) / miss.largest, miss.rms / miss.largest, order)
+    (other_misses, ratio), order = halved, None
+    if curve_drawn in other_misses and min(miss.rms, other_misses[curve_drawn].rms) > ORDINATE_TOL * miss.largest:
+        order = math.log(other_misses[curve_drawn].rms / miss.rms, ratio)
+    return Error(curve_drawn, float(np.abs(miss.by).max()) / miss.largest, miss.rms / miss.largest, order)

@@ -78,32 +78,32 @@ def assemble(linkage: Linkage, groups: Sequence[ClosureGroup],
              travel: Array) -> tuple[dict[str, PlacedLink], list[tuple[Failure, Array]]]:
     """The links that can be placed at n travels without the path; and each dyad with the mask of poses that prevent it.
     """
-    placed = {FRAME: PlacedLink(linkage.origins[FRAME], np.full(travel.shape, linkage.origins[FRAME]),
-                                np.ones(travel.shape, dtype=complex))}
-    found = []
+    links_placed = {FRAME: PlacedLink(linkage.origins[FRAME], np.full(travel.shape, linkage.origins[FRAME]),
+                                      np.ones(travel.shape, dtype=complex))}
+    prevented = []
     with np.errstate(all="ignore"):
         for group in groups:
-            if linkage.is_special(group.part) or not {*group.carriers} <= placed.keys():
+            if linkage.is_special(group.part) or not {*group.carriers} <= links_placed.keys():
                 continue
             if not group.unknowns:
-                placed.update(_place_driven(linkage, group, travel, placed))
-            elif found_dyad := assemble_dyad(linkage, group, placed):
+                links_placed.update(_place_driven(linkage, group, travel, links_placed))
+            elif found_dyad := assemble_dyad(linkage, group, links_placed):
                 links, why = found_dyad
-                before = sum(placed[link].base for link in (FRAME, *group.carriers))
+                before = sum(links_placed[link].base for link in (FRAME, *group.carriers))
                 missing = ~np.isfinite(sum(link.base + link.turn for link in links)) & np.isfinite(before)
-                found.append((Failure(group.part, why), missing))
-                placed.update(zip(group.part, links, strict=True))
-    return placed, found
+                prevented.append((Failure(group.part, why), missing))
+                links_placed.update(zip(group.part, links, strict=True))
+    return links_placed, prevented
 
 
 def _place_driven(linkage: Linkage, group: ClosureGroup, travel: Array,
                   placed: Mapping[str, PlacedLink]) -> Iterator[tuple[str, PlacedLink]]:
     """The links of a group that has no unknowns."""
     frame = linkage.origins[FRAME]
-    known = [LinkPose(_pair((placed[link].point(linkage.origins[link]) - frame) / linkage.reach),
-                      _pair(placed[link].turn))
-             for link in (FRAME, *group.carriers)]
-    for link, body in zip(group.links, group.link_poses(known, travel, ()), strict=True):
+    carriers = [LinkPose(_pair((placed[link].point(linkage.origins[link]) - frame) / linkage.reach),
+                         _pair(placed[link].turn))
+                for link in (FRAME, *group.carriers)]
+    for link, body in zip(group.links, group.link_poses(carriers, travel, ()), strict=True):
         (x, y), (cos, sin) = body.base, body.turn or (1.0, 0.0)
         yield link, PlacedLink(linkage.origins[link], frame + linkage.reach * (x + 1j * y), cos + 1j * sin)
 
@@ -118,12 +118,12 @@ def assemble_dyad(linkage: Linkage, group: ClosureGroup,
 
     The places and turns of links are arrays, or any numbers that compute as complex ones.
     """
-    part, before = group.part, (FRAME, *group.carriers)
-    pairs = (pair for link in part for pair in linkage.pairs(link, (*before, *part)))
-    if len(part) != 2 or any(isinstance(pair, Gear | Contact) for pair in pairs):
+    links, before = group.part, (FRAME, *group.carriers)
+    pairs = (pair for link in links for pair in linkage.pairs(link, (*before, *links)))
+    if len(links) != 2 or any(isinstance(pair, Gear | Contact) for pair in pairs):
         return None
-    outer = [_dyad_pairs(linkage, link, before, placed) for link in part]
-    inner = [hinge for hinge in _dyad_pairs(linkage, part[0], part[1:], placed)
+    outer = [_dyad_pairs(linkage, link, before, placed) for link in links]
+    inner = [hinge for hinge in _dyad_pairs(linkage, links[0], links[1:], placed)
              if (hinge.letter, hinge.name) not in {(hinge.letter, hinge.name) for hinge in outer[0]}]
     if [len(hinges) for hinges in (*outer, inner)] != [1, 1, 1]:
         return None
@@ -139,12 +139,12 @@ def assemble_dyad(linkage: Linkage, group: ClosureGroup,
 def _dyad_pairs(linkage: Linkage, link: str, others: tuple[str, ...],
                 placed: Mapping[str, PlacedLink]) -> list[DyadPair]:
     """The pairs of a link with some others."""
-    found = []
+    pairs = []
     for pair in linkage.pairs(link, others):
-        on = min((other for other in pair.links if other != link), key=linkage.order.__getitem__)
+        on = min((carrier for carrier in pair.links if carrier != link), key=linkage.order.__getitem__)
         along = unit_direction(pair) if isinstance(pair, Slide) else 0j
-        found.append(DyadPair(pair.letter, pair.at, linkage.places[pair.at], along, placed.get(on, placed[FRAME]), on))
-    return found
+        pairs.append(DyadPair(pair.letter, pair.at, linkage.places[pair.at], along, placed.get(on, placed[FRAME]), on))
+    return pairs
 
 
 def _rrr(A: DyadPair, B: DyadPair, C: DyadPair) -> tuple[PlacedLink, PlacedLink, str]:
@@ -164,20 +164,20 @@ def _rrr(A: DyadPair, B: DyadPair, C: DyadPair) -> tuple[PlacedLink, PlacedLink,
 def _rrp(A: DyadPair, B: DyadPair, guide: DyadPair) -> tuple[PlacedLink, PlacedLink, str]:
     """B lies on a circle about A, and on a line of the guide's link along the guide."""
     a, b, path = A.place, B.place, guide.on.point(B.place)
-    way = 1 if (guide.along.conjugate() * (b - a)).real > 0 else -1
+    sign = 1 if (guide.along.conjugate() * (b - a)).real > 0 else -1
     from_a, ray = A.carrier_point, guide.ray
     off = (from_a - path) * ray.conj()
-    at = path + ray * (off.real + way * np.sqrt(abs(b - a) ** 2 - off.imag**2))
+    at = path + ray * (off.real + sign * np.sqrt(abs(b - a) ** 2 - off.imag**2))
     return (PlacedLink(b, at, (at - from_a) * (1 / (b - a))), guide.on.shifted_to(b, at),
             f"the circle about {A.name} does not meet the line of {B.name} along link {guide.carrier}")
 
 
 def _rpr(A: DyadPair, guide: DyadPair, C: DyadPair) -> tuple[PlacedLink, PlacedLink, str]:
     """The guide's line through A passes C at a given distance: its angle with AC has that sine."""
-    given, AC = guide.along.conjugate() * (C.place - A.place), C.carrier_point - A.carrier_point
-    along = math.copysign(1, given.real or -1) * np.sqrt(AC.real**2 + AC.imag**2 - given.imag**2)
-    one = PlacedLink(A.place, A.carrier_point, AC / (along + 1j * given.imag) / guide.along)
-    return one, one.shifted_to(C.place, C.carrier_point), f"the guide through {A.name} passes {C.name} by"
+    offset, AC = guide.along.conjugate() * (C.place - A.place), C.carrier_point - A.carrier_point
+    along = math.copysign(1, offset.real or -1) * np.sqrt(AC.real**2 + AC.imag**2 - offset.imag**2)
+    first = PlacedLink(A.place, A.carrier_point, AC / (along + 1j * offset.imag) / guide.along)
+    return first, first.shifted_to(C.place, C.carrier_point), f"the guide through {A.name} passes {C.name} by"
 
 
 def _prp(one: DyadPair, B: DyadPair, two: DyadPair) -> tuple[PlacedLink, PlacedLink, str]:

@@ -55,23 +55,24 @@ class Ground:
         touching = {contact.at for contact in self.scene.contacts}
         still = [name for name, links in self.scene.links_of.items()
                  if FRAME in links or not (links or name in touching)]
-        found: list[str] = []
-        while left := [name for name in still if name not in found]:
-            ready = [name for name in left if {*self._placers(name, still)} <= {*found}]
-            found += ready or left
-        return found
+        ordered: list[str] = []
+        while remaining := [name for name in still if name not in ordered]:
+            ready = [name for name in remaining if {*self._placers(name, still)} <= {*ordered}]
+            ordered += ready or remaining
+        return ordered
 
     def _placers(self, name: str, still: Sequence[str]) -> tuple[str, ...]:
         """The points from which a point of the frame is placed, if all are of the frame themselves."""
-        placed = self.scene.placements.get(name)
-        on = needs(placed) if placed and name not in self.fixed else ()
+        placement = self.scene.placements.get(name)
+        on = needs(placement) if placement and name not in self.fixed else ()
         return on if {*on} <= {*still} else ()
 
     def _pin(self, name: str) -> Planar:
         """A point of the frame: free, or as the scene places it from others."""
         place = self.scene.placements.get(name)
         if place and self._placers(name, [*self.pins]):
-            x, y = self._apply_placement(name, place, {other: (pin.re, pin.im) for other, pin in self.pins.items()})
+            x, y = self._apply_placement(name, place,
+                                         {pin_name: (pin.re, pin.im) for pin_name, pin in self.pins.items()})
             return Planar(x, y)
         if name in self.fixed:
             return planar(self.places[name])
@@ -90,12 +91,12 @@ class Ground:
             return made_by(Movement.ARCS_MET).rule(self.domain, *arcs, side=data["side"])
         if placement.how == "on-line":
             P, Q = (planar(at[end]) for end in data["on"].split())
-            found = P + (Q - P) * (scale * float(data["distance"]) / ((Q - P).real**2 + (Q - P).imag**2).sqrt())
-            return found.re, found.im
+            at_distance = P + (Q - P) * (scale * float(data["distance"]) / ((Q - P).real**2 + (Q - P).imag**2).sqrt())
+            return at_distance.re, at_distance.im
         ((centre, r),) = data["distances"].items()
-        through, way = data["on"]["through"], data["on"]["direction"]
+        through, towards = data["on"]["through"], data["on"]["direction"]
         x, y = at[through] if isinstance(through, str) else self.view((float(through[0]), float(through[1])))
-        dx, dy = self._direction(way, at)
+        dx, dy = self._direction(towards, at)
         line, arc = (-dy, dx, dy * x - dx * y), (*at[centre], (scale * float(r)) ** 2)
         return made_by(Movement.CUT).rule(self.domain, line, arc, way="on" if data["pick"] == "right" else "back")
 
@@ -156,9 +157,9 @@ class Planar:
         other = planar(other)
         if _is_zero(other.im):
             return Planar(self.re / other.re, 0.0 if _is_zero(self.im) else self.im / other.re)
-        size = other.re * other.re + other.im * other.im
+        square = other.re * other.re + other.im * other.im
         product = self * other.conj()
-        return Planar(product.re / size, product.im / size)
+        return Planar(product.re / square, product.im / square)
 
     def __pow__(self, power: int) -> Planar:
         assert power == 2

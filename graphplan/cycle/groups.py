@@ -47,9 +47,9 @@ class ClosureGroup:
     """
 
     def __init__(self, linkage: Linkage, part: tuple[str, ...]):
-        made = _LayoutBuilder(linkage, part)
-        self.part, self.links, self.carriers = part, tuple(made.seated), made.carriers
-        self.layout, self.arms, self.ends, self.drives = made.layout(), made.arms, made.ends, made.drives
+        builder = _LayoutBuilder(linkage, part)
+        self.part, self.links, self.carriers = part, tuple(builder.seated), builder.carriers
+        self.layout, self.arms, self.ends, self.drives = builder.layout(), builder.arms, builder.ends, builder.drives
         self.unknowns, self._angles = self.layout.unknowns, self.layout.angles
         self._run = newton.single_pose_step(self.layout)
         self._flat = [number for arm in self.arms for number in arm]
@@ -85,15 +85,15 @@ class ClosureGroup:
         allowed, settled = MAX_FIRST_CORRECTION * size, not self.unknowns
         while True:
             try:
-                found = self.correct(placed, travel, state)
+                corrected = self.correct(placed, travel, state)
             except (ZeroDivisionError, OverflowError, ValueError):  # singular, or a state that has gone to infinity
                 return None
-            far = self._largest_correction(found.corrections, state)
-            if not far <= allowed or abs(found.determinant) < DETERMINANT_TOL:
+            far = self._largest_correction(corrected.corrections, state)
+            if not far <= allowed or abs(corrected.determinant) < DETERMINANT_TOL:
                 return None
-            state = [value - correction for value, correction in zip(state, found.corrections, strict=True)]
+            state = [value - correction for value, correction in zip(state, corrected.corrections, strict=True)]
             if settled or far <= CLOSURE_TOL * size:
-                return state, found
+                return state, corrected
             settled = far <= CORRECTION_TOL * size
             allowed = MAX_FIRST_CORRECTION * size if settled else MAX_CORRECTION_RATIO * far
 
@@ -126,29 +126,30 @@ class ClosureGroup:
         if run:
             return self._replay_step(known, drives, numbers, run, len(travel))
         links = closure.pose_links(self.layout, known, self.arms, drives, numbers)
-        found = newton.step(closure.residual_rows(self.layout, links, self.arms, drives), self.unknowns, np.sqrt)
-        closed = newton.apply_corrections(self.layout, numbers, found.corrections)
+        newton_step = newton.step(closure.residual_rows(self.layout, links, self.arms, drives), self.unknowns, np.sqrt)
+        closed = newton.apply_corrections(self.layout, numbers, newton_step.corrections)
         links = closure.pose_links(self.layout, known, self.arms, drives, closed, moving=False)[len(known):]
-        return np.array(found.corrections), np.broadcast_to(found.determinant, travel.shape), links
+        return np.array(newton_step.corrections), np.broadcast_to(newton_step.determinant, travel.shape), links
 
     def _replay_step(self, known: Sequence[LinkPose], drives: Sequence[closure.DriveState], numbers: Sequence[Any],
                      run: newton.TapeRun,
                      n: int) -> tuple[Array, Array, list[LinkPose]]:
         """The same by the tape."""
         def arrays(vectors: Iterable[Any]) -> Iterator[Array]:
-            for number in (number for part in vectors for number in (part if isinstance(part, tuple) else (part,))):
+            for number in (number for vector in vectors for number in (vector if isinstance(vector, tuple)
+                                                                       else (vector,))):
                 yield number if isinstance(number, np.ndarray) else np.full(n, number)
 
         if self._still.shape[1] < n:
             self._still = np.repeat(np.array(self._flat)[:, None], n, axis=1)
         counted = self.layout.counted
-        bases = (part for body in known[1:]
-                 for part in (body.base, body.turn or (1.0, 0.0), *((body.angle,) if counted else ())))
+        bases = (vector for body in known[1:]
+                 for vector in (body.base, body.turn or (1.0, 0.0), *((body.angle,) if counted else ())))
         moving = (*(drive.at for drive in drives), *numbers)
         width = 5 if counted else 4
-        found = np.empty((self.unknowns + 1 + width * len(self.links), n))
-        run.run([*arrays(bases), *self._still[:, :n], *arrays(moving)], list(found))
-        corrections, (determinant, *lies) = found[: self.unknowns], found[self.unknowns:]
+        rows = np.empty((self.unknowns + 1 + width * len(self.links), n))
+        run.run([*arrays(bases), *self._still[:, :n], *arrays(moving)], list(rows))
+        corrections, (determinant, *lies) = rows[: self.unknowns], rows[self.unknowns:]
         links = [LinkPose((x, y), (cos, sin), angle=angle[0] if angle else 0.0)
                  for x, y, cos, sin, *angle in zip(*(lies[i::width] for i in range(width)), strict=True)]
         return corrections, determinant, links
@@ -188,36 +189,38 @@ class _LayoutBuilder:
 
     def _spins(self) -> Iterator[Spin]:
         """How each link turns: with one that is known to turn, or else by an unknown angle."""
-        known, left = {FRAME, *self.carriers}, dict.fromkeys(self.seated)
-        while left:
-            bond = next((bond for bond in self.turnings if (bond.link in known) != (bond.on in known)), None)
-            link = next(iter(left)) if bond is None else bond.link if bond.on in known else bond.on
-            del left[link]
-            known.add(link)
+        turning_links, remaining = {FRAME, *self.carriers}, dict.fromkeys(self.seated)
+        while remaining:
+            bond = next((bond for bond in self.turnings if (bond.link in turning_links) != (bond.on in turning_links)),
+                        None)
+            link = next(iter(remaining)) if bond is None else bond.link if bond.on in turning_links else bond.on
+            del remaining[link]
+            turning_links.add(link)
             if bond is None:
                 yield Spin(self.place[link], None)
                 continue
             self.turnings.remove(bond)
-            other, rate = (bond.on, float(bond.rate)) if link == bond.link else (bond.link, -float(bond.rate))
-            yield Spin(self.place[link], self.place[other], self._enter_drive(True, rate))
+            reference, rate = (bond.on, float(bond.rate)) if link == bond.link else (bond.link, -float(bond.rate))
+            yield Spin(self.place[link], self.place[reference], self._enter_drive(True, rate))
 
     def _seats(self) -> Iterator[tuple[str, list[Along]]]:
         """Each link with the pair that seats it, the whole ones first; none where no pair does."""
-        placed = {FRAME, *self.carriers}
+        placed_links = {FRAME, *self.carriers}
         while len(self.seated) < len(self.part):
             whole, half = ([(key, joint) for key, joint in self.joints.items()
-                            if len(joint) == size and (joint[0].link in placed) != (joint[0].on in placed)
-                            and (size > 1 or not joint[0].rate)] for size in (2, 1))
-            found: dict[str, list[Along]] = {}
+                            if len(joint) == conditions
+                            and (joint[0].link in placed_links) != (joint[0].on in placed_links)
+                            and (conditions > 1 or not joint[0].rate)] for conditions in (2, 1))
+            seats: dict[str, list[Along]] = {}
             for key, joint in whole or half[:1]:
-                link = joint[0].on if joint[0].link in placed else joint[0].link
-                if link not in found:
-                    found[link] = self.joints.pop(key)
-            if not found:
-                found[next(link for link in self.part if link not in placed)] = []
-            placed.update(found)
-            self.seated += found
-            for link, joint in found.items():
+                link = joint[0].on if joint[0].link in placed_links else joint[0].link
+                if link not in seats:
+                    seats[link] = self.joints.pop(key)
+            if not seats:
+                seats[next(link for link in self.part if link not in placed_links)] = []
+            placed_links.update(seats)
+            self.seated += seats
+            for link, joint in seats.items():
                 if joint:
                     self.linkage.origins[link] = self.linkage.places[joint[0].at]
                 yield link, joint
@@ -231,17 +234,18 @@ class _LayoutBuilder:
         seat = Seat(self.place[link], self.place[on], self._arm(on, self.linkage.places[bond.at], bond.at))
         if len(joint) == 2 and not bond.rate:
             return seat
-        way = unit_direction(bond) if len(joint) == 2 else -1j * unit_direction(bond)
+        direction = unit_direction(bond) if len(joint) == 2 else -1j * unit_direction(bond)
         rate = float(bond.rate) * (1 if link == bond.link else -1)
         drive = self._enter_drive(False, rate / self.linkage.reach) if len(joint) == 2 else None
-        return seat._replace(guide=self.place[bond.to or bond.on], way=self._guide_direction(bond, way), drive=drive)
+        return seat._replace(guide=self.place[bond.to or bond.on], way=self._guide_direction(bond, direction),
+                             drive=drive)
 
     def _closings(self, joint: Sequence[Along]) -> Iterator[Closing]:
         """What closes a loop: a joint at once, or one statement after another."""
         bond = joint[0]
         at = self.linkage.places[bond.at]
-        arm, rest = (self._arm(link, at, bond.at) for link in (bond.link, bond.on))
-        closing = Closing(self.place[bond.link], arm, self.place[bond.on], rest)
+        arm, on_arm = (self._arm(link, at, bond.at) for link in (bond.link, bond.on))
+        closing = Closing(self.place[bond.link], arm, self.place[bond.on], on_arm)
         if len(joint) == 2 and not any(bond.rate for bond in joint):
             yield closing
             return
@@ -254,20 +258,21 @@ class _LayoutBuilder:
     def _rolling_closing(self, bond: CentreDistance | RackBond) -> Closing:
         """What closes a loop by a length: the distance of two centres, or the radius by which a wheel rolls."""
         places, reach = self.linkage.places, self.linkage.reach
-        other = bond.other if isinstance(bond, CentreDistance) else bond.at
+        far_point = bond.other if isinstance(bond, CentreDistance) else bond.at
         closing = Closing(self.place[bond.link], self._arm(bond.link, places[bond.at], bond.at),
-                          self.place[bond.on], self._arm(bond.on, places[other], other))
+                          self.place[bond.on], self._arm(bond.on, places[far_point], far_point))
         if isinstance(bond, CentreDistance):
-            return closing._replace(far=self._number(abs(places[bond.at] - places[other]) / reach))
-        way = self._enter_arm(unit_direction(bond), End(bond.on, bond.at, True))
-        return closing._replace(guide=self.place[bond.on], way=way, lever=self._number(bond.lever / reach))
+            return closing._replace(far=self._number(abs(places[bond.at] - places[far_point]) / reach))
+        direction = self._enter_arm(unit_direction(bond), End(bond.on, bond.at, True))
+        return closing._replace(guide=self.place[bond.on], way=direction, lever=self._number(bond.lever / reach))
 
     def _gear_mesh(self, bond: GearBond) -> Mesh:
         """What a pair of gears closes; of its factors, and their sum, the largest is 1."""
         k1, k2 = bond.factors
-        size = max(abs(k1), abs(k2), abs(k1 + k2))
+        largest = max(abs(k1), abs(k2), abs(k1 + k2))
         carrier = self.linkage.lines.carriers[bond.arm]
-        return Mesh(self.place[bond.link], self.place[bond.on], self.place[carrier], self._number(k1 / size, k2 / size))
+        return Mesh(self.place[bond.link], self.place[bond.on], self.place[carrier],
+                    self._number(k1 / largest, k2 / largest))
 
     def _number(self, one: float, other: float = 0.0) -> int:
         """Numbers that stand among the arms, and are on no link."""

@@ -39,14 +39,14 @@ class Linkage:
     def __init__(self, scene: Scene, paces: tuple[float, ...]):
         self.scene, self.paces = scene, paces
         self.places = {name: number(*at) for name, at in scene.points.items()}
-        self.parts = tuple(part.links for part in structure(scene).parts)
-        links = [FRAME, *(link for part in self.parts for link in part)]
-        place = {FRAME: -1} | {link: i for i, part in enumerate(self.parts) for link in part}
+        self.parts = tuple(group.links for group in structure(scene).parts)
+        links = [FRAME, *(link for group in self.parts for link in group)]
+        place = {FRAME: -1} | {link: i for i, group in enumerate(self.parts) for link in group}
         self.lines = LinesOfCentres(scene, {link: i for i, link in enumerate(links)}, place)
-        self.members = {part: (*part, *(name for name, gear in self.lines.arms.items()
-                                        if max(place[gear.link], place[gear.on]) == i))
-                        for i, part in enumerate(self.parts)}
-        self.links = (FRAME, *(link for part in self.parts for link in self.members[part]))
+        self.members = {group: (*group, *(name for name, gear in self.lines.arms.items()
+                                          if max(place[gear.link], place[gear.on]) == i))
+                        for i, group in enumerate(self.parts)}
+        self.links = (FRAME, *(link for group in self.parts for link in self.members[group]))
         self.order = {link: i for i, link in enumerate(self.links)}
         self.origins = {link: self.places[points[0]] if points else 0j
                         for link in self.links for points in [scene.links.get(link, ())]}
@@ -61,15 +61,15 @@ class Linkage:
     @cached_property
     def bonds(self) -> dict[str, tuple[Bond, ...]]:
         """For each link what ties it to links placed before it, or with it; a drive with its pace."""
-        found: dict[str, list[Bond]] = {link: [] for link in self.links}
+        bonds_of: dict[str, list[Bond]] = {link: [] for link in self.links}
         bonds = [bond for pair in self.scene.binding for bond in pair_bonds(self.scene, self._pin_on_first_link(pair))
                  if bond.condition not in self.scene.redundant]
         bonds += [bond for name in self.lines.arms for bond in self.lines.bonds(name, self.places)]
         bonds += [replace(bond, rate=pace) for drive, pace in zip(self.scene.drives, self.paces, strict=True)
                   for bond in drive.states(self.scene)]
         for bond in bonds:
-            found[max(self.tied_links(bond), key=self.order.__getitem__)].append(bond)
-        return {link: tuple(bonds) for link, bonds in found.items()}
+            bonds_of[max(self.tied_links(bond), key=self.order.__getitem__)].append(bond)
+        return {link: tuple(bonds) for link, bonds in bonds_of.items()}
 
     def tied_links(self, bond: Bond) -> tuple[str, ...]:
         """The links that a bond ties, that of its direction and the line of centres among them."""
@@ -107,8 +107,8 @@ class Linkage:
         """The links placed before a part that it is tied to, but for the frame."""
         bonds = [bond for link in self.members[part] for bond in self.bonds[link]]
         ends = {end for bond in bonds for end in self.tied_links(bond)}
-        placed = {self.order[end] for end in ends - {FRAME}}
-        return tuple(self.links[i] for i in sorted(placed) if i < self.order[part[0]])
+        places = {self.order[end] for end in ends - {FRAME}}
+        return tuple(self.links[i] for i in sorted(places) if i < self.order[part[0]])
 
     def pairs(self, link: str, others: tuple[str, ...]) -> tuple[KinematicPair, ...]:
         """The pairs of a link with some others, but for drives."""
@@ -117,11 +117,11 @@ class Linkage:
     @cached_property
     def _pairs(self) -> dict[str, list[KinematicPair]]:
         """The pairs of each link, but for drives."""
-        found: dict[str, list[KinematicPair]] = {link: [] for link in self.links}
+        pairs_of: dict[str, list[KinematicPair]] = {link: [] for link in self.links}
         for pair in self.scene.binding:
             for link in pair.links:
-                found[link].append(pair)
-        return found
+                pairs_of[link].append(pair)
+        return pairs_of
 
 
 def number(x: Number, y: Number) -> complex:
@@ -208,8 +208,8 @@ def _gear_bond(gear: Gear) -> Bond:
     """A pair of gears, or a gear on a rack: on its right, it rolls back along the line where it turns on."""
     if gear.direction is not None:
         return RackBond(gear.name, *gear.links, gear.centres[0], gear.direction, float(gear.radius))
-    (link, on), (at, other), (k1, k2) = gear.links, gear.centres, gear.factors
-    return GearBond(gear.name, link, on, at, other, (float(k1), float(k2)))
+    (link, on), (at, far_centre), (k1, k2) = gear.links, gear.centres, gear.factors
+    return GearBond(gear.name, link, on, at, far_centre, (float(k1), float(k2)))
 
 
 def _contact_bonds(scene: Scene, contact: Contact) -> Iterator[Bond]:
@@ -222,26 +222,26 @@ def _contact_bonds(scene: Scene, contact: Contact) -> Iterator[Bond]:
             (x, y), (u, v) = (map(float, pair) for pair in (contact.direction, arm))
             yield RackBond(contact.name, link, on, centre, contact.direction, (y * u - x * v) / math.hypot(x, y))
         return
-    other = contact.centres[1] or ""
-    yield CentreDistance(contact.name, link, on, centre, other)
+    far_centre = contact.centres[1] or ""
+    yield CentreDistance(contact.name, link, on, centre, far_centre)
     if contact.rolling:
-        part = contact_fraction(scene, contact)
-        yield GearBond(contact.name, link, on, centre, other, (part, 1.0 - part))
+        fraction = contact_fraction(scene, contact)
+        yield GearBond(contact.name, link, on, centre, far_centre, (fraction, 1.0 - fraction))
 
 
 def contact_point(scene: Scene, contact: Contact, points: Mapping[str, Any], turn: Any) -> Any:
     """Where two profiles touch when points, complex numbers, are elsewhere, and a straight one has turned so."""
-    centre, other = contact.curved[2], contact.centres[1] or ""
+    centre, far_centre = contact.curved[2], contact.centres[1] or ""
     if contact.direction is None:
-        return points[centre] + contact_fraction(scene, contact) * (points[other] - points[centre])
+        return points[centre] + contact_fraction(scene, contact) * (points[far_centre] - points[centre])
     at, seat = (complex(*map(float, scene.points[name])) for name in (contact.at, centre))
     return points[centre] + (at - seat) * turn
 
 
 def contact_fraction(scene: Scene, contact: Contact) -> float:
     """By which part of the way from the first centre to the second two arcs touch."""
-    at, one, other = (complex(*map(float, scene.points[name or ""])) for name in (contact.at, *contact.centres))
-    return ((at - one) / (other - one)).real
+    at, first, second = (complex(*map(float, scene.points[name or ""])) for name in (contact.at, *contact.centres))
+    return ((at - first) / (second - first)).real
 
 
 class LinesOfCentres:
@@ -258,10 +258,10 @@ class LinesOfCentres:
         for bond in bonds:
             if isinstance(bond, GearBond) and bond.condition not in scene.redundant:
                 last = max(part[bond.link], part[bond.on])
-                both = [link for link in scene.links_of[bond.at] if link in scene.links_of[bond.other]
-                        and part[link] <= last]
-                self.carriers[bond.arm] = min(both, key=order.__getitem__, default=bond.arm)
-                if not both:
+                holders = [link for link in scene.links_of[bond.at] if link in scene.links_of[bond.other]
+                           and part[link] <= last]
+                self.carriers[bond.arm] = min(holders, key=order.__getitem__, default=bond.arm)
+                if not holders:
                     self.arms[bond.arm] = bond
 
     def bonds(self, name: str, places: Mapping[str, complex]) -> Iterator[Along]:

@@ -28,12 +28,12 @@ def loads_at(scene: Scene, travel: Array, points: Mapping[str, Array], guides: M
 
     `points` and `guides` are where they are there. Fails with `Refused` where a table does not cover one of the poses.
     """
-    found: dict[str, Array] = {}
+    loads: dict[str, Array] = {}
     for name, load in changing_loads(scene.loads).items():
         assert load.table is not None
         values = _table_values(scene, load.table, travel, points, guides, motion)
-        found[name] = values * _force_direction(load, points) if isinstance(load, Force) else values
-    return found
+        loads[name] = values * _force_direction(load, points) if isinstance(load, Force) else values
+    return loads
 
 
 def _force_direction(force: Force, points: Mapping[str, Array]) -> Any:
@@ -52,11 +52,11 @@ def _table_values(scene: Scene, table: LoadTable, travel: Array, points: Mapping
         reached = np.isfinite(np.sum(list(points.values()), axis=0))
         return table.at(np.where(reached, travel / travel_unit(scene)[0], np.nan))
     slide = next(slide for slide in scene.slides if slide.name == table.slide)
-    way = guide_direction(slide, points, guides)
-    speeds = slide_rate(slide, motion(travel), points[slide.at], way)
+    direction = guide_direction(slide, points, guides)
+    speeds = slide_rate(slide, motion(travel), points[slide.at], direction)
     if table.over_speed:
         return table.at(speeds * abs(float(scene.drives[0].rate)))
-    places = slide_position(scene, slide, points, way)
+    places = slide_position(scene, slide, points, direction)
     senses = _stroke_senses(slide, motion, travel, speeds * onward(scene), scene, points, guides)
     return table.at(places, np.where(senses, senses, next(iter(table.strokes))))
 
@@ -95,12 +95,13 @@ def _stroke_senses(slide: Slide, motion: Motion, travel: Array, speeds: Array, s
     senses = np.sign(np.where(np.abs(speeds) > DEAD_POINT_TOL * reach, speeds, 0.0))
     dead = np.flatnonzero((senses == 0) & np.isfinite(speeds))
     if dead.size:
-        way = {name: z[dead] for name, z in guides.items()}
-        here = {name: z[dead] for name, z in points.items()}
+        guides_there = {name: z[dead] for name, z in guides.items()}
+        points_there = {name: z[dead] for name, z in points.items()}
         for ahead in (1.0, -1.0):  # at the end of the way what it came by, turned
             step = ahead * onward(scene) * LOOK_AHEAD * (scene.extent if first.slides else 1.0)
             links = motion(travel[dead] + step)
-            rates = ahead * onward(scene) * slide_rate(slide, links, here[slide.at], guide_direction(slide, here, way))
-            told = np.sign(np.where(np.isfinite(rates), rates, 0.0))
-            senses[dead] = np.where(senses[dead] == 0, told, senses[dead])
+            rates = ahead * onward(scene) * slide_rate(slide, links, points_there[slide.at],
+                                                       guide_direction(slide, points_there, guides_there))
+            rate_senses = np.sign(np.where(np.isfinite(rates), rates, 0.0))
+            senses[dead] = np.where(senses[dead] == 0, rate_senses, senses[dead])
     return senses

@@ -46,20 +46,20 @@ def traced_motion(scene: Scene) -> TracedMotion | None:
     between limits both ends are positions. None where nothing is asked for. Fails with `Refused` where the mechanism
     cannot be followed.
     """
-    wanted, count, rolling = scene.sheet.curves, scene.sheet.positions, scene.sheet.centrodes
-    if not (wanted or count or rolling or scene.sheet.cubics):
+    curves, count, rolling = scene.sheet.curves, scene.sheet.positions, scene.sheet.centrodes
+    if not (curves or count or rolling or scene.sheet.cubics):
         return None
     try:
         motion = whole_motion(scene)
     except Refused as refused:
-        key = "curves" if wanted else "centrodes" if rolling else "positions" if count else "cubics"
+        key = "curves" if curves else "centrodes" if rolling else "positions" if count else "cubics"
         raise Refused(f"sheet.{key}", refused.why, "leave it out") from None
     low, high = (float(motion.path.travel[end]) for end in (0, -1))
     turns = 1 if scene.drives[0].slides else max(1, round((high - low) / TURN))
     fine, even = _dense_travels(low, high, turns), np.linspace(low, high, count, endpoint=not motion.goes_round)
     turn = motion.turn(np.concatenate([fine, even]))
     stops = motion.path.lower is not None, motion.path.upper is not None
-    paths = [path for name in wanted for path in _point_paths(name, turn.points[name][: fine.size], stops)]
+    paths = [path for name in curves for path in _point_paths(name, turn.points[name][: fine.size], stops)]
     reached = np.flatnonzero(np.all([np.isfinite(z[fine.size :]) for z in turn.points.values()], axis=0)) + fine.size
     positions = tuple({name: _spot(z[k]) for name, z in turn.points.items()} for k in reached)
     centrodes = tuple(one for links in rolling for one in _centrodes(motion, links, fine))
@@ -69,43 +69,44 @@ def traced_motion(scene: Scene) -> TracedMotion | None:
 
 def _dense_travels(low: float, high: float, turns: int) -> Array:
     """Travels from end to end, nearer to each other at the ends: there a pose changes with the root of the travel."""
-    part = (1 - np.cos(np.linspace(0, np.pi, PATH_SPOTS * turns))) / 2
-    return np.clip(low + (high - low) * part, low, high)
+    fractions = (1 - np.cos(np.linspace(0, np.pi, PATH_SPOTS * turns))) / 2
+    return np.clip(low + (high - low) * fractions, low, high)
 
 
 def _point_paths(name: str, places: Array, stops: tuple[bool, bool]) -> Iterator[PointPath]:
     """The path of a point, in parts where poses between are not reached."""
-    known = np.flatnonzero(np.isfinite(places))
-    for part in np.split(known, np.flatnonzero(np.diff(known) > 1) + 1):
-        if part.size > 1:
-            ends = bool(stops[0] and part[0] == 0), bool(stops[1] and part[-1] == places.size - 1)
-            yield PointPath(name, tuple(map(_spot, places[part])), ends)
+    reached = np.flatnonzero(np.isfinite(places))
+    for stretch in np.split(reached, np.flatnonzero(np.diff(reached) > 1) + 1):
+        if stretch.size > 1:
+            ends = bool(stops[0] and stretch[0] == 0), bool(stops[1] and stretch[-1] == places.size - 1)
+            yield PointPath(name, tuple(map(_spot, places[stretch])), ends)
 
 
 def _centrodes(motion: RangeOfMotion, links: str, travel: Array) -> Iterator[Centrode]:
     """The fixed and the moving centrode of a link and one that it moves on."""
     link, on = links.split()
     middle, far = _reach(motion)
-    found = centrode_branches(motion, link, on, travel, middle, far)
-    if found is None:
+    curves = centrode_branches(motion, link, on, travel, middle, far)
+    if curves is None:
         why = said("links {0} and {1} turn alike: their pole stays at infinity", link, on)
         raise Refused("sheet.centrodes", why, "leave it out")
-    for own, parts in zip((on, link), found, strict=True):
-        spots = tuple(tuple(map(_spot, _reduce_fixed_branch(part, far))) for part in parts)
-        yield Centrode(links, own == link, spots, own, () if own == FRAME else tuple(_carriers(motion, own)))
+    for carrier, stretches in zip((on, link), curves, strict=True):
+        spots = tuple(tuple(map(_spot, _reduce_fixed_branch(stretch, far))) for stretch in stretches)
+        yield Centrode(links, carrier == link, spots, carrier, () if carrier == FRAME
+                       else tuple(_carriers(motion, carrier)))
 
 
 def _cubics(motion: RangeOfMotion, link: str) -> Iterator[StationaryCurve]:
     """The points of a link that keep the curvature of their paths in the given pose, and their centres."""
-    found = stationary_curvature(motion, link)
-    if found is None:
+    curves = stationary_curvature(motion, link)
+    if curves is None:
         why = said("link {0} does not turn on the frame in this pose, or does not go on to both sides", link)
         raise Refused("sheet.cubics", why, "leave it out")
     middle, far = _reach(motion)
-    for moving, places in zip((True, False), found, strict=True):
+    for moving, places in zip((True, False), curves, strict=True):
         closed = np.append(places, places[0])
-        parts = split_stretches(closed, middle, far / 2, far / 32)
-        spots = tuple(tuple(map(_spot, part)) for part in parts)
+        stretches = split_stretches(closed, middle, far / 2, far / 32)
+        spots = tuple(tuple(map(_spot, stretch)) for stretch in stretches)
         yield StationaryCurve(f"{link} {FRAME}", moving, spots, link, tuple(_carriers(motion, link)))
 
 
@@ -119,7 +120,8 @@ def _reach(motion: RangeOfMotion) -> tuple[complex, float]:
 def _carriers(motion: RangeOfMotion, link: str) -> Iterator[tuple[str, Spot]]:
     """A point of a link, and of it, or of one that turns alike, the two that lie farthest apart; as they are given."""
     places, pin = motion.linkage.places, motion.linkage.points(link)[0]
-    bars = (ends for one in motion.scene.turning_alike(link) for ends in combinations(motion.linkage.points(one), 2))
+    bars = (ends for alike in motion.scene.turning_alike(link)
+            for ends in combinations(motion.linkage.points(alike), 2))
     bar = max(bars, key=lambda ends: abs(places[ends[1]] - places[ends[0]]), default=())
     yield from ((name, _spot(places[name])) for name in (pin, *bar))
 
@@ -153,19 +155,19 @@ class Centrodes(NamedTuple):
 
 def centrodes(links: Mapping[str, MovingLink], link: str, on: str) -> Centrodes:
     """The centrodes of a link that moves relative to another."""
-    one, other = links[link], links[on]
-    turning, slip = one.spin - other.spin, one.velocity - other.velocity_at(one.base)
-    turning = np.where(np.abs(turning) > TURNING_TOL * (np.abs(one.spin) + np.abs(other.spin)), turning, np.nan)
+    moving, fixed = links[link], links[on]
+    turning, slip = moving.spin - fixed.spin, moving.velocity - fixed.velocity_at(moving.base)
+    turning = np.where(np.abs(turning) > TURNING_TOL * (np.abs(moving.spin) + np.abs(fixed.spin)), turning, np.nan)
     with np.errstate(all="ignore"):
-        pole = one.base + 1j * slip / turning
-    return Centrodes(other.carried_back(pole), one.carried_back(pole))
+        pole = moving.base + 1j * slip / turning
+    return Centrodes(fixed.carried_back(pole), moving.carried_back(pole))
 
 
 def sheet_centrodes(motion: RangeOfMotion, travel: Array) -> dict[str, Centrodes]:
     """The centrodes that the scene's sheet asks for at these travels, by the names of the two links."""
-    wanted = motion.scene.sheet.centrodes
-    links = motion.links_at(travel) if wanted else {}
-    return {names: centrodes(links, *names.split()) for names in wanted}
+    pairs = motion.scene.sheet.centrodes
+    links = motion.links_at(travel) if pairs else {}
+    return {names: centrodes(links, *names.split()) for names in pairs}
 
 
 def centrode_branches(motion: RangeOfMotion, link: str, on: str, travel: Array, middle: complex,
@@ -176,11 +178,11 @@ def centrode_branches(motion: RangeOfMotion, link: str, on: str, travel: Array, 
     `travel` grows. Between poles that lie too far apart for a chord more are sought; where even the finest travel does
     not bring them together, they lie on two branches.
     """
-    longest, found = far / CHORDS, centrodes(motion.links_at(travel), link, on)
-    if np.isnan(found.fixed).all():
+    longest, poles = far / CHORDS, centrodes(motion.links_at(travel), link, on)
+    if np.isnan(poles.fixed).all():
         return None
     for _ in range(MAX_HALVINGS):
-        wide = np.any([_near_chords(places, middle, far) & ~(np.abs(np.diff(places)) <= longest) for places in found],
+        wide = np.any([_near_chords(places, middle, far) & ~(np.abs(np.diff(places)) <= longest) for places in poles],
                       axis=0)
         between = (travel[1:] + travel[:-1])[wide] / 2
         if not between.size:
@@ -188,8 +190,8 @@ def centrode_branches(motion: RangeOfMotion, link: str, on: str, travel: Array, 
         order = np.argsort(np.concatenate([travel, between]), kind="stable")
         more = centrodes(motion.links_at(between), link, on)
         travel = np.concatenate([travel, between])[order]
-        found = Centrodes(*(np.concatenate(parts)[order] for parts in zip(found, more, strict=True)))
-    fixed, moving = ([*split_stretches(places, middle, far, longest)] for places in found)
+        poles = Centrodes(*(np.concatenate(pair)[order] for pair in zip(poles, more, strict=True)))
+    fixed, moving = ([*split_stretches(places, middle, far, longest)] for places in poles)
     return fixed, moving
 
 
@@ -203,9 +205,9 @@ def split_stretches(places: Array, middle: complex, far: float, longest: float) 
     """The stretches of a curve that are near and whole."""
     near = np.abs(places - middle) <= far
     joined = near[1:] & near[:-1] & (np.abs(np.diff(places)) <= longest)
-    for part in np.split(np.arange(places.size), np.flatnonzero(~joined) + 1):
-        if part.size > 1:
-            yield places[part]
+    for stretch in np.split(np.arange(places.size), np.flatnonzero(~joined) + 1):
+        if stretch.size > 1:
+            yield places[stretch]
 
 
 # ---- the cubic of stationary curvature -------------------------------------------------------------------------------

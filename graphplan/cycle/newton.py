@@ -40,16 +40,16 @@ class NewtonStep(NamedTuple):
 
 def step(rows: Sequence[Row], width: int, sqrt: Callable[[Any], Any]) -> NewtonStep:
     """Newton's step for so many unknowns, from what is left open."""
-    left, pivots, determinant = list(rows), list[tuple[int, Row]](), 1.0
+    open_rows, pivots, determinant = list(rows), list[tuple[int, Row]](), 1.0
     free = set(range(width))
     while free:
-        column = min(free, key=lambda j: (sum(j in row for row in left), j))
-        pivot, *others = sorted((row for row in left if column in row),
-                                key=lambda row: sum(j >= 0 for j in row))
-        left = [row for row in left if column not in row]
-        for other in others:
-            pivot, rest = _rotate_rows(pivot, other, column, sqrt)
-            left.append(rest)
+        column = min(free, key=lambda j: (sum(j in row for row in open_rows), j))
+        pivot, *lower_rows = sorted((row for row in open_rows if column in row),
+                                    key=lambda row: sum(j >= 0 for j in row))
+        open_rows = [row for row in open_rows if column not in row]
+        for other in lower_rows:
+            pivot, cleared = _rotate_rows(pivot, other, column, sqrt)
+            open_rows.append(cleared)
         free.remove(column)
         pivots.append((column, pivot))
         determinant = determinant * pivot[column]
@@ -57,15 +57,15 @@ def step(rows: Sequence[Row], width: int, sqrt: Callable[[Any], Any]) -> NewtonS
     return NewtonStep(corrections, [-rate for rate in rates], determinant)
 
 
-def _rotate_rows(one: Row, two: Row, column: int, sqrt: Callable[[Any], Any]) -> tuple[Row, Row]:
+def _rotate_rows(upper: Row, lower: Row, column: int, sqrt: Callable[[Any], Any]) -> tuple[Row, Row]:
     """Two rows rotated so that the second has nothing in a column."""
-    a, b = one[column] + TINY_PIVOT, two[column]
-    size = sqrt(a * a + b * b)
-    cos, sin = a / size, b / size
-    first: Row = {column: size}
+    a, b = upper[column] + TINY_PIVOT, lower[column]
+    hypotenuse = sqrt(a * a + b * b)
+    cos, sin = a / hypotenuse, b / hypotenuse
+    first: Row = {column: hypotenuse}
     second: Row = {}
-    for k in dict.fromkeys([*one, *two]):
-        x, y = one.get(k), two.get(k)
+    for k in dict.fromkeys([*upper, *lower]):
+        x, y = upper.get(k), lower.get(k)
         if k == column:
             continue
         if y is None:
@@ -79,14 +79,14 @@ def _rotate_rows(one: Row, two: Row, column: int, sqrt: Callable[[Any], Any]) ->
 
 def _back_substitute(pivots: Sequence[tuple[int, Row]], side: int) -> list[Any]:
     """Back substitution for one right-hand side."""
-    found: Row = {}
+    solution: Row = {}
     for column, row in reversed(pivots):
         value = row.get(side, 0.0)
         for k, weight in row.items():
-            if k in found:
-                value = value - weight * found[k]
-        found[column] = value / row[column]
-    return [found[column] for column in range(len(pivots))]
+            if k in solution:
+                value = value - weight * solution[k]
+        solution[column] = value / row[column]
+    return [solution[column] for column in range(len(pivots))]
 
 
 def rates_of(link: LinkPose, rates: Sequence[Any]) -> Iterator[Any]:
@@ -102,26 +102,27 @@ def rates_of(link: LinkPose, rates: Sequence[Any]) -> Iterator[Any]:
 def apply_corrections(layout: GroupLayout, state: Sequence[Any], corrections: Sequence[Any]) -> list[Any]:
     """The state less the corrections; an angle is turned back by Cayley's formula, right to second order, and where it
     is counted by as much: twice the arc tangent of half the correction."""
-    found = list(state)
+    corrected = list(state)
     for i, correction in enumerate(corrections):
         if i < layout.angles:
             half = 0.5 * correction
             square = half * half
-            size = 1.0 + square
+            denominator = 1.0 + square
             cos, sin, *angle = state[i]
-            turned = rotate((cos, sin), ((1.0 - square) / size, -correction / size))
-            found[i] = (*turned, *(one - correction * _arc_tangent_ratio(square) for one in angle))
+            turned = rotate((cos, sin), ((1.0 - square) / denominator, -correction / denominator))
+            corrected[i] = (*turned, *(angle_in_all - correction * _arc_tangent_ratio(square)
+                                       for angle_in_all in angle))
         else:
-            found[i] = state[i] - correction
-    return found
+            corrected[i] = state[i] - correction
+    return corrected
 
 
 def _arc_tangent_ratio(square: Any) -> Any:
     """The arc tangent over its tangent, from the square of that: to the last digit up to a quarter, by its series."""
-    found: Any = 1 / 15
+    ratio: Any = 1 / 15
     for k in range(13, 0, -2):
-        found = 1 / k - square * found
-    return found
+        ratio = 1 / k - square * ratio
+    return ratio
 
 
 # ---- recorded on a tape, once for all groups of one structure --------------------------------------------------------
@@ -153,16 +154,17 @@ class _Record:
 
     def __init__(self, layout: GroupLayout, rates: bool):
         self.tape, self.inputs, self.layout = Symbols().tape, list[int](), layout
-        known = [LinkPose(), *(LinkPose(self._pair(), self._pair(), {TRAVEL: self._pair()} if rates else {},
-                                        {TRAVEL: self._new()} if rates else {}, self._new() if layout.counted else 0.0)
-                               for _ in range(layout.known - 1))]
+        known_links = [LinkPose(), *(LinkPose(self._pair(), self._pair(), {TRAVEL: self._pair()} if rates else {},
+                                              {TRAVEL: self._new()} if rates else {}, self._new() if layout.counted
+                                              else 0.0)
+                                     for _ in range(layout.known - 1))]
         arms = [self._pair() for _ in range(layout.arms)]
         drives = [DriveState(self._angle() if turns else self._new(), self._new() if rates else None)
                   for turns in layout.drives]
         state = [self._angle() if i < layout.angles else self._new() for i in range(layout.unknowns)]
-        links = pose_links(layout, known, arms, drives, state)
+        links = pose_links(layout, known_links, arms, drives, state)
         self.step = step(residual_rows(layout, links, arms, drives), layout.unknowns, Symbol.root)
-        closed = pose_links(layout, known, arms, drives, apply_corrections(layout, state, self.step.corrections),
+        closed = pose_links(layout, known_links, arms, drives, apply_corrections(layout, state, self.step.corrections),
                             moving=False)
         self.links, self.closed = links[layout.known:], closed[layout.known:]
 
@@ -202,11 +204,11 @@ def record_step(layout: GroupLayout) -> tuple[Tape, list[int], Any]:
     with its rate, and of each unknown the cosine and sine, or the displacement.
     """
     record = _Record(layout, rates=True)
-    found, told = record.step, record.tape_places
-    lies = tuple(told(*record.link_pose(i), *record.link_rates(i), *record.link_angle(i))
+    step, places_of = record.step, record.tape_places
+    lies = tuple(places_of(*record.link_pose(i), *record.link_rates(i), *record.link_angle(i))
                  for i in range(len(record.links)))
-    return record.tape, record.inputs, CorrectedPose(told(*found.corrections), told(*found.rates),
-                                                     record.tape.place(found.determinant), lies)
+    return record.tape, record.inputs, CorrectedPose(places_of(*step.corrections), places_of(*step.rates),
+                                                     record.tape.place(step.determinant), lies)
 
 
 @lru_cache(maxsize=256)
@@ -222,5 +224,5 @@ def many_poses_step(layout: GroupLayout, machine: bool) -> TapeRun:
     counted."""
     record = _Record(layout, rates=False)
     lies = [number for i in range(len(record.links)) for number in (*record.link_pose(i), *record.link_angle(i))]
-    told = record.tape_places(*record.step.corrections, record.step.determinant, *lies)
-    return (Machine if machine else Blocks)(record.tape, record.inputs, told)
+    outputs = record.tape_places(*record.step.corrections, record.step.determinant, *lies)
+    return (Machine if machine else Blocks)(record.tape, record.inputs, outputs)

@@ -44,18 +44,20 @@ def at(scene: Scene, travel: Travel | Sequence[Travel] | str) -> Scene:
     check_drives(scene)
     turned, travel = extreme_position(scene, travel) if isinstance(travel, str) else (None, travel)
     travels = _drive_travels(scene, travel)
-    given, shifts = driven_by_gears(scene, coordinates(scene, travels))
+    with_drives, shifts = driven_by_gears(scene, coordinates(scene, travels))
     paced, first = _pace_drives(scene, travels)
-    found = follow(paced, 1, (float(first), float(first)))
-    if 0 in found.faults:
-        why = found.faults[0]
-        if all(math.isfinite(abs(z[0])) for z in found.points.values()):
+    turn_there = follow(paced, 1, (float(first), float(first)))
+    if 0 in turn_there.faults:
+        why = turn_there.faults[0]
+        if all(math.isfinite(abs(z[0])) for z in turn_there.points.values()):
             raise SingularPose(why, ())
         raise Refused(f"{scene.name}: the pose", why, said("a travel that the mechanism reaches"))
-    assembly = Assembly(given, travels, shifts, moved_on(given, shifts, TO_A_FLOAT), points_under_slides(scene), turned)
-    posed = filled_in(in_pose(scene, found, 0), travels[0])
-    where = "the pose: constructed at another travel of its drive"
-    return replace(posed, placements=_fixed_placements(scene), irrational=(*scene.irrational, where), assembly=assembly)
+    assembly = Assembly(with_drives, travels, shifts, moved_on(with_drives, shifts, TO_A_FLOAT),
+                        points_under_slides(scene), turned)
+    posed = filled_in(in_pose(scene, turn_there, 0), travels[0])
+    reason_irrational = "the pose: constructed at another travel of its drive"
+    return replace(posed, placements=_fixed_placements(scene), irrational=(*scene.irrational, reason_irrational),
+                   assembly=assembly)
 
 
 def in_pose(scene: Scene, turn: Turn, pose: int) -> Scene:
@@ -75,19 +77,19 @@ def in_pose(scene: Scene, turn: Turn, pose: int) -> Scene:
 def _fixed_placements(scene: Scene) -> dict[str, Placement]:
     """How the points that stand still are placed: from each other as the scene has it, else by their coordinates."""
     fixed = [name for name, links in scene.links_of.items() if FRAME in links or not links]
-    return {name: placed if (placed := scene.placements.get(name)) and {*needs(placed)} <= {*fixed}
+    return {name: placement if (placement := scene.placements.get(name)) and {*needs(placement)} <= {*fixed}
             else Placement("given", {"at": scene.points[name]}) for name in fixed}
 
 
 def _drive_travels(scene: Scene, travel: Travel | Sequence[Travel]) -> tuple[Fraction, ...]:
     """How far each drive goes in its sense, in degrees or lengths."""
-    given = [travel] if isinstance(travel, Fraction | float | int) else [*travel]
-    if len(given) not in (1, len(scene.drives)) or not all(math.isfinite(one) for one in given):
-        raise Refused(f"--at {', '.join(map(str, given))}", f"{len(scene.drives)} drives",
+    asked_travels = [travel] if isinstance(travel, Fraction | float | int) else [*travel]
+    if len(asked_travels) not in (1, len(scene.drives)) or not all(math.isfinite(value) for value in asked_travels):
+        raise Refused(f"--at {', '.join(map(str, asked_travels))}", f"{len(scene.drives)} drives",
                       "one finite travel of the first drive, or one of each")
-    if len(given) > 1:
-        return tuple(Fraction(one) for one in given)
-    return kept_pace(scene, Fraction(given[0]))
+    if len(asked_travels) > 1:
+        return tuple(Fraction(value) for value in asked_travels)
+    return kept_pace(scene, Fraction(asked_travels[0]))
 
 
 def _pace_drives(scene: Scene, travels: Sequence[Fraction]) -> tuple[Scene, Fraction]:
@@ -111,21 +113,21 @@ def extreme_position(scene: Scene, asked: str) -> tuple[Extreme, Fraction]:
 
     Degrees. Fails with `Refused` where no link or more than one has such, or the mechanism does not come there.
     """
-    way, _, link = asked.strip().partition(" ")
-    if way not in WAYS:
+    side, _, link = asked.strip().partition(" ")
+    if side not in WAYS:
         raise Refused(f"--at {asked}", "not a position", "degrees or lengths, or outer or inner, such as outer 3")
-    found = [one for one in _swung_links(scene, way) if link.strip() in ("", one.link)]
-    if len(found) != 1:
-        links = ", ".join(one.link for one in found or _swung_links(scene, way))
-        why = (said("several links have extreme positions") if found else said("this link has no extreme position")
+    matches = [position for position in _swung_links(scene, side) if link.strip() in ("", position.link)]
+    if len(matches) != 1:
+        links = ", ".join(position.link for position in matches or _swung_links(scene, side))
+        why = (said("several links have extreme positions") if matches else said("this link has no extreme position")
                if links else said("no link is swung about or along the frame by a coupler on the first drive's crank"))
         raise Refused(f"--at {asked}", why, said("one of {0}", links) if links else said("the travel of the drive"))
-    one = found[0]
-    travel = _travel_to_extreme(scene, one)
+    position = matches[0]
+    travel = _travel_to_extreme(scene, position)
     if travel is None:
-        raise Refused(f"--at {asked}", _no_extreme_reason(one), said("the travel of the drive"))
-    other = _travel_to_extreme(scene, replace(one, way="inner" if way == "outer" else "outer"))
-    return replace(one, time_ratio=_time_ratio(scene, travel, other)), Fraction(travel)
+        raise Refused(f"--at {asked}", _no_extreme_reason(position), said("the travel of the drive"))
+    opposite = _travel_to_extreme(scene, replace(position, way="inner" if side == "outer" else "outer"))
+    return replace(position, time_ratio=_time_ratio(scene, travel, opposite)), Fraction(travel)
 
 
 def _no_extreme_reason(one: Extreme) -> Said:
@@ -138,8 +140,8 @@ def _time_ratio(scene: Scene, travel: float, other: float | None) -> float | Non
     does not go round."""
     if other is None or not follow(scene, 2).closed:
         return None
-    part = (travel - other) % 360
-    return max(part, 360 - part) / min(part, 360 - part) if part else None
+    degrees = (travel - other) % 360
+    return max(degrees, 360 - degrees) / min(degrees, 360 - degrees) if degrees else None
 
 
 def _swung_links(scene: Scene, way: str) -> Iterator[Extreme]:
@@ -166,37 +168,38 @@ def _pivot_or_guide(scene: Scene, link: str, joint: str) -> str | complex | None
     return about or next(along, None)
 
 
-def _travel_to_extreme(scene: Scene, one: Extreme) -> float | None:
+def _travel_to_extreme(scene: Scene, position: Extreme) -> float | None:
     """How far the drive goes to an extreme position in its sense, in degrees: on from the given pose, else back; none
     where it does not come there."""
     at = {name: complex(*map(float, place)) for name, place in scene.points.items()}
-    O, A, B = at[one.pivot], at[one.pin], at[one.joint]
-    long = abs(B - A) + WAYS[one.way] * abs(A - O)
+    O, A, B = at[position.pivot], at[position.pin], at[position.joint]
+    long = abs(B - A) + WAYS[position.way] * abs(A - O)
     if abs(long) <= PLACE_TOL * scene.extent:
         return None
     drive = scene.drives[0]
-    way = sense(drive) * (1 if drive.on == FRAME else -1)
-    for joint in _crossings(scene, one, O, B, abs(long), at):
-        arm = WAYS[one.way] * (joint - O) / long
-        turn = way * math.degrees(cmath.phase(arm / (A - O))) % 360
+    sense_sign = sense(drive) * (1 if drive.on == FRAME else -1)
+    for joint in _crossings(scene, position, O, B, abs(long), at):
+        arm = WAYS[position.way] * (joint - O) / long
+        turn = sense_sign * math.degrees(cmath.phase(arm / (A - O))) % 360
         for travel in (turn, turn - 360):
-            found = follow(scene, 1, (travel, travel))
-            if 0 not in found.faults and abs(found.points[one.joint][0] - joint) <= PLACE_TOL * scene.extent:
+            turn_there = follow(scene, 1, (travel, travel))
+            if 0 not in turn_there.faults and abs(turn_there.points[position.joint][0]
+                                                  - joint) <= PLACE_TOL * scene.extent:
                 return travel
     return None
 
 
-def _crossings(scene: Scene, one: Extreme, O: complex, B: complex, far: float,
+def _crossings(scene: Scene, position: Extreme, O: complex, B: complex, far: float,
                at: dict[str, complex]) -> Iterator[complex]:
     """Where the joint is so far from the pivot, on its circle or its line."""
-    hold = _pivot_or_guide(scene, one.link, one.joint)
+    hold = _pivot_or_guide(scene, position.link, position.joint)
     if isinstance(hold, str):
         C = at[hold]
         if C == O:
             return
-        d, way = abs(C - O), (C - O) / abs(C - O)
+        d, direction = abs(C - O), (C - O) / abs(C - O)
         along = (far * far + d * d - abs(B - C) ** 2) / (2 * d)
-        foot, up = O + along * way, 1j * way
+        foot, up = O + along * direction, 1j * direction
     else:
         assert hold is not None
         up = hold / abs(hold)
@@ -229,9 +232,10 @@ def driven_by_gears(scene: Scene, shifts: tuple[Fraction, ...]) -> tuple[Scene, 
         raise Refused(f"{scene.name}: the pose",
                       said("no construction is known for the positions of these gears or contacts"),
                       "the pose as it is given")
-    others = replace(scene, written=tuple(pair for pair in scene.written if pair not in scene.gears), redundant=(),
-                     repeating=())
-    return (others.with_drives((*scene.drives, *more)),
+    without_gears = replace(scene, written=tuple(pair for pair in scene.written if pair not in scene.gears),
+                            redundant=(),
+                            repeating=())
+    return (without_gears.with_drives((*scene.drives, *more)),
             (*shifts, *(turns[drive.link] - turns[drive.on] for drive in more)))
 
 
@@ -257,8 +261,8 @@ def _ratio_row(scene: Scene, gear: Gear) -> Row | None:
     arm = next((link for link, points in scene.links.items() if {*gear.centres} <= {*points}), None)
     if len(gear.centres) < 2 or arm is None or not is_exact(gear.factors):
         return None
-    one, two = gear.factors
-    return _turns_row((gear.links[0], one), (gear.links[1], two), (arm, -one - two))
+    first, second = gear.factors
+    return _turns_row((gear.links[0], first), (gear.links[1], second), (arm, -first - second))
 
 
 def _turns_row(*terms: tuple[str, Number], turn: Number = 0) -> Row:

@@ -56,42 +56,43 @@ class PosePlacer:
         runs = [newton.many_poses_step(group.layout, machine) if taped and group.unknowns else None
                 for group in self.groups]
         with np.errstate(all="ignore"):
-            for some in blocks:
-                self._follow_block(path, travel[some], some, runs)
+            for block in blocks:
+                self._follow_block(path, travel[block], block, runs)
 
     def _assemble_blocks(self, travel: Array, blocks: Sequence[Array]) -> bool:
         """Place blocks of poses by compass rules, which need no path; not where some group is no plain dyad."""
-        for some in blocks:
-            placed, found = assemble(self.linkage, self.groups, travel[some])
-            if len(placed) < len(self.linkage.links):
+        for block in blocks:
+            links_placed, failures = assemble(self.linkage, self.groups, travel[block])
+            if len(links_placed) < len(self.linkage.links):
                 return False
-            self.failures += [(failure, some[missing]) for failure, missing in found if missing.any()]
-            where = _as_slice(some)
+            self.failures += [(failure, block[missing]) for failure, missing in failures if missing.any()]
+            target = _as_slice(block)
             for link in self.linkage.links[1:]:
                 for point, _ in self.owned[link]:
-                    self.points[point][where] = placed[link].point(self.linkage.places[point])
+                    self.points[point][target] = links_placed[link].point(self.linkage.places[point])
             for link, array in self.turns.items():
-                array[where] = placed[link].turn
+                array[target] = links_placed[link].turn
         return True
 
     def retry(self, walked: Callable[[float], Array | None], travel: Array) -> None:
         """Place the poses that failed by the states to which one can walk at their travels."""
         lost = {place for _, at in self.failures for place in at.tolist()}
-        found = {place: state for place in sorted(lost) if (state := walked(float(travel[place]))) is not None}
-        if found:
-            at = np.array([*found])
-            self.place_states(np.stack([*found.values()], axis=1), travel, at)
+        states = {place: state for place in sorted(lost) if (state := walked(float(travel[place]))) is not None}
+        if states:
+            at = np.array([*states])
+            self.place_states(np.stack([*states.values()], axis=1), travel, at)
             self.failures = [(failure, np.setdiff1d(poses, at)) for failure, poses in self.failures]
 
     def place_states(self, state: Array, travel: Array, at: Array) -> None:
         """Take the poses `at` these places from states, (unknowns, n): where one is singular, it cannot be closed."""
-        some, bodies = travel[at], {FRAME: LinkPose()}
+        travels, bodies = travel[at], {FRAME: LinkPose()}
         for i, group in enumerate(self.groups):
-            known = [bodies[link] for link in (FRAME, *group.carriers)]
-            self._enter_points(group, group.link_poses(known, some, state[self.ends[i] : self.ends[i + 1]]), bodies, at)
+            carriers = [bodies[link] for link in (FRAME, *group.carriers)]
+            self._enter_points(group, group.link_poses(carriers, travels, state[self.ends[i] : self.ends[i + 1]]),
+                               bodies, at)
         self._place_fixed_points(at)
         for point, place in self.linkage.places.items():
-            self.points[point][at[some == 0]] = place
+            self.points[point][at[travels == 0]] = place
 
     def _place_fixed_points(self, at: Array) -> None:
         """The points of the frame, and of no link, stay where they are."""
@@ -101,17 +102,17 @@ class PosePlacer:
 
     def explain_failures(self, travel: Array, at: Array) -> None:
         """Tell of the poses `at` these places, which the path does not reach, what prevents them."""
-        _, found = assemble(self.linkage, self.groups, travel[at])
-        self.failures += [(failure, at[missing]) for failure, missing in found]
+        _, failures = assemble(self.linkage, self.groups, travel[at])
+        self.failures += [(failure, at[missing]) for failure, missing in failures]
 
     def _follow_block(self, path: Path, travel: Array, at: Array, runs: Sequence[newton.TapeRun | None]) -> None:
         """One block."""
-        state, size = path.predict_states(travel)
+        state, lengths = path.predict_states(travel)
         bodies = {FRAME: LinkPose()}
         for i, group in enumerate(self.groups):
-            known = [bodies[link] for link in (FRAME, *group.carriers)]
-            links, trusted = _settle_poses(group, known, travel, state[self.ends[i] : self.ends[i + 1]], size,
-                                           path.senses[i], MAX_FIRST_CORRECTION * size,
+            carriers = [bodies[link] for link in (FRAME, *group.carriers)]
+            links, trusted = _settle_poses(group, carriers, travel, state[self.ends[i] : self.ends[i + 1]], lengths,
+                                           path.senses[i], MAX_FIRST_CORRECTION * lengths,
                                            np.zeros(len(travel), dtype=bool), runs[i])
             if not trusted.all():
                 why = Failure(group.part, "Newton's method does not stay on their branch")
@@ -138,30 +139,32 @@ def _as_slice(places: Array) -> slice | Array:
     return slice(first, last + 1) if last - first == len(places) - 1 else places
 
 
-def _settle_poses(group: ClosureGroup, known: Sequence[LinkPose], travel: Array, state: Array, size: Array,
+def _settle_poses(group: ClosureGroup, carriers: Sequence[LinkPose], travel: Array, state: Array, length: Array,
                   sense: float,
                   allowed: Array, settled: Array, run: newton.TapeRun | None) -> tuple[list[LinkPose], Array]:
     """A group closed in n poses, and where that is to be trusted: see :meth:`Group.settled`."""
     if not group.unknowns:
-        return group.link_poses(known, travel, state), np.ones(len(travel), dtype=bool)
-    corrections, determinant, links = group.step(known, travel, state, run)
+        return group.link_poses(carriers, travel, state), np.ones(len(travel), dtype=bool)
+    corrections, determinant, links = group.step(carriers, travel, state, run)
     far, n = np.abs(corrections), group.layout.angles
     far[n:] /= np.maximum(1.0, np.abs(state[n:]))  # as the path weighs changes
     far = far.max(axis=0)
     trusted = (far <= allowed) & (np.sign(determinant) == sense)
-    again = np.flatnonzero(trusted & ~settled & (far * far > RESIDUE_TOL * size))
+    again = np.flatnonzero(trusted & ~settled & (far * far > RESIDUE_TOL * length))
     if again.size:
-        far, size = far[again], size[again]
-        settled = far <= CORRECTION_TOL * size
-        rest, trusted[again] = _settle_poses(group, [_pose_subset(body, again) for body in known], travel[again],
-                                             (state - corrections)[:, again], size, sense,
-                                             np.where(settled, MAX_FIRST_CORRECTION * size,
-                                                      MAX_CORRECTION_RATIO * far), settled, run)
-        for link, other in zip(links, rest, strict=True):
-            for array, some in zip((*link.base, link.angle, *(link.turn or ())),
-                                   (*other.base, other.angle, *(other.turn or (1.0, 0.0))), strict=False):
+        far, length = far[again], length[again]
+        settled = far <= CORRECTION_TOL * length
+        settled_links, trusted[again] = _settle_poses(group, [_pose_subset(body, again) for body in carriers],
+                                                      travel[again],
+                                                      (state - corrections)[:, again], length, sense,
+                                                      np.where(settled, MAX_FIRST_CORRECTION * length,
+                                                               MAX_CORRECTION_RATIO * far), settled, run)
+        for link, settled_link in zip(links, settled_links, strict=True):
+            for array, values in zip((*link.base, link.angle, *(link.turn or ())),
+                                     (*settled_link.base, settled_link.angle, *(settled_link.turn or (1.0, 0.0))),
+                                     strict=False):
                 if isinstance(array, np.ndarray):
-                    array[again] = some
+                    array[again] = values
     return links, trusted
 
 
@@ -208,51 +211,51 @@ def link_rates(linkage: Linkage, groups: Sequence[ClosureGroup], travel: Array, 
         bodies[link] = LinkPose(_pair((at - frame) / reach), _pair(turns[link]))
     for group in groups:
         _enter_rates(group, bodies, travel)
-    found = {FRAME: MovingLink(frame, still + frame, still + 1.0, still + 0j, still)}
+    links = {FRAME: MovingLink(frame, still + frame, still + 1.0, still + 0j, still)}
     for link in linkage.links[1:]:
         body = bodies[link]
         (x, y), spin = body.moves.get(TRAVEL, (0.0, 0.0)), body.spin.get(TRAVEL, 0.0)
-        found[link] = MovingLink(linkage.origins[link], frame + reach * _complex(body.base), turns[link],
+        links[link] = MovingLink(linkage.origins[link], frame + reach * _complex(body.base), turns[link],
                                  reach * _complex((x, y)) + still, spin + still)
-    return found
+    return links
 
 
 def _turned_arms(linkage: Linkage, points: Mapping[str, Array]) -> Iterator[tuple[str, Array]]:
     """How the arms turn that are thought in."""
     for name, gear in linkage.lines.arms.items():
-        line, given = points[gear.other] - points[gear.at], linkage.places[gear.other] - linkage.places[gear.at]
-        yield name, line / np.abs(line) / (given / abs(given))
+        line, given_line = points[gear.other] - points[gear.at], linkage.places[gear.other] - linkage.places[gear.at]
+        yield name, line / np.abs(line) / (given_line / abs(given_line))
 
 
 def _enter_rates(group: ClosureGroup, bodies: dict[str, LinkPose], travel: Array) -> None:
     """Enter how the links of a group move."""
-    known = [bodies[link] for link in (FRAME, *group.carriers)]
+    carriers = [bodies[link] for link in (FRAME, *group.carriers)]
     drives = [DriveState(drive.at, rate) for drive, (_, rate) in zip(group.drives_and_state(travel, ())[0],
                                                                      group.drives, strict=True)]
-    state = _unknowns_of(group.layout, [*known, *(bodies[link] for link in group.links)], group.arms)
-    links = closure.pose_links(group.layout, known, group.arms, drives, state)
+    state = _unknowns_of(group.layout, [*carriers, *(bodies[link] for link in group.links)], group.arms)
+    links = closure.pose_links(group.layout, carriers, group.arms, drives, state)
     with np.errstate(all="ignore"):
         rows = closure.residual_rows(group.layout, links, group.arms, drives)
         rates = newton.step(rows, group.unknowns, np.sqrt).rates
-    for link, body in zip(group.links, links[len(known):], strict=True):
+    for link, body in zip(group.links, links[len(carriers):], strict=True):
         *velocity, spin = newton.rates_of(body, rates)
         bodies[link] = LinkPose(bodies[link].base, bodies[link].turn, {TRAVEL: tuple(velocity)}, {TRAVEL: spin})
 
 
 def _unknowns_of(layout: GroupLayout, links: Sequence[LinkPose], arms: Sequence[Vector]) -> list[Any]:
     """The unknowns of a group where its links lie so: cosine and sine of the angles, then displacements."""
-    found: list[Any] = [links[spin.link].turn for spin in layout.spins if spin.on is None]
+    unknowns: list[Any] = [links[spin.link].turn for spin in layout.spins if spin.on is None]
     for seat in layout.seats:
         base = _complex(links[seat.link].base)
         if seat.on is None:
             away = base - (complex(*arms[seat.arm]) if seat.arm is not None else 0.0)
-            found += _pair(away)
+            unknowns += _pair(away)
         elif seat.way is not None and seat.guide is not None and seat.drive is None:
             on, guide = links[seat.on], links[seat.guide]
             arm = _rotated_complex(on, arms[seat.arm]) if seat.arm is not None else 0.0
             ray = _rotated_complex(guide, arms[seat.way])
-            found.append(((base - _complex(on.base) - arm) * np.conj(ray)).real)
-    return found
+            unknowns.append(((base - _complex(on.base) - arm) * np.conj(ray)).real)
+    return unknowns
 
 
 def _rotated_complex(body: LinkPose, vector: Vector) -> Any:

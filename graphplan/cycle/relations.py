@@ -64,8 +64,8 @@ class Knots(NamedTuple):
 
     def states_at(self, travel: float) -> list[float]:
         """The states at a travel, straight between the knots."""
-        part = min(max((travel - self.low) / (self.high - self.low), 0.0), 1.0)
-        far = math.acos(1.0 - 2.0 * part) / math.pi * KNOT_SPANS
+        fraction = min(max((travel - self.low) / (self.high - self.low), 0.0), 1.0)
+        far = math.acos(1.0 - 2.0 * fraction) / math.pi * KNOT_SPANS
         k = min(int(far), KNOT_SPANS - 1)
         return [row[k] + (far - k) * (row[k + 1] - row[k]) for row in self.states]
 
@@ -85,12 +85,12 @@ def relations(scene: Scene, view: View) -> Relations | None:
     if not scene.links:
         return None
     try:
-        found = Relations(scene, view)
+        scene_relations = Relations(scene, view)
         if scene.drives:
-            _ = found.motion
+            _ = scene_relations.motion
     except GraphplanError:
         return None
-    return found
+    return scene_relations
 
 
 class Relations:
@@ -112,7 +112,7 @@ class Relations:
         self.free = self._ground.free
         self.placed: dict[str, Any] = {FRAME: self._ground}
         self._turned: dict[str, Any] = {}  # in all, where that is counted
-        self.groups = [ClosureGroup(self._on_paper, part) for part in self._on_paper.parts]
+        self.groups = [ClosureGroup(self._on_paper, links) for links in self._on_paper.parts]
         for group in self.groups:
             self.placed.update(self._place_group(group))
 
@@ -126,13 +126,13 @@ class Relations:
             self.angles += [i < group.layout.angles for i in range(group.unknowns)]
             yield from zip(group.part, links[0], strict=True)
             return
-        known = [self._body(link) for link in (FRAME, *group.carriers)]
+        carriers = [self._body(link) for link in (FRAME, *group.carriers)]
         arms, drives = self._arms(group), self._drives(group)
         if not group.unknowns:
-            lies = closure.pose_links(group.layout, known, arms, drives, (), moving=False)
+            lies = closure.pose_links(group.layout, carriers, arms, drives, (), moving=False)
         else:
-            lies = self._close_group(group, known, arms, drives)
-        for link, body in zip(group.links, lies[len(known):], strict=True):
+            lies = self._close_group(group, carriers, arms, drives)
+        for link, body in zip(group.links, lies[len(carriers):], strict=True):
             base, self._turned[link] = planar(body.base) + self._on_paper.origins[FRAME], body.angle
             yield link, PlacedLink(self._on_paper.origins[link], base, planar(body.turn or (1.0, 0.0)))
 
@@ -140,9 +140,10 @@ class Relations:
         """A link that is placed, as the closure has it."""
         if link == FRAME:
             return LinkPose()
-        placed = self.placed[link]
-        base = placed.point(self._on_paper.origins[link]) - self._on_paper.origins[FRAME]
-        return LinkPose((base.re, base.im), (placed.turn.re, placed.turn.im), angle=self._turned.get(link, 0.0))
+        placed_link = self.placed[link]
+        base = placed_link.point(self._on_paper.origins[link]) - self._on_paper.origins[FRAME]
+        return LinkPose((base.re, base.im), (placed_link.turn.re, placed_link.turn.im),
+                        angle=self._turned.get(link, 0.0))
 
     def _arms(self, group: ClosureGroup) -> list[Spot]:
         """The arms of a group: those of the frame end in pins."""
@@ -167,25 +168,26 @@ class Relations:
         cos, sin = self.tape.input(f"cos {k}"), self.tape.input(f"sin {k}")
         return DriveState((cos, sin if rate > 0 else -sin, *shift), None)
 
-    def _close_group(self, group: ClosureGroup, known: list[LinkPose], arms: Sequence[Spot],
+    def _close_group(self, group: ClosureGroup, carriers: list[LinkPose], arms: Sequence[Spot],
                      drives: Sequence[DriveState]) -> list[LinkPose]:
         """A group by Newton's steps, on its branch."""
         layout, first, state = group.layout, len(self.angles), list[Any]()
         self.angles += [i < layout.angles for i in range(group.unknowns)]
         for i, angle in enumerate(self.angles[first:], first):
             kinds = ("cos ", "sin ", *([""] if layout.counted else ())) if angle else ("",)
-            parts = [self.tape.input(f"{part}state {i}") for part in kinds]
-            state.append(tuple(parts) if angle else parts[0])
+            numbers = [self.tape.input(f"{prefix}state {i}") for prefix in kinds]
+            state.append(tuple(numbers) if angle else numbers[0])
         for _ in range(NEWTON_STEPS):
-            links = closure.pose_links(layout, known, arms, drives, state)
+            links = closure.pose_links(layout, carriers, arms, drives, state)
             step = newton.step(closure.residual_rows(layout, links, arms, drives), layout.unknowns, _root)
             state = newton.apply_corrections(layout, state, step.corrections)
         reach = super(_OnPaper, self._on_paper).reach
         far = [move if i < layout.angles else move / reach for i, move in enumerate(step.corrections)]
         sure = 0.0 * self.tape.sqrt(self.tape.place(RELATION_TOL**2 - sum(move * move for move in far)))
         sure = sure + 0.0 * self.tape.sqrt(self.tape.place(step.determinant * self._sense(group)))
-        state = [(one[0] + sure, *one[1:]) if isinstance(one, tuple) else one + sure for one in state]
-        return closure.pose_links(layout, known, arms, drives, state, moving=False)
+        state = [(unknown[0] + sure, *unknown[1:]) if isinstance(unknown, tuple) else unknown + sure
+                 for unknown in state]
+        return closure.pose_links(layout, carriers, arms, drives, state, moving=False)
 
     def _sense(self, group: ClosureGroup) -> float:
         """The sign of the determinant in the given pose."""
@@ -202,7 +204,7 @@ class Relations:
     @cached_property
     def points(self) -> dict[str, Spot]:
         """Where every point is."""
-        found = {}
+        points = {}
         order = self._on_paper.order
         for name, place in self.places.items():
             links = self.scene.links_of[name]
@@ -210,10 +212,10 @@ class Relations:
                 continue
             carrier = min(links, key=order.__getitem__) if links else FRAME
             at = self._ground.pins[name] if carrier == FRAME else self.placed[carrier].point(place)
-            found[name] = at.re, at.im
-        found |= {name: found[at] for name, at in points_under_slides(self.scene).items()}
-        return found | {contact.at: self._touching(contact, found) for contact in self.scene.contacts
-                        if not self.scene.links_of[contact.at]}
+            points[name] = at.re, at.im
+        points |= {name: points[at] for name, at in points_under_slides(self.scene).items()}
+        return points | {contact.at: self._touching(contact, points) for contact in self.scene.contacts
+                         if not self.scene.links_of[contact.at]}
 
     def _touching(self, contact: Contact, points: Mapping[str, Spot]) -> Spot:
         """Where two profiles touch."""
@@ -225,17 +227,18 @@ class Relations:
     @cached_property
     def turns(self) -> dict[str, Spot]:
         """How far every moving link is turned, as cosine and sine."""
-        return {link: (placed.turn.re, placed.turn.im) for link, placed in self.placed.items() if link != FRAME}
+        return {link: (placed_link.turn.re, placed_link.turn.im) for link, placed_link in self.placed.items()
+                if link != FRAME}
 
     @cached_property
     def guides(self) -> dict[str, Spot]:
         """Where the guides of slides on moving links point, as long as they are given."""
-        found = {}
+        rays = {}
         for slide in self.scene.slides:
             if slide.through is None and slide.along != FRAME:
                 ray = self.placed[slide.along].ray(complex(*map(float, slide.direction)))
-                found[slide.name] = ray.re, ray.im
-        return found
+                rays[slide.name] = ray.re, ray.im
+        return rays
 
     # ---- how far they lead -----------------------------------------------------------------------------------------
 
@@ -247,23 +250,23 @@ class Relations:
     @cached_property
     def limits(self) -> tuple[float, float]:
         """From where to where the first drive travels in its sense, in radians or mm."""
-        size = self.view.scale if self.scene.drives[0].slides else 1.0
-        return float(self.motion.path.travel[0]) * size, float(self.motion.path.travel[-1]) * size
+        unit = self.view.scale if self.scene.drives[0].slides else 1.0
+        return float(self.motion.path.travel[0]) * unit, float(self.motion.path.travel[-1]) * unit
 
     @cached_property
     def slide_ranges(self) -> dict[str, Spot]:
         """How far slides on the frame go back and on along their guides, in mm, where drives say it."""
         if not self.scene.drives:
             return {}
-        (low, high), found = self.motion.path.travel[[0, -1]], {}
+        (low, high), ranges = self.motion.path.travel[[0, -1]], {}
         points = self.motion.turn(np.linspace(low, high, KNOT_SPANS)).points
         for slide in self.scene.slides:
             if slide.along == FRAME:
                 ray = complex(*map(float, slide.direction))
                 off = points[slide.at] - complex(*map(float, self.scene.points[slide.at]))
                 far = self.view.scale * (off * ray.conjugate() / abs(ray)).real
-                found[slide.name] = float(np.nanmin(far)), float(np.nanmax(far))
-        return found
+                ranges[slide.name] = float(np.nanmin(far)), float(np.nanmax(far))
+        return ranges
 
     @cached_property
     def knots(self) -> Knots | None:
@@ -273,67 +276,67 @@ class Relations:
         path, (low, high) = self.motion.path, self.limits
         if low == high:
             return None
-        size = self.view.scale if self.scene.drives[0].slides else 1.0
+        unit = self.view.scale if self.scene.drives[0].slides else 1.0
         long = self.motion.linkage.reach * self.view.scale
         travel = low + (high - low) * (1 - np.cos(np.linspace(0.0, np.pi, KNOT_SPANS + 1))) / 2
-        states, _ = path.predict_states(travel / size)
+        states, _ = path.predict_states(travel / unit)
         return Knots(low, high, tuple(tuple((row * (1.0 if angle else long)).tolist())
                                       for row, angle in zip(states, self.angles, strict=True)))
 
     @cached_property
     def used_inputs(self) -> dict[str, int]:
         """The inputs that are read, by name, each with its place on the tape."""
-        told = [self.tape.place(part) for spots in (self.points, self.turns, self.guides)
-                for spot in spots.values() for part in spot]
-        return {self.tape.entries[place][1]: place for place in self.tape.needed_places(told)
+        outputs = [self.tape.place(number) for spots in (self.points, self.turns, self.guides)
+                   for spot in spots.values() for number in spot]
+        return {self.tape.entries[place][1]: place for place in self.tape.needed_places(outputs)
                 if self.tape.entries[place][0] == "in"}
 
     def write(self, language: Language, inputs: Mapping[str, str], prefix: str,
               deepest: float = DEEPEST) -> WrittenRelations:
         """All of it in a language; `inputs` says how the inputs that are `asked` are called there."""
         spots = (self.points, self.turns, self.guides)
-        told = [{name: tuple(map(self.tape.place, spot)) for name, spot in some.items()} for some in spots]
+        outputs = [{name: tuple(map(self.tape.place, spot)) for name, spot in places.items()} for places in spots]
         writer = Writer(self.tape, language, {place: inputs[name] for name, place in self.used_inputs.items()}, prefix,
                         deepest)
-        terms = tuple(writer.terms([place for some in told for spot in some.values() for place in spot]))
-        return WrittenRelations(terms, *({name: (writer.text[x], writer.text[y]) for name, (x, y) in some.items()}
-                                         for some in told))
+        terms = tuple(writer.terms([place for places in outputs for spot in places.values() for place in spot]))
+        return WrittenRelations(terms, *({name: (writer.text[x], writer.text[y]) for name, (x, y) in places.items()}
+                                         for places in outputs))
 
     def inputs(self, pins: Mapping[str, Spot], shifts: Sequence[float]) -> dict[str, float]:
         """The inputs where some pins (mm) are elsewhere, and how far the drives have gone (radians, or mm)
         counter-clockwise or along their directions."""
-        found: dict[str, float] = {}
+        inputs: dict[str, float] = {}
         for name in self.free:
             at = self.places[name]
-            found[f"x {name}"], found[f"y {name}"] = pins.get(name, (at.real, at.imag))
+            inputs[f"x {name}"], inputs[f"y {name}"] = pins.get(name, (at.real, at.imag))
         for k, shift in enumerate(shifts):
-            found |= {f"cos {k}": math.cos(shift), f"sin {k}": math.sin(shift), f"shift {k}": shift}
+            inputs |= {f"cos {k}": math.cos(shift), f"sin {k}": math.sin(shift), f"shift {k}": shift}
         travel = sense_of_travel(self.scene) * shifts[0] if shifts else 0.0
         states = self.knots.states_at(travel) if self.knots else [0.0] * len(self.angles)
         for i, state in enumerate(states):
-            found |= {f"cos state {i}": math.cos(state), f"sin state {i}": math.sin(state), f"state {i}": state}
-        return found
+            inputs |= {f"cos state {i}": math.cos(state), f"sin state {i}": math.sin(state), f"state {i}": state}
+        return inputs
 
     def place(self, pins: Mapping[str, Spot], shifts: Sequence[float]) -> dict[str, Spot] | None:
         """Where all points are on paper, with some pins and the drives elsewhere; none where the pose is not."""
-        found = self.pose(pins, shifts)
-        return found[0] if found else None
+        posed = self.pose(pins, shifts)
+        return posed[0] if posed else None
 
     def pose(self, pins: Mapping[str, Spot], shifts: Sequence[float]) -> tuple[dict[str, Spot], ...] | None:
         """The same, and where guides point that ride on links."""
         numbers = self.inputs(pins, shifts)
         try:
-            found: tuple[dict[str, Spot], ...] | None = self._run(*[numbers[name] for name in self.used_inputs])
+            posed: tuple[dict[str, Spot], ...] | None = self._run(*[numbers[name] for name in self.used_inputs])
         except (ValueError, ZeroDivisionError, OverflowError):
             return None
-        return found
+        return posed
 
     @cached_property
     def _run(self) -> Callable[..., Any]:
         """A function from the inputs to points and guides."""
-        told = tuple({name: tuple(map(self.tape.place, spot)) for name, spot in some.items()}
-                     for some in (self.points, self.guides))
-        return function(self.tape, [*self.used_inputs.values()], told)
+        outputs = tuple({name: tuple(map(self.tape.place, spot)) for name, spot in spots.items()}
+                        for spots in (self.points, self.guides))
+        return function(self.tape, [*self.used_inputs.values()], outputs)
 
 
 def _root(number: Any) -> Any:

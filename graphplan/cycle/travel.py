@@ -63,11 +63,11 @@ PREFIXES = ("", "Ki", "Mi", "Gi", "Ti", "Pi", "Ei", "Zi", "Yi")
 
 def afford(where: str, count: float, of: str, each: float) -> None:
     """Refuse a count `of` things with `each` so many bytes if they are more than the machine's memory."""
-    held = memory()
-    if count * each > held:
-        asked, here = memory_text(count * each), memory_text(held)
-        why = f"{count:.6g} {of} ask for {asked} of memory, and this machine has {here}"
-        raise Refused(where, why, f"at most {held / each:.3g} {of}")
+    available = memory()
+    if count * each > available:
+        asked_text, available_text = memory_text(count * each), memory_text(available)
+        why = f"{count:.6g} {of} ask for {asked_text} of memory, and this machine has {available_text}"
+        raise Refused(where, why, f"at most {available / each:.3g} {of}")
 
 
 def memory() -> int:

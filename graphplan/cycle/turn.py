@@ -94,7 +94,7 @@ class RangeOfMotion:
     def __init__(self, scene: Scene, lower: float, upper: float, closed: bool, progress: Progress | None = None):
         self.scene, self.closed = scene, closed
         self.linkage = Linkage(scene, paces(scene))
-        self.groups = [ClosureGroup(self.linkage, part) for part in self.linkage.parts]
+        self.groups = [ClosureGroup(self.linkage, links) for links in self.linkage.parts]
         self._continuation = Continuation(self.linkage, self.groups, lower, upper, progress)
         self._round = closed and not self.linkage.counts_angles
         self.path = self._continuation.path(self._round)
@@ -107,12 +107,12 @@ class RangeOfMotion:
 
     def returns_at(self, travel: float) -> bool:
         """Whether every link is back in its place at a travel that the path reaches."""
-        near = int(np.argmin(np.abs(self.path.travel - travel)))
-        there = abs(self.path.travel[near] - travel) <= self._continuation.finest
-        found = self.path.knots[near].state if there else self._continuation.state(self.path, travel)
-        if found is None:
+        nearest = int(np.argmin(np.abs(self.path.travel - travel)))
+        at_knot = abs(self.path.travel[nearest] - travel) <= self._continuation.finest
+        final_state = self.path.knots[nearest].state if at_knot else self._continuation.state(self.path, travel)
+        if final_state is None:
             return False
-        state = iter(found.tolist())
+        state = iter(final_state.tolist())
         apart = [abs(2 * math.sin(value / 2) if i < group.layout.angles else value)
                  for group in self.groups for i, value in zip(range(group.unknowns), state, strict=False)]
         return max(apart, default=0.0) <= RETURN_TOL
@@ -124,12 +124,13 @@ class RangeOfMotion:
         course, placing = self._place_poses(travel, {guide.along for guide in moving.values()}, compiled)
         points = {name: placing.points[name] for name in scene.points}
         turns = {name: placing.turns[guide.along] for name, guide in moving.items()}
-        ways = {name: number(*guide.direction) * turns[name] for name, guide in moving.items() if guide.through is None}
+        directions = {name: number(*guide.direction) * turns[name] for name, guide in moving.items()
+                      if guide.through is None}
         points |= {name: points[at] for name, at in points_under_slides(scene).items()}
         points |= {contact.at: contact_point(scene, contact, points, turns.get(contact.name, 1.0))
                    for contact in scene.contacts if not scene.links_of[contact.at]}
         back = self.closed and self.path.upper is None and self.returns_at(float(self.path.travel[-1]))
-        return Turn(travel, points, ways, course.faults(placing.failures), back, self)
+        return Turn(travel, points, directions, course.faults(placing.failures), back, self)
 
     def links_at(self, travel: Array) -> dict[str, MovingLink]:
         """How every link lies and moves at these travels; nan where the pose is not reached."""
@@ -160,13 +161,13 @@ def points_under_slides(scene: Scene) -> dict[str, str]:
     A point is its link's own where another link has it too, where a load, another slide or its direction needs it.
     """
     loads = scene.loads
-    own = {slide.at for slide in scene.slides}
+    own_points = {slide.at for slide in scene.slides}
     if loads:
-        own |= {*(mass.centre for mass in loads.masses.values()), *(force.at for force in loads.forces),
-                *(balance.at for balance in loads.balances)}
+        own_points |= {*(mass.centre for mass in loads.masses.values()), *(force.at for force in loads.forces),
+                       *(balance.at for balance in loads.balances)}
     net = Network(scene)
     pairs = {name: at for name, at in net.shared.items() if name not in net.names}
-    return {name: at for name, at in pairs.items() if name not in own and len(scene.links_of[name]) == 1
+    return {name: at for name, at in pairs.items() if name not in own_points and len(scene.links_of[name]) == 1
             and all(slide.at == at for slide in scene.slides if slide.through and name in slide.through)}
 
 
@@ -190,10 +191,10 @@ class Reachability:
         self.limits = [limit for limit in (path.lower, path.upper) if limit]
         self.stops, self.knots = [], self.at == 0
         for limit in self.limits:
-            there = np.abs(self.at - limit.travel) <= limit.slack
-            self.at[there] = limit.travel
-            self.stops.append((limit, there))
-            self.knots |= there
+            at_limit = np.abs(self.at - limit.travel) <= limit.slack
+            self.at[at_limit] = limit.travel
+            self.stops.append((limit, at_limit))
+            self.knots |= at_limit
 
     def faults(self, failures: Sequence[tuple[Failure, Array]]) -> dict[int, str]:
         """One line for each pose that is not reached, or is a limit, by its place.
@@ -271,10 +272,10 @@ def whole_motion(scene: Scene) -> RangeOfMotion:
     Fails with `Refused` where that is nowhere.
     """
     check_drives(scene)
-    found = range_of_motion(scene)
-    if found.path.travel[0] == found.path.travel[-1]:
+    motion = range_of_motion(scene)
+    if motion.path.travel[0] == motion.path.travel[-1]:
         raise Refused("the cycle", said("the mechanism does not move on from the given pose"), "another pose")
-    return found
+    return motion
 
 
 def range_of_motion(scene: Scene) -> RangeOfMotion:
@@ -282,24 +283,24 @@ def range_of_motion(scene: Scene) -> RangeOfMotion:
     if scene.drives[0].slides:
         places = [complex(*map(float, at)) for at in scene.points.values()]
         far = max(abs(p - q) for p in places for q in places)
-        found = RangeOfMotion(scene, -far, far, closed=False)
+        motion = RangeOfMotion(scene, -far, far, closed=False)
     else:
-        found = RangeOfMotion(scene, 0.0, TURN, drives_return(scene, paces(scene)))
-        if found.closed and found.linkage.counts_angles and not (found.goes_round or found.path.upper):
-            found = _motion_until_return(scene) or found
-    return found
+        motion = RangeOfMotion(scene, 0.0, TURN, drives_return(scene, paces(scene)))
+        if motion.closed and motion.linkage.counts_angles and not (motion.goes_round or motion.path.upper):
+            motion = _motion_until_return(scene) or motion
+    return motion
 
 
 def _motion_until_return(scene: Scene) -> RangeOfMotion | None:
     """The motion through the fewest turns after which all is back; none where these are too many, or it stops."""
     most = 1
     while most < MAX_TURNS:
-        found, most = RangeOfMotion(scene, 0.0, 2 * most * TURN, closed=True), 2 * most
-        if found.path.upper:
+        motion, most = RangeOfMotion(scene, 0.0, 2 * most * TURN, closed=True), 2 * most
+        if motion.path.upper:
             return None
         for count in range(most // 2 + 1, most + 1):
-            if found.returns_at(count * TURN):
-                return found if count == most else RangeOfMotion(scene, 0.0, count * TURN, closed=True)
+            if motion.returns_at(count * TURN):
+                return motion if count == most else RangeOfMotion(scene, 0.0, count * TURN, closed=True)
     return None
 
 

@@ -49,9 +49,9 @@ class Draft:
 
 def drafts(scene: Scene, pencil: Pencil, long: bool = True) -> list[Draft]:
     """Every form of a scene, those on the front marked; without `long` loaded scenes are not drawn strictly."""
-    found = list(_draft_rows(scene, pencil, long))
-    best = front([(one.operations, one.error) for one in found if one.operations is not None and one.error])
-    return [replace(one, front=(one.operations, one.error) in best) for one in found]
+    rows = list(_draft_rows(scene, pencil, long))
+    best = front([(row.operations, row.error) for row in rows if row.operations is not None and row.error])
+    return [replace(row, front=(row.operations, row.error) in best) for row in rows]
 
 
 def _draft_rows(scene: Scene, pencil: Pencil, long: bool) -> Iterator[Draft]:
@@ -61,12 +61,12 @@ def _draft_rows(scene: Scene, pencil: Pencil, long: bool) -> Iterator[Draft]:
                 yield Draft(scene.name, "every method", plan, tools, PAPER, None, None, why=LONG)
                 continue
             for form in forms(scene, pencil, plan=plan, strict=tools == STRICT, paper=PAPER):
-                one, place = form.drafted, (scene.name, form.name, plan, tools, PAPER)
-                if one is None:
+                draft, place = form.drafted, (scene.name, form.name, plan, tools, PAPER)
+                if draft is None:
                     yield Draft(*place, None, None, why=str(form.refusal))
                 else:
-                    yield Draft(*place, one.operations, one.error or None,
-                                why="" if one.error else "every result is nothing")
+                    yield Draft(*place, draft.operations, draft.error or None,
+                                why="" if draft.error else "every result is nothing")
 
 
 MARKERS = {"pose's own": "circle", "every method": "plus", "auxiliary": "square", "trial": "up", "poles": "diamond"}
@@ -95,16 +95,16 @@ Place = tuple[float, float]  # in operations and error
 def picture(rows: Sequence[Draft], pencil: str) -> Chart:
     """The chart of the medians over the scenes, drawn with a pencil."""
     scenes = group_rows(rows, "scene")
-    ways: dict[tuple[str, str, str], list[Place]] = {}
+    spots_by_way: dict[tuple[str, str, str], list[Place]] = {}
     for of in scenes.values():
-        for way, place in _relative_to_own(of):
-            ways.setdefault(way, []).append(place)
-    found: dict[tuple[tuple[float, float], ...], list[tuple[str, str, str]]] = {}
-    for way, places in ways.items():
-        found.setdefault(median(places), []).append(way)
-    middles = [middle for middle, *_ in found]
+        for combination, place in _relative_to_own(of):
+            spots_by_way.setdefault(combination, []).append(place)
+    ways_by_spot: dict[tuple[tuple[float, float], ...], list[tuple[str, str, str]]] = {}
+    for combination, places in spots_by_way.items():
+        ways_by_spot.setdefault(median(places), []).append(combination)
+    middles = [middle for middle, *_ in ways_by_spot]
     series = [ChartSeries(_look(*alike[0]), (place[0],), ((place[1], place[2]),), label=_ways_text(alike))
-              for place, alike in found.items()]
+              for place, alike in ways_by_spot.items()]
     panel = SubChart("", TIMES_OPERATIONS, TIMES_ERROR, (
         ChartSeries(FRONT, tuple(stairs(front(middles), _ends(middles)))), *series))
     title, remarks = "The draughtsman: operations against pencil error", REMARKS.format(
@@ -115,10 +115,10 @@ def picture(rows: Sequence[Draft], pencil: str) -> Chart:
 def _relative_to_own(rows: Sequence[Draft]) -> Iterator[tuple[tuple[str, str, str], Place]]:
     """Each way to draw one scene, method, plan and tools, beside the pose's own form; methods that lead to one form
     have it in common, but where all do it is the pose's own alone."""
-    there = {(name, row.plan, row.tools): _spot(row) for row in rows if row.error
+    spots = {(name, row.plan, row.tools): _spot(row) for row in rows if row.error
              for name in ("pose's own" if row.form == "every method" else row.form).split(", ")}
-    if own := there.get(("pose's own", MOTION_PLANS[0], SQUARES)):
-        yield from ((way, (x / own[0], y / own[1])) for way, (x, y) in there.items())
+    if own_spot := spots.get(("pose's own", MOTION_PLANS[0], SQUARES)):
+        yield from ((drawing_way, (x / own_spot[0], y / own_spot[1])) for drawing_way, (x, y) in spots.items())
 
 
 def _ways_text(alike: Sequence[tuple[str, str, str]]) -> str:
@@ -146,10 +146,11 @@ def details(rows: Sequence[Draft], pencil: str) -> Chart:
 def _panel(scene: str, rows: Sequence[Draft]) -> SubChart:
     """One scene: its front, from the worst error that is drawn to the most operations, and every form."""
     missing = sum(row.operations is None for row in rows)
-    there = [row for row in rows if row.operations is not None and row.error]
-    line = stairs(sorted({_spot(row) for row in rows if row.front}), _ends(list(map(_spot, there)))) if there else []
+    drawn_rows = [row for row in rows if row.operations is not None and row.error]
+    line = stairs(sorted({_spot(row) for row in rows if row.front}),
+                  _ends(list(map(_spot, drawn_rows)))) if drawn_rows else []
     return SubChart(f"{scene} ({missing} not drawn)" if missing else scene, OPERATIONS, ERROR,
-                    (ChartSeries(FRONT, tuple(line)), *(ChartSeries(look(row), (_spot(row),)) for row in there)))
+                    (ChartSeries(FRONT, tuple(line)), *(ChartSeries(look(row), (_spot(row),)) for row in drawn_rows)))
 
 
 def _spot(row: Draft) -> Place:

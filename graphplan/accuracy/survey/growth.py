@@ -79,17 +79,17 @@ def stages(links: Sequence[int] = LINKS, rounds: int = ROUNDS,
     told."""
     four, steps = poses.scene_in_poses(chain(1), {}, {}), dict[int, int]()
     runs: dict[tuple[int, str], tuple[Callable[[], object], int]] = {(0, ""): (lambda: solve(four), 1)}
-    left = dict[str, str]()
+    left_out = dict[str, str]()
     for count in links:
         tell(f"{count} links")
         drawing = construct(chain(count // 2 - 1))
         steps[count] = len(drawing.program) - drawing.program.givens
         for stage, run in _runs(drawing).items():
-            if stage not in left and not (why := _hindrance(run[0])):
+            if stage not in left_out and not (why := _hindrance(run[0])):
                 runs[count, stage] = run
             else:
-                left.setdefault(stage, why)
-                yield StageTime(count, steps[count], stage, None, why=left[stage])
+                left_out.setdefault(stage, why)
+                yield StageTime(count, steps[count], stage, None, why=left_out[stage])
     times = ratios(runs, (0, ""), rounds, MIN_SECONDS, lambda done: tell(f"round {done + 1} of {rounds}"))
     for (count, stage), (low, middle, high) in times.items():
         if count:
@@ -147,13 +147,13 @@ def picture(rows: Sequence[StageTime]) -> Chart:
 
 def _line(rows: Sequence[StageTime], stage: str, look: Look) -> ChartSeries:
     """A stage's times with their quartiles, its exponent at the end of the line, and why it ends there."""
-    there = [row for row in rows if row.stage == stage and row.time]
+    timed = [row for row in rows if row.stage == stage and row.time]
     why = next((row.why for row in rows if row.stage == stage and row.why), "")
     power = exponent(rows, stage)
-    told = stage if power is None else f"{stage}: n^{power:.2f}"
-    return ChartSeries(look, tuple((row.links, row.time) for row in there if row.time),
-                       tuple(((row.links, row.low), (row.links, row.high)) for row in there if row.low and row.high),
-                       label=f"{told} ({why.split(': ')[-1].split(';')[0]})" if why else told)
+    label = stage if power is None else f"{stage}: n^{power:.2f}"
+    return ChartSeries(look, tuple((row.links, row.time) for row in timed if row.time),
+                       tuple(((row.links, row.low), (row.links, row.high)) for row in timed if row.low and row.high),
+                       label=f"{label} ({why.split(': ')[-1].split(';')[0]})" if why else label)
 
 
 def _steps(counts: Sequence[tuple[int, int]]) -> str:
@@ -161,5 +161,5 @@ def _steps(counts: Sequence[tuple[int, int]]) -> str:
     if len(counts) < 2:
         return str(counts[0][1]) if counts else "no"
     links, steps = np.array(counts, float).T
-    slope, rest = np.polyfit(links, steps, 1)
-    return f"{slope:.4g} n {'+' if rest > 0 else '−'} {abs(rest):.4g}"
+    slope, intercept = np.polyfit(links, steps, 1)
+    return f"{slope:.4g} n {'+' if intercept > 0 else '−'} {abs(intercept):.4g}"

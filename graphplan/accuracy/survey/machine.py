@@ -71,18 +71,18 @@ def measures(scene: Scene, compiled: int = ALL) -> Iterator[MachineMeasure]:
 
     Numba compiles so many forms of each, the pose's own first; of the others it is said that they are left out.
     """
-    for asked in (MOTION, FORCES) if scene.loads is not None else (MOTION,):
-        problem = Problem(scene, forces=asked == FORCES)
-        yield from measure_runs(problem, asked, SOLVERS, forms(problem.scene), compiled)
+    for question in (MOTION, FORCES) if scene.loads is not None else (MOTION,):
+        problem = Problem(scene, forces=question == FORCES)
+        yield from measure_runs(problem, question, SOLVERS, forms(problem.scene), compiled)
 
 
 def measure_runs(problem: Problem, asked: str, others: Rivals, drawn: Iterable[tuple[str, str, Drawn]],
                  compiled: int = ALL) -> Iterator[MachineMeasure]:
     """What has no form, and every form in every arithmetic, taking turns; LAPACK is among the others."""
     runs, errors = dict[Key, TimedRun](), dict[Key, float]()
-    for key, made in _candidate_runs(problem, others, drawn, compiled):
+    for key, make in _candidate_runs(problem, others, drawn, compiled):
         try:
-            run = made()
+            run = make()
             errors[key], runs[key] = problem.error(run, run.call()), run
         except GraphplanError as refusal:
             yield MachineMeasure(problem.scene.name, asked, *key, None, None, None, None, refusal.lines[0])
@@ -94,12 +94,12 @@ def measure_runs(problem: Problem, asked: str, others: Rivals, drawn: Iterable[t
 def _candidate_runs(problem: Problem, others: Rivals, drawn: Iterable[tuple[str, str, Drawn]],
                     compiled: int) -> Iterator[tuple[Key, Callable[[], TimedRun]]]:
     """Everything that is measured: what has no form, then every form."""
-    for name, other in others.items():
-        yield ("", "", name), partial(other, problem)
-    for k, (form, plan, one) in enumerate(drawn):
+    for name, solver in others.items():
+        yield ("", "", name), partial(solver, problem)
+    for k, (form, plan, drawing) in enumerate(drawn):
         for name, arithmetic in ARITHMETICS.items():
             left_out = name == COMPILED and k >= compiled
-            yield (form, plan, name), partial(_run_of_form, partial(arithmetic, problem), one, left_out)
+            yield (form, plan, name), partial(_run_of_form, partial(arithmetic, problem), drawing, left_out)
 
 
 def _run_of_form(arithmetic: Callable[[Construction], TimedRun], drawn: Drawn, left_out: bool) -> TimedRun:
@@ -146,8 +146,9 @@ DETAILS = (
 
 def picture(rows: Sequence[MachineMeasure]) -> Chart:
     """The chart of the medians over the scenes: of the motion, and of the motion and forces of scenes with loads."""
-    panels = [SubChart(f"{asked.capitalize()}, {len(group_rows(of, 'scene'))} scenes", TIME, ERROR, tuple(_medians(of)))
-              for asked, of in group_rows(rows, "asked").items()]
+    panels = [SubChart(f"{question.capitalize()}, {len(group_rows(of, 'scene'))} scenes", TIME, ERROR,
+                       tuple(_medians(of)))
+              for question, of in group_rows(rows, "asked").items()]
     key = (("the construction", OWN), ("the analytic solver", SOLVERS_OWN), ("other programs", RIVAL),
            ("the front: nothing is faster and more accurate", FRONT))
     return Chart("The machine: time against error", REMARKS, tuple(panels), 2, (165.0, 120.0), key)
@@ -158,14 +159,14 @@ def _medians(rows: Sequence[MachineMeasure]) -> Iterator[ChartSeries]:
     chosen = [row for row in rows if row.time is not None and row.arithmetic not in BY_RULES
               and row.plan in ("", MOTION_PLANS[0]) and row.form.split(", ")[0] in ("", "pose's own", "every method")]
     several = group_rows(chosen, "arithmetic")
-    found = {name: median([(row.time, row.error) for row in of if row.time is not None and row.error is not None])
-             for name, of in several.items()}
-    middles = [middle for middle, _, _ in found.values()]
+    medians = {name: median([(row.time, row.error) for row in of if row.time is not None and row.error is not None])
+               for name, of in several.items()}
+    middles = [middle for middle, _, _ in medians.values()]
     best = stairs(front(middles), (max(x for x, _ in middles), max(y for _, y in middles)))
-    ends = {middle: name for name, (middle, _, _) in found.items()}
+    ends = {middle: name for name, (middle, _, _) in medians.items()}
     levels = {y: _level(y, ends[x, y]) for x, y in front(middles)}
     yield ChartSeries(FRONT, tuple((x, levels.get(y, y)) for x, y in best), through=True)
-    for name, (middle, low, high) in found.items():
+    for name, (middle, low, high) in medians.items():
         spot, *corners = ((x, _level(y, name)) for x, y in (middle, low, high))
         look = OWN if name in ARITHMETICS else SOLVERS_OWN if name in SOLVERS else RIVAL
         label = "" if isinstance(spot[1], str) else f"{name} ({len(several[name])})" if look is RIVAL else name
@@ -175,8 +176,8 @@ def _medians(rows: Sequence[MachineMeasure]) -> Iterator[ChartSeries]:
 def details(rows: Sequence[MachineMeasure]) -> Chart:
     """The chart of every form in every scene."""
     close = replace(ERROR, pitch=4.0)
-    panels = tuple(SubChart(f"{scene}, {asked}", TIME, close, tuple(_marks(of)))
-                   for asked, every in group_rows(rows, "asked").items()
+    panels = tuple(SubChart(f"{scene}, {question}", TIME, close, tuple(_marks(of)))
+                   for question, every in group_rows(rows, "asked").items()
                    for scene, of in group_rows(every, "scene").items())
     return Chart("The machine: time against error, scene by scene", DETAILS, panels, 6, (44.0, 44.0), tuple(_key()))
 

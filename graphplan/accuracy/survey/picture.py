@@ -89,10 +89,10 @@ class Chart:
 
 def group_rows(rows: Iterable[T], field: str) -> dict[str, list[T]]:
     """Rows by what a field of them says, in the order in which it is first said."""
-    found: dict[str, list[T]] = {}
+    groups: dict[str, list[T]] = {}
     for row in rows:
-        found.setdefault(getattr(row, field), []).append(row)
-    return found
+        groups.setdefault(getattr(row, field), []).append(row)
+    return groups
 
 
 def front(places: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -115,8 +115,8 @@ def stairs(best: Sequence[tuple[float, float]], end: tuple[float, float]) -> lis
 
 def median(places: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
     """The medians of both coordinates, the lower quartiles and the upper ones."""
-    (left, x, right), (low, y, high) = (spread(list(values)) for values in zip(*places, strict=True))
-    return (x, y), (left, low), (right, high)
+    (lower_x, x, right), (low, y, high) = (spread(list(values)) for values in zip(*places, strict=True))
+    return (x, y), (lower_x, low), (right, high)
 
 
 def table(kind: type, rows: Iterable[Any]) -> str:
@@ -131,12 +131,12 @@ def table(kind: type, rows: Iterable[Any]) -> str:
 
 def read(kind: type[T], text: str) -> list[T]:
     """The rows of a table of one dataclass, whose fields are text or numbers; fails with `ValueError` or `KeyError`."""
-    known = {field.name: str(field.type) for field in fields(kind)}  # type: ignore[arg-type]
+    types = {field.name: str(field.type) for field in fields(kind)}  # type: ignore[arg-type]
 
     def value(name: str, cell: str) -> Any:
-        return cell if known[name] == "str" else float(cell) if cell else None
+        return cell if types[name] == "str" else float(cell) if cell else None
 
-    return [kind(**{name: value(name, line[name]) for name in known}) for line in csv.DictReader(io.StringIO(text))]
+    return [kind(**{name: value(name, line[name]) for name in types}) for line in csv.DictReader(io.StringIO(text))]
 
 
 def _cell(value: Any) -> str:
@@ -174,12 +174,12 @@ def alternate_runs(runs: Mapping[Key, Callable[[], object]], rounds: int = ROUND
     Every run is called beforehand, to warm up and to find how often.
     """
     repeats = {name: math.ceil(least / max(_warm(run, least), TIMER_TICK)) for name, run in runs.items()}
-    found: dict[Key, list[float]] = {name: [] for name in runs}
+    times: dict[Key, list[float]] = {name: [] for name in runs}
     for done in range(rounds):
         told(done)
         for name, run in runs.items():
-            found[name].append(spent(run, repeats[name]))
-    return found
+            times[name].append(spent(run, repeats[name]))
+    return times
 
 
 def spread(values: list[float]) -> Quartiles:

@@ -75,8 +75,9 @@ class Problem:
 
     def error(self, run: TimedRun, found: Any) -> float:
         """The largest error of any number in the sampled poses, beside the largest of its kind."""
-        told = (run.read(found, j) for j in range(SAMPLED))
-        return max(largest_error(results, true.truth(results)) for results, true in zip(told, self.truths, strict=True))
+        readings = (run.read(found, j) for j in range(SAMPLED))
+        return max(largest_error(results, true.truth(results))
+                   for results, true in zip(readings, self.truths, strict=True))
 
     def run_each(self, one: Callable[[Any], Any], given: Sequence[Any],
                  read: Callable[[Any], Results] = lambda found: found) -> TimedRun:
@@ -91,19 +92,19 @@ class Problem:
 
     def _value_at(self, k: int, value: Any) -> Any:
         if isinstance(value, tuple):
-            return tuple(float(np.broadcast_to(part, self.n)[k]) for part in value)
-        one = np.broadcast_to(value, self.n)[k]
-        return (float(one.real), float(one.imag)) if np.iscomplexobj(one) else float(one)
+            return tuple(float(np.broadcast_to(component, self.n)[k]) for component in value)
+        number = np.broadcast_to(value, self.n)[k]
+        return (float(number.real), float(number.imag)) if np.iscomplexobj(number) else float(number)
 
 
 def largest_error(found: Results, true: Results) -> float:
     """The largest error of any number, beside the largest of its kind; of an enclosure that of its farther bound."""
     worst = 0.0
     for kind, named in found.items():
-        known = {name: components(true[kind][name]) for name in named}
-        largest = max((abs(_middle(number)) for numbers in known.values() for number in numbers), default=0)
+        true_numbers = {name: components(true[kind][name]) for name in named}
+        largest = max((abs(_middle(number)) for numbers in true_numbers.values() for number in numbers), default=0)
         gap = max((abs(_middle(ours) - _middle(number)) + getattr(ours, "error", 0) for name, value in named.items()
-                   for ours, number in zip(components(value), known[name], strict=True)), default=0)
+                   for ours, number in zip(components(value), true_numbers[name], strict=True)), default=0)
         worst = max(worst, float(gap / largest) if largest else 0.0)
     return worst
 
@@ -185,8 +186,8 @@ def _run_replay(problem: Problem, drawing: Construction) -> TimedRun:
 
 def _on_arrays(problem: Problem, drawing: Construction) -> TimedRun:
     """The rules, on arrays of all poses."""
-    given = _given_coordinates(drawing, np.copy, problem.points)
-    return problem.arrays(lambda: drawing.read(Arrays(), given))
+    coordinates = _given_coordinates(drawing, np.copy, problem.points)
+    return problem.arrays(lambda: drawing.read(Arrays(), coordinates))
 
 
 def _in_blocks(machine: bool, problem: Problem, drawing: Construction) -> TimedRun:
@@ -200,12 +201,12 @@ def _run_enclosures(digits: int, problem: Problem, drawing: Construction) -> Tim
         raise Refused("enclosures", "python-flint is not installed", "pip install 'graphplan[certified]'")
     from graphplan.kernel.numbers.enclosures import Enclosures, precision
 
-    given, bits = [_given_coordinates(drawing, Fraction, pose)
-                   for pose in problem.sampled_points], ceil(digits * log2(10)) + SPARE_BITS
+    coordinates, bits = [_given_coordinates(drawing, Fraction, pose)
+                         for pose in problem.sampled_points], ceil(digits * log2(10)) + SPARE_BITS
 
     def call() -> list[Results]:
         with precision(bits):
-            return [drawing.read(Enclosures(), numbers) for numbers in given]
+            return [drawing.read(Enclosures(), numbers) for numbers in coordinates]
 
     return TimedRun(call, SAMPLED, lambda found, j: found[j])
 
@@ -240,9 +241,9 @@ def _run_solver(exact: bool, problem: Problem) -> TimedRun:
 
 def _run_lapack(problem: Problem) -> TimedRun:
     """The solver over many poses, in batches of LAPACK whose matrices take few megabytes: measured to be fastest."""
-    size = max(1, int(BYTES / (8 * (3 * len(problem.scene.moving)) ** 2)))
-    starts = range(0, problem.n, size)
-    sizes = [min(size, problem.n - start) for start in starts]
+    batch = max(1, int(BYTES / (8 * (3 * len(problem.scene.moving)) ** 2)))
+    starts = range(0, problem.n, batch)
+    sizes = [min(batch, problem.n - start) for start in starts]
 
     def solve_block(start: int, count: int) -> Results:
         block = {name: z[start : start + count] for name, z in problem.points.items()}
@@ -258,9 +259,9 @@ def _join_blocks(parts: Sequence[Results], sizes: Sequence[int]) -> Results:
     def join_values(values: Sequence[Any]) -> Any:
         if isinstance(values[0], tuple):
             return tuple(map(join_values, zip(*values, strict=True)))
-        return np.concatenate([np.broadcast_to(value, size) for value, size in zip(values, sizes, strict=True)])
+        return np.concatenate([np.broadcast_to(value, count) for value, count in zip(values, sizes, strict=True)])
 
-    return {kind: {name: join_values([part[kind][name] for part in parts]) for name in named}
+    return {kind: {name: join_values([block[kind][name] for block in parts]) for name in named}
             for kind, named in parts[0].items()}
 
 

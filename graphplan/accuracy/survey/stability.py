@@ -71,9 +71,9 @@ def samples(*degeneracies: Degeneracy, distances: Sequence[float] = DISTANCES,
     for degeneracy in degeneracies:
         for d in distances:
             pose = TestedPose(degeneracy.scene_at(d), pencil or Pencil())
-            ways = {SHEET: {}, **{way: WAYS[way] for way in degeneracy.ways}}
-            for way, how, error, told in pose.measure(ways):
-                yield Sample(degeneracy.name, way, how, d, pose.condition, error, told)
+            choices = {SHEET: {}, **{name: WAYS[name] for name in degeneracy.ways}}
+            for name, how, error, remark in pose.measure(choices):
+                yield Sample(degeneracy.name, name, how, d, pose.condition, error, remark)
 
 
 Found = tuple[float | None, str]  # an error, and what is told of it; or none, and why
@@ -90,17 +90,18 @@ class TestedPose:
     @property
     def condition(self) -> float:
         """The condition of the mechanism: of its rates, and of its reactions where there are loads."""
-        found = self.floats
-        return max(found.rates.condition, found.reactions.condition if found.reactions else 1.0) if found else math.inf
+        solution = self.floats
+        return max(solution.rates.condition, solution.reactions.condition if solution.reactions
+                   else 1.0) if solution else math.inf
 
     def measure(self, ways: Mapping[str, Mapping[str, Any]]) -> Iterator[tuple[str, str, float | None, str]]:
         """Each way with how it is found, its error, and what is told of it."""
-        for way, choices in ways.items():
-            for how, (error, told) in self._drawing_errors(way, choices).items():
+        for name, choices in ways.items():
+            for how, (error, remark) in self._drawing_errors(name, choices).items():
                 if how != COMPUTED:
-                    yield way, how, error, told
-                elif way == SHEET:
-                    yield VALUE, how, error, told
+                    yield name, how, error, remark
+                elif name == SHEET:
+                    yield VALUE, how, error, remark
         yield SOLVER, COMPUTED, *self._error_of(lambda: (self._solver_results(), 0, ""))
         yield SOLVE, COMPUTED, *self._error_of(self._answer)
 
@@ -122,9 +123,9 @@ class TestedPose:
         if self.truth is None:
             return None, SINGULAR
         try:
-            results, rounds, told = read()
+            results, rounds, remark = read()
             bounded = {kind: named for kind, named in results.items() if kind not in UNBOUNDED}
-            return largest_error(bounded, self.truth.truth(bounded, rounds)), told
+            return largest_error(bounded, self.truth.truth(bounded, rounds)), remark
         except GraphplanError as refusal:
             return None, refusal.lines[0]
         except (ValueError, OverflowError):  # of what is not a number, or beyond all
@@ -138,8 +139,8 @@ class TestedPose:
 
     def _answer(self) -> tuple[Results, int, str]:
         """What `solve` prints, and the arithmetic in which it is found."""
-        found = report(self.scene, alone=True)
-        return found.results, found.drawing.rounds, found.arithmetic
+        answer = report(self.scene, alone=True)
+        return answer.results, answer.drawing.rounds, answer.arithmetic
 
 
 def _exact(scene: Scene) -> ReferenceSolution:
@@ -170,15 +171,15 @@ def form_of(drawing: Construction) -> str:
 
 def as_drawn(drawing: Construction) -> Results:
     """What is read off the drawing, each mark made in floats from those before it."""
-    found: dict[str, dict[str, Any]] = {}
+    results: dict[str, dict[str, Any]] = {}
     for reading, _, value in readings(drawing, evaluate(drawing.drawn, Floats()), Floats()):
-        found.setdefault(reading.kind, {})[reading.of] = value
-    return found
+        results.setdefault(reading.kind, {})[reading.of] = value
+    return results
 
 
 def why_not_drawn_so(drawing: Construction, way: str) -> str:
     """Why a construction is not drawn in the way that is asked for, if it is not: it is the next best one."""
-    if way in (POLES, FALSE) and not any(way in told for told in drawing.ways):
+    if way in (POLES, FALSE) and not any(way in form for form in drawing.ways):
         return f"no {way}: {joined(drawing.ways)}"
     for step in drawing.drawn.steps:
         if step.choice and drawing.prefer in {*map(plain, step.choice.compound.forms)} - {plain(step.choice.best.form)}:
@@ -192,21 +193,21 @@ def by_pencil(drawing: Construction, pencil: Pencil) -> Found:
     Each plan is drawn as large as all its marks allow. None where points that a line is drawn through fall together on
     paper, or the error is as large as what is drawn.
     """
-    drawn, values, plans = drawing.drawn, drawing.values, Plans(drawing).plan_of_step
+    program, values, plans = drawing.drawn, drawing.values, Plans(drawing).plan_of_step
     points: dict[str, list[complex]] = {}
-    for step in drawn.steps:
+    for step in program.steps:
         if step.op.gives == POINT:
             points.setdefault(plans[step.index], []).append(complex(*values[step.index]))
     units = {plan: max(np.ptp(np.real(at)), np.ptp(np.imag(at))) / PLAN_WIDTH_MM or 1.0 for plan, at in points.items()}
-    lines = [step.args for step in drawn.steps if step.op.movement is Movement.RULED]
-    given = {step.name: step.index for step in drawn.steps[: drawn.givens]}
-    lines += [(given[P], given[R]) for joints in drawing.scene.links.values()
-              for P, R in combinations(joints, 2) if P in given and R in given]
+    lines = [step.args for step in program.steps if step.op.movement is Movement.RULED]
+    point_marks = {step.name: step.index for step in program.steps[: program.givens]}
+    lines += [(point_marks[P], point_marks[R]) for joints in drawing.scene.links.values()
+              for P, R in combinations(joints, 2) if P in point_marks and R in point_marks]
     for P, R in lines:
         if 0 < math.dist(values[P], values[R]) < pencil.point * units[plans[R]]:
-            return None, f"{drawn.text(P)} and {drawn.text(R)} fall together on paper"
-    found = first_order(drawing, hand(drawing, units.__getitem__, pencil), Scales(1.0, 1.0, "mm", {}))
-    error = max((result.relative or (result.deviation.value and math.inf) for result in found), default=0.0)
+            return None, f"{program.text(P)} and {program.text(R)} fall together on paper"
+    results = first_order(drawing, hand(drawing, units.__getitem__, pencil), Scales(1.0, 1.0, "mm", {}))
+    error = max((result.relative or (result.deviation.value and math.inf) for result in results), default=0.0)
     return (error, "") if error < 1 else (None, "the error is as large as what is drawn")
 
 
@@ -249,10 +250,10 @@ def picture(rows: Sequence[Sample], pencil: str = "") -> Chart:
 
 def _panel(sweep: Degeneracy, rows: Sequence[Sample]) -> SubChart:
     """One way to a special pose: what it must cost, each way's error, and below what serves."""
-    told = {(row.way, row.how, row.distance): row for row in rows}
+    rows_by_key = {(row.way, row.how, row.distance): row for row in rows}
     distances = sorted({row.distance for row in rows}, reverse=True)
     errors = {(way, how): {d: max(error, MIN_ERROR) for d in distances
-                           if (row := told.get((way, how, d))) and (error := row.error) is not None}
+                           if (row := rows_by_key.get((way, how, d))) and (error := row.error) is not None}
               for way, how in {(row.way, row.how): 0 for row in rows}}
 
     def lines(way: str, how: str, look: Look) -> Iterator[ChartSeries]:
@@ -268,9 +269,9 @@ def _panel(sweep: Degeneracy, rows: Sequence[Sample]) -> SubChart:
         missing = tuple((d or BEYOND, str(place)) for d in distances if d not in errors[way, DRAWN])
         series += [*lines(way, PENCIL, Look(colour, width=0.3, dash=DOTS)), *lines(way, DRAWN, look),
                    ChartSeries(replace(look, width=0.0), missing), *_way_label(way, colour, place, errors, sweep.ways)]
-    series += [one for way, look in LOOKS.items() for one in lines(way, COMPUTED, look)]
-    strips = (_stretches(SOLVE, distances, {d: _arithmetic(told[SOLVE, COMPUTED, d]) for d in distances}),
-              _stretches(SHEET, distances, {d: "" if (row := told[SHEET, DRAWN, d]).error is None else row.told
+    series += [series_of_way for way, look in LOOKS.items() for series_of_way in lines(way, COMPUTED, look)]
+    strips = (_stretches(SOLVE, distances, {d: _arithmetic(rows_by_key[SOLVE, COMPUTED, d]) for d in distances}),
+              _stretches(SHEET, distances, {d: "" if (row := rows_by_key[SHEET, DRAWN, d]).error is None else row.told
                                             for d in distances}))
     return SubChart(sweep.name, DISTANCE, replace(ERROR, label=sweep.what), (*chain(*strips), *series))
 
@@ -278,11 +279,11 @@ def _panel(sweep: Degeneracy, rows: Sequence[Sample]) -> SubChart:
 def _way_label(way: str, colour: str, place: int, errors: Mapping[tuple[str, str], Mapping[float, float]],
                ways: Sequence[str]) -> Iterator[ChartSeries]:
     """The name of a way: halfway where it is worse than the other, or else where it ends, or a third before."""
-    mine, other = (errors[one, DRAWN] for one in (way, ways[1 - place]))
-    apart = [d for d in mine if d and mine[d] > NOTABLE_RATIO * other.get(d, math.inf)]
-    there = apart or [d for d in mine if d]
-    if there:
-        at = there[len(there) // 2 if apart else (len(there) - 1) * (2 + place) // 3]
+    mine, rival = (errors[one, DRAWN] for one in (way, ways[1 - place]))
+    apart = [d for d in mine if d and mine[d] > NOTABLE_RATIO * rival.get(d, math.inf)]
+    distances = apart or [d for d in mine if d]
+    if distances:
+        at = distances[len(distances) // 2 if apart else (len(distances) - 1) * (2 + place) // 3]
         yield ChartSeries(Look(colour), ((at, mine[at]),), label=way)
 
 
@@ -297,9 +298,9 @@ def _stretches(strip: str, distances: Sequence[float], told: Mapping[float, str]
     """What serves from where to where, in words on tints; white where nothing does."""
     tints = dict(zip(dict.fromkeys(filter(None, told.values())), cycle(TINTS)))
     far = [d for d in distances if d]
-    ends = [*far[:1], *(math.sqrt(one * two) for one, two in pairwise(far)), *far[-1:]]
-    for words, part in groupby(range(len(far)), key=lambda k: told[far[k]]):
-        stretch = list(part)
+    ends = [*far[:1], *(math.sqrt(distance * two) for distance, two in pairwise(far)), *far[-1:]]
+    for words, places in groupby(range(len(far)), key=lambda k: told[far[k]]):
+        stretch = list(places)
         yield _stretch(strip, words, (ends[stretch[0]], ends[stretch[-1] + 1]), tints)
     if told.get(0.0) is not None:
         yield _stretch(strip, told[0.0], ("<", ">"), tints)

@@ -214,7 +214,8 @@ class Scene:
     @cached_property
     def extent(self) -> float:
         """The extent of the mechanism, across or upwards."""
-        xs, ys = zip(*((float(x), float(y)) for x, y in self.points.values()), strict=True)
+        places = [(float(x), float(y)) for x, y in self.points.values()] or [(0.0, 0.0)]
+        xs, ys = zip(*places, strict=True)
         return max(max(xs) - min(xs), max(ys) - min(ys)) or 1.0
 
     def link_pair(self, name: str) -> tuple[str, str]:

@@ -12,7 +12,6 @@ from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.sections import ASIDE, PROTOCOLS
 from graphplan.methods.construction import Construction
-from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import SheetFrame, frame_of
 from graphplan.sheet.frames.title import TitleBlock
@@ -116,9 +115,10 @@ class Composition:
         The mechanism counts most, each other plan one half or, of more than two, as many of their marks as it has. A
         plan without marks, as where nothing is asked, needs nothing. What cannot be measured counts against it.
         """
-        marks = {panel: need**2 for panel, need in self.needs.items() if panel != MECHANISM}
+        first = self.plans.panels[0]
+        marks = {panel: need**2 for panel, need in self.needs.items() if panel != first}
         weights = {panel: count / sum(marks.values()) if len(marks) > 2 else 0.5 for panel, count in marks.items()}
-        weights[MECHANISM] = 1.0
+        weights[first] = 1.0
         large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())
         fractions_of_need = (self._size_mm(panel) / need for panel, need in self.needs.items() if need)
         return round(large - SHORT_VECTOR_PRICE * len(self.short), 9), min(fractions_of_need, default=0.0)
@@ -146,8 +146,8 @@ class Composition:
     def _scale(self, panel: str) -> float:
         """How large a plan is; one of which marks are cut off counts no larger than all of it would be."""
         view = self.views[panel]
-        return view.scale if panel == MECHANISM else min(view.scale, whole_plan_scale(self.extents[panel],
-                                                                                      room_for_marks(view.rect)))
+        whole = whole_plan_scale(self.extents[panel], room_for_marks(view.rect))
+        return view.scale if panel == self.plans.panels[0] else min(view.scale, whole)
 
     def _size_mm(self, panel: str) -> float:
         """The larger side of a plan on paper."""
@@ -218,8 +218,9 @@ def _too_large(tried: Sequence[Composition]) -> Refused:
     """The refusal of given scales at which plans do not fit any of some compositions, with the largest that do."""
     nearest = min(tried, key=lambda composition: max(composition.oversize_factors.values()))
     scales, paper, oversized = nearest.scales, nearest.arrangement.paper, nearest.oversize_factors
-    if MECHANISM in oversized:
-        k_s = float(round_up(scales.k_s * oversized[MECHANISM]))
+    first = nearest.plans.panels[0]
+    if first in oversized:
+        k_s = float(round_up(scales.k_s * oversized[first]))
         most = f"{ratio(k_s, scales.length)} (k_s = {digits(k_s)}) or smaller"
         return Refused(f"sheet: the scale {ratio(scales.k_s, scales.length)}", f"the mechanism does not fit on {paper}",
                        f"{most}, or a larger sheet")  # fmt: skip
@@ -247,7 +248,7 @@ def _legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:
         needed = MIN_AREA_ON_LARGE_SHEETS.get(paper, MIN_AREA_PER_MARK) * len(spots)
         if AREA_TOL < size < needed:  # marks that all coincide are nowhere apart
             return False
-    return paper in MIN_AREA_ON_LARGE_SHEETS or _shortest(plans) * views[MECHANISM].scale >= MIN_LINK_MM
+    return paper in MIN_AREA_ON_LARGE_SHEETS or _shortest(plans) * views[plans.panels[0]].scale >= MIN_LINK_MM
 
 
 def _shortest(plans: Plans) -> float:

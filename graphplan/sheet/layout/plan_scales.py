@@ -13,7 +13,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Number
 from graphplan.methods.construction import Construction
-from graphplan.methods.panels import MECHANISM, ForcePlan
+from graphplan.methods.panels import ForcePlan
 from graphplan.sheet.layout.paper import CAPTION_SIDE, Demand, room_for_marks
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, lengths_of, round_up
 from graphplan.sheet.lettering.lettering import letter_sizes, sentence_runs, two_line_width
@@ -36,7 +36,7 @@ def given_scales(plans: Plans) -> GivenScales:
     plan, and its kind of plan has no multiple but a given one. Fails with `Refused` where scales do not go together.
     """
     k_s = _mechanism_scale(plans.drawing)
-    multiples = {panel: _multiple(plans, panel) for panel in plans.panels if panel != MECHANISM}
+    multiples = {panel: _multiple(plans, panel) for panel in plans.panels[1:]}
     _check_force_plans(plans)
     return k_s, {panel: multiple for panel, multiple in multiples.items() if multiple is not None}
 
@@ -95,9 +95,10 @@ def choose_scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plan
     """The scales, round if they are not given, for so much room for the marks of each plan; twins have one."""
     drawing, names, (k_s, given_multiples) = plans.drawing, plans.drawing.scene.units, given
     box = bounding_box([corner for rect in rooms.values() for corner in rect.corners])
-    side, lengths = max(box.width, box.height), unit_lengths(plans, MECHANISM)
-    mechanism_scale = Fraction(k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM], COARSER, lengths))
-    if not k_s and (times := extents[MECHANISM].longest / side / float(mechanism_scale)) <= MAX_REDUCTION_FOR_ARCS:
+    side, first = max(box.width, box.height), plans.panels[0]
+    lengths = unit_lengths(plans, first)
+    mechanism_scale = Fraction(k_s or plan_scale(extents[first], rooms[first], COARSER, lengths))
+    if not k_s and (times := extents[first].longest / side / float(mechanism_scale)) <= MAX_REDUCTION_FOR_ARCS:
         mechanism_scale = max(mechanism_scale, round_up(times * float(mechanism_scale), lengths))
     most: dict[str, Fraction] = {}
     for panel in plans.panels[1:]:
@@ -106,7 +107,7 @@ def choose_scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plan
                     round_up(extents[panel].longest / side, lengths))
         most[twin] = max(scale, most.get(twin, scale))
     for source, panel in plans.carry_overs:
-        if panel != MECHANISM:
+        if panel != first:
             twin, taken = plans.twins[panel], most.get(plans.twins[source], mechanism_scale)
             most[twin] = max(most[twin], round_up(float(taken) / MAX_ENLARGEMENT, unit_lengths(plans, panel)))
     multiples: dict[str, Fraction] = {panel: mechanism_scale / most[plans.twins[panel]] for panel in plans.panels[1:]}
@@ -117,16 +118,17 @@ def choose_scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plan
 def unit_lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
     """How many lengths long a unit is drawn of all that has a scale on a plan or its twin."""
     drawing, kinds = plans.drawing, plans.kinds(panel) | plans.kinds(plans.twins[panel])
-    return (*([1] if panel == MECHANISM else []), *lengths_of(kinds, drawing.tempo.kappa, drawing.phi)) or (1,)
+    return (*([1] if panel == plans.panels[0] else []), *lengths_of(kinds, drawing.tempo.kappa, drawing.phi)) or (1,)
 
 
 def panel_demands(plans: Plans, extents: Mapping[str, Extent], given: GivenScales, paper: str) -> dict[str, Demand]:
     """What each plan wants of its panel on a paper."""
     demands, (k_s, multiples), size = dict[str, Demand](), given, letter_sizes(paper).text
+    first = plans.panels[0]
     for panel in plans.panels:
         head = sentence_runs(plans.tongue(panel.caption(plans.kinds(panel))))
-        box = wanted_box(extents[panel], COARSER if panel == MECHANISM else MUCH_COARSER)
-        scale = k_s if panel == MECHANISM else k_s / float(multiples[panel]) if k_s and panel in multiples else None
+        box = wanted_box(extents[panel], COARSER if panel == first else MUCH_COARSER)
+        scale = k_s if panel == first else k_s / float(multiples[panel]) if k_s and panel in multiples else None
         demands[panel] = Demand(box.width, box.height, max(1, len(plans.points(panel))), unit_lengths(plans, panel),
-                              two_line_width(head, size) + 2 * CAPTION_SIDE, scale)
+                                two_line_width(head, size) + 2 * CAPTION_SIDE, scale)
     return demands

@@ -156,8 +156,8 @@ class PlateLetters:
         where they are constructed."""
         places: dict[Spot, list[DrawnStep]] = {}
         for mark in self.plate.steps:
-            is_lettered_here = not self._of_pose(mark) or self.plate.numbers(mark)
-            if mark.number and is_lettered_here and self.plate.is_on_panel(mark) and self.is_mentioned(mark):
+            is_lettered_here = not self._of_pose(mark) or (mark.number and self.plate.numbers(mark))
+            if is_lettered_here and self.plate.is_on_panel(mark) and self.is_mentioned(mark):
                 key = next((place for place in places if math.dist(place, mark.spot) < SAME_PLACE_MM), mark.spot)
                 places.setdefault(key, []).append(mark)
         return places

@@ -11,9 +11,12 @@ from dataclasses import dataclass, field
 from functools import cached_property, reduce
 from typing import Any
 
+from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.program import Panel, Step
-from graphplan.methods.construction import Construction, DrawnVector
+from graphplan.mechanism.model import Find, Scene
+from graphplan.methods.construction import Construction, DrawnOut, DrawnVector, ForceArrow
+from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.panels import MECHANISM, ForcePlan, LeverPlan
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import FORCES
@@ -49,8 +52,9 @@ class Extent:
 class Plans:
     """A construction seen plan by plan, and the tongue in which its sheet speaks.
 
-    Where it is `numbered`, every mark bears the number of its step, lettered marks too. `motion` is what the mechanism
-    plan shows of it, if anything; `drawn` what was drawn of it so far, by its windows on the sheet.
+    A construction is a drawing of a mechanism with readings; what is drawn of anything else is seen so by
+    :meth:`of_values`. Where it is `numbered`, every mark bears the number of its step, lettered marks too. `motion` is
+    what the mechanism plan shows of it, if anything; `drawn` what was drawn of it so far, by its windows on the sheet.
     """
 
     drawing: Construction
@@ -58,6 +62,17 @@ class Plans:
     numbered: bool = False
     motion: TracedMotion | None = None
     drawn: dict[Any, Any] = field(default_factory=dict, init=False, compare=False, repr=False)
+
+    @classmethod
+    def of_values(cls, values: Values, scene: Scene, vectors: Sequence[ForceArrow] = (),
+                  tongue: Tongue = ENGLISH) -> Plans:
+        """Any drawing with the values of its marks, titled as a scene and in its units, but of no mechanism; `vectors`
+        lie between its wanted marks."""
+        no_mechanism = Scene(scene.title, scene.source, scene.name, scene.units, {}, {}, {}, (), {}, Find((), ()),
+                             sheet=scene.sheet, text=scene.text)
+        drawing = Construction(values.drawing.program, scene=no_mechanism, tempo=Tempo(1), readings=(), turned=False,
+                               shown=tuple(vectors), posed=DrawnOut(values.drawing, values.numbers, values.domain))
+        return cls(drawing, tongue)
 
     @cached_property
     def plan_of_step(self) -> list[Panel]:
@@ -69,10 +84,10 @@ class Plans:
 
     @cached_property
     def panels(self) -> list[Panel]:
-        """The plans in drawing order, the mechanism's first."""
+        """The plans in drawing order, the mechanism's first, if there is one."""
         panels = dict.fromkeys(self.plan_of_step)
         mechanism = next((panel for panel in panels if panel == MECHANISM), MECHANISM)
-        return list(dict.fromkeys([mechanism, *panels]))
+        return list(dict.fromkeys([*([mechanism] if self.drawing.scene.points else ()), *panels]))
 
     @cached_property
     def sentences(self) -> list[str]:
@@ -166,7 +181,7 @@ class Plans:
         scene = self.drawing.scene
         core = [*ends, *map(self.place, scene.points), *reach(scene)] if panel == MECHANISM else ends or marks
         box = bounding_box([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
-        nice, tiny = list(self.apexes(panel).values()), EXTENT_TOL * float(self.drawing.scene.extent)
+        nice, tiny = list(self.apexes(panel).values()), EXTENT_TOL * scene.extent
         if max(box.width, box.height) < tiny:
             box = bounding_box([(box.left, box.bottom)])
         if self.motion and panel == MECHANISM:

@@ -177,7 +177,7 @@ class Plate:
 
     def dotting(self, drawn: DrawnStep) -> Pen | None:
         """What dots it where it lies on the panel."""
-        if not drawn.number or drawn.kind != POINT or corner(drawn.step):
+        if drawn.kind != POINT or corner(drawn.step) or (not drawn.number and drawn.name in self.plates.scene.points):
             return None
         if any(stroke.end is drawn and stroke.kind in pens.FORCES for stroke in self.wanted_vectors):
             return None

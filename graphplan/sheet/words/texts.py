@@ -122,7 +122,8 @@ class SheetWords:
         program = self.drawing.drawn
         yield self._heading(said("Construction"))
         names = ", ".join(step.name for step in program.steps[: program.givens])
-        yield from self.paragraph(said("Given, on the mechanism plan: {0}.", names), wide)
+        if self.drawing.scene.points:
+            yield from self.paragraph(said("Given, on the mechanism plan: {0}.", names), wide)
         plan = ""
         for passage in self._protocol(scales).passages:
             first = passage.entries[0].movements[0].index
@@ -194,6 +195,8 @@ class SheetWords:
             yield from self.paragraph(reading.text, wide)
 
     def _results(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
+        if not self.drawing.scene.points:  # what is drawn of no mechanism has no readings
+            return
         yield self._heading(said("Results"))
         for first, second in self._motion(pencil):
             for table in join_tables(first, second, partial(is_narrow, wide=wide)):
@@ -278,6 +281,8 @@ class SheetWords:
                                        "size: {0}.", differences), wide)
 
     def _forms(self, wide: float) -> Iterator[TextRow]:
+        if not self.drawing.scene.points:
+            return
         yield self._heading(said("Method and forms"))
         for kind, methods in self.drawing.method.items():
             yield from self.paragraph(arranged("{0:capital}: {1}.", WORDS[kind], joined(methods)), wide)

@@ -87,8 +87,12 @@ class Composition:
 
     @cached_property
     def plates(self) -> Plates:
-        """What is drawn, where it lies on the page."""
-        return Plates(self.plans, self.views, self.arrangement.letters)
+        """What is drawn, where it lies on the page: in the same windows the same, whatever words stand beside it."""
+        windows = Plates, *self.views.values(), self.arrangement.letters
+        if windows not in self.plans.drawn:
+            self.plans.drawn[windows] = Plates(self.plans, self.views, self.arrangement.letters)
+        plates: Plates = self.plans.drawn[windows]
+        return plates
 
     @cached_property
     def pictures(self) -> dict[Panel, LetteredPlate]:
@@ -100,13 +104,6 @@ class Composition:
         """The part of the letters that can hardly be read."""
         labels = [picture.letters for picture in self.pictures.values()]
         return sum(plan.poor for plan in labels) / max(1, sum(len(plan.wishes) for plan in labels))
-
-    def with_words(self, **words: Any) -> Composition:
-        """The same plans with other words: their letters stand where they stood."""
-        composition = replace(self, **words)
-        for name in self.__dict__.keys() & {"plates", "pictures"}:
-            composition.__dict__[name] = self.__dict__[name]
-        return composition
 
     @property
     def score(self) -> tuple[float, float]:
@@ -325,16 +322,16 @@ class Composer:
         """The composition with its words, beside the plans or on pages of their own."""
         arrangement = composition.arrangement
         if arrangement.columns:
-            return composition.with_words(arrangement=replace(arrangement, rows=arrangement.set(rows)))
+            return replace(composition, arrangement=replace(arrangement, rows=arrangement.set(rows)))
         pages = () if self.protocol == "none" else protocol_pages(arrangement.paper, rows, self.frame, self.title)
-        return composition.with_words(protocol=pages)
+        return replace(composition, protocol=pages)
 
 
 def with_results_alone(composition: Composition) -> Composition:
     """The composition whose pages of words have no steps, which are told elsewhere."""
     rows = [row for _, placed_rows in composition.protocol for row, _, _ in placed_rows if row.layer == RESULTS]
     pages = ((page, placed_rows) for page, _ in composition.protocol[:1] for placed_rows in paginate(rows, page))
-    return composition.with_words(protocol=tuple(pages))
+    return replace(composition, protocol=tuple(pages))
 
 
 def _need_same_room(one: Sequence[TextRow], other: Sequence[TextRow]) -> bool:

@@ -30,7 +30,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.travel import paces
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
-from graphplan.sheet.cycle_frames import given_in, scene_in
+from graphplan.sheet.cycle_frames import inputs_in_pose, scene_in
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.view import View
 from graphplan.sheet.tolerances import MARK_TOL
@@ -41,7 +41,7 @@ ALONE = View(Rect(0.0, 0.0, 1.0, 1.0), 1.0, (0.0, 0.0))
 Array = Any
 
 
-class Reached(NamedTuple):
+class ReachablePoses(NamedTuple):
     """Poses to which drags lead, the given one first: points and guides, complex arrays of shape (n,)."""
 
     points: Mapping[str, Array]
@@ -56,7 +56,7 @@ class Reached(NamedTuple):
                 {name: complex(z[k]) for name, z in self.guides.items()})
 
 
-def reached(drawing: Construction) -> Reached | None:
+def reachable_poses(drawing: Construction) -> ReachablePoses | None:
     """Poses around the cycle and with pins dragged a little; none where the scene cannot be followed."""
     found = relations(drawing.scene, ALONE)
     if found is None:
@@ -66,7 +66,7 @@ def reached(drawing: Construction) -> Reached | None:
         return None
     points, guides = ({name: np.array([complex(*pose[part][name]) for pose in poses]) for name in poses[0][part]}
                       for part in (0, 1))
-    return Reached(points, guides)
+    return ReachablePoses(points, guides)
 
 
 def _drags(found: Relations) -> list[tuple[dict[str, tuple[float, float]], list[float]]]:
@@ -90,19 +90,19 @@ def constructions(drawing: Construction) -> list[Construction]:
     Each other one is drawn in such a pose: its scene is the scene there.
     """
     try:
-        poses = reached(drawing)
+        poses = reachable_poses(drawing)
     except Refused:
         poses = None
     if poses is None:
         return [drawing]
-    found, held = [drawing], [drawn_alike(drawing, poses)]
-    open = ~held[0] & _regular(drawing, poses)
+    found, held = [drawing], [poses_drawn_right(drawing, poses)]
+    open = ~held[0] & _regular_poses(drawing, poses)
     while open.any() and len(found) < MOST:
         places = np.flatnonzero(open)
         k = int(places[len(places) // 2])
         open[k] = False
-        other = _drawn_in(drawing, *poses.pose(k))
-        if other is not None and (holds := drawn_alike(other, poses))[k]:
+        other = _construction_for_pose(drawing, *poses.pose(k))
+        if other is not None and (holds := poses_drawn_right(other, poses))[k]:
             found.append(other)
             held.append(holds)
             open &= ~holds
@@ -119,46 +119,47 @@ def _fewest(found: list[Construction], held: list[Array]) -> list[Construction]:
     return [found[k] for k in kept]
 
 
-def _regular(drawing: Construction, poses: Reached) -> Array:
+def _regular_poses(drawing: Construction, poses: ReachablePoses) -> Array:
     """The poses in which the rules give every point that is wanted, shape (n,)."""
-    wanted = _wanted(drawing.program, poses, drawing.program.wanted)
+    wanted = _wanted_points(drawing.program, poses, drawing.program.wanted)
     return np.all([np.isfinite(x) & np.isfinite(y) for x, y in wanted], axis=0) if wanted else np.ones(len(poses), bool)
 
 
-def drawn_alike(drawing: Construction, poses: Reached) -> Array:
+def poses_drawn_right(drawing: Construction, poses: ReachablePoses) -> Array:
     """The poses in which the drawn steps give the points that the rules do, shape (n,)."""
     with np.errstate(all="ignore"):
-        return _alike(drawing, poses, evaluate(drawing.drawn, Arrays(), _given(drawing.drawn, poses)))
+        return _poses_with_true_marks(drawing, poses, evaluate(drawing.drawn, Arrays(), _inputs(drawing.drawn, poses)))
 
 
-def _alike(drawing: Construction, poses: Reached, values: list[Any]) -> Array:
+def _poses_with_true_marks(drawing: Construction, poses: ReachablePoses, values: list[Any]) -> Array:
     """The same, of values of the drawn steps."""
     drawn, program, full = drawing.drawn, drawing.program, np.zeros(len(poses))
     pairs = [(i, j) for i, j in zip(drawn.wanted, program.wanted, strict=True) if drawn.steps[i].op.gives == POINT]
     if not pairs:
         return np.ones(len(poses), dtype=bool)
     ours = [(values[i][0] + full, values[i][1] + full) for i, _ in pairs]
-    truth = _wanted(program, poses, [j for _, j in pairs])
+    truth = _wanted_points(program, poses, [j for _, j in pairs])
     size = np.max([np.hypot(x, y) for x, y in truth], axis=0)
     gaps = [np.hypot(x - u, y - v) for (x, y), (u, v) in zip(ours, truth, strict=True)]
     return np.max(gaps, axis=0) <= MARK_TOL * size  # nan is not
 
 
-def _wanted(program: Program, poses: Reached, places: Any) -> list[tuple[Array, Array]]:
+def _wanted_points(program: Program, poses: ReachablePoses, places: Any) -> list[tuple[Array, Array]]:
     """Some points of a program in all poses."""
     with np.errstate(all="ignore"):
-        values = evaluate(program, Arrays(), _given(program, poses))
+        values = evaluate(program, Arrays(), _inputs(program, poses))
     full = np.zeros(len(poses))
     return [(values[i][0] + full, values[i][1] + full) for i in places if program.steps[i].op.gives == POINT]
 
 
-def _given(program: Program, poses: Reached) -> dict[Any, dict[str, Any]]:
-    return given_in(program, poses.points, poses.guides)
+def _inputs(program: Program, poses: ReachablePoses) -> dict[Any, dict[str, Any]]:
+    return inputs_in_pose(program, poses.points, poses.guides)
 
 
-def _drawn_in(drawing: Construction, points: dict[str, complex], guides: dict[str, complex]) -> Construction | None:
+def _construction_for_pose(drawing: Construction, points: dict[str, complex],
+                           guides: dict[str, complex]) -> Construction | None:
     """The same program drawn out in forms for a pose; where it has none, what the planner finds for the pose."""
-    given, scene = given_in(drawing.program, points, guides), scene_in(drawing.scene, points, guides)
+    given, scene = inputs_in_pose(drawing.program, points, guides), scene_in(drawing.scene, points, guides)
 
     def there(step: Step) -> Step:
         other = given.get(step.name) or given.get(step.index)
@@ -168,7 +169,7 @@ def _drawn_in(drawing: Construction, points: dict[str, complex], guides: dict[st
     one = replace(drawing, scene=scene, program=program)
     for afresh in (False, True) if drawing.scene.loads is None else (False,):
         try:
-            found = _afresh(scene, drawing) if afresh else one
+            found = _construct_anew(scene, drawing) if afresh else one
             if found.values:
                 return found
         except (ConstructionError, Refused):
@@ -176,7 +177,7 @@ def _drawn_in(drawing: Construction, points: dict[str, complex], guides: dict[st
     return None
 
 
-def _afresh(scene: Scene, drawing: Construction) -> Construction:
+def _construct_anew(scene: Scene, drawing: Construction) -> Construction:
     """What the planner finds for a pose, on the same plans."""
     return construct(scene, plan=drawing.plan, strict=drawing.strict)
 
@@ -184,42 +185,42 @@ def _afresh(scene: Scene, drawing: Construction) -> Construction:
 # ---- compounds that their forms do not hold everywhere ---------------------------------------------------------------
 
 
-class Missed(NamedTuple):
+class FailingCompound(NamedTuple):
     """A compound whose drawn form fails in some poses, and whether its line is drawn against the rule's way."""
 
     compound: Compound
     against: bool
 
 
-def holding(drawing: Construction) -> tuple[Construction, dict[int, Missed]]:
+def best_construction(drawing: Construction) -> tuple[Construction, dict[int, FailingCompound]]:
     """The first of the constructions that serves in all poses if its missed compounds are put right, else that which
     serves in most; and those compounds, by the mark that they make.
     """
     try:
-        poses = reached(drawing)
+        poses = reachable_poses(drawing)
     except Refused:
         poses = None
     if poses is None:
         return drawing, {}
-    wrong, held = missed(drawing, poses)
-    open = _regular(drawing, poses) & ~held
+    wrong, held = failing_compounds(drawing, poses)
+    open = _regular_poses(drawing, poses) & ~held
     if not open.any():
         return drawing, wrong
-    found = [(drawing, wrong, held), *((one, *missed(one, poses)) for one in constructions(drawing)[1:])]
+    found = [(drawing, wrong, held), *((one, *failing_compounds(one, poses)) for one in constructions(drawing)[1:])]
     best = max(found, key=lambda one: int(one[2].sum()))
     return best[0], best[1]
 
 
-def missed(drawing: Construction, poses: Reached) -> tuple[dict[int, Missed], Array]:
+def failing_compounds(drawing: Construction, poses: ReachablePoses) -> tuple[dict[int, FailingCompound], Array]:
     """The compounds whose form fails in some pose although their rule does not, by the mark that they make; and the
     poses in which all that is wanted is right if they are put right, shape (n,).
 
     Each is read from marks that are put right, where others before it fail.
     """
-    drawn, given, domain = drawing.drawn, _given(drawing.drawn, poses), Arrays()
+    drawn, given, domain = drawing.drawn, _inputs(drawing.drawn, poses), Arrays()
     compounds = {compound.step.index: compound for compound in drawing.compounds
                  if max(compound.step.args) < compound.step.index}  # its form may do without a mark that comes later
-    values, found = list[Any](), dict[int, Missed]()
+    values, found = list[Any](), dict[int, FailingCompound]()
     with np.errstate(all="ignore"):
         for step in drawn.steps:
             other = given.get(step.name) or given.get(step.index)
@@ -230,15 +231,15 @@ def missed(drawing: Construction, poses: Reached) -> tuple[dict[int, Missed], Ar
                 args = [values[arg] for arg in compound.step.args]
                 truth = domain.mask_refused(compound.step.op.rule(domain, *args, **compound.step.params))
                 truth = tuple(sign * part for part in truth) if step.op.gives == LINE else truth
-                if (np.isfinite(truth[0]) & ~_one(step.op.gives, value, truth, args)).any():
-                    found[step.index], value = Missed(compound, sign < 0), truth
+                if (np.isfinite(truth[0]) & ~_coincide(step.op.gives, value, truth, args)).any():
+                    found[step.index], value = FailingCompound(compound, sign < 0), truth
             values.append(value)
-    return found, _alike(drawing, poses, values)
+    return found, _poses_with_true_marks(drawing, poses, values)
 
 
-def put_right(drawing: Construction, poses: Reached, wrong: Mapping[int, Missed]) -> list[Any]:
+def corrected_values(drawing: Construction, poses: ReachablePoses, wrong: Mapping[int, FailingCompound]) -> list[Any]:
     """The drawn steps' values in all poses, the marks of some compounds by their rule."""
-    drawn, given, domain, values = drawing.drawn, _given(drawing.drawn, poses), Arrays(), list[Any]()
+    drawn, given, domain, values = drawing.drawn, _inputs(drawing.drawn, poses), Arrays(), list[Any]()
     with np.errstate(all="ignore"):
         for step in drawn.steps:
             other = given.get(step.name) or given.get(step.index)
@@ -260,12 +261,12 @@ def _sense(drawing: Construction, compound: Compound) -> int:
     value, args = drawing.values[step.index], [drawing.values[arg] for arg in step.args]
     for sign in (1, -1) if step.op.gives == LINE else (1,):
         signed = tuple(sign * part for part in truth) if step.op.gives == LINE else truth
-        if bool(np.all(_one(step.op.gives, value, signed, args))):
+        if bool(np.all(_coincide(step.op.gives, value, signed, args))):
             return sign
     return 0
 
 
-def _one(kind: str, value: Any, truth: Any, args: Any) -> Array:
+def _coincide(kind: str, value: Any, truth: Any, args: Any) -> Array:
     """Where two marks are one, beside the marks that they were made from."""
     size: Array = MIN_SIZE
     for arg in args:

@@ -49,7 +49,8 @@ def numbers(drawing: CamDrawing, count: int, tolerance: float, check: Mapping[st
         "outline": {"tolerance": tolerance,
                     "arcs": [[arc.start.real, arc.start.imag, arc.bulge] for arc in cam.arcs(tolerance)]},
         "steps": [{"step": program.number(step.index), "stage": str(stage.title),
-                   "sentence": str(program.told(step.index))} for stage, steps in program.stages for step in steps],
+                   "sentence": str(program.sentence_with_reason(step.index))}
+                  for stage, steps in program.stages for step in steps],
         "check": dict(check),
     }
     return found

@@ -205,7 +205,7 @@ def missed_crossing(drawing: Construction, domain: Domain) -> str:
         return ""
     if flattest is None:
         return ""
-    first, second = (drawing.program.described(arg) for arg in flattest.args)
+    first, second = (drawing.program.text_off_sheet(arg) for arg in flattest.args)
     step = drawing.program.text(flattest.index)
     return f"{step}, where {first} should meet {second}: the two lines are all but parallel"
 

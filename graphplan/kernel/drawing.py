@@ -62,7 +62,7 @@ class Values:
     def __getitem__(self, step: int) -> Any:
         return self.numbers[step]
 
-    def of(self, role: str) -> list[Any]:
+    def values_of_role(self, role: str) -> list[Any]:
         """The values of the marks of a role."""
         return [self.numbers[step] for step in self.drawing.roles[role]]
 
@@ -85,21 +85,21 @@ class Compound:
     @property
     def sentence(self) -> Said:
         """All of it as one step, in the source's words."""
-        return self._spoken(self.step.op.by_form) or self.drawn.spoken(self.step)
+        return self._form_text(self.step.op.by_form) or self.drawn.step_text(self.step)
 
     @property
-    def before(self) -> Said | None:
+    def sentence_on_other_plan(self) -> Said | None:
         """What of it is drawn on another plan before the rest, where its form has words for that."""
-        return self._spoken(self.step.op.before)
+        return self._form_text(self.step.op.before)
 
-    def _spoken(self, phrases: Mapping[str, Phrase]) -> Said | None:
+    def _form_text(self, phrases: Mapping[str, Phrase]) -> Said | None:
         if self.form not in phrases:
             return None
         words, inner = phrases[self.form], {name: self.drawn.text(mark) for name, mark in self.inner.items()}
-        return self.drawn.spoken(self.step, lambda marks, **named: words(*marks, **named, **inner))
+        return self.drawn.step_text(self.step, lambda marks, **named: words(*marks, **named, **inner))
 
 
-def recorded(board: Board, roles: Mapping[str, Iterable[Mark]],
+def record_drawing(board: Board, roles: Mapping[str, Iterable[Mark]],
              plans: Mapping[Panel, PlanScale] | None = None) -> Drawing:
     """What the marks of these roles need of a board, as a drawing: nothing else is drawn."""
     marks = {role: [*named] for role, named in roles.items()}

@@ -111,7 +111,7 @@ class Expander:
                 raise error_at(self.program, step, fault) from None
             if step.quantity:
                 self.board.annotate(mark.step.index, quantity=step.quantity)
-            self.board.named(mark, step.name)
+            self.board.give_name(mark, step.name)
             place.append(self._directed_line(self.truth[step.index], mark) if mark.kind == LINE else mark)
             self.inner[step.index] = self._letters
             self.serves += [step.index] * (len(self.board.steps) - len(self.serves))
@@ -146,7 +146,7 @@ class Expander:
             if truth and op.gives == POINT:
                 self.values[out.step.index] = truth
         for mark, letter in best.letters if names else ():
-            self.board.named(mark, (names or {}).get(letter, ""))
+            self.board.give_name(mark, (names or {}).get(letter, ""))
         if not tried:
             self._letters = best.letters
             self._explain(op, before, [one.rating for one in found], why, out)

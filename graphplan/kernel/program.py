@@ -192,30 +192,30 @@ class Board(Verbs):
         total = laid_off(*(arg.total for arg in args)) if op.movement is Movement.LAID_OFF and not params else None
         if total is not None:
             key = (panel, *total)
-        same = self._drawn[key] if key in self._drawn else self._back(key, total)
+        same = self._drawn[key] if key in self._drawn else self.existing_sum(key, total)
         if same is not None and op.movement is not Movement.GIVEN:  # coincident points of the pose stay apart
-            return self._faced(self.named(same, name), against)
+            return self.oriented_mark(self.give_name(same, name), against)
         step = Step(len(self.steps), "", op, places, params, panel, why, self._links, self._stage, names or {},
                     None, quantity)
         mark = Mark(self, step, heading)
         mark.total = total or mark.total
         self.steps.append(step)
         self.marks.append(mark)
-        self._enter(mark, key, args)
-        return self._faced(self.named(mark, name), against)
+        self.index_mark(mark, key, args)
+        return self.oriented_mark(self.give_name(mark, name), against)
 
-    def _back(self, key: tuple[Any, ...], total: Total | None) -> Mark | None:
+    def existing_sum(self, key: tuple[Any, ...], total: Total | None) -> Mark | None:
         """The mark that a sum of marks is, if it is one of the same plan."""
         if total is None or len(total) > 1 or total[0][1] != 1:
             return None
         mark = self.marks[total[0][0]]
         return mark if mark.panel == key[0] else None
 
-    def _faced(self, mark: Mark, against: int) -> Mark:
+    def oriented_mark(self, mark: Mark, against: int) -> Mark:
         """What is drawn by so many lines that are drawn the other way: a line then is, too."""
         return mark.reversed if against % 2 and mark.kind == LINE else mark
 
-    def _enter(self, mark: Mark, key: tuple[Any, ...], args: tuple[Mark, ...]) -> None:
+    def index_mark(self, mark: Mark, key: tuple[Any, ...], args: tuple[Mark, ...]) -> None:
         """Find a mark under its key, and a line by its heading and each point that lies on it by construction."""
         found = {key: mark}
         for place in incident(mark.step.op):
@@ -225,7 +225,7 @@ class Board(Verbs):
             if key not in self._drawn:
                 self._drawn[key] = mark.keys[key] = line
 
-    def named(self, mark: Mark, name: str) -> Mark:
+    def give_name(self, mark: Mark, name: str) -> Mark:
         """The same mark, bearing this letter if it has none yet, with a prime where the letter is taken."""
         if name and not self.steps[mark.step.index].name:
             while name in self._names:
@@ -290,12 +290,12 @@ class Program:
             return "".join(self.steps[arg].name for arg in step.args)
         return NUMBERED[step.op.gives](self.number(index))
 
-    def described(self, index: int) -> str:
+    def text_off_sheet(self, index: int) -> str:
         """How a mark is spoken of away from the sheet: a line by how it runs, not by its number."""
         step = self.steps[index]
         if step.name or not step.op.described:
             return self.text(index)
-        return step.op.described.format(*map(self.described, step.args))
+        return step.op.described.format(*map(self.text_off_sheet, step.args))
 
     def given_vector(self, step: Step) -> bool:
         """Whether a point is the end of a given vector: of a quantity, and laid off by it from where a plan begins."""
@@ -319,9 +319,9 @@ class Program:
 
     def sentence(self, index: int) -> Said:
         """A step in words, in the letters of the sheet."""
-        return self.spoken(self.steps[index])
+        return self.step_text(self.steps[index])
 
-    def spoken(self, step: Step, words: Callable[..., Said] | None = None) -> Said:
+    def step_text(self, step: Step, words: Callable[..., Said] | None = None) -> Said:
         """A step of these marks in its own words, or in others that are filled in with the same."""
         params = {name: parameter_text(value) for name, value in step.params.items()}
         return (words or step.op.sentence_of)(list(map(self.text, step.args)), out=self.text(step.index), **params)
@@ -331,7 +331,7 @@ class Program:
         """The stages in drawing order, each with its steps; see :func:`graphplan.kernel.stages.staged`."""
         return group_by_stage(self.steps)
 
-    def told(self, index: int) -> Said:
+    def sentence_with_reason(self, index: int) -> Said:
         """A step in words, with the law or purpose where there is one."""
         step = self.steps[index]
         return arranged("{0} ({1:capital}.)", self.sentence(index), step.why) if step.why else self.sentence(index)
@@ -380,7 +380,7 @@ def about_origin(program: Program, domain: Domain, given: Mapping[Any, Mapping[s
 
 def error_at(program: Program, step: Step, fault: Undrawable) -> ConstructionError:
     """The rule's fault with its step attached, in the letters of the sheet."""
-    names = [program.described(arg) for arg in step.args]
+    names = [program.text_off_sheet(arg) for arg in step.args]
     drawing = f"{program.text(step.index)} = {step.op.name}({', '.join(names)})"
     if step.op.movement is Movement.MET:
         drawing = f"{program.text(step.index)}, where {names[0]} should meet {names[1]}"

@@ -18,9 +18,9 @@ from graphplan.mechanism.replaced import guides as straight_guides
 from graphplan.mechanism.replaced import replaced, rolling_guides
 from graphplan.methods.executors import crew
 from graphplan.methods.forces.changing import given_loads
-from graphplan.methods.recorded import Recorded
+from graphplan.methods.recorded import ReadableDrawing
 from graphplan.methods.replay import guide_steps, replay_of
-from graphplan.methods.results import Given
+from graphplan.methods.results import NamedResults
 from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Said, said
 
@@ -32,7 +32,7 @@ STRETCH = 1 << 16  # poses between two reports of progress, and to one worker at
 
 
 @dataclass(frozen=True)
-class Poses(Given):
+class Poses(NamedResults):
     """Results over n poses, by kind and name: complex arrays of shape (n,) for vectors, real ones for numbers.
 
     All in scene units. Where a pose is singular its results are nan, and `faults` says why, by the pose's place; fixed
@@ -51,7 +51,7 @@ class Poses(Given):
         return np.zeros(self.n, dtype=complex)
 
 
-def batch(construction: Recorded, points: Mapping[str, Any], guides: Mapping[str, Any], loads: Mapping[str, Any],
+def batch(construction: ReadableDrawing, points: Mapping[str, Any], guides: Mapping[str, Any], loads: Mapping[str, Any],
           only: Collection[str] | None = None, workers: int | str = 1, compiled: bool = False,
           progress: Progress | None = None) -> Poses:
     """The construction replayed over the poses in `points` and `guides`, for all kinds of results or `only` some; the
@@ -60,22 +60,23 @@ def batch(construction: Recorded, points: Mapping[str, Any], guides: Mapping[str
     `workers` is how many processes share the poses out, or the address of a dask scheduler; `compiled` replays in
     machine code; `progress` is told after each stretch how many poses are done, of how many.
     """
-    n, given = _given(construction, points, guides, loads)
+    n, given = _poses_and_inputs(construction, points, guides, loads)
     stretches = [slice(start, min(start + STRETCH, n)) for start in range(0, n, STRETCH)] if given else [slice(0, n)]
-    results, faults = _wanted(construction, n, only), dict[int, str]()
-    found = _filled(construction, given, stretches, results, workers, compiled)
+    results, faults = _result_arrays(construction, n, only), dict[int, str]()
+    found = _fill_stretches(construction, given, stretches, results, workers, compiled)
     for place, wrong in zip(stretches, found, strict=True):
         faults.update((place.start + pose, why) for pose, why in wrong.items())
         if progress:
             progress(place.stop, n)
-    _torn(construction, points, results, faults)
+    _discard_torn_poses(construction, points, results, faults)
     return Poses(construction.scene, n, results, faults)
 
 
-def _torn(construction: Recorded, points: Mapping[str, Any], results: Results, faults: Faults) -> None:
+def _discard_torn_poses(construction: ReadableDrawing, points: Mapping[str, Any], results: Results,
+                        faults: Faults) -> None:
     """Take the results of poses in which points lie apart on whose coincidence the program relies."""
     places = {name: complex(*map(float, at)) for name, at in construction.scene.points.items()}
-    close = _close(construction.scene)
+    close = _coincidence_distance(construction.scene)
     wandering = {guide.at: guide for guide in rolling_guides(replaced(construction.scene))}
 
     def place(name: str) -> Any:
@@ -91,23 +92,23 @@ def _torn(construction: Recorded, points: Mapping[str, Any], results: Results, f
     for one, other in construction.relied:
         gap = np.abs(place(one) - place(other))
         for pose in np.flatnonzero(gap > close).tolist():
-            faults.setdefault(pose, apart(one, other))
+            faults.setdefault(pose, coincidence_fault(one, other))
             for named in results.values():
                 for z in named.values():
                     z[pose] = np.nan
 
 
-def _close(scene: Scene) -> float:
+def _coincidence_distance(scene: Scene) -> float:
     """How far apart points may be that coincide."""
     return EXTENT_TOL * scene.extent
 
 
-def apart(one: str, other: str) -> Said:
+def coincidence_fault(one: str, other: str) -> Said:
     """Why a construction does not hold in a pose in which these points lie apart."""
     return said("points {0} and {1} coincide in the scene and lie apart here: one mark cannot serve both", one, other)
 
 
-def _wanted(construction: Recorded, n: int, only: Collection[str] | None) -> Results:
+def _result_arrays(construction: ReadableDrawing, n: int, only: Collection[str] | None) -> Results:
     """Arrays for the results that are wanted."""
     for kind in only or ():
         if kind not in construction.kinds:
@@ -115,17 +116,17 @@ def _wanted(construction: Recorded, n: int, only: Collection[str] | None) -> Res
     return {kind: named for kind, named in construction.blank(n, None).items() if only is None or kind in only}
 
 
-def _filled(construction: Recorded, given: Coordinates, stretches: Iterable[slice], results: Results,
+def _fill_stretches(construction: ReadableDrawing, given: Coordinates, stretches: Iterable[slice], results: Results,
             workers: int | str, compiled: bool) -> Iterator[Faults]:
     """Fill the results stretch by stretch, by one hand or many; the faults of each."""
     if workers == 1:
         for place in stretches:
-            yield _stretch(construction, _cut(given, place), _cut(results, place), compiled)
+            yield _fill_stretch(construction, _select_poses(given, place), _select_poses(results, place), compiled)
         return
     bare = replace(construction)  # without what was computed of it, which a worker has no use for
-    work = partial(_errand, bare, kinds=tuple(results), compiled=compiled)
+    work = partial(_evaluate_stretch, bare, kinds=tuple(results), compiled=compiled)
     with crew(workers) as shared_out:
-        found = shared_out(work, (_cut(given, place) for place in stretches))
+        found = shared_out(work, (_select_poses(given, place) for place in stretches))
         for place, (values, faults) in zip(stretches, found, strict=True):
             for kind, named in values.items():
                 for name, value in named.items():
@@ -133,39 +134,39 @@ def _filled(construction: Recorded, given: Coordinates, stretches: Iterable[slic
             yield faults
 
 
-def _cut(arrays: Mapping[Any, Mapping[str, Any]], place: Any) -> dict[Any, dict[str, Any]]:
+def _select_poses(arrays: Mapping[Any, Mapping[str, Any]], place: Any) -> dict[Any, dict[str, Any]]:
     """The same arrays, for some of the poses."""
     return {key: {name: array[place] for name, array in named.items()} for key, named in arrays.items()}
 
 
-def _errand(construction: Recorded, given: Coordinates, kinds: tuple[str, ...],
+def _evaluate_stretch(construction: ReadableDrawing, given: Coordinates, kinds: tuple[str, ...],
             compiled: bool) -> tuple[Results, Faults]:
     """The results and faults of one stretch of poses."""
     n = len(next(iter(next(iter(given.values())).values())))
     results = {kind: named for kind, named in construction.blank(n, None).items() if kind in kinds}
-    return results, _stretch(construction, given, results, compiled)
+    return results, _fill_stretch(construction, given, results, compiled)
 
 
-def _stretch(construction: Recorded, given: Coordinates, results: Results, compiled: bool) -> Faults:
+def _fill_stretch(construction: ReadableDrawing, given: Coordinates, results: Results, compiled: bool) -> Faults:
     """Fill the results of one stretch of poses; its faults, by place. Where nothing is asked there are none."""
     if not results:
         return {}
     free = tuple((key, name) for key, numbers in given.items() for name in numbers)
     replay = replay_of(construction, free, tuple(results))
     if replay is None or not given:
-        return _by_rules(construction, given, results)
+        return _fill_by_rules(construction, given, results)
     left = replay.run(given, results, compiled)
     if not left.size:
         return {}
-    some = _cut(results, left)
-    faults = _by_rules(construction, _cut(given, left), some)
+    some = _select_poses(results, left)
+    faults = _fill_by_rules(construction, _select_poses(given, left), some)
     for kind, named in some.items():
         for name, value in named.items():
             results[kind][name][left] = value
     return {int(left[pose]): why for pose, why in faults.items()}
 
 
-def _by_rules(construction: Recorded, given: Coordinates, results: Results) -> Faults:
+def _fill_by_rules(construction: ReadableDrawing, given: Coordinates, results: Results) -> Faults:
     """Fill results by the rules themselves, which find the poses that cannot be drawn; their faults, by place."""
     domain, program, faults = Arrays(), construction.program, dict[int, str]()
     n = len(next(z for named in results.values() for z in named.values()))
@@ -186,7 +187,7 @@ def _by_rules(construction: Recorded, given: Coordinates, results: Results) -> F
     return faults
 
 
-def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[str, Any],
+def _poses_and_inputs(construction: ReadableDrawing, points: Mapping[str, Any], guides: Mapping[str, Any],
            loads: Mapping[str, Any]) -> tuple[int, Coordinates]:
     """The number of poses, and what is given in each: coordinates of points, and by their steps directions of guides
     and loads."""
@@ -214,7 +215,9 @@ def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[st
     if len(shapes) > 1 or len(next(iter(shapes))) != 1:
         raise Refused("poses", f"the arrays have the shapes {sorted(shapes)}", "one array of shape (n,) a point")
     for name, at in construction.shared.items():  # one mark serves both
-        if name in arrays and np.any(np.abs(arrays.setdefault(at, arrays[name]) - arrays[name]) > _close(scene)):
+        if name not in arrays:
+            continue
+        if np.any(np.abs(arrays.setdefault(at, arrays[name]) - arrays[name]) > _coincidence_distance(scene)):
             why = "they coincide in the scene and differ here"
             raise Refused(f"points {at} and {name}", why, "the same array for both")
     for guide in rolling_guides(replaced(scene)):
@@ -222,9 +225,9 @@ def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[st
             raise Refused(f"point {guide.at}", f"it moves with {guide.rail.at}, and stands still here",
                           "its place in each pose")
     drawn = {step.name for step in construction.program.steps[:construction.program.givens]}
-    given: Coordinates = {name: _parts(z, "x", "y") for name, z in arrays.items() if name in drawn}
+    given: Coordinates = {name: _components(z, "x", "y") for name, z in arrays.items() if name in drawn}
     for name, z in directions.items():
-        given |= {step: _parts(z, "dx", "dy") for step in guide_steps(construction, slides[name])}
+        given |= {step: _components(z, "dx", "dy") for step in guide_steps(construction, slides[name])}
     given |= given_loads(construction.program, scene, construction.phi, acting)
     return next(iter(shapes))[0], given
 
@@ -233,5 +236,5 @@ def _poses(z: Any) -> Any:
     return np.atleast_1d(np.asarray(z, dtype=complex))
 
 
-def _parts(z: Any, one: str, two: str) -> dict[str, Any]:
+def _components(z: Any, one: str, two: str) -> dict[str, Any]:
     return {one: z.real, two: z.imag}

@@ -34,8 +34,8 @@ from graphplan.methods.panels import (
     TrianglePlan,
     pole_letter,
 )
-from graphplan.methods.recorded import Recorded
-from graphplan.methods.results import Given
+from graphplan.methods.recorded import ReadableDrawing
+from graphplan.methods.results import NamedResults
 from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Said, said
 
@@ -77,7 +77,7 @@ class DrawnOut(Values):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Construction(Recorded, Given):
+class Construction(ReadableDrawing, NamedResults):
     """Ordered drawing steps for a scene, and what they give.
 
     `drawn` is the program in single movements, in the form chosen for this pose. Velocities and accelerations are
@@ -143,7 +143,7 @@ class Construction(Recorded, Given):
         return Expander(program, truth, keep, windows, self.prefer, self.scene.extent, self._faithful.better)
 
     @cached_property
-    def _gathered(self) -> tuple[Program, Sequence[Any], list[int]]:
+    def _drawn_out(self) -> tuple[Program, Sequence[Any], list[int]]:
         """The program in single movements, the values of its steps, and the place of each among those drawn out."""
         program, order = gather_by_plan(self._expander.run())
         values, origin = [self._expander.values[index] for index in order], self.program.origin
@@ -157,7 +157,7 @@ class Construction(Recorded, Given):
         """The compounds that take several movements, by their first in drawing order."""
         if self.posed:
             return self.posed.compounds
-        drawn, _, order = self._gathered
+        drawn, _, order = self._drawn_out
         now = {before: index for index, before in enumerate(order)}
         place, whole = [now[before] for before in self._expander.place], dict[int, list[Step]]()
         for step, before in zip(drawn.steps, order, strict=True):
@@ -199,7 +199,7 @@ class Construction(Recorded, Given):
     @cached_property
     def drawn_out(self) -> Values:
         """The marks drawn in single movements, with their values."""
-        return self.posed or Values(Drawing(self._gathered[0]), self._gathered[1])
+        return self.posed or Values(Drawing(self._drawn_out[0]), self._drawn_out[1])
 
     @property
     def drawn(self) -> Program:
@@ -213,7 +213,7 @@ class Construction(Recorded, Given):
 
     def sentences(self) -> list[str]:
         """Each drawn step in words, with the law or purpose where there is one."""
-        return [self.drawn.told(step.index) for step in self.drawn.steps]
+        return [self.drawn.sentence_with_reason(step.index) for step in self.drawn.steps]
 
     @property
     def forms(self) -> list[str]:
@@ -228,9 +228,9 @@ class Construction(Recorded, Given):
     def _forms(self, rivals: int | None = None) -> list[str]:
         chosen = [(self.drawn.number(step.index), step.choice.reason(rivals)) for step in self.drawn.steps
                   if step.choice and step.choice.others]
-        return [*self.notes, *self._unmarked(), *(said("step {0}: {1}", *told) for told in chosen)]
+        return [*self.notes, *self._far_pole_notes(), *(said("step {0}: {1}", *told) for told in chosen)]
 
-    def _unmarked(self) -> Iterator[Said]:
+    def _far_pole_notes(self) -> Iterator[Said]:
         """The poles that are off the sheet, by the lines that cross in them."""
         for reading in self.readings:
             if reading.kind == kinds.POLE and len(reading.marks) == 2:
@@ -251,7 +251,7 @@ class Construction(Recorded, Given):
         found: dict[str, list[str]] = {}
         for kind in (kinds.VELOCITY, kinds.ACCELERATION):
             if any(reading.marks and reading.kind.group == kind for reading in self.readings):
-                ways: list[str] = list(dict.fromkeys([*self._loci(kind), *self._ways(kind)]))
+                ways: list[str] = list(dict.fromkeys([*self._loci(kind), *self._ring_methods(kind)]))
                 found[kind] = ways or [PLAIN[self.plan, kind]]
         if self.poles_by:
             found[kinds.POLES] = [*self.poles_by]
@@ -259,7 +259,7 @@ class Construction(Recorded, Given):
             found[kinds.CURVES] = curved
         return found | (self._force_method() if self.scene.loads else {})
 
-    def _ways(self, kind: str) -> tuple[Said, ...]:
+    def _ring_methods(self, kind: str) -> tuple[Said, ...]:
         """How rings of links are broken; of velocities by poles, by which."""
         return self.by_poles if self.by_poles and kind == kinds.VELOCITY else self.ways
 

@@ -102,7 +102,7 @@ class Placing:
             drawn = self._drawn(body, own) if own or not links or body is not self.ground else []
             same = next((mark for place, mark in drawn if same_place(place, at)), None)
             if same is not None:
-                return self.board.named(same, name)
+                return self.board.give_name(same, name)
             if found := widest(drawn):
                 (p, P), (q, Q) = found
                 return self._corner(P, Q, less(at, p), less(q, p), name)

@@ -82,7 +82,7 @@ class Pose:
             C, why = self.standing[guide.other], divided(guide)
             return self.board.step_off(B, C, B, ratio=guide.ratio, name=guide.at, why=why)
 
-    def spoken(self, point: str) -> str:
+    def letter_of_point(self, point: str) -> str:
         """The letter of a point, auxiliary points and poles among them."""
         return point if point in self.scene.points or point not in self.points else self.points[point].step.name
 

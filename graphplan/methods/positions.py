@@ -32,7 +32,7 @@ def layout(scene: Scene) -> Program:
             x, y = line["through"]
             marks[name + "_0"] = board.given(x=x, y=y, name=name + "_0")
     for name in sorted(order, key=lambda point: scene.placements[point].how != "given"):
-        marks[name] = board.named(_put(board, scene, name, scene.placements[name], marks), name)
+        marks[name] = board.give_name(_put(board, scene, name, scene.placements[name], marks), name)
     return freeze(board, [marks[name] for name in scene.points if name in marks])
 
 

@@ -37,7 +37,7 @@ class Reading(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Recorded(Drawing):
+class ReadableDrawing(Drawing):
     """The drawing of a scene, and what is read from it.
 
     Its program holds compounds, each with the value rule that is good in every pose. The drawn velocities are in the
@@ -77,7 +77,7 @@ class Recorded(Drawing):
         """All readings from the values of the wanted marks, by kind and name; what is prescribed as it is given."""
         def value(reading: Reading) -> Any:
             marks = [wanted[position] for position in reading.marks]
-            return (self.value if reading.given is None else prescribed)(reading, marks, domain)
+            return (self.value if reading.given is None else prescribed_value)(reading, marks, domain)
 
         return self._named(value)
 
@@ -91,7 +91,7 @@ class Recorded(Drawing):
     def value(self, reading: Reading, marks: Sequence[Any], domain: Domain) -> Any:
         """What marks say, if there are any: a rate in the scene's lengths and seconds, or a force in its units."""
         if not marks:
-            return prescribed(reading, marks, domain)
+            return prescribed_value(reading, marks, domain)
         try:
             value = READERS[reading.kind.dimension](marks, domain, self)
         except Undrawable as fault:
@@ -125,21 +125,21 @@ def _difference(one: Any, two: Any) -> Any:
     return two[0] - one[0], two[1] - one[1]
 
 
-def _speed(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+def _speed(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> Any:
     (x, y), unit = _difference(*marks[-2:]), domain.lift(drawing.tempo.unit)
     return (y * unit, -x * unit) if drawing.turned else (x * unit, y * unit)
 
 
-def _acceleration(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+def _acceleration(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> Any:
     (x, y), unit = _difference(*marks[-2:]), domain.lift(drawing.tempo.unit)
     return x * unit * unit, y * unit * unit
 
 
-def _turning(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+def _turning(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> Any:
     return _rate(marks, drawing.turned) * domain.lift(drawing.tempo.unit)
 
 
-def _turning_faster(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+def _turning_faster(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> Any:
     unit = domain.lift(drawing.tempo.unit)
     return _rate(marks, False) * unit * unit
 
@@ -152,12 +152,12 @@ def _rate(marks: Sequence[Any], turned: bool) -> Any:
     return rate / (u[0] * u[0] + u[1] * u[1])
 
 
-def _force(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+def _force(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> Any:
     (x, y), phi = _difference(*marks), domain.lift(drawing.phi)
     return x / phi, y / phi
 
 
-def _moment(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+def _moment(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> Any:
     """Of forces, each by its point, tail and head, about the first mark."""
     pole, *rest = marks
     phi, long = domain.lift(drawing.phi), domain.lift(units.metre(drawing.scene.units))
@@ -168,17 +168,17 @@ def _moment(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
     return total / phi / long
 
 
-def _length(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+def _length(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> Any:
     """From the slide's point to where its reaction acts, in the scene's lengths."""
     return _difference(*marks)
 
 
-def _place(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+def _place(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> Any:
     """The last marked point, or where two lines cross that nobody marks."""
     return marks[-1] if len(marks[-1]) == 2 else meet(domain, *marks)
 
 
-def _heading(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+def _heading(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> Any:
     """How a line runs, whichever way: to the right, or straight upwards; its two numbers together are one."""
     x, y = marks[0][1], -marks[0][0]
     size = abs(x) + abs(y)
@@ -187,7 +187,7 @@ def _heading(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
     return x * sense, y * sense
 
 
-def _curving(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+def _curving(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> Any:
     """The vector n/rho of a path, from the pole, the point and the inflection pole by Euler and Savary, or from the
     point, begin and end of its velocity and of its acceleration."""
     if len(marks) == 3:
@@ -201,14 +201,14 @@ def _curving(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
     return x * part / square / square, y * part / square / square
 
 
-READERS: dict[units.Dimension, Callable[[Sequence[Any], Domain, Recorded], Any]] = {
+READERS: dict[units.Dimension, Callable[[Sequence[Any], Domain, ReadableDrawing], Any]] = {
     units.SPEED: _speed, units.ACCELERATING: _acceleration, units.TURNING: _turning,
     units.TURNING_FASTER: _turning_faster, units.FORCE: _force, units.MOMENT: _moment, units.LENGTH: _length,
     units.PLACE: _place, units.HEADING: _heading, units.CURVING: _curving,
 }  # fmt: skip
 
 
-def prescribed(reading: Reading, marks: Sequence[Any], domain: Domain) -> Any:
+def prescribed_value(reading: Reading, marks: Sequence[Any], domain: Domain) -> Any:
     """What the scene prescribes, as it is given: a number, a vector, or along a guide a rate."""
     given = reading.given
     if isinstance(given, tuple):

@@ -14,7 +14,7 @@ from graphplan.kernel.tape.record import Symbols
 from graphplan.kernel.tape.written import function, places
 from graphplan.mechanism.model import FRAME, Pair, Slide
 from graphplan.mechanism.replaced import guides
-from graphplan.methods.recorded import Recorded
+from graphplan.methods.recorded import ReadableDrawing
 
 if TYPE_CHECKING:
     from graphplan.kernel.tape.blocks import Blocks
@@ -33,7 +33,7 @@ class Replay:
     used soon after it is made.
     """
 
-    def __init__(self, construction: Recorded, free: Free, kinds: Collection[str]):
+    def __init__(self, construction: ReadableDrawing, free: Free, kinds: Collection[str]):
         self.construction, self.free = construction, free
         self._over_arrays: dict[bool, Blocks | Machine] = {}
         domain = Symbols()
@@ -81,10 +81,10 @@ class Replay:
             yield from (z.real, z.imag) if isinstance(self.told[kind][name], tuple) else (z,)
 
 
-REPLAYS: WeakKeyDictionary[Recorded, dict[Any, Replay | None]] = WeakKeyDictionary()  # as long as there is the drawing
+REPLAYS: WeakKeyDictionary[ReadableDrawing, dict[Any, Replay | None]] = WeakKeyDictionary()  # kept with it
 
 
-def replay_of(construction: Recorded, free: Free, kinds: tuple[str, ...]) -> Replay | None:
+def replay_of(construction: ReadableDrawing, free: Free, kinds: tuple[str, ...]) -> Replay | None:
     """The replay in which these numbers are free and these kinds of readings wanted, made once.
 
     None where what stands still cannot be drawn: the rules say why.
@@ -108,7 +108,7 @@ class Moving(NamedTuple):
     parts: tuple[Free, Free]
 
 
-def moving(construction: Recorded) -> list[Moving]:
+def moving_parts(construction: ReadableDrawing) -> list[Moving]:
     """The drawn points that are on no frame, and the guides that ride on links in directions given as vectors."""
     scene, steps = construction.scene, construction.program.steps[:construction.program.givens]
     found = [Moving("point", step.name, scene.points[step.name], (((step.name, "x"),), ((step.name, "y"),)))
@@ -120,7 +120,7 @@ def moving(construction: Recorded) -> list[Moving]:
     return found
 
 
-def guide_steps(construction: Recorded, slide: Slide) -> list[int]:
+def guide_steps(construction: ReadableDrawing, slide: Slide) -> list[int]:
     """The steps that draw the guide of a slide in its given direction, which no other guide may share.
 
     In the scene's pose two guides through one point, of one direction, are one line; in other poses they are not.
@@ -130,10 +130,10 @@ def guide_steps(construction: Recorded, slide: Slide) -> list[int]:
         if alike and other.along not in construction.scene.turning_alike(slide.along):
             raise Refused(f"guides {slide.name} and {name}", "they are drawn as one line, and turn apart",
                           "two points of its link for the direction of each")
-    return guided(construction.program, slide)
+    return guiding_steps(construction.program, slide)
 
 
-def guided(program: Program, slide: Slide) -> list[int]:
+def guiding_steps(program: Program, slide: Slide) -> list[int]:
     """The steps of a program that draw the guide of a slide in its given direction."""
     return [step.index for step in program.steps
             if step.op.movement is Movement.GUIDED and step.links == slide.links

@@ -25,7 +25,7 @@ class Vectors(dict[str, Any]):
         raise KeyError(name)
 
 
-class Given(ABC):
+class NamedResults(ABC):
     """Results of one pose or of many, all in scene units: complex numbers or arrays of them for vectors."""
 
     scene: Scene

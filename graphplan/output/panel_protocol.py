@@ -28,7 +28,7 @@ def protocol(sheet: Panelled) -> dict[str, Any]:
             "number": number, "makes": say(program.text(step.index)), "kind": step.op.gives,
             "operation": step.op.name, "instrument": step.op.instrument,
             "reads": [say(program.text(arg)) for arg in step.args], "plan": step.panel,
-            "sentence": say(sheet.spoken(step) if number else program.told(step.index)),
+            "sentence": say(sheet.sentence_with_lengths(step) if number else program.sentence_with_reason(step.index)),
             "lengths": [{"mm": one.mm, "marks": list(one.marks)} for length in _lengths(sheet, step) if number
                         for one in length.measures],
             "stage": stages.get(step.index), "why": say(step.why), **on_paper.told(step),

@@ -41,7 +41,7 @@ from graphplan.words.tongue import Tongue, tongue
 
 PAPERS = ("A3", "A2", "A1")
 COLUMN, GAP, CAPTION, SCALES, AROUND, SIDE = 96.0, 4.0, 7.0, 3.5, 3.0, 2.5  # mm: of words, captions and panels
-FEW = 2  # steps that are told rather than counted
+MAX_STEPS_LEFT = 2  # steps that are told rather than counted
 INDENT, LEAD = 8.0, 3.0  # mm: of what hangs from a step's number, and over a heading
 
 
@@ -66,8 +66,8 @@ class Panelled(ABC):
 
     paper: str
     told_scales: ClassVar[bool] = False  # under captions
-    apart: ClassVar[bool] = False  # the steps stand on pages of their own, whatever room there is
-    again: ClassVar[Phrase] = phrase("Steps {0} to {1}: the same at the other divisions.")
+    steps_apart: ClassVar[bool] = False  # the steps stand on pages of their own, whatever room there is
+    repetition_note: ClassVar[Phrase] = phrase("Steps {0} to {1}: the same at the other divisions.")
     letters_of: ClassVar[tuple[str, ...]] = ()  # quantities, such as omega_max, beside the marks of the construction
 
     # ---- what a kind of sheet says ---------------------------------------------------------------------------------
@@ -84,7 +84,7 @@ class Panelled(ABC):
 
     @property
     @abstractmethod
-    def told(self) -> Said:
+    def description(self) -> Said:
         """What a reader who cannot see the sheet is told."""
 
     @property
@@ -103,7 +103,7 @@ class Panelled(ABC):
         """The scale of which the title block speaks."""
 
     @abstractmethod
-    def divided(self, room: Rect) -> Mapping[Panel, Rect]:
+    def panels_in(self, room: Rect) -> Mapping[Panel, Rect]:
         """The panels in what the words leave of the paper."""
 
     @abstractmethod
@@ -118,11 +118,11 @@ class Panelled(ABC):
         """Whether the stages that begin on a panel do the same again and again, so that one figure tells it all."""
         return True
 
-    def given(self) -> Iterable[Words]:
+    def given_words(self) -> Iterable[Words]:
         """What is given."""
         return ()
 
-    def found(self) -> Iterable[Words]:
+    def result_words(self) -> Iterable[Words]:
         """What is found."""
         return ()
 
@@ -166,7 +166,7 @@ class Panelled(ABC):
         """The panels; they end above a title block that is wider than the words."""
         room = replace(self.space, right=self.space.right - self._pitch)
         wider = self.title.left < room.right - 0.1
-        return self.divided(replace(room, bottom=self.title.top) if wider else room)
+        return self.panels_in(replace(room, bottom=self.title.top) if wider else room)
 
     def room(self, panel: Panel) -> Rect:
         """The room of a panel under its caption."""
@@ -175,56 +175,57 @@ class Panelled(ABC):
 
     # ---- pages -----------------------------------------------------------------------------------------------------
 
-    def placed(self, rows: Sequence[TextRow]) -> list[Placed] | None:
+    def place_words(self, rows: Sequence[TextRow]) -> list[Placed] | None:
         """Words in their column; nothing where they do not fit."""
         right, times = self.space.right - GAP, self.letters.times
         column = Rect(right - times * COLUMN, self.title.top + GAP, right, self.space.top - GAP)
         return fill([row.enlarge(times) for row in rows], [column])
 
     @cached_property
-    def brief(self) -> list[TextRow]:
+    def summary_rows(self) -> list[TextRow]:
         """What is given and found."""
-        return [*self._section(said("Given"), self.given()), *self._section(said("Found"), self.found())]
+        return [*self._section(said("Given"), self.given_words()), *self._section(said("Found"), self.result_words())]
 
     @cached_property
-    def tabled(self) -> list[TextRow]:
+    def rows_of_tables(self) -> list[TextRow]:
         """Its tables."""
-        return [row for words in self.tables() for row in self._set(words)]
+        return [row for words in self.tables() for row in self._words_rows(words)]
 
     @cached_property
-    def steps(self) -> list[TextRow]:
+    def step_rows(self) -> list[TextRow]:
         """The construction in words."""
         return [self._heading(said("Construction")), *self._steps()]
 
-    def whole(self) -> list[Sheet]:
+    def sheet_with_all_words(self) -> list[Sheet]:
         """The sheet with all words on it."""
-        return [self._page([*self.brief, *self.tabled, *self.steps], 1)]
+        return [self._page([*self.summary_rows, *self.rows_of_tables, *self.step_rows], 1)]
 
-    def parted(self, beside: bool = True) -> list[Sheet]:
+    def sheet_with_steps_apart(self, beside: bool = True) -> list[Sheet]:
         """The sheet with what is given and found, and the pages that follow it: of its steps, and of its tables where
         they do not stand `beside` the panels."""
         page = words_page(self.paper, *self._frame)
-        first, rows = [*self.brief, *(self.tabled if beside else ())], [*(() if beside else self.tabled), *self.steps]
+        tables = self.rows_of_tables
+        first, rows = [*self.summary_rows, *(tables if beside else ())], [*(() if beside else tables), *self.step_rows]
         filled = paginate_tightly([row.enlarge(self.letters.times) for row in rows], page)
         sheet = self._page(first, 1 + len(filled))
         return [sheet, *(replace(sheet, panels={}, items=tuple(back_to_front([
-            *self._framed(page.title, {}, number, 1 + len(filled)), *row_items(placed)])))
+            *self._frame_items(page.title, {}, number, 1 + len(filled)), *row_items(placed)])))
             for number, placed in enumerate(filled, 2))]
 
     def _page(self, rows: Sequence[TextRow], count: int) -> Sheet:
         """The first of so many pages, with these words, as one display list."""
         wide, high = sheet_size(self.paper)
         program = self.values.drawing.program
-        items = [*self._framed(self.title, self.panels, 1, count)]
+        items = [*self._frame_items(self.title, self.panels, 1, count)]
         for panel in self.panels:
             items += self.figure(panel, self.room(panel))
-        items += row_items(self.placed(rows) or [])
-        sentences = tuple(self.tongue(program.told(step.index)) for step in program.steps)
+        items += row_items(self.place_words(rows) or [])
+        sentences = tuple(self.tongue(program.sentence_with_reason(step.index)) for step in program.steps)
         return Sheet(wide, high, self.space, {str(panel): rect for panel, rect in self.panels.items()},
-                     tuple(back_to_front(items)), self.scene.title, self.tongue(self.told), sentences, self.scales,
-                     self.tongue.code, self.scene.text, program.givens)
+                     tuple(back_to_front(items)), self.scene.title, self.tongue(self.description), sentences,
+                     self.scales, self.tongue.code, self.scene.text, program.givens)
 
-    def _framed(self, title: Rect, panels: Mapping[Panel, Rect], number: int, of: int) -> Iterator[Item]:
+    def _frame_items(self, title: Rect, panels: Mapping[Panel, Rect], number: int, of: int) -> Iterator[Item]:
         """Frame, panels with their captions, and the title block, of one page of so many."""
         frame, block = self._frame
         yield from frame.items(self.paper, self.space, self.tongue)
@@ -251,7 +252,7 @@ class Panelled(ABC):
 
     def _section(self, heading: Said, contents: Iterable[Words]) -> Iterator[TextRow]:
         """A heading with what is under it, if anything is."""
-        rows = [row for words in contents for row in self._set(words)]
+        rows = [row for words in contents for row in self._words_rows(words)]
         if rows:
             yield self._heading(heading)
             yield from rows
@@ -259,7 +260,7 @@ class Panelled(ABC):
     def _heading(self, words: Said, size: float = HEADING) -> TextRow:
         return TextRow((Cell(0.0, sentence_runs(self.tongue(words)), bold=True),), size=size, gap=LEAD, keep=2)
 
-    def _set(self, words: Words, number: str = "", step: int | None = None) -> Iterator[TextRow]:
+    def _words_rows(self, words: Words, number: str = "", step: int | None = None) -> Iterator[TextRow]:
         """A table, or words in lines that hang from a number."""
         if isinstance(words, str):
             yield from paragraph_rows(sentence_runs(self.tongue(words), self._names), COLUMN, INDENT, number, step)
@@ -277,13 +278,15 @@ class Panelled(ABC):
         program = self.values.drawing.program
         for stage, steps in program.stages:
             yield replace(self._heading(stage.title, SIZE), gap=LEAD / 2)
-            yield from self._set(arranged("{0:capital}.", stage.law))
-            runs = told_once(steps) if self.repeats(steps[0].panel) else [(steps, ())]
-            for shown, left in runs:
-                for step in shown:
-                    yield from self._set(self.spoken(step), str(program.number(step.index)), step.index)
-                if left:
-                    yield from self._set(self.again(program.number(left[0].index), program.number(left[-1].index)))
+            yield from self._words_rows(arranged("{0:capital}.", stage.law))
+            runs = without_repetitions(steps) if self.repeats(steps[0].panel) else [(steps, ())]
+            for spoken, repeated in runs:
+                for step in spoken:
+                    number = str(program.number(step.index))
+                    yield from self._words_rows(self.sentence_with_lengths(step), number, step.index)
+                if repeated:
+                    first, last = (program.number(step.index) for step in (repeated[0], repeated[-1]))
+                    yield from self._words_rows(self.repetition_note(first, last))
 
     def measure(self, panel: Panel) -> Lengths:
         """How long on paper what is drawn on a panel is."""
@@ -296,9 +299,9 @@ class Panelled(ABC):
         read = program, self.values.numbers, lambda index: program.steps[index].panel, self.scales
         return Lengths(*read), PaperLengths(*read)
 
-    def spoken(self, step: Step) -> Said:
+    def sentence_with_lengths(self, step: Step) -> Said:
         """A step in words, with its length on paper."""
-        told, lengths = self.values.drawing.program.told(step.index), self.measure(step.panel)
+        told, lengths = self.values.drawing.program.sentence_with_reason(step.index), self.measure(step.panel)
         return joined((told, *(arranged("{0}.", length.text) for length in lengths.for_step(step))), " ")
 
 
@@ -308,18 +311,19 @@ def pages(kind: Callable[[str], Panelled], paper: str | None = None, papers: Seq
     Where they have none the steps stand on pages of their own. Fails with `Refused` where what is given and found has
     none either.
     """
-    tried = [kind(name) for name in ([paper] if paper else papers)]
-    for one in tried:
-        if not one.apart and one.placed([*one.brief, *one.tabled, *one.steps]) is not None:
-            return one.whole()
+    sheets = [kind(name) for name in ([paper] if paper else papers)]
+    for sheet in sheets:
+        rows = [*sheet.summary_rows, *sheet.rows_of_tables, *sheet.step_rows]
+        if not sheet.steps_apart and sheet.place_words(rows) is not None:
+            return sheet.sheet_with_all_words()
     for beside in (True, False):
-        for one in tried:
-            if one.placed([*one.brief, *(one.tabled if beside else ())]) is not None:
-                return one.parted(beside)
-    raise Refused(f"paper {tried[-1].paper}", "what is given and found does not fit on it", "a larger one, or no name")
+        for sheet in sheets:
+            if sheet.place_words([*sheet.summary_rows, *(sheet.rows_of_tables if beside else ())]) is not None:
+                return sheet.sheet_with_steps_apart(beside)
+    raise Refused(f"paper {sheets[-1].paper}", "what is given and found does not fit on it", "a larger one, or no name")
 
 
-def told_once(steps: Sequence[Step]) -> Iterator[tuple[Sequence[Step], Sequence[Step]]]:
+def without_repetitions(steps: Sequence[Step]) -> Iterator[tuple[Sequence[Step], Sequence[Step]]]:
     """The steps of a stage that are told, each time with those after them that do the same again.
 
     Told are the first, until all that is done in the stage has been done once, but of many alike one after the other
@@ -329,7 +333,7 @@ def told_once(steps: Sequence[Step]) -> Iterator[tuple[Sequence[Step], Sequence[
     alike = [list(run) for _, run in groupby(shown, kind_of)]
     told: list[Step] = []
     for run in alike:
-        if len(run) > FEW + 1:
+        if len(run) > MAX_STEPS_LEFT + 1:
             yield [*told, run[0]], run[1:]
             told = []
         else:
@@ -349,16 +353,16 @@ def first_figure(steps: Sequence[Step]) -> tuple[Sequence[Step], Sequence[Step]]
     end = max(kinds.index(kind) for kind in kinds) + 1
     while again is not None and end < len(kinds) and kinds[end] != again:
         end += 1
-    return (steps[:end], steps[end:]) if len(steps) - end > FEW else (steps, ())
+    return (steps[:end], steps[end:]) if len(steps) - end > MAX_STEPS_LEFT else (steps, ())
 
 
-def beside(rect: Rect, *shares: float) -> list[Rect]:
+def divide_across(rect: Rect, *shares: float) -> list[Rect]:
     """A rectangle divided from left to right in these shares."""
     edges = [rect.left + rect.width * part / sum(shares) for part in accumulate(shares, initial=0.0)]
     return [replace(rect, left=left, right=right) for left, right in pairwise(edges)]
 
 
-def under(rect: Rect, *shares: float) -> list[Rect]:
+def divide_down(rect: Rect, *shares: float) -> list[Rect]:
     """A rectangle divided from the top down in these shares."""
     edges = [rect.top - rect.height * part / sum(shares) for part in accumulate(shares, initial=0.0)]
     return [replace(rect, top=top, bottom=low) for top, low in pairwise(edges)]

@@ -56,7 +56,7 @@ class StepInk:
         return self.values.drawing.program.steps
 
     @cached_property
-    def spots(self) -> list[Any]:
+    def spot_of_mark(self) -> list[Any]:
         """The places of all points on paper; of other marks, and of points that no window shows, nothing."""
         return [self.views[step.panel](value[:2]) if step.op.gives == POINT and step.panel in self.views else None
                 for step, value in zip(self.program_steps, self.values.numbers, strict=True)]
@@ -87,7 +87,7 @@ class StepInk:
             for item in self._step(step, self.views[panel]):
                 yield from clip_item(item, rect)
 
-    def lettered(self, panel: Panel, others: Collection[Item] = (), wishes: Iterable[Wish] = (),
+    def items_with_letters(self, panel: Panel, others: Collection[Item] = (), wishes: Iterable[Wish] = (),
                  named: Callable[[Step], bool] = lambda step: True) -> list[Item]:
         """The ink of a panel with letters that avoid it and each other, and what else is drawn there, letters or not.
 
@@ -96,8 +96,8 @@ class StepInk:
         ink, rect = [*self.items(panel), *others], self.views[panel].rect
         taken = [Polygon(item.pen, item.layer, None, item.box.corners) for item in others if isinstance(item, Text)]
         off = [item for item in ink if item.layer != TINTED]
-        marks = [self.spots[step.index] for step in self.steps(panel)
-                 if step.op.gives == POINT and rect.holds(self.spots[step.index])]
+        marks = [self.spot_of_mark[step.index] for step in self.steps(panel)
+                 if step.op.gives == POINT and rect.holds(self.spot_of_mark[step.index])]
         wanted = [*self.wishes(panel, named), *wishes]
         return [*ink, *place_letters(wanted, [*off, *taken], marks, rect, self.letters)]
 
@@ -107,11 +107,12 @@ class StepInk:
         for step in self.steps(panel):
             if not step.name or not named(step):
                 continue
-            if step.op.gives == POINT and rect.holds(self.spots[step.index]):
-                yield Wish(name_runs(step.name), (self.spots[step.index],), DOT + 0.3, step=step.index, label=step.name)
+            if step.op.gives == POINT and rect.holds(self.spot_of_mark[step.index]):
+                spot = self.spot_of_mark[step.index]
+                yield Wish(name_runs(step.name), (spot,), DOT + 0.3, step=step.index, label=step.name)
             elif step.op.gives == LINE and (ends := self._ends(step)):
                 (x, y), (u, v) = ends
-                spots = tuple(spot for t in ALONG if rect.holds(spot := (x + t * (u - x), y + t * (v - y))))
+                spots = tuple(at for t in ALONG if rect.holds(at := (x + t * (u - x), y + t * (v - y))))
                 if spots:
                     yield Wish(name_runs(step.name), spots, 0.5, step=step.index, label=step.name, free=True)
 
@@ -129,7 +130,7 @@ class StepInk:
 
     def _point(self, step: Step) -> Iterator[Item]:
         """A dot; and the stroke along which it is laid off, or the vector that ends in it."""
-        spot, root = self.spots[step.index], self.spots[step.root] if step.root is not None else None
+        spot, root = self.spot_of_mark[step.index], self.spot_of_mark[step.root] if step.root is not None else None
         if step.index in self.vectors and root is not None and step.root is not None:
             head = min(HEAD, 0.6 * math.dist(root, spot))
             yield Arrow(self.vectors[step.index], "plates", step.index, root, spot, head, step.name)
@@ -143,7 +144,7 @@ class StepInk:
         a, b, _ = self.values[step.index]
         size = math.hypot(a, b)
         ux, uy = b / size, -a / size
-        found = sorted((self.spots[mark] for mark in self.marks.get(step.index, ())),
+        found = sorted((self.spot_of_mark[mark] for mark in self.marks.get(step.index, ())),
                        key=lambda at: at[0] * ux + at[1] * uy)
         if not found:
             return None
@@ -161,6 +162,6 @@ class StepInk:
             yield Circle(self.whole[step.index], "plates", step.index, centre, radius)
             return
         for mark in self.marks.get(step.index, ()):
-            spot = self.spots[mark]
+            spot = self.spot_of_mark[mark]
             at, wide = math.degrees(math.atan2(spot[1] - centre[1], spot[0] - centre[0])), math.degrees(STRIKE / radius)
             yield Arc(self.pens.get(step.index, pens.ARC), "plates", step.index, centre, radius, at - wide, at + wide)

@@ -61,7 +61,8 @@ def _pose(scene: Scene, scales: Scales, say: Tongue) -> list[str]:
              for step in program.steps[: program.givens]]
     lines = _wrapped(say(said("Mechanism plan, in mm of paper: {0}.", joined(given))), "")
     for step in program.steps[program.givens :]:
-        lines += _wrapped(say(with_lengths(program.told(step.index), partial(lengths.for_step, step))), "  ")
+        sentence = program.sentence_with_reason(step.index)
+        lines += _wrapped(say(with_lengths(sentence, partial(lengths.for_step, step))), "  ")
     return lines
 
 

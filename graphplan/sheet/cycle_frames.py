@@ -39,7 +39,7 @@ Given = dict[Any, dict[str, float]]
 Places = Mapping[str, Any]  # arrays: of points, of the directions of guides or of loads, in each pose
 
 
-def posed(construction: Construction, points: Mapping[str, complex], guides: Mapping[str, complex],
+def construction_in_pose(construction: Construction, points: Mapping[str, complex], guides: Mapping[str, complex],
           loads: Mapping[str, Any] | None = None) -> Construction | None:
     """The construction with its points, and the guides that ride on links, elsewhere, and other loads that change.
 
@@ -49,20 +49,20 @@ def posed(construction: Construction, points: Mapping[str, complex], guides: Map
     if any(points[one] != points[other] for one, other in construction.relied):
         return None
     scene, phi = construction.scene, construction.phi
-    drawn, program = (given_in(steps, points, guides) | given_loads(steps, scene, phi, loads or {})
+    drawn, program = (inputs_in_pose(steps, points, guides) | given_loads(steps, scene, phi, loads or {})
                       for steps in (construction.drawn, construction.program))
     try:
         values = construction.drawn_out.drawing.mark_values(given=drawn)
         truth = evaluate(construction.program, Floats(), program)
     except ConstructionError:
         return None
-    if not _alike(construction, values, truth):
+    if not _marks_agree(construction, values, truth):
         return None
     return construction.with_values(values, construction.read(Floats(), program),
                                     scene_in(construction.scene, points, guides, loads))
 
 
-def _alike(construction: Construction, values: Values, truth: Sequence[Any]) -> bool:
+def _marks_agree(construction: Construction, values: Values, truth: Sequence[Any]) -> bool:
     """Whether the drawn steps give the points that the rules do."""
     wanted = zip(construction.drawn.wanted, construction.program.wanted, strict=True)
     pairs = [(values[i], truth[j]) for i, j in wanted if construction.drawn.steps[i].op.gives == POINT]
@@ -70,7 +70,7 @@ def _alike(construction: Construction, values: Values, truth: Sequence[Any]) -> 
     return all(math.dist(*pair) <= MARK_TOL * size for pair in pairs)
 
 
-def given_in(program: Program, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Given:
+def inputs_in_pose(program: Program, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Given:
     """What is given to the steps of a program in a pose."""
     marked = {step.name for step in program.steps[: program.givens]}
     given: Given = {name: {"x": z.real, "y": z.imag} for name, z in points.items() if name in marked}
@@ -108,20 +108,20 @@ def sheets(composition: Composition, ways: Sequence[tuple[Construction, Places]]
     in every pose.
     """
     count = len(next(iter(points.values())))
-    poses = [next(filter(None, (_drawn(one, composition, sound, guides, loads or {}, k) for one, sound in ways)), None)
-             for k in range(count)]
+    poses = [next(filter(None, (_drawing_at(drawing, composition, places, guides, loads or {}, k)
+                                for drawing, places in ways)), None) for k in range(count)]
     rows = replace(composition.arrangement, rows=())
     links = [bounding_box([(z.real, z.imag) for z in here.values()]) for k in range(count)
-             if all(map(cmath.isfinite, (here := _at(k, points)[0]).values()))]
-    wide = _enlarged(replace(composition, arrangement=rows),
+             if all(map(cmath.isfinite, (here := _pose_at(k, points)[0]).values()))]
+    wide = _enlarge_mechanism_panel(replace(composition, arrangement=rows),
                      bounding_box([spot for box in links for spot in box.corners]))
-    base = _roomy(wide, links, [Plans(found) for found in poses if found])
+    base = _slide_windows(wide, links, [Plans(found) for found in poses if found])
     for k, found in enumerate(poses):
         if found:
             shown = replace(base, plans=replace(base.plans, drawing=found))
-            yield _sheet(shown, [*_cut_off(shown)]), True
+            yield _sheet(shown, [*_clipped_items(shown)]), True
         else:
-            yield _sheet(base, _undrawn(base, *_at(k, points, guides))), False
+            yield _sheet(base, _mechanism_alone(base, *_pose_at(k, points, guides))), False
 
 
 def _sheet(composition: Composition, items: Iterable[Item]) -> Sheet:
@@ -132,20 +132,20 @@ def _sheet(composition: Composition, items: Iterable[Item]) -> Sheet:
     return replace(whole, items=tuple(back_to_front([*outlines, *captions(composition), *items])))
 
 
-def _drawn(drawing: Construction, composition: Composition, points: Places, guides: Places, loads: Places,
+def _drawing_at(drawing: Construction, composition: Composition, points: Places, guides: Places, loads: Places,
            k: int) -> Construction | None:
     """A construction in the pose at a place of these arrays, where it can be drawn on these plans."""
-    here, directions, acting = _at(k, points, guides, loads)
-    found = posed(drawing, here, directions, acting) if all(map(cmath.isfinite, here.values())) else None
+    here, directions, acting = _pose_at(k, points, guides, loads)
+    found = construction_in_pose(drawing, here, directions, acting) if all(map(cmath.isfinite, here.values())) else None
     return found if found and composition.views.keys() >= {*Plans(found).panels} else None
 
 
-def _at(k: int, *arrays: Mapping[str, Any]) -> list[dict[str, Any]]:
+def _pose_at(k: int, *arrays: Mapping[str, Any]) -> list[dict[str, Any]]:
     """The pose at a place of arrays."""
     return [{name: z[k].item() for name, z in one.items()} for one in arrays]
 
 
-def _enlarged(composition: Composition, links: Rect) -> Composition:
+def _enlarge_mechanism_panel(composition: Composition, links: Rect) -> Composition:
     """The composition with so large a panel for the mechanism that its links have room in all poses; the panels on its
     right and below it make way."""
     window, panels = composition.views[MECHANISM], composition.arrangement.panels
@@ -168,7 +168,7 @@ def _enlarged(composition: Composition, links: Rect) -> Composition:
                    arrangement=replace(composition.arrangement, panels={panel: rects[panel] for panel in panels}))
 
 
-def _roomy(composition: Composition, links: Sequence[Rect], poses: Sequence[Plans]) -> Composition:
+def _slide_windows(composition: Composition, links: Sequence[Rect], poses: Sequence[Plans]) -> Composition:
     """The composition with its windows slid so that they hold the links and the vectors of as many poses as can be.
 
     What the given pose has on paper stays on it.
@@ -179,13 +179,13 @@ def _roomy(composition: Composition, links: Sequence[Rect], poses: Sequence[Plan
         boxes = sorted((plans.extent(panel).core for plans in poses), key=_extent)
         if panel == MECHANISM:
             boxes = [*sorted(links, key=_extent), *boxes]
-        kept = [window.to_plan(spot) for spot in _shown(plate)]
-        views[panel] = slid(window,
-                            _gathered([bounding_box(kept), *boxes] if kept else boxes, window)) if boxes else window
+        kept = [window.to_plan(spot) for spot in _spots_to_keep(plate)]
+        boxes = [bounding_box(kept), *boxes] if kept and boxes else boxes
+        views[panel] = slide_window(window, _box_that_fits(boxes, window)) if boxes else window
     return replace(composition, views=views)
 
 
-def _shown(plate: Plate) -> Iterator[Spot]:
+def _spots_to_keep(plate: Plate) -> Iterator[Spot]:
     """What of a plan must be on paper for its steps to be seen: its marks, and of lines the middle of what is drawn."""
     yield from (drawn.spot for drawn in plate.steps if plate.is_on_panel(drawn))
     yield from (interpolate(*stretch.ends, 0.5) for stretch in plate.stretches.values())
@@ -195,7 +195,7 @@ def _extent(box: Rect) -> float:
     return box.width + box.height
 
 
-def _gathered(boxes: Sequence[Rect], window: View) -> Rect:
+def _box_that_fits(boxes: Sequence[Rect], window: View) -> Rect:
     """One box around as many boxes, the first ones first, as find room in a window."""
     rect, whole = window.rect, boxes[0]
     for box in boxes[1:]:
@@ -205,7 +205,7 @@ def _gathered(boxes: Sequence[Rect], window: View) -> Rect:
     return whole
 
 
-def _cut_off(composition: Composition) -> Iterator[Item]:
+def _clipped_items(composition: Composition) -> Iterator[Item]:
     """What is drawn on all plans; a vector that leaves its panel has no head."""
     for plate, picture in zip(composition.plates, composition.pictures.values(), strict=True):
         for item in picture.items:
@@ -216,7 +216,8 @@ def _cut_off(composition: Composition) -> Iterator[Item]:
                 yield item
 
 
-def _undrawn(composition: Composition, points: Mapping[str, complex], guides: Mapping[str, complex]) -> list[Item]:
+def _mechanism_alone(composition: Composition, points: Mapping[str, complex],
+                     guides: Mapping[str, complex]) -> list[Item]:
     """A pose in which nothing can be constructed: the mechanism alone."""
     window, motion = composition.views[MECHANISM], composition.plans.motion
     scene = scene_in(composition.plans.drawing.scene, points, guides)
@@ -229,7 +230,7 @@ def _undrawn(composition: Composition, points: Mapping[str, complex], guides: Ma
     return [*items, *letters]
 
 
-def slid(view: View, box: Rect) -> View:
+def slide_window(view: View, box: Rect) -> View:
     """The window slid over its plan by the least that brings a box into it, with room for letters as far as there is.
     """
     rect, low, high = view.rect, view((box.left, box.bottom)), view((box.right, box.top))

@@ -82,7 +82,7 @@ def test_names_are_unique() -> None:
     """A name that is taken gets a prime, and a mark keeps its first name."""
     board, (A, B, C) = triangle()
     one, two = board.midpoint(A, B, name="M"), board.midpoint(A, C, name="M")
-    assert [mark.step.name for mark in (one, two, board.named(one, "N"))] == ["M", "M'", "M"]
+    assert [mark.step.name for mark in (one, two, board.give_name(one, "N"))] == ["M", "M'", "M"]
 
 
 def test_same_drawing_is_drawn_once() -> None:

@@ -17,7 +17,7 @@ from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.batch import Poses
 from graphplan.methods.motion.network import Network
-from graphplan.methods.replay import moving, replay_of
+from graphplan.methods.replay import moving_parts, replay_of
 
 GUIDED = """
 [points]
@@ -204,8 +204,8 @@ def test_a_long_chain_needs_no_more_registers() -> None:
     twenty: a pose's time is linear in its steps."""
     def registers(links: int) -> int:
         drawing = gp.construct(chain(links // 2 - 1), checked=False)
-        reading = replay_of(drawing, tuple(key for item in moving(drawing) for part in item.parts for key in part),
-                            ("velocity", "acceleration"))
+        free = tuple(key for item in moving_parts(drawing) for part in item.parts for key in part)
+        reading = replay_of(drawing, free, ("velocity", "acceleration"))
         assert reading is not None
         return BlockWriter(reading.tape, reading.inputs, reading.outputs).registers
 

@@ -63,8 +63,9 @@ def test_compounds_are_told_as_one_step() -> None:
     normal = told["Construct the relative normal acceleration of A about B by the relative velocity from point 10 to "
                   "v_b; from a lay it off: mark b."]
     assert [drawing.drawn.number(step.index) for step in normal.movements] == [11, 12, 13, 14, 15, 16, 17, 23]
-    assert normal.before == ("On AB draw the semicircle; about B strike the arc through it with the opening from point "
-                             "10 to v_b: point 16. From point 16 drop the perpendicular on AB: foot point 17.")
+    assert normal.sentence_on_other_plan == (
+        "On AB draw the semicircle; about B strike the arc through it with the opening from point 10 to v_b: point 16. "
+        "From point 16 drop the perpendicular on AB: foot point 17.")
     auxiliary = [str(one.sentence) for one in drawing_of("alt-eight-link").compounds if one.form == "auxiliary point"]
     assert auxiliary[0] == ("Auxiliary point Q, where FB meets AN: mark v_q where line 4 meets AN and through it draw "
                             "line 10, parallel to QC.")

@@ -20,7 +20,7 @@ from geogebra_program import GeoGebra
 from geogebra_reader import COMMANDS, Ray, Round, opened, read
 from objects import NAMES, PLACES, Place, drafted_plates, gap, loose, programs
 
-from graphplan.accuracy.reach import Reached, holding, put_right
+from graphplan.accuracy.reach import ReachablePoses, best_construction, corrected_values
 from graphplan.cycle.relations import relations
 from graphplan.cycle.turn import points_under_slides
 from graphplan.kernel.kinds import POINT
@@ -29,7 +29,7 @@ from graphplan.kernel.program import evaluate
 from graphplan.mechanism.travel import paces
 from graphplan.output.exports.geogebra import _GeoGebraWriter, geogebra
 from graphplan.output.exports.ggb_commands import labels
-from graphplan.sheet.cycle_frames import given_in
+from graphplan.sheet.cycle_frames import inputs_in_pose
 from graphplan.sheet.plates.pens import BLUE
 from graphplan.sheet.plates.plate import Plates
 
@@ -66,7 +66,7 @@ class Drag:
     def __init__(self, name: str, strict: bool = False):
         self.given, self.paper, _ = drafted_plates(name, strict)
         self.plates = self.paper
-        self.drawing, self.wrong = holding(self.given)
+        self.drawing, self.wrong = best_construction(self.given)
         if self.drawing is not self.given:
             self.plates = Plates(replace(self.plates.plans, drawing=self.drawing), self.plates.views)
         self.scene, self.view, self.called = self.given.scene, next(iter(self.plates)).view, labels(self.plates)
@@ -104,8 +104,8 @@ class Drag:
             return None
         points |= {name: points[at] for name, at in points_under_slides(self.relations.scene).items()}
         guides = self.linkage.guides(pins, travels)
-        one = Reached(*({name: np.array([z]) for name, z in some.items()} for some in (points, guides)))
-        values = put_right(self.drawing, one, self.wrong)
+        one = ReachablePoses(*({name: np.array([z]) for name, z in some.items()} for some in (points, guides)))
+        values = corrected_values(self.drawing, one, self.wrong)
         found = {}
         for mark in self.plates.all_marks:
             if mark.kind == POINT:
@@ -113,7 +113,7 @@ class Drag:
                                                                        in values[mark.index][:2]))
                 found[self.called[mark]] = complex(*mark.view((z.real, z.imag)))
         rules = self.drawing.program
-        true = evaluate(rules, Arrays(), given_in(rules, one.points, one.guides))
+        true = evaluate(rules, Arrays(), inputs_in_pose(rules, one.points, one.guides))
         for ours, theirs in zip(self.drawing.drawn.wanted, rules.wanted, strict=True):
             if rules.steps[theirs].op.gives == POINT and math.isfinite(x := float(np.ravel(true[theirs][0])[0])):
                 mark = self.plates.steps[ours]

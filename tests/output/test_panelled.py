@@ -46,7 +46,7 @@ class PolygonSheet(Panelled):
     """A sheet of one polygon."""
 
     document = said("Polygon sheet")
-    told = said("A polygon of forces.")
+    description = said("A polygon of forces.")
     scale = said("1 : 1")
 
     @cached_property
@@ -57,20 +57,20 @@ class PolygonSheet(Panelled):
     def values(self) -> Values:
         return Drawing(polygon()).mark_values()
 
-    def divided(self, room: Rect) -> dict[Panel, Rect]:
+    def panels_in(self, room: Rect) -> dict[Panel, Rect]:
         return {POLYGON: room}
 
     def figure(self, panel: Panel, rect: Rect) -> list[Item]:
         steps = self.values.drawing.program.steps
         vectors = {step.index: pens.VECTORS["load"] for step in steps if step.root is not None}
         window = View(rect, 2.0, rect.centre)
-        return StepInk(self.values, {panel: window}, self.letters, vectors=vectors).lettered(panel)
+        return StepInk(self.values, {panel: window}, self.letters, vectors=vectors).items_with_letters(panel)
 
-    def given(self) -> Iterator[Words]:
+    def given_words(self) -> Iterator[Words]:
         yield said("Forces")
         yield [["P", "x", "y"], *([f"P_{k}", f"{x:g}", f"{y:g}"] for k, (x, y) in enumerate(FORCES, 1))]
 
-    def found(self) -> Iterator[Said]:
+    def result_words(self) -> Iterator[Said]:
         yield said("Closing line")
 
 
@@ -103,7 +103,7 @@ def test_letters_stand_on_the_panel_and_not_on_each_other(sheet: Sheet) -> None:
 
 def test_words_without_room_stand_apart() -> None:
     """Where a paper has no room for the steps they follow on another page, and the first says so."""
-    first, second = PolygonSheet("A4").parted()
+    first, second = PolygonSheet("A4").sheet_with_steps_apart()
     assert not second.panels
     assert [f"{k}/2" in svg(page) for k, page in ((1, first), (2, second))] == [True, True]
 

@@ -17,7 +17,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.mechanism.sections import SIZES
 from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import MECHANISM
-from graphplan.sheet.cycle_frames import posed, sheets
+from graphplan.sheet.cycle_frames import construction_in_pose, sheets
 from graphplan.sheet.frames.frame import MARKS, corner_marks, page_code
 from graphplan.sheet.handout import code, guided_task, solution, task
 from graphplan.sheet.layout.composition import Composition, compose
@@ -207,7 +207,7 @@ def test_a_posed_drawing_reads_what_the_construction_gives_there(name: str) -> N
     drawing = drawing_of(name)
     turn = follow(drawing.scene, 36)
     points, guides = ({key: complex(z[1]) for key, z in arrays.items()} for arrays in (turn.points, turn.guides))
-    found = posed(drawing, points, guides)
+    found = construction_in_pose(drawing, points, guides)
     assert found is not None
     fresh = gp.construct(found.scene).read(Floats())
     for kind, values in found.computed.items():

@@ -244,7 +244,7 @@ class _Sheet:
         round_trip = len(self.points) - 1
         cuts = [self.board.meet(self.axis, self.board.parallel(guide, self.points[j % round_trip]),
                                 name=f"{letter}_{self.numbers[j % round_trip]}") for j in three]
-        A, B, C = (self.board.named(self._over(cut, j), f"{name}_{letter}")
+        A, B, C = (self.board.give_name(self._over(cut, j), f"{name}_{letter}")
                    for name, cut, j in zip("ABC", cuts, three, strict=True))
         first, middle, last = self.plans.around(self.told, three)
         return self._vertex(A, B, C, float((middle - first) / (last - first)), letter)

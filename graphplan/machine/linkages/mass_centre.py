@@ -135,10 +135,10 @@ def _program(scene: Scene, base: str, vectors: tuple[PrincipalVector, ...]) -> P
         with board.on(panel=MECHANISM, links=(vector.link,) if vector.link else (), stage=_stage(vector)):
             heads.append(_head(board, vector, points))
             ends.append(board.transfer(points[vector.start], heads[-1], ends[-1], why=_laid(vector)))
-    board.named(ends[-1], "S")
+    board.give_name(ends[-1], "S")
     for vector, head, end in zip(vectors, heads, ends[1:], strict=True):
-        board.named(head, f"H_{vector.link}" if vector.link else f"H_{vector.end}")
-        board.named(end, f"S_{vector.link}" if vector.link else f"S_{vector.end}")
+        board.give_name(head, f"H_{vector.link}" if vector.link else f"H_{vector.end}")
+        board.give_name(end, f"S_{vector.link}" if vector.link else f"S_{vector.end}")
     return freeze(board, [ends[-1], *(mark for pair in zip(heads, ends[1:], strict=True) for mark in pair)])
 
 

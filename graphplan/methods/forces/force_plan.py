@@ -143,7 +143,9 @@ class ForcePolygon(FreeBodies):
 
     def _where(self, about: statics.About) -> str:
         """The point that moments are taken about, in words."""
-        return self.pose.spoken(about.point) if isinstance(about, statics.AtPoint) else said("the auxiliary point")
+        if isinstance(about, statics.AtPoint):
+            return self.pose.letter_of_point(about.point)
+        return said("the auxiliary point")
 
     def _slide_line(self, part: Part, slide: Slide, about: statics.About, sign: int) -> Known:
         """A slide's reaction acts through the point about which nothing else has a moment but the known pair."""

@@ -178,7 +178,7 @@ class FreeBodies:
         """A corner of the polygon, with the next numeral if it has none."""
         if not mark.step.name:
             self.forces.corners += 1
-            self.board.named(mark, roman(self.forces.corners))
+            self.board.give_name(mark, roman(self.forces.corners))
         return mark
 
     # ---- loads -------------------------------------------------------------------------------------------------

@@ -141,7 +141,7 @@ class Lever:
         scene, point = self.velocity.net.scene, self.renamed.get((link, point), point)
         if FRAME in scene.links_of.get(point, ()) and point in scene.links[link]:
             return self.pole
-        name = f"{self.velocity.pose.spoken(point).lower()}_o"
+        name = f"{self.velocity.pose.letter_of_point(point).lower()}_o"
         if isinstance(self.velocity, Polar):
             return self.board.quarter(self.velocity.pole, self.velocity.end_in(link, point), self.pole, name=name)
         home, end = self.velocity.figure(link, point), self.velocity.end_in(link, point)

@@ -166,8 +166,8 @@ class Loading:
         home, end = self.motion.figure(link, point), self.motion.end_in(link, point)
         ratio = -mass * inertia(self.scene.units) * self.phi * self.unit * self.unit
         why = said("{0}, the inertia force of {1}, against the acceleration of {2}", name, link_named(link),
-                   self.pose.spoken(point))
-        written = f"{name} = m_{link} a_{self.pose.spoken(point)}"
+                   self.pose.letter_of_point(point))
+        written = f"{name} = m_{link} a_{self.pose.letter_of_point(point)}"
         head = self.board.step_off(home, end, start, ratio=ratio, why=why, quantity=Quantity(written, "force"))
         return Acting(self.pose.points[_replaced(link) if shifted else point], start, head, name)
 

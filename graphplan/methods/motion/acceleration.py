@@ -144,7 +144,7 @@ class Normal(MotionPlan):
         home = (point, "") if point in self.net.links[link] else (point, link)
         links = [k for k in self.net.links_of.get(point, ()) if k in self.order]
         first = min(links, key=lambda k: self.order[k], default=link)
-        name = self.pose.spoken(point).lower()
+        name = self.pose.letter_of_point(point).lower()
         return name if first == link and not home[1] else f"{name}({link})"
 
     def _grounded(self, link: str, point: str) -> Mark:
@@ -180,11 +180,11 @@ class Normal(MotionPlan):
         """A point of a moving link's figure: its anchor, or by the similar figure on one side of the link."""
         anchor = self.anchors[link]
         if point == self.net.place(anchor.point, link)[0]:
-            return self.board.named(self._anchored(link, anchor), self.figure_name(link, point))
+            return self.board.give_name(self._anchored(link, anchor), self.figure_name(link, point))
         if self.net.still(link) or self.net.coincide(point, anchor.point):
             return self.figure(link, anchor.point)
         mark = self._scaled(link, anchor.point, point)
-        return self.board.named(mark, self.figure_name(link, point))
+        return self.board.give_name(mark, self.figure_name(link, point))
 
     def _anchored(self, link: str, anchor: Anchor) -> Mark:
         if not anchor.link:
@@ -296,7 +296,7 @@ class Normal(MotionPlan):
     # ---- letters --------------------------------------------------------------------------------------------
 
     def locus_name(self, place: BodyPoint) -> str:
-        name = self.pose.spoken(place[0])
+        name = self.pose.letter_of_point(place[0])
         letter, rest = name[0].upper(), name[1:].strip("_")
         return GREEK[letter] + (f"_{rest}" if rest else "") if letter in GREEK else ""
 
@@ -328,7 +328,7 @@ class PolarAcceleration(Normal):
         return any({weld.link, weld.to} == {one, two} for weld in self.net.welds.values())
 
     def figure_name(self, link: str, point: str) -> str:
-        return f"n_{self.pose.spoken(point).lower()}({link})"
+        return f"n_{self.pose.letter_of_point(point).lower()}({link})"
 
     def locus_name(self, place: BodyPoint) -> str:
         return ""

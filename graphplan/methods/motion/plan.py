@@ -118,7 +118,7 @@ class MotionPlan:
         return None
 
     def end_name(self, place: BodyPoint) -> str:
-        return self.stages.end(self.pose.spoken(place[0]), place)
+        return self.stages.end(self.pose.letter_of_point(place[0]), place)
 
     def locus_name(self, place: BodyPoint) -> str:
         return ""
@@ -146,7 +146,7 @@ class MotionPlan:
                 side = self.pose.side(K[0], X[0])
                 line = getattr(self.board, self.turn)(side, through)
                 named = "".join(self.board.steps[end].name for end in side.step.args)
-                fixed = FIXED(self.end_name(X), named, self.pose.spoken(K[0])) if line is side else None
+                fixed = FIXED(self.end_name(X), named, self.pose.letter_of_point(K[0])) if line is side else None
                 self._locus((X, source or body), line, move, fixed)
             case moves.Slip(body, A, X, like, source):
                 self._locus((X, source or body), self._slipped(body, A, X, like), move)
@@ -182,7 +182,7 @@ class MotionPlan:
         return self.net.given_links(names)
 
     def _end(self, place: BodyPoint, mark: Mark, move: Move | None = None) -> None:
-        self._know(place, self.board.named(mark, self.end_name(place) + self.prime))
+        self._know(place, self.board.give_name(mark, self.end_name(place) + self.prime))
         self._reason(mark, self.laws.get(type(move)))
 
     def _reason(self, mark: Mark, law: Said | None) -> None:
@@ -201,7 +201,7 @@ class MotionPlan:
 
     def _locus(self, locus: Locus, mark: Mark, move: Move, law: Said | None = None) -> None:
         if name := self.locus_name(locus[0]):
-            self.board.named(mark, name + self.prime)
+            self.board.give_name(mark, name + self.prime)
         self._reason(mark, law or self.laws.get(type(move)))
         self.loci[locus] = mark
         self._located.add(locus[0])
@@ -357,7 +357,7 @@ class MotionPlan:
         homes = [getattr(self.board, self.turn)(self.loci[locus], self.point(locus[0])) for locus in (A, B)]
         if place[0] not in self.pose.points:
             self.pose.points[place[0]] = self.board.meet(*homes, name=self.pose.letter(body))
-        self.stages.letters[place[0]] = self.pose.spoken(place[0])
+        self.stages.letters[place[0]] = self.pose.letter_of_point(place[0])
         end = self.board.meet(self._locus_in(body, A), self._locus_in(body, B))
         self._end(place, self._outward(body, place, end), move)
 
@@ -374,7 +374,7 @@ class MotionPlan:
         if move.place[0] not in self.pose.points:
             bars = [self.board.side(self.point(one), self.point(two)) for _, one, two in move.bars]
             self.pose.points[move.place[0]] = self.board.meet(*bars, name=f"P_{move.bodies[0]}{move.bodies[1]}")
-        self.stages.letters[move.place[0]] = self.pose.spoken(move.place[0])
+        self.stages.letters[move.place[0]] = self.pose.letter_of_point(move.place[0])
         if (vector := self.pole_shift(move)) is not None:
             self.pole_vectors[move.place, move.bodies[1]] = vector
 
@@ -388,7 +388,7 @@ class MotionPlan:
                 setattr(self, name, copy(drawn))  # nothing of another trial serves
             self.prime = outer + prime
             start = self.board.pick(locus, self.home(place), self.far_from(place), ratio=ratio)
-            self._know(place, self.board.named(start, self.end_name(place) + self.prime))
+            self._know(place, self.board.give_name(start, self.end_name(place) + self.prime))
             self.draw(move.moves)
             trials += [start, self.ends[move.end], self.loci[move.locus]]
         self.prime = outer

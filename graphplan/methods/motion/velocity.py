@@ -57,7 +57,7 @@ class Velocity(MotionPlan):
     def _at_pole(self, body: str, place: BodyPoint) -> None:
         """The pole of a body, whose vector is nothing: its end is where it begins."""
         self.pose.points[place[0]] = self.pole_of(self.net.members[body][0], FRAME)
-        self.stages.letters[place[0]] = self.pose.spoken(place[0])
+        self.stages.letters[place[0]] = self.pose.letter_of_point(place[0])
         self.ends[place] = self.home(place)
         self.known[body] += (place,)
 

@@ -15,7 +15,7 @@ from graphplan.kernel.tape.written import JAVASCRIPT, C, Language, Writer, shape
 from graphplan.mechanism.order import changing_loads
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import kind_of
-from graphplan.methods.replay import Replay, moving
+from graphplan.methods.replay import Replay, moving_parts
 
 C_FILE = """\
 {head}
@@ -100,7 +100,7 @@ class Code:
     """The replay of a construction, with what it reads and what it gives, in order."""
 
     def __init__(self, construction: Construction):
-        self.scene, self.moving = construction.scene, moving(construction)
+        self.scene, self.moving = construction.scene, moving_parts(construction)
         free = tuple(key for item in self.moving for part in item.parts for key in part)
         self.replay = Replay(construction, free, construction.kinds)
         at = dict(zip(free, self.replay.inputs, strict=True))

@@ -20,7 +20,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import numpy as np
 
-from graphplan.accuracy.reach import Missed, Reached, holding, put_right
+from graphplan.accuracy.reach import FailingCompound, ReachablePoses, best_construction, corrected_values
 from graphplan.cycle.relations import WrittenRelations, relations
 from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LINE, OPENING, POINT
@@ -51,7 +51,7 @@ def geogebra(plates: Plates) -> bytes:
     Where the pose's own forms fail in other poses, marks are by the rule; where that is not enough, the construction is
     one that is drawn in another pose.
     """
-    drawing, wrong = holding(plates.plans.drawing) if plates.scene.links else (plates.plans.drawing, {})
+    drawing, wrong = best_construction(plates.plans.drawing) if plates.scene.links else (plates.plans.drawing, {})
     other = plates if drawing is plates.plans.drawing else Plates(
         replace(plates.plans, drawing=drawing), plates.views, plates.letters)
     if {*other.plans.panels} != {*plates.plans.panels}:
@@ -84,7 +84,7 @@ class _GeoGebraWriter(Elements):
     part, along = "Translate[{0}, {part} * Vector[{0}, {1}]]", "Translate[{0}, {part} * UnitVector[{2}]]"
     number = staticmethod(number)
 
-    def __init__(self, plates: Plates, given: Plates, wrong: Mapping[int, Missed]):
+    def __init__(self, plates: Plates, given: Plates, wrong: Mapping[int, FailingCompound]):
         """Reads the plates of the construction, those of the given pose, and the compounds that are by their rule."""
         super().__init__(plates)
         self.given, self.wrong = given, wrong
@@ -268,7 +268,7 @@ class _GeoGebraWriter(Elements):
         points = {name: np.array([complex(float(x), float(y))]) for name, (x, y) in scene.points.items()}
         guides = {one.name: np.array([complex(*map(float, one.direction))]) for one in scene.slides
                   if one.through is None}
-        return put_right(self.plates.plans.drawing, Reached(points, guides), self.wrong)
+        return corrected_values(self.plates.plans.drawing, ReachablePoses(points, guides), self.wrong)
 
     def _mark(self, drawn: DrawnStep) -> None:
         if not drawn.free:

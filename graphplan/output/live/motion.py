@@ -38,7 +38,7 @@ from graphplan.mechanism.replaced import guides
 from graphplan.mechanism.tolerances import TABLE_END_TOL
 from graphplan.mechanism.travel import TURN, paces, sense_of_travel, travel_unit
 from graphplan.mechanism.units import inertia, metre, weight
-from graphplan.methods.batch import apart
+from graphplan.methods.batch import coincidence_fault
 from graphplan.methods.construction import Construction
 from graphplan.output.live.tapes import Data, PosedTapes, arrow
 from graphplan.phrases import digits, said
@@ -61,7 +61,7 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
         "guides": {name: [*map(float, guide.direction)] for name, guide in guides(scene).items()},
         "touching": [*_touching(scene)],
         "under": points_under_slides(scene),
-            "shared": [[point, at, apart(point, at)] for point, at in drawings[0].shared.items()],
+            "shared": [[point, at, coincidence_fault(point, at)] for point, at in drawings[0].shared.items()],
         "lined": [[one, other, said("guides {0} and {1} are drawn as one line, and turn apart here", one, other)]
                   for one, other in _lined(scene)],
         "scene": _plain(_anywhere(tomllib.loads(scene.text))), "placed": [*_placed(scene)],

@@ -18,10 +18,10 @@ from graphplan.kernel.tape.written import JAVASCRIPT, Writer, asked_of
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides
-from graphplan.methods.batch import apart
+from graphplan.methods.batch import coincidence_fault
 from graphplan.methods.construction import Construction
 from graphplan.methods.forces.changing import changing_steps, drawn_components
-from graphplan.methods.replay import guided
+from graphplan.methods.replay import guiding_steps
 
 SOLVED = ("check", "bounds", "arithmetic", "method", "steps")
 """What of the solver's report is another in each pose."""
@@ -114,7 +114,7 @@ class PosedTapes:
             "points": self.points, "guides": [*self.guides], "loads": [*self.loads],
             "wanted": [i for i, _ in self.wanted],
             "asked": {"drawn": self._reasons(drawing.drawn, drawn), "rules": self._reasons(drawing.program, rules)},
-            "relied": [[one, other, apart(one, other)] for one, other in drawing.relied],
+            "relied": [[one, other, coincidence_fault(one, other)] for one, other in drawing.relied],
             "title": scene.title, "method": drawing.method, "steps": steps,
         }  # fmt: skip
 
@@ -125,7 +125,7 @@ class PosedTapes:
         given: dict[Any, Any] = {name: {part: number(f"{name}.{part}") for part in "xy"} for name in self.points}
         for name, guide in self.guides.items():
             way = {part: number(f"{name}.{part}") for part in ("dx", "dy")}
-            given |= dict.fromkeys(guided(program, guide), way)
+            given |= dict.fromkeys(guiding_steps(program, guide), way)
         for step, name in changing_steps(program).items():
             given[step] = {part: number(f"{name}.{part}") * times for part, times in self.loads[name].items()}
         values = evaluate(program, domain, given,

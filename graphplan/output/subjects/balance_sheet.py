@@ -24,7 +24,7 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.graphs import CURVES, Figures, Graph, Polar, Span, scale_words, smoothed, stacked, through
-from graphplan.output.panelled import Panelled, Words, beside, pages, under
+from graphplan.output.panelled import Panelled, Words, divide_across, divide_down, pages
 from graphplan.output.step_ink import HEAD, StepInk
 from graphplan.output.subjects.balance_words import BalanceWords, cleaned
 from graphplan.phrases import Said, joined, said
@@ -74,7 +74,7 @@ class BalanceSheet(Panelled):
         return self.before.centre.scene
 
     @property
-    def told(self) -> Said:
+    def description(self) -> Said:
         program = self.before.centre.program
         return said("Mass centre by principal vectors in {0} steps, and the shaking force over the cycle.",
                     len(program) - program.givens)
@@ -101,10 +101,10 @@ class BalanceSheet(Panelled):
 
     # ---- panels ----------------------------------------------------------------------------------------------------
 
-    def divided(self, room: Rect) -> dict[Panel, Rect]:
+    def panels_in(self, room: Rect) -> dict[Panel, Rect]:
         """The mechanism above; under it the polar diagram, and beside that what changes over the travel."""
-        upper, lower = under(room, 1.3, 1.0)
-        left, right = beside(lower, 1.0, 1.25)
+        upper, lower = divide_down(room, 1.3, 1.0)
+        left, right = divide_across(lower, 1.0, 1.25)
         return {MECHANISM: upper, FORCE: left, CYCLE: right}
 
     def heading(self, panel: Panel) -> tuple[Said, Said | None]:
@@ -153,15 +153,16 @@ class BalanceSheet(Panelled):
         others = [*self._weights(window), *self._paths(window), *drawn.items(), *self._vectors(ink)]
         path = [window((float(z.real), float(z.imag))) for z in self.before.path[self.places]]
         wishes = [*mechanism_wishes(drawn), *self._numbers(path, window.rect)]
-        yield from ink.lettered(MECHANISM, others, wishes, lambda step: step.op.movement is not Movement.GIVEN)
+        yield from ink.items_with_letters(MECHANISM, others, wishes,
+                                          lambda step: step.op.movement is not Movement.GIVEN)
 
     def _vectors(self, ink: StepInk) -> Iterator[Item]:
         """The principal vectors head to tail."""
         program, base = self.values.drawing.program, self.before.centre.base
         first = next(step.index for step in program.steps if step.name == base)
         for start, end in pairwise([first, *program.wanted[2::2]]):
-            head = min(HEAD, 0.6 * math.dist(ink.spots[start], ink.spots[end]))
-            yield Arrow(VECTOR, "plates", end, ink.spots[start], ink.spots[end], head)
+            head = min(HEAD, 0.6 * math.dist(ink.spot_of_mark[start], ink.spot_of_mark[end]))
+            yield Arrow(VECTOR, "plates", end, ink.spot_of_mark[start], ink.spot_of_mark[end], head)
 
     def _paths(self, window: View) -> Iterator[Item]:
         """The paths of the mass centre; one that stands still is a spot."""
@@ -307,10 +308,10 @@ class BalanceSheet(Panelled):
         """What the sheet says."""
         return BalanceWords(self.balancing)
 
-    def given(self) -> Iterator[Words]:
+    def given_words(self) -> Iterator[Words]:
         return self.words.given()
 
-    def found(self) -> Iterator[Words]:
+    def result_words(self) -> Iterator[Words]:
         return self.words.found()
 
 

@@ -20,7 +20,7 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 from graphplan.output.graphs import Figures
-from graphplan.output.panelled import Panelled, beside, pages, under
+from graphplan.output.panelled import Panelled, divide_across, divide_down, pages
 from graphplan.output.step_ink import StepInk
 from graphplan.output.subjects.cam_diagrams import CENTRE_PLAN, CURVATURE_PLAN, LAW_PLAN, Paper
 from graphplan.phrases import Said, arranged, digits, joined, said, unit
@@ -151,7 +151,7 @@ class CamPlan:
                                "B": (2.0, 1.4), "S": (2.0, 0.0)}.items():
             step = next((step for step in drawing.program.steps if step.name == f"{name}_{shown}"), None)
             if step is not None:
-                x, y = self.ink.spots[step.index]
+                x, y = self.ink.spot_of_mark[step.index]
                 if math.dist((x, y), O) > NEAR:
                     yield from paper.backed((x + dx, y + dy), step.name, self.letters.mark)
 
@@ -210,7 +210,7 @@ class CamSheet(Panelled):
         return replace(parse(scene_text(self.drawing.cam, 0.0), task.name), title=task.title, sheet=task.sheet)
 
     @property
-    def told(self) -> Said:
+    def description(self) -> Said:
         program = self.drawing.program
         return said("Cam by inversion in {0} steps.", len(program) - program.givens)
 
@@ -232,12 +232,12 @@ class CamSheet(Panelled):
         """Lengths for a mm of the plan, in a round scale."""
         return float(round_up(fit_scale(extent(self.drawing), self.room(CAM_PLAN).inset(*(OUTSIDE,) * 4))))
 
-    def divided(self, room: Rect) -> dict[Panel, Rect]:
+    def panels_in(self, room: Rect) -> dict[Panel, Rect]:
         """The plan, under it the curve x(s) if there is one, and beside them the diagrams."""
-        left, law = beside(room, PLAN_WIDE, 1 - PLAN_WIDE)
+        left, law = divide_across(room, PLAN_WIDE, 1 - PLAN_WIDE)
         if isinstance(self.drawing.cam.pair, FlatOscillating):
             return {CAM_PLAN: left, LAW_PLAN: law}
-        plan, centre = under(left, PLAN_HIGH, 1 - PLAN_HIGH)
+        plan, centre = divide_down(left, PLAN_HIGH, 1 - PLAN_HIGH)
         return {CAM_PLAN: plan, LAW_PLAN: law,
                 CENTRE_PLAN if isinstance(self.drawing.cam.pair, Rolled) else CURVATURE_PLAN: centre}
 
@@ -248,7 +248,7 @@ class CamSheet(Panelled):
         figures = Paper(self.letters, self.tongue, self.drawing.cam)
         return figures.law(rect) if panel == LAW_PLAN else figures.centre(rect)
 
-    def given(self) -> Iterator[Said]:
+    def given_words(self) -> Iterator[Said]:
         """The law, stage by stage, the follower, and how the cam turns."""
         cam = self.drawing.cam
         task, length = cam.task, unit(cam.task.units.length)
@@ -268,7 +268,7 @@ class CamSheet(Panelled):
         turns = said("counter-clockwise") if task.cam.sense > 0 else said("clockwise")
         yield said("The cam turns {0}, {1} {2}", turns, digits(task.cam.omega), unit("rad/s"))
 
-    def found(self) -> Iterator[Said]:
+    def result_words(self) -> Iterator[Said]:
         """Base circle, pressure angles, curvature, what is told of the law, and the checks."""
         cam = self.drawing.cam
         length = unit(cam.task.units.length)

@@ -126,7 +126,7 @@ class FlywheelFigure:
     def items(self) -> list[Item]:
         """All of it, its letters off its lines."""
         drawn = [*self._areas(), *self._curves(), *self._level(), *self._tangents(), *self._origin(), *self._axes()]
-        return self.ink.lettered(FLYWHEEL, drawn, self._wishes(), self._named)
+        return self.ink.items_with_letters(FLYWHEEL, drawn, self._wishes(), self._named)
 
     # ---- steps -----------------------------------------------------------------------------------------------------
 

@@ -22,7 +22,7 @@ from graphplan.machine.flywheel.other_methods import NEGLECTS_NOTHING
 from graphplan.machine.flywheel.result import FlywheelResult
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import Figures
-from graphplan.output.panelled import Blank, Panelled, Words, beside, pages, under
+from graphplan.output.panelled import Blank, Panelled, Words, divide_across, divide_down, pages
 from graphplan.output.subjects.flywheel_figure import FlywheelFigure, room_in
 from graphplan.output.subjects.given_facts import masses_and_loads
 from graphplan.output.subjects.lever_figures import LEVERS, LeverFigures
@@ -57,7 +57,7 @@ class FlywheelSheet(Panelled):
     result: FlywheelResult
     task: bool = False
     told_scales = apart = True
-    again = phrase("Steps {0} to {1}: the same for the others.")
+    repetition_note = phrase("Steps {0} to {1}: the same for the others.")
     letters_of = "phi", "psi", "delta", "omega", "omega_max", "omega_min", "k_phi", "k_M", "k_E", "k_I"
 
     @property
@@ -69,7 +69,7 @@ class FlywheelSheet(Panelled):
         return self.result.scene
 
     @property
-    def told(self) -> Said:
+    def description(self) -> Said:
         return said("Flywheel by Wittenbauer's diagram from {0} plans.", self.result.positions)
 
     @property
@@ -83,11 +83,11 @@ class FlywheelSheet(Panelled):
         """The plans of the given pose."""
         return tuple(self.levers.plans.panels)
 
-    def divided(self, room: Rect) -> dict[Panel, Rect]:
+    def panels_in(self, room: Rect) -> dict[Panel, Rect]:
         """The plans of the given pose and the other levers beside each other, under them the diagrams."""
-        upper, lower = under(room, UPPER, 1 - UPPER)
+        upper, lower = divide_down(room, UPPER, 1 - UPPER)
         count = len(self._plans)
-        rects = beside(upper, *SHARES[:2], *(SHARES[1] for _ in range(count - 2)), SHARES[2])
+        rects = divide_across(upper, *SHARES[:2], *(SHARES[1] for _ in range(count - 2)), SHARES[2])
         return dict(zip((*self._plans, LEVERS), rects, strict=True)) | {FLYWHEEL: lower}
 
     @cached_property
@@ -153,7 +153,7 @@ class FlywheelSheet(Panelled):
 
     # ---- words -----------------------------------------------------------------------------------------------------
 
-    def given(self) -> Iterator[Words]:
+    def given_words(self) -> Iterator[Words]:
         """The speed and how even it is to be, the masses and the loads."""
         result = self.result
         yield arranged("omega = {0} {1}", digits(result.cycle.speed), unit(RATE))
@@ -163,7 +163,7 @@ class FlywheelSheet(Panelled):
             yield arranged("delta = {0}", digits(result.unevenness))
         yield from masses_and_loads(self.scene)
 
-    def found(self) -> Iterator[Words]:
+    def result_words(self) -> Iterator[Words]:
         """What closes the cycle, the flywheel, the speeds, and what other methods find; of a task boxes for these."""
         result = self.result
         if self.task:
@@ -228,4 +228,4 @@ class FlywheelSheet(Panelled):
     @cached_property
     def steps(self) -> list[TextRow]:
         """The construction in words; a task has none."""
-        return [] if self.task else super().steps
+        return [] if self.task else super().step_rows

@@ -82,7 +82,7 @@ class MotionFigure:
 
     def items(self) -> list[Item]:
         """All of it, its letters off its lines."""
-        return self.ink.lettered(MOTION, [*self._curves(), *self._axes()], self._wishes(), self._named)
+        return self.ink.items_with_letters(MOTION, [*self._curves(), *self._axes()], self._wishes(), self._named)
 
     @cached_property
     def ink(self) -> StepInk:
@@ -198,14 +198,14 @@ class MotionSheet(Panelled):
         return self.found_run.scene
 
     @property
-    def told(self) -> Said:
+    def description(self) -> Said:
         return said("The true motion of a machine in {0} strips.", self.strips)
 
     @property
     def scale(self) -> Said:
         return said("as told")
 
-    def divided(self, room: Rect) -> dict[Panel, Rect]:
+    def panels_in(self, room: Rect) -> dict[Panel, Rect]:
         """One panel with all diagrams."""
         return {MOTION: room}
 
@@ -228,7 +228,7 @@ class MotionSheet(Panelled):
 
     # ---- words -----------------------------------------------------------------------------------------------------
 
-    def given(self) -> Iterator[Words]:
+    def given_words(self) -> Iterator[Words]:
         """The speed at the beginning, the flywheel and what closes the cycle, masses and loads."""
         run, measures = self.found_run, units(self.found_run)
         first = float(run.motion.at([run.motion.start]).omega[0]) / run.machine.pace
@@ -242,7 +242,7 @@ class MotionSheet(Panelled):
     def _unit(self, what: str) -> Said:
         return unit(units(self.found_run)[what].replace("*", " ").replace("^2", "²").replace("deg", "°"))
 
-    def found(self) -> Iterator[Words]:
+    def result_words(self) -> Iterator[Words]:
         """Where it stops, its speeds and their means, the run-up, and the divisions as a table."""
         run, motion, machine = self.found_run, self.found_run.motion, self.found_run.machine
         rate = self._unit("omega")

@@ -45,7 +45,8 @@ def numbers(sheet: RotorSheet) -> dict[str, Any]:
     return data | {
         "notes": [str(note) for note in found.notes],
         "steps": [{"step": program.number(step.index), "stage": str(stage.title),
-                   "sentence": str(sheet.spoken(step))} for stage, steps in program.stages for step in steps],
+                   "sentence": str(sheet.sentence_with_lengths(step))}
+                  for stage, steps in program.stages for step in steps],
         "check": dict(sheet.check)}
 
 

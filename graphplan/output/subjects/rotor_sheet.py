@@ -21,7 +21,7 @@ from graphplan.machine.rotors.rotor_balance import Answer, Balanced
 from graphplan.machine.rotors.trial_runs import AMPLITUDE, TRIAL_PLANS, Effect
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.units import NEWTONS
-from graphplan.output.panelled import Panelled, Words, beside, pages, under
+from graphplan.output.panelled import Panelled, Words, divide_across, divide_down, pages
 from graphplan.output.subjects.rotor_figures import AROUND, MANY, RotorFigures
 from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arranged, digits, joined, phrase, said, unit
@@ -79,7 +79,7 @@ class RotorSheet(Panelled):
     check: Mapping[str, float]
     pencil: Pencil
     document = said("Balancing of a rotor")
-    again = phrase("Steps {0} to {1}: the same for the others.")
+    repetition_note = phrase("Steps {0} to {1}: the same for the others.")
 
     @cached_property
     def scene(self) -> Scene:
@@ -88,7 +88,7 @@ class RotorSheet(Panelled):
         return Scene(task.title, task.source, task.name, task.units, {}, {}, {}, (), {}, Find((), ()), sheet=task.sheet)
 
     @property
-    def told(self) -> Said:
+    def description(self) -> Said:
         program = self.balanced.drawing.program
         return said("Balancing of a rotor in {0} steps.", len(program) - program.givens)
 
@@ -143,7 +143,7 @@ class RotorSheet(Panelled):
 
     # ---- panels ----------------------------------------------------------------------------------------------------
 
-    def divided(self, room: Rect) -> dict[Panel, Rect]:
+    def panels_in(self, room: Rect) -> dict[Panel, Rect]:
         """The views above, under them the plans of trials if there are such, and the polygons."""
         effects = self.balanced.effects
         trials = [TRIAL_PLANS[k] for k in range(len(effects))]
@@ -151,9 +151,9 @@ class RotorSheet(Panelled):
         polygons = [*([MOMENTS] if self.balanced.task.rotor.dynamic else []), FORCES] if self.balanced.polygons else []
         rows = [[SIDE_VIEW, END_VIEW], *(row for row in (trials, polygons) if row)]
         shares = [0.85, *(1.0 for _ in rows[1:])]
-        return {panel: rect for row, rect in zip(rows, under(room, *shares), strict=True)
-                for panel, rect in zip(row, beside(rect, *((1.35, 1.0) if row is rows[0] else (1.0,) * len(row))),
-                                       strict=True)}
+        return {panel: rect for row, band in zip(rows, divide_down(room, *shares), strict=True)
+                for parts in [(1.35, 1.0) if row is rows[0] else (1.0,) * len(row)]
+                for panel, rect in zip(row, divide_across(band, *parts), strict=True)}
 
     @cached_property
     def k_r(self) -> float:
@@ -218,7 +218,7 @@ class RotorSheet(Panelled):
 
     # ---- words -----------------------------------------------------------------------------------------------------
 
-    def given(self) -> Iterator[Words]:
+    def given_words(self) -> Iterator[Words]:
         """The masses or the trials, and the planes."""
         task, units = self.balanced.task, self.balanced.task.units
         for effect, letter in zip(self.balanced.effects, PLANES, strict=False):
@@ -267,7 +267,7 @@ class RotorSheet(Panelled):
             yield joined(arranged("{0} = {1}, {2}°", name, digits(float(one.amplitude)), digits(float(one.angle)))
                          for name, one in (("A_1", trial.first), ("A_2", trial.second)))
 
-    def found(self) -> Iterator[Words]:
+    def result_words(self) -> Iterator[Words]:
         """Corrections, disbalances, reactions, what is worth knowing, and the checks."""
         for effect, letter in zip(self.balanced.effects, PLANES, strict=False):
             yield from self._effect(effect, letter)

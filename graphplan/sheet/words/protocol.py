@@ -134,7 +134,7 @@ class Protocol:
     def sentences(self) -> Iterator[Said]:
         """Every step of the program in a sentence, with its reason; those that are given first."""
         program = self._program
-        yield from (program.told(index) for index in range(program.givens))
+        yield from (program.sentence_with_reason(index) for index in range(program.givens))
         yield from (with_reason(step.sentence, step.why) for step in self.steps)
 
     @cached_property
@@ -195,7 +195,7 @@ class Protocol:
         if movements[-1].index == compound.step.index:
             return compound.sentence, partial(self.lengths.for_step, compound.step) if self.lengths else tuple
         measuring = partial(self.lengths.for_earlier_part, compound) if self.lengths else tuple
-        return (compound.before, measuring) if compound.before else None
+        return (compound.sentence_on_other_plan, measuring) if compound.sentence_on_other_plan else None
 
 
 def lengths_of(plans: Plans, scales: Scales) -> Lengths:

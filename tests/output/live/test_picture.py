@@ -22,7 +22,7 @@ from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
 from graphplan.output.live.picture import picture, scripts
 from graphplan.output.svg import inked, svg
-from graphplan.sheet.cycle_frames import posed
+from graphplan.sheet.cycle_frames import construction_in_pose
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.lettering.letters import letter_plate
@@ -99,7 +99,8 @@ class Stage:
         found = []
         for k in range(1, len(turn.travel)):
             points, guides = ({name: complex(z[k]) for name, z in told.items()} for told in (turn.points, turn.guides))
-            if all(map(cmath.isfinite, points.values())) and (drawing := posed(self.drawing, points, guides)):
+            finite = all(map(cmath.isfinite, points.values()))
+            if finite and (drawing := construction_in_pose(self.drawing, points, guides)):
                 found.append((drawing, points, guides))
         return found
 

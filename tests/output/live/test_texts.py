@@ -19,7 +19,7 @@ from graphplan.cycle import follow
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.output.live.texts import Telling, Texts
 from graphplan.phrases import Said, Unknown, arranged, digits, in_any_case, tenths
-from graphplan.sheet.cycle_frames import posed
+from graphplan.sheet.cycle_frames import construction_in_pose
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.plates.plans import Plans
 from graphplan.words.tongue import tongue
@@ -129,7 +129,7 @@ def test_filled_in_they_are_the_texts_of_that_pose(name: str, language: str) -> 
     turn = follow(drawing.scene, 7, (0.0, 12.0))
     places = [[{name: complex(z[k]) for name, z in arrays.items()} for arrays in (turn.points, turn.guides)]
               for k in range(1, 7) if all(math.isfinite(abs(z[k])) for z in turn.points.values())]
-    found = [pose for place in places if (pose := posed(drawing, *place)) is not None]
+    found = [pose for place in places if (pose := construction_in_pose(drawing, *place)) is not None]
     assert len(found) > 2
     wanted = [in_words(Plans(one, say), scales) for one in found]
     filled = run(f"const f = {texts.javascript()};"

@@ -47,7 +47,7 @@ class Shaped(str):
 
 def said(english: str, /, *put: Any, **named: Any) -> Said:
     """A phrase with what is put into it: other phrases, names or numbers."""
-    return Said(_filled(english, put, named), PHRASES, english, put, named)
+    return Said(_fill(english, put, named), PHRASES, english, put, named)
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ def phrase(english: str) -> Phrase:
 def sentence(op: str, english: str, put: Iterable[Any], named: dict[str, Any]) -> Said:
     """The sentence of a drawing step, by its operation."""
     put = tuple(put)
-    return Said(_filled(english, put, named), STEPS, op, put, named)
+    return Said(_fill(english, put, named), STEPS, op, put, named)
 
 
 def unit(symbol: str) -> Said:
@@ -101,7 +101,7 @@ class Unknown(ABC):
         """The result of such a sum as it is printed at this level."""
 
     @abstractmethod
-    def printed(self, number: Any, kind: str) -> Said:
+    def printed_number(self, number: Any, kind: str) -> Said:
         """A number of a sum at this level, by its kind."""
 
     @abstractmethod
@@ -113,7 +113,7 @@ class Undecided(Exception, ABC):
     """What was asked of an unknown number hangs on its value."""
 
     @abstractmethod
-    def either(self, tell: Callable[[], Said]) -> Said:
+    def say_both(self, tell: Callable[[], Said]) -> Said:
         """What is told by the one answer and by the other."""
 
 
@@ -122,7 +122,7 @@ def in_any_case(tell: Callable[[], Said]) -> Said:
     try:
         return tell()
     except Undecided as asked:
-        return asked.either(tell)
+        return asked.say_both(tell)
 
 
 def tenths(value: float) -> Said:
@@ -151,20 +151,20 @@ def coordinates(values: Iterable[float], count: int = 4) -> Said:
     return figures(f"({', '.join(digits(value, count) for value in values)})")
 
 
-def arranged(pattern: str, /, *put: Any) -> Said:
+def arrange(pattern: str, /, *put: Any) -> Said:
     """Phrases in an order, with points and brackets, that is the same in every tongue."""
-    return Said(_filled(pattern, put, {}), "", pattern, put)
+    return Said(_fill(pattern, put, {}), "", pattern, put)
 
 
-def joined(parts: Iterable[Any], between: str = ", ") -> Said:
+def join(parts: Iterable[Any], between: str = ", ") -> Said:
     """Phrases one after the other."""
     put = tuple(parts)
-    return arranged(between.join(f"{{{i}}}" for i in range(len(put))), *put)
+    return arrange(between.join(f"{{{i}}}" for i in range(len(put))), *put)
 
 
-def _filled(pattern: str, put: tuple[Any, ...], named: dict[str, Any]) -> str:
-    return pattern.format(*map(_shaped, put), **{name: _shaped(value) for name, value in named.items()})
+def _fill(pattern: str, put: tuple[Any, ...], named: dict[str, Any]) -> str:
+    return pattern.format(*map(_shape, put), **{name: _shape(value) for name, value in named.items()})
 
 
-def _shaped(value: Any) -> Any:
+def _shape(value: Any) -> Any:
     return Shaped(value) if isinstance(value, str) else value

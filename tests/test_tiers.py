@@ -10,22 +10,22 @@ from pathlib import Path
 import tiers
 from tiers import BLOCK, CORE, ranked, spread
 
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 
 TESTS = Path(__file__).parent
 
 
 def test_any_two_claims_share_a_scene_of_the_core() -> None:
     """Each distance round the ring of the core lies between two scenes of a block just once."""
-    assert len({*CORE} & {*packaged()}) == len(CORE)
+    assert len({*CORE} & {*packaged_names()}) == len(CORE)
     assert sorted((a - b) % len(CORE) for a, b in permutations(BLOCK, 2)) == [*range(1, len(CORE))]
 
 
 def test_every_scene_is_in_some_claim() -> None:
     """Where claims are four times as many as scenes, each scene is tried by some; none is left out in the end."""
-    claims = [ranked(f"claim {k}") for k in range(4 * len(packaged()))]
-    assert {name for claim in claims for name in claim[: tiers.A_CLAIM]} == {*packaged()}
-    assert all(sorted(claim) == sorted(packaged()) for claim in claims)
+    claims = [ranked(f"claim {k}") for k in range(4 * len(packaged_names()))]
+    assert {name for claim in claims for name in claim[: tiers.A_CLAIM]} == {*packaged_names()}
+    assert all(sorted(claim) == sorted(packaged_names()) for claim in claims)
 
 
 def test_variants_are_taken_at_equal_distances() -> None:

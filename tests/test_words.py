@@ -27,7 +27,7 @@ from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.kinds import TABLE
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import JointForce, LeverPlan
@@ -90,7 +90,7 @@ def entries(code: str) -> Iterator[tuple[str, str, str]]:
 def test_every_packaged_scene_has_a_title(code: str) -> None:
     """The titles of the packaged scenes, all and no others, stand in every catalogue, each in words of its own."""
     titles = catalogue(code)["titles"]
-    assert set(titles) == {gp.load(name).title for name in packaged()}
+    assert set(titles) == {gp.load(name).title for name in packaged_names()}
     assert len(set(titles.values())) == len(titles)
     assert not set(titles) & set(titles.values())
 
@@ -148,7 +148,7 @@ def test_advances_are_those_of_the_font() -> None:
 
 
 @pytest.mark.parametrize("code", OTHERS)
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_every_scene_can_be_said(name: str, code: str) -> None:
     """Steps, stages, forms and methods of every scene come out in the language: no English phrase is left among them.
     """
@@ -159,7 +159,7 @@ def test_every_scene_can_be_said(name: str, code: str) -> None:
     assert all(say(text) and "{" not in say(text) for text in told)
 
 
-@pytest.mark.parametrize(("name", "code"), list(zip(packaged()[::3], cycle(OTHERS), strict=False)))
+@pytest.mark.parametrize(("name", "code"), list(zip(packaged_names()[::3], cycle(OTHERS), strict=False)))
 def test_numbers_and_units_are_written_as_the_language_has_them(name: str, code: str) -> None:
     """No number of a solution or a guided handout has a decimal point, but in the source, which is as it is printed;
     and no unit is in Latin letters where the language has others."""
@@ -196,7 +196,7 @@ def test_an_unknown_language_is_refused() -> None:
         tongue("xx")
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_marks_without_letters_stand_apart(name: str) -> None:
     """No sentence runs a letter and a numbered mark together, as in `Epoint 65`."""
     assert [told for told in drawing_of(name).sentences() if re.search(r"\w(point|line|opening|arc) \d", told)] == []

@@ -17,7 +17,7 @@ from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
-from graphplan.phrases import Said, arranged, joined, said
+from graphplan.phrases import Said, arrange, join, said
 from graphplan.sheet.layout.composition import Composer, Composition
 from graphplan.sheet.words.rows import Deviation, Deviations
 from graphplan.words.tongue import ENGLISH, Tongue
@@ -133,10 +133,10 @@ class Errors:
         if math.isinf(self.error):
             flat = said("No pencil follows what – is told of: curves cross too flat, most of all at {0}.",
                         self.step_name(self.worst.worst_step))
-            return joined((model, flat), " ")
+            return join((model, flat), " ")
         worst = said("Worst: {0}, {1} of the largest; most of it comes from {2}.", self.worst.label,
                      percent(self.error), self.step_name(self.worst.worst_step))
-        return joined((model, worst), " ")
+        return join((model, worst), " ")
 
 
 @dataclass(frozen=True)
@@ -169,8 +169,8 @@ class Drafted(Errors):
         """Cost and errors in words, a line each."""
         off: dict[ResultKind, list[Said]] = {}
         for result in self.results:
-            off.setdefault(result.kind, []).append(joined((result.thing, arranged("±{0}", result.deviation.text)), " "))
-        lines = [joined((kind.words, joined(deviations)), ": ") for kind, deviations in off.items()]
+            off.setdefault(result.kind, []).append(join((result.thing, arrange("±{0}", result.deviation.text)), " "))
+        lines = [join((kind.words, join(deviations)), ": ") for kind, deviations in off.items()]
         controls = control_errors(self.drawing, self.hand, self.composition.scales)
         lines += [said("control of link {0}: ±{1} mm", control.link, Deviation(mm).text) for control, mm in controls]
         return [*self.cost.lines(), said("Drawing errors on {0}: {1}", self.paper, self.description), *lines]
@@ -203,7 +203,7 @@ class Drafted(Errors):
 
 def percent(part: float) -> Said:
     """A part of a whole, in at most two digits; a dash where it has no bound."""
-    return arranged("{0} %", Deviation(100 * part).text)
+    return arrange("{0} %", Deviation(100 * part).text)
 
 
 def _finite_or_none(error: float | None) -> float | None:

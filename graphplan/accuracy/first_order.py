@@ -34,7 +34,7 @@ from graphplan.methods.kinds import ACCELERATION, FORCES, VELOCITY, ResultKind
 from graphplan.methods.panels import MECHANISM
 from graphplan.methods.recorded import Reading
 from graphplan.methods.results import thing_named
-from graphplan.phrases import Said, joined, said
+from graphplan.phrases import Said, join, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.rows import Deviation
@@ -62,7 +62,7 @@ class Result:
         if self.kind.turning:
             return said("{0} of link {1}", self.kind.words, self.of)
         numbered = self.of.isdigit()
-        return joined((self.kind.words, self.of), " ") if numbered else said("{0} of {1}", self.kind.words, self.thing)
+        return join((self.kind.words, self.of), " ") if numbered else said("{0} of {1}", self.kind.words, self.thing)
 
     def unit(self, scene: Scene) -> str:
         """The unit of its error."""

@@ -21,7 +21,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.styles import METHODS
-from graphplan.phrases import Phrase, Said, arranged, digits, joined, phrase, said
+from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
 from graphplan.sheet.layout.paper import sheet_size
 from graphplan.sheet.words.rows import Deviation
 
@@ -39,7 +39,7 @@ def plans_alone(drawing: Construction, pencil: Pencil, paper: str | None = None)
 
 def form_name(methods: Sequence[str]) -> Said:
     """What the form is called to which these methods lead."""
-    return said("every method") if tuple(methods) == FORMS else joined(NAMES[method]() for method in methods)
+    return said("every method") if tuple(methods) == FORMS else join(NAMES[method]() for method in methods)
 
 
 def reason(refusal: GraphplanError) -> str:
@@ -48,7 +48,7 @@ def reason(refusal: GraphplanError) -> str:
         case ConstructionError():
             return said("step {0}: {1}", refusal.step, FAILURES[refusal.code][0])
         case Refused():
-            return joined((refusal.what, refusal.why), ": ")
+            return join((refusal.what, refusal.why), ": ")
     return str(refusal)
 
 
@@ -73,7 +73,7 @@ class Form:
             return said("{0}: cannot be drawn: {1}", self.name, reason(self.refusal))
         summary = said("{0}: {1} operations, error {2}", self.name, self.drafted.operations,
                        percent(self.drafted.error))
-        return arranged("{0} ({1})", summary, self.drafted.worst.label) if self.drafted.worst else summary
+        return arrange("{0} ({1})", summary, self.drafted.worst.label) if self.drafted.worst else summary
 
 
 @dataclass(frozen=True)

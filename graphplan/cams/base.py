@@ -25,7 +25,7 @@ from graphplan.cams.law import ROUNDS, Law, Stretch
 from graphplan.cams.task import CONVEX, PRESSURE, SMALLEST, Limits, Task
 from graphplan.cams.tolerances import ARM_ANGLE
 from graphplan.errors import Refused
-from graphplan.mechanism.numbers import shown
+from graphplan.mechanism.numbers import number_text
 
 SCAN, HALVINGS = 180, 48  # angles of an arm that are tried, before the best is searched between two of them
 
@@ -101,7 +101,7 @@ def based(task: Task) -> Pair:
         offset, depth = where.corner if follower.offset == SMALLEST else (float(follower.offset), 0.0)
         depth = depth or where.depth(offset)
         if depth <= 0:
-            raise Refused(f"{task.name}: cam.base", f"at the offset {shown(offset)} the pressure angle is never "
+            raise Refused(f"{task.name}: cam.base", f"at the offset {number_text(offset)} the pressure angle is never "
                           "reached, so there is no smallest base circle", "a smaller offset, or a radius")
     else:
         offset = float(follower.offset)
@@ -136,7 +136,8 @@ def _arm_angle(task: Task) -> float:
     angle = _first(over, math.pi)
     if angle is None:
         raise Refused(f"{task.name}: cam.base", f"no base circle keeps the pressure angle at a centre distance of "
-                      f"{shown(a)} and an arm of {shown(l)}", "another centre distance or arm, or larger angles")
+                      f"{number_text(a)} and an arm of {number_text(l)}",
+                  "another centre distance or arm, or larger angles")
     if angle < ARM_ANGLE:
         raise Refused(f"{task.name}: cam.base", "the pressure angle is never reached, so there is no smallest base "
                       "circle", "a radius")
@@ -154,8 +155,8 @@ def _flat_oscillating(task: Task) -> Pair:
     if cam.base != CONVEX:
         sine = (float(cam.base) + f) / a
         if not 0 < sine < 1:
-            raise Refused(f"{task.name}: cam.base", f"no face about a pivot at {shown(a)} touches a circle of "
-                          f"{cam.base}", f"a radius below {shown(a - f)}")
+            raise Refused(f"{task.name}: cam.base", f"no face about a pivot at {number_text(a)} touches a circle of "
+                          f"{cam.base}", f"a radius below {number_text(a - f)}")
         return pair(math.asin(sine))
 
     def over(angle: float, rounds: int) -> float:

@@ -21,7 +21,7 @@ from graphplan.cams.law import HARD, ORDERS
 from graphplan.cams.profile import Cam
 from graphplan.cams.task import TURNS
 from graphplan.cams.tolerances import ZERO_LENGTH
-from graphplan.mechanism.numbers import shown
+from graphplan.mechanism.numbers import number_text
 
 # ---- numbers --------------------------------------------------------------------------------------------------------
 
@@ -128,7 +128,7 @@ def scene_text(cam: Cam, angle: float) -> str:
 def _head(cam: Cam, angle: float) -> Iterator[str]:
     """Title, source and units."""
     title = cam.task.title or "Cam"
-    yield f"title = {_quoted(f'{title}: at {shown(angle)} degrees')}"
+    yield f"title = {_quoted(f'{title}: at {number_text(angle)} degrees')}"
     if cam.task.source:
         yield f"source = {_quoted(cam.task.source)}"
     yield from ("", "[units]", f'length = "{cam.task.units.length}"')

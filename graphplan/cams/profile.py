@@ -22,8 +22,8 @@ from graphplan.cams.task import POINTED, PRESSURE, Task
 from graphplan.cams.tolerances import ANGLE_TOL_DEG, FLAT_ARC, LENGTH_TOL
 from graphplan.errors import GraphplanError, SceneError
 from graphplan.mechanism.items import Faults
-from graphplan.mechanism.numbers import shown
-from graphplan.phrases import Said, arranged, digits, joined, phrase, said
+from graphplan.mechanism.numbers import number_text
+from graphplan.phrases import Said, arrange, digits, join, phrase, said
 
 Array = Any
 FINE = 4  # samples for a degree where crossings are looked for
@@ -159,7 +159,7 @@ class Cam:
         for order, words in ((HARD, HARD_SHOCK), (SOFT, SOFT_SHOCK)):
             found = [digits(float(jump.angle)) for jump in self.law.jumps if jump.order == order]
             if found:
-                yield words(joined(arranged("{0}°", angle) for angle in found))
+                yield words(join(arrange("{0}°", angle) for angle in found))
 
     def _leaning(self) -> Iterator[Said]:
         """Pressure angles beyond those that are usual, where nothing is said of them."""
@@ -225,7 +225,7 @@ def _pressure(cam: Cam, faults: Faults) -> None:
     for key, way, most in (("rise", 1, limits.rise), ("return", -1, limits.back)):
         angle, size = cam.steepest[way]
         if most is not None and size > float(most) + ANGLE_TOL_DEG:
-            what = f"at {shown(angle)} degrees it is {shown(size)}, above {shown(most)}"
+            what = f"at {number_text(angle)} degrees it is {number_text(size)}, above {number_text(most)}"
             faults.add(f"cam.pressure_angle.{key}", what, _enough(cam.task))
 
 
@@ -237,15 +237,15 @@ def _enough(task: Task) -> str:
         least = based(replace(task, cam=replace(task.cam, base=PRESSURE))).base
     except GraphplanError:
         return "a larger angle"
-    return f"a base circle of {shown(math.ceil(least * 1000) / 1000)} or more, or a larger angle"
+    return f"a base circle of {number_text(math.ceil(least * 1000) / 1000)} or more, or a larger angle"
 
 
 def _dropping(cam: Cam, what: str, faults: Faults) -> None:
     """Note where the velocity jumps down: only a point follows."""
     for jump in cam.law.jumps:
         if jump.order == HARD and jump.after < jump.before:
-            faults.add("law", f"at {shown(jump.angle)} degrees the velocity drops at once, which no {what} follows",
-                       "a motion that comes to rest, or a point that touches")
+            faults.add("law", f"at {number_text(jump.angle)} degrees the velocity drops at once, which no "
+                       f"{what} follows", "a motion that comes to rest, or a point that touches")
 
 
 def _hollow(cam: Cam, faults: Faults) -> None:
@@ -256,7 +256,7 @@ def _hollow(cam: Cam, faults: Faults) -> None:
     nothing = LENGTH_TOL * cam.pair.base
     if size <= nothing or size < least - nothing:
         why = "it is hollow there, so that the face loses it" if size < -nothing else "it is too narrow"
-        what = f"at {shown(angle)} degrees the profile's radius of curvature is {shown(size)}: {why}"
+        what = f"at {number_text(angle)} degrees the profile's radius of curvature is {number_text(size)}: {why}"
         faults.add("cam.base", what, _broad(cam))
 
 
@@ -265,7 +265,7 @@ def _broad(cam: Cam) -> str:
     if cam.task.follower.oscillates:
         return 'base = "convex"'
     least = least_flat(cam.law)[1] + float(cam.task.cam.least)
-    return f'more than {shown(least)}, or base = "convex" with a least_radius'
+    return f'more than {number_text(least)}, or base = "convex" with a least_radius'
 
 
 def _undercut(cam: Cam, faults: Faults) -> None:
@@ -275,12 +275,14 @@ def _undercut(cam: Cam, faults: Faults) -> None:
         _dropping(cam, "roller", faults)
     angle, size = cam.narrowest
     if size <= cam.roller + LENGTH_TOL * cam.pair.base:
-        faults.add("follower.radius", f"at {shown(angle)} degrees the path of the roller's centre has the radius of "
-                   f"curvature {shown(size)}: a roller of {shown(cam.roller)} undercuts the profile",
-                   f"half of it, {shown(size / 2)}, or a larger base circle")
+        faults.add("follower.radius", f"at {number_text(angle)} degrees the path of the roller's centre has the "
+                   f"radius of curvature {number_text(size)}: a roller of {number_text(cam.roller)} undercuts the "
+                   "profile",
+                   f"half of it, {number_text(size / 2)}, or a larger base circle")
     elif size - cam.roller < least - LENGTH_TOL * cam.pair.base:
-        faults.add("cam.least_radius", f"at {shown(angle)} degrees the profile's radius of curvature is "
-                   f"{shown(size - cam.roller)}, below {shown(least)}", "a smaller roller, or a larger base circle")
+        faults.add("cam.least_radius", f"at {number_text(angle)} degrees the profile's radius of curvature is "
+                   f"{number_text(size - cam.roller)}, below {number_text(least)}",
+                   "a smaller roller, or a larger base circle")
 
 
 def _pivot(cam: Cam, faults: Faults) -> None:
@@ -290,10 +292,11 @@ def _pivot(cam: Cam, faults: Faults) -> None:
         return
     far, distance = float(abs(cam.outline).max()), float(follower.distance)
     if far >= distance:
-        faults.add("follower.centre_distance", f"the profile reaches out to {shown(far)}, over the pivot at "
-                   f"{shown(distance)}", "a longer centre distance, or a smaller base circle")
+        faults.add("follower.centre_distance", f"the profile reaches out to {number_text(far)}, over the pivot at "
+                   f"{number_text(distance)}", "a longer centre distance, or a smaller base circle")
     elif follower.flat and cam.reach[0] <= 0:
-        faults.add("follower.centre_distance", f"the contact runs to {shown(cam.reach[0])} along the face, past the "
+        faults.add("follower.centre_distance",
+                   f"the contact runs to {number_text(cam.reach[0])} along the face, past the "
                    "pivot", "a longer centre distance, or a smaller stroke")
 
 
@@ -302,7 +305,7 @@ def _crossing(cam: Cam, faults: Faults) -> None:
     curves = [("cam.base", "the path of the roller's centre", cam.pitch_curve)] if isinstance(cam.pair, Rolled) else []
     for where, what, curve in [*curves, ("cam.base", "the profile", cam.outline)]:
         if crossing := _self_crossing(curve):
-            faults.add(where, f"{what} crosses itself at ({shown(crossing.real)}, {shown(crossing.imag)})",
+            faults.add(where, f"{what} crosses itself at ({number_text(crossing.real)}, {number_text(crossing.imag)})",
                        "a larger base circle, or a smaller roller")
             return
 

@@ -13,10 +13,10 @@ from typing import Any
 
 from graphplan.cams.law import DWELL, MOTIONS, TABLE, Law, Stage, spline
 from graphplan.cams.tolerances import LIFT_TOL
-from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
-from graphplan.mechanism.items import Faults, Item, Vector, described
+from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
+from graphplan.mechanism.items import Faults, Item, Vector, describe
 from graphplan.mechanism.model import Presentation
-from graphplan.mechanism.numbers import shown
+from graphplan.mechanism.numbers import number_text
 from graphplan.mechanism.scene import read_task, task_table, task_text
 from graphplan.mechanism.units import Units
 from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER, choice
@@ -90,23 +90,24 @@ class Task:
 # ---- the law --------------------------------------------------------------------------------------------------------
 
 
-def _rows(item: Item, names: Names) -> tuple[tuple[Fraction, Fraction], ...] | None:
+def _rows(item: Item, names: SceneNames) -> tuple[tuple[Fraction, Fraction], ...] | None:
     """The angles and lifts of a table, both from 0, the angles rising."""
     if not isinstance(item.value, list) or len(item.value) < 3:
-        return item.fault(f"{described(item.value)} where angles and lifts are wanted",
+        return item.fault(f"{describe(item.value)} where angles and lifts are wanted",
                           "three pairs or more, such as [[0, 0], [60, 10], [120, 20]]")
     before, found = len(item.faults), list[Vector]()
     for row in item.value:
-        if (pair := item.instead(row).vector()) is not None:
+        if (pair := item.with_value(row).vector()) is not None:
             if found and pair[0] <= found[-1][0]:
-                item.fault(f"the angle {shown(pair[0])} comes after {shown(found[-1][0])}", "increasing angles")
+                item.fault(f"the angle {number_text(pair[0])} comes after {number_text(found[-1][0])}",
+                           "increasing angles")
             found.append(pair)
     if found and any(found[0]):
         item.fault("its first pair is not [0, 0]", "degrees and lifts from the beginning of the stage")
     return tuple(found) if len(item.faults) == before else None
 
 
-def _moved(row: Row) -> Stage | None:
+def _moved(row: TableRow) -> Stage | None:
     """A stage by the name of its motion; one that is no dwell has a stroke."""
     motion, stroke = row["motion"], row.values.get("stroke", Fraction(0))
     if motion == DWELL and stroke:
@@ -116,7 +117,7 @@ def _moved(row: Row) -> Stage | None:
     return Stage(row["angle"], stroke, motion, tuple(piece.times(stroke) for piece in MOTIONS[motion]))
 
 
-def _tabled(row: Row) -> Stage:
+def _tabled(row: TableRow) -> Stage:
     """A stage by a table of angles and lifts: a cubic spline, at rest at both ends, or periodic where it is all."""
     angles, lifts = zip(*row["table"], strict=True)
     pieces = spline([angle / angles[-1] for angle in angles], lifts, closed=angles[-1] == 360 and not lifts[-1])
@@ -141,11 +142,11 @@ LAW = Rows(Either((
 # ---- follower and cam -----------------------------------------------------------------------------------------------
 
 
-def _offset(item: Item, names: Names) -> Fraction | str | None:
+def _offset(item: Item, names: SceneNames) -> Fraction | str | None:
     return SMALLEST if item.value == SMALLEST else item.number()
 
 
-def _follower(row: Row) -> Follower | None:
+def _follower(row: TableRow) -> Follower | None:
     """The follower, which has just the lengths that its kind has."""
     moves, contact, values = row["moves"], row["contact"], row.values
     wanted = {"radius": contact == ROLLER, "arm": moves == OSCILLATING and contact != FLAT,
@@ -177,25 +178,26 @@ FOLLOWER = Table("the follower", (
 ), _follower)
 
 
-def _base(item: Item, names: Names) -> Fraction | str | None:
+def _base(item: Item, names: SceneNames) -> Fraction | str | None:
     return str(item.value) if item.value in (PRESSURE, CONVEX) else item.positive("radius")
 
 
-def _angle(item: Item, names: Names) -> Fraction | None:
+def _angle(item: Item, names: SceneNames) -> Fraction | None:
     number = item.positive("angle")
     if number is not None and number >= 90:
-        return item.fault(f"the angle {shown(number)} is not below 90", "30 as a rule")
+        return item.fault(f"the angle {number_text(number)} is not below 90", "30 as a rule")
     return number
 
 
-def _divisions(item: Item, names: Names) -> int | None:
+def _divisions(item: Item, names: SceneNames) -> int | None:
     number = item.number()
     if number is not None and (number.denominator != 1 or not LEAST <= number <= MOST):
-        return item.fault(f"{shown(number)} is not a number of divisions", f"a whole number from {LEAST} to {MOST}")
+        return item.fault(f"{number_text(number)} is not a number of divisions",
+                          f"a whole number from {LEAST} to {MOST}")
     return None if number is None else int(number)
 
 
-def _wheel(row: Row) -> Wheel | None:
+def _wheel(row: TableRow) -> Wheel | None:
     values = row.values
     if row["base"] == PRESSURE and "pressure_angle" not in values:
         row.item.fault("pressure_angle is missing", "such as pressure_angle = { rise = 30, return = 30 }")
@@ -257,12 +259,12 @@ def _checked(task: Task, faults: Faults) -> None:
     law, follower, cam = task.law, task.follower, task.cam
     turn, rest = law.closed
     if turn != 360:
-        faults.add("law", f"its stages take {shown(turn)} degrees", "stages of 360 degrees together")
+        faults.add("law", f"its stages take {number_text(turn)} degrees", "stages of 360 degrees together")
     if abs(rest) > LIFT_TOL * law.largest(0) / law.times:
-        faults.add("law", f"after one turn the lift is {shown(rest)}", "strokes that add up to 0")
+        faults.add("law", f"after one turn the lift is {number_text(rest)}", "strokes that add up to 0")
     at, depth = law.extremum(lambda angles, one: -one.at(angles))
     if depth > LIFT_TOL * law.largest(0) / law.times:
-        faults.add("law", f"the lift is {shown(-depth)} at {shown(at)} degrees, below where it begins",
+        faults.add("law", f"the lift is {number_text(-depth)} at {number_text(at)} degrees, below where it begins",
                    "begin with the stage in which the follower is lowest")
     if not any(stage.stroke or stage.motion == TABLE for stage in task.stages):
         faults.add("law", "the follower does not move", "a stage with a stroke")
@@ -280,13 +282,14 @@ def _fitting(follower: Follower, cam: Wheel, faults: Faults) -> None:
                    f'base = "{PRESSURE}" and pressure_angle = {{ rise = 30, return = 30 }}, or a length')
     past = follower.offset if isinstance(follower.offset, Fraction) and not follower.flat else Fraction(0)
     if isinstance(cam.base, Fraction) and abs(past) >= cam.base:
-        faults.add("follower.offset", f"{shown(past)} is no less than the base circle's radius {shown(cam.base)}",
-                   "a smaller offset, or a larger base circle")
+        faults.add("follower.offset", f"{number_text(past)} is no less than the base circle's radius "
+                   f"{number_text(cam.base)}", "a smaller offset, or a larger base circle")
     if isinstance(cam.base, Fraction) and follower.contact == ROLLER and follower.radius >= cam.base:
-        faults.add("follower.radius", f"{shown(follower.radius)} is no less than the radius of the base circle, on "
-                   f"which the roller's centre is lowest, {shown(cam.base)}", "a smaller roller")
+        faults.add("follower.radius", f"{number_text(follower.radius)} is no less than the radius of the base "
+                   f"circle, on which the roller's centre is lowest, {number_text(cam.base)}", "a smaller roller")
     if isinstance(cam.base, Fraction) and follower.oscillates and not follower.flat:
         low, high = abs(follower.distance - follower.arm), follower.distance + follower.arm
         if not low < cam.base < high:
-            faults.add("cam.base", f"no triangle has the sides {shown(follower.distance)}, {shown(follower.arm)} and "
-                       f"{shown(cam.base)}", f"a radius between {shown(low)} and {shown(high)}")
+            faults.add("cam.base", f"no triangle has the sides {number_text(follower.distance)}, "
+                       f"{number_text(follower.arm)} and {number_text(cam.base)}",
+                       f"a radius between {number_text(low)} and {number_text(high)}")

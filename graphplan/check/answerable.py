@@ -299,7 +299,7 @@ def _regular_questions(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Mis
         "links": {link: (link,) for link in find.links or ()},
         "slides": {name: guided[name] for name in find.slides or ()},
         "poles": {name: scene.link_pair(name) for name in find.poles},
-        "curvature": {name: (link,) for name, (_, link) in find.traced.items()},
+        "curvature": {name: (link,) for name, (_, link) in find.curvature_points.items()},
         "inflection": {link: (link,) for link in find.inflection},
     }
     missing = {key: {name: why for name, links in named.items() if (why := _first_reason(links, dead))}
@@ -309,7 +309,7 @@ def _regular_questions(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Mis
                               for points in (find.velocity, find.acceleration))
     pairs = None if find.reactions is None else tuple(
         name for name in find.reactions if sum(link not in dead for link in scene.links_of.get(name, ())) > 1
-        or any(pair.name == name and not _first_reason(pair.links, dead) for pair in scene.guided))
+        or any(pair.name == name and not _first_reason(pair.links, dead) for pair in scene.directed_pairs))
     links, slides, poles, curvature, inflection = (
         tuple(name for name in of[key] if name not in missing[key]) for key in of)
     questions = Find(velocity, acceleration, pairs, links, slides, poles, curvature, inflection)
@@ -393,5 +393,5 @@ def _reactions(scene: Scene) -> Iterator[tuple[str, tuple[str, ...]]]:
     for joint in scene.revolutes:
         for link in joint.links[1:]:
             yield JointForce(joint.at, link).name, (link, joint.links[0])
-    for pair in scene.guided:
+    for pair in scene.directed_pairs:
         yield pair.name, pair.links

@@ -22,7 +22,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, evaluate
 from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide
-from graphplan.mechanism.numbers import TO_A_FLOAT, Reckoning, is_exact, mapped
+from graphplan.mechanism.numbers import FLOAT_RECKONING, Reckoning, is_exact, map_numbers
 from graphplan.mechanism.placements import placed_by
 from graphplan.mechanism.travel import moved_on
 from graphplan.mechanism.values import Misfit, vector
@@ -74,13 +74,13 @@ class Bounds:
 
     def _root(self, square: Any) -> tuple[Any, bool]:
         if isinstance(square, Fraction):
-            root, exact = TO_A_FLOAT.root(square)
+            root, exact = FLOAT_RECKONING.root(square)
             if exact:
                 return root, True
         return self.root(square), False
 
     def _heading(self, degrees: Fraction) -> tuple[Any, Any, bool]:
-        return TO_A_FLOAT.heading(degrees) if degrees % 90 == 0 else (*self.heading(degrees), False)
+        return FLOAT_RECKONING.heading(degrees) if degrees % 90 == 0 else (*self.heading(degrees), False)
 
 
 FLOATS = Bounds("floats", Floats, Unproven, bounded_number, lambda: PI, heading,
@@ -118,14 +118,15 @@ def enclose_scene(scene: Scene, by: Bounds) -> Scene:
 
     try:
         points = _points(scene, by)
-        posed = scene.posed(points, direction)
+        posed = scene.with_pose(points, direction)
     except Misfit as misfit:
         raise Refused(f"{scene.name}: points", misfit.what, misfit.instead) from None
     except by.doubt:
         raise by.doubt("whether the arcs of its points meet cannot be told") from None
     posed = posed.with_drives(map(enclose_drive, posed.drives))
     values = {field_name: getattr(posed, field_name) for field_name in ("points", "written", "loads", "motions")}
-    return replace(posed, **mapped(values, lambda number: by.lift(number) if isinstance(number, float) else number))
+    return replace(posed, **map_numbers(values,
+                                        lambda number: by.lift(number) if isinstance(number, float) else number))
 
 
 def _points(scene: Scene, by: Bounds) -> dict[str, Pair]:
@@ -181,7 +182,7 @@ def enclose_assembly(scene: Scene, given: Scene, by: Bounds) -> Scene:
     marks = [values[index] for index in program.wanted]
     points = dict(zip(scene.points, marks, strict=False))
     directions = {slide: (b, -a) for slide, (a, b, _) in zip(guides, marks[len(points):], strict=True)}
-    return replace(scene.posed(points, lambda one: directions.get(one, one.direction)), assembly=assembly)
+    return replace(scene.with_pose(points, lambda one: directions.get(one, one.direction)), assembly=assembly)
 
 
 def placing_error(scene: Scene) -> float:

@@ -87,7 +87,7 @@ def _paths(found: Report) -> dict[str, Any]:
     tables = {
         "curvature": {name: None if name in missing.get("curvature", {})
                       else _curvature(found, name, found.scene.points[point])
-                      for name, (point, _) in find.traced.items()},
+                      for name, (point, _) in find.curvature_points.items()},
         "inflection": {link: None if link in missing.get("inflection", {}) else _inflection(results, link, found.exact)
                        for link in find.inflection},
     }

@@ -237,7 +237,7 @@ class ReferenceMotion:
             speed = omega if self.mean_speed is None else self.mean_speed
             moment = moment + self.closing
             for law in self.laws:
-                moment += values[law.row] * float(law.table.at(np.array([values[law.row + 1] * speed]))[0])
+                moment += values[law.row] * float(law.table.values_at(np.array([values[law.row + 1] * speed]))[0])
             return np.array([omega, (moment - slope * omega**2 / 2) / (inertia + self.wheel), moment * omega])
 
         return rates

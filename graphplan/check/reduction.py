@@ -242,7 +242,7 @@ class ReferenceReduction:
     def _table_values(self, table: LoadTable) -> Any:
         """What a table says in every pose."""
         if not table.slide:
-            return table.at(self.motion.told(self.travel), 1, self.side > 0)
+            return table.values_at(self.motion.told(self.travel), 1, self.side > 0)
         slide = next(slide for slide in self.posed.slides if slide.name == table.slide)
         (x, y), (dx, dy) = self.posed.points[slide.at], slide.direction
         if origin := guide_origin(self.scene, slide):
@@ -256,4 +256,4 @@ class ReferenceReduction:
         moves = np.abs(speed) > DEAD_POINT_TOL * reach
         speed = np.where(moves, speed, self.side * component(self.rates.slide_acceleration))
         zero = np.zeros(self.travel.shape)
-        return table.at((x * dx + y * dy) / length + zero, np.where(speed < 0, -1.0, 1.0) + zero, self.side > 0)
+        return table.values_at((x * dx + y * dy) / length + zero, np.where(speed < 0, -1.0, 1.0) + zero, self.side > 0)

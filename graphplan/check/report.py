@@ -299,7 +299,7 @@ OF_LINKS: dict[str, Callable[[Rates, str], Any]] = {
 
 def path_truth(rates: Rates, results: Mapping[str, Iterable[str]]) -> dict[str, dict[str, Any]]:
     """The solver's values by the kinds and names of results; fails with `SingularPose` where there is none."""
-    traced = rates.equations.scene.find.traced
+    traced = rates.equations.scene.find.curvature_points
     truths: dict[str, dict[str, Any]] = {}
     for kind, names in results.items():
         for name in names if kind in OF_POINTS or kind in OF_LINKS else ():

@@ -55,7 +55,7 @@ def _run(arguments: Sequence[str]) -> int:
         return 2
     try:
         try:
-            options = parser(_called(arguments[0])).parse_args(with_values_joined(arguments))
+            options = parser(_needed_commands(arguments[0])).parse_args(with_values_joined(arguments))
             return int(options.run(options))
         finally:
             flush()
@@ -73,15 +73,15 @@ def _run(arguments: Sequence[str]) -> int:
         return 130
 
 
-def _called(word: str) -> Sequence[str]:
+def _needed_commands(word: str) -> Sequence[str]:
     """The subcommand that is called, as its module alone is needed; all where help is wanted."""
     if word in SUBCOMMANDS:
         return (word,)
     if word.startswith("-"):
         return SUBCOMMANDS
-    from graphplan.mechanism.items import perhaps
+    from graphplan.mechanism.items import suggestion
 
-    raise Refused(f"graphplan {word}", "unknown command", perhaps(word, SUBCOMMANDS, "command"))
+    raise Refused(f"graphplan {word}", "unknown command", suggestion(word, SUBCOMMANDS, "command"))
 
 
 class Parser(argparse.ArgumentParser):

@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     from graphplan.sheet.plates.display import Sheet
 
 ENDINGS = (".gif", ".svg")
-POSES, MOST_POSES = 48, 240
+POSES, MAX_POSES = 48, 240
 SECONDS, LONGEST = 6, 120
 WIDTH, LEAST_WIDTH, MOST_WIDTH = 900, 200, 2400  # pixels
-MOST = 2e8  # pixels of all pictures of a .gif, were they square: about as many bytes of memory
+MAX_PIXELS = 2e8  # pixels of all pictures of a .gif, were they square: about as many bytes of memory
 
 
 def options(add: Callable[..., Any]) -> None:
@@ -32,7 +32,7 @@ def options(add: Callable[..., Any]) -> None:
         help=f"how many pixels wide an animation is ({WIDTH})")
 
 
-def asked(options: argparse.Namespace) -> None:
+def check_options(options: argparse.Namespace) -> None:
     """Refuse what an animation cannot be, before any work is done."""
     ending = kind(options.animate, ENDINGS, "animation", "--animate")
     for name in ("seconds", "width"):
@@ -41,11 +41,11 @@ def asked(options: argparse.Namespace) -> None:
     if options.positions is None and (options.output or options.plot or not (options.animate or options.paths)):
         raise Refused("--positions", "the number of poses is missing", "such as --positions 36")
     poses, width = options.positions or POSES, options.width or WIDTH
-    if options.animate and poses > MOST_POSES:
-        raise Refused(f"--positions {poses}", "too many poses", f"at most {MOST_POSES}")
-    if ending == ".gif" and options.animate and poses * width**2 > MOST:
+    if options.animate and poses > MAX_POSES:
+        raise Refused(f"--positions {poses}", "too many poses", f"at most {MAX_POSES}")
+    if ending == ".gif" and options.animate and poses * width**2 > MAX_PIXELS:
         raise Refused(f"--animate {options.animate}", f"{poses} pictures of {width} pixels in width are too many",
-                      f"--width {int((MOST / poses) ** 0.5)}, fewer --positions, or an .svg")
+                      f"--width {int((MAX_PIXELS / poses) ** 0.5)}, fewer --positions, or an .svg")
 
 
 def run(options: argparse.Namespace, span: tuple[float, float] | None) -> None:
@@ -68,7 +68,7 @@ def _film(drawing: Construction, composition: Composition, moved: Loop, seconds:
     from graphplan.check.poses import points_where_sound
     from graphplan.mechanism.travel import travel_unit
     from graphplan.output.animation import Film
-    from graphplan.phrases import arranged, digits, unit
+    from graphplan.phrases import arrange, digits, unit
     from graphplan.sheet.cycle_frames import sheets
 
     turn = moved.turn
@@ -85,6 +85,6 @@ def _film(drawing: Construction, composition: Composition, moved: Loop, seconds:
     if bare := sum(not drawn for _, drawn in found.values()):
         messages.remark(f"the mechanism alone, as nothing can be drawn there, in {bare} of {len(found)} poses")
     shown, (each, name) = [k for k in moved.order if k in found], travel_unit(drawing.scene)
-    words = (arranged("{0}°" if name == "degrees" else "{0} {1}", digits(float(turn.travel[k]) / each), unit(name))
+    words = (arrange("{0}°" if name == "degrees" else "{0} {1}", digits(float(turn.travel[k]) / each), unit(name))
              for k in shown)
     return Film([found[k][0] for k in shown], [composition.plans.tongue(told) for told in words], seconds)

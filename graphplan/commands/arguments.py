@@ -19,10 +19,10 @@ def with_values_joined(words: Sequence[str]) -> list[str]:
 
     --at -3,1.5 becomes --at=-3,1.5, and --at 60 -30 becomes --at=60,-30.
     """
-    return list(_joined([*words]))
+    return list(_join_values([*words]))
 
 
-def _joined(words: list[str]) -> Iterator[str]:
+def _join_values(words: list[str]) -> Iterator[str]:
     while words:
         word = words.pop(0)
         if word == "--":

@@ -15,7 +15,7 @@ from typing import Any
 
 from graphplan.commands.output import as_json, write
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene import load, packaged
+from graphplan.mechanism.scene import load, packaged_names
 
 ASKED = {"velocity": "v", "acceleration": "a", "forces": "F"}
 HEAD = ("scene", "links", "asks", "title", "source")
@@ -28,16 +28,16 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    scenes = [load(name) for name in packaged()]
+    scenes = [load(name) for name in packaged_names()]
     if options.json:
         write(as_json([_data(scene) for scene in scenes]))
         return 0
     width = shutil.get_terminal_size().columns if sys.stdout and sys.stdout.isatty() else None
-    write("\n".join([*fitted([HEAD, *map(_row, scenes)], width), "", LEGEND]) + "\n")
+    write("\n".join([*fit_columns([HEAD, *map(_row, scenes)], width), "", LEGEND]) + "\n")
     return 0
 
 
-def _asked(scene: Scene) -> Iterator[str]:
+def _kinds_of_results(scene: Scene) -> Iterator[str]:
     """What kinds of results a scene asks for."""
     find = scene.find
     for kind, points in (("velocity", find.velocity), ("acceleration", find.acceleration)):
@@ -48,17 +48,17 @@ def _asked(scene: Scene) -> Iterator[str]:
 
 
 def _row(scene: Scene) -> tuple[str, ...]:
-    asked = {*_asked(scene)}
+    asked = {*_kinds_of_results(scene)}
     letters = " ".join(letter if what in asked else " " for what, letter in ASKED.items())
     return scene.name, str(len(scene.links)), letters, scene.title, scene.source
 
 
 def _data(scene: Scene) -> dict[str, Any]:
     return {"name": scene.name, "title": scene.title, "source": scene.source, "links": [*scene.links],
-            "asked": [*_asked(scene)]}
+            "asked": [*_kinds_of_results(scene)]}
 
 
-def fitted(rows: Sequence[Sequence[str]], width: int | None) -> Iterator[str]:
+def fit_columns(rows: Sequence[Sequence[str]], width: int | None) -> Iterator[str]:
     """Rows in columns; on a terminal of this width title and source share what the others leave, and end in dots."""
     *narrow, title, source = (max(map(len, column)) for column in zip(*rows, strict=True))
     if width is not None:

@@ -26,7 +26,7 @@ from graphplan.commands.choices import add_pencil, pencil
 from graphplan.commands.output import Messages, folder_at, write
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene import load, packaged
+from graphplan.mechanism.scene import load, packaged_names
 
 
 class Survey(NamedTuple):
@@ -113,7 +113,7 @@ def _rows(name: str, module: Any, scenes: list[Scene], hand: object, messages: M
             messages.progress(f"{name}: {survey.progress.format(row)}")
             yield row
         return
-    of = scenes or [load(name) for name in getattr(module, "SCENES", packaged())]
+    of = scenes or [load(name) for name in getattr(module, "SCENES", packaged_names())]
     for count, scene in enumerate(of, 1):
         messages.progress(f"{name}: {count}/{len(of)} {scene.name}")
         yield from survey.rows(module, scene, hand, bool(scenes))

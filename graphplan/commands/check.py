@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, add_travel, given, reported
+from graphplan.commands.choices import add_choices, add_travel, load_scene, make_report
 from graphplan.commands.output import as_json, error, write
 
 if TYPE_CHECKING:
@@ -34,8 +34,8 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.mechanism.structure import structure
     from graphplan.methods.panels import redundancies
 
-    scene = given(options)
-    report = report_regular_part(scene, lambda scene: reported(options, scene, exact=options.exact, refuse=False))
+    scene = load_scene(options)
+    report = report_regular_part(scene, lambda scene: make_report(options, scene, exact=options.exact, refuse=False))
     groups = structure(scene).lines()
     notes = [str(note) for note in (*redundancies(scene), *shortcuts(report.drawing), *replacements(scene))]
     notes += [f"{key} {name}: {why}" for key, named in reasons(report).items() for name, why in named.items()]

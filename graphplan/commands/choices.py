@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 from graphplan.accuracy import PREFERENCES
 from graphplan.commands.output import DOTS, Messages
 from graphplan.errors import ConstructionError, Disagreement, Refused, SingularPose
-from graphplan.mechanism.items import perhaps
+from graphplan.mechanism.items import suggestion
 from graphplan.mechanism.pairs.pair import FRAME
-from graphplan.mechanism.sections import FRAMES, MOST_POSITIONS, PROTOCOLS, SIZES
+from graphplan.mechanism.sections import FRAMES, MAX_POSITIONS, PROTOCOLS, SIZES
 from graphplan.methods.styles import INERTIA, METHODS, OF_PATHS
 from graphplan.words import LANGUAGES
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
     from graphplan.output.panelled import Panelled
 
-MOST_ROUNDS = 50  # of friction that are drawn, each in force plans of its own
+MAX_ROUNDS = 50  # of friction that are drawn, each in force plans of its own
 
 
 def count(option: str, least: int, most: int | None = None) -> Callable[[str], int]:
@@ -78,7 +78,7 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
         "forces lever, polygons, or both (default); such as --plan polar,lever")
     add("--inertia", default=INERTIA[0], choices=INERTIA, help="inertia forces: at the centre of mass with a couple "
         "(default), shifted so that they need none, or at two points that replace the link")
-    add("--rounds", type=count("--rounds", 1, MOST_ROUNDS), metavar="N",
+    add("--rounds", type=count("--rounds", 1, MAX_ROUNDS), metavar="N",
         help="draw N rounds of the friction iteration; without it until the forces no longer change")
     command.set_defaults(strict=False, prefer="", pencil=None, paper=None, frame=None, language="", protocol="auto",
                          curves="", centrodes="", faint=None)
@@ -127,7 +127,7 @@ def add_sheet(command: argparse.ArgumentParser, *, positions: bool = True) -> No
                          "most of the page, else on pages (auto, the default)")
     add_curves(command)
     if positions:
-        command.add_argument("--positions", type=count("--positions", 1, MOST_POSITIONS), metavar="N", dest="faint",
+        command.add_argument("--positions", type=count("--positions", 1, MAX_POSITIONS), metavar="N", dest="faint",
                              help="so many positions of the mechanism in faint lines")
     add_language(command)
 
@@ -163,7 +163,7 @@ def add_preference(command: argparse.ArgumentParser) -> None:
 # --- asked for -----------------------------------------------------------------------------------------------------
 
 
-def given(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
+def load_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
     """The scene, by default that which is named, with as many rounds of friction as the options ask for, if they do."""
     from graphplan.mechanism.scene import load
 
@@ -197,9 +197,9 @@ def _travels(text: str) -> list[Fraction] | str:
         raise Refused(f"--at {text}", "not a travel", "degrees or lengths, such as 60, or 60,-30") from None
 
 
-def presented(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
+def load_sheet_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
     """The same with its sheet as the options have it, where they say; its title in the sheet's language."""
-    scene, said = given(options, scene), dict[str, Any]()
+    scene, said = load_scene(options, scene), dict[str, Any]()
     if options.curves:
         said["curves"] = _movable(scene, options.curves)
     if options.centrodes:
@@ -218,7 +218,7 @@ def on_sheet(options: argparse.Namespace, scene: Scene, **more: Any) -> Scene:
     return replace(scene, sheet=sheet, title=tongue(sheet.language).title(scene.title))
 
 
-def reported(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:
+def make_report(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:
     """The construction that the options ask for, compared with the solver; its notes say why a form is preferred."""
     from graphplan.check.trusted import report
 
@@ -235,8 +235,8 @@ def drawable(options: argparse.Namespace) -> Report:
     from graphplan.check.json_results import reasons
     from graphplan.phrases import said
 
-    found, left_out = report_regular_part(presented(options),
-                                          lambda scene: reported(options, scene)), dict[str, list[str]]()
+    found, left_out = report_regular_part(load_sheet_scene(options),
+                                          lambda scene: make_report(options, scene)), dict[str, list[str]]()
     if found.given_scene is not found.scene:
         for named in reasons(found).values():
             for name, why in named.items():
@@ -290,7 +290,7 @@ def _movable(scene: Scene, text: str) -> tuple[str, ...]:
     for point in wanted:
         if point not in movable:
             why = f"{point} does not move" if point in scene.points else f"there is no point {point}"
-            raise Refused(f"--curves {text}", why, perhaps(point, movable, "point"))
+            raise Refused(f"--curves {text}", why, suggestion(point, movable, "point"))
     return tuple(dict.fromkeys(wanted))
 
 
@@ -303,5 +303,5 @@ def _rolling(scene: Scene, text: str) -> tuple[str, ...]:
     for links in wanted:
         if links not in known:
             why = f"there are no two links {links}" if links else "no links are named"
-            raise Refused(f"--centrodes {text}", why, perhaps(links, known, "pair of links"))
+            raise Refused(f"--centrodes {text}", why, suggestion(links, known, "pair of links"))
     return tuple(dict.fromkeys(wanted))

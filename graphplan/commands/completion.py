@@ -54,7 +54,7 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     from graphplan.commands import SUBCOMMANDS, parser
     from graphplan.errors import Refused
-    from graphplan.mechanism.scene import packaged
+    from graphplan.mechanism.scene import packaged_names
 
     try:
         import shtab
@@ -67,7 +67,7 @@ def run(options: argparse.Namespace) -> int:
         place = places.get(takes, shtab.FILE if "FILE" in takes or "." in takes else None)
         if place:
             action.complete = place  # type: ignore[attr-defined]
-    scenes = SCENES[options.shell].format(" ".join(packaged()))
+    scenes = SCENES[options.shell].format(" ".join(packaged_names()))
     write(shtab.complete(whole, options.shell, preamble=scenes) + (BASH if options.shell == "bash" else ""))
     return 0
 

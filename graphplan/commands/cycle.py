@@ -24,8 +24,8 @@ from itertools import groupby
 from typing import TYPE_CHECKING
 
 from graphplan.commands import animate
-from graphplan.commands.choices import add_choices, add_curves, add_language, count, presented
-from graphplan.commands.output import Messages, apart, error, kind, write
+from graphplan.commands.choices import add_choices, add_curves, add_language, count, load_sheet_scene
+from graphplan.commands.output import Messages, error, kind, refuse_same_output, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
@@ -67,8 +67,8 @@ def run(options: argparse.Namespace) -> int:
     ending = kind(options.output, ENDINGS, "table")
     kind(options.plot, PLOT_ENDINGS, "plot", "--plot")
     kind(options.paths, PLOT_ENDINGS, "drawing", "--paths")
-    animate.asked(options)
-    apart(options.output, options.plot, options.animate, options.paths)
+    animate.check_options(options)
+    refuse_same_output(options.output, options.plot, options.animate, options.paths)
     span = None if options.start is None else (options.start, options.end)
     if options.paths:
         write(_paths(options), options.paths)
@@ -76,7 +76,7 @@ def run(options: argparse.Namespace) -> int:
         animate.run(options, span)
     if (options.animate or options.paths) and not (options.output or options.plot):
         return 0
-    scene = presented(options)
+    scene = load_sheet_scene(options)
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
     plotted = quantities(scene, options.of) if options.plot else ()
     messages = Messages(options.quiet)
@@ -111,7 +111,7 @@ def _paths(options: argparse.Namespace) -> str:
     from graphplan.sheet.layout.layout import layout
     from graphplan.words.tongue import tongue
 
-    scene = presented(options)
+    scene = load_sheet_scene(options)
     if not (scene.sheet.curves or scene.sheet.centrodes):
         raise Refused("--paths", "no point or link is named", 'such as --curves M, or --centrodes "2 frame"')
     nothing = replace(scene.find, velocity=(), acceleration=(), links=(), slides=(), reactions=())

@@ -38,7 +38,7 @@ class CycleResults:
 
         return flywheel(self.scene)
 
-    def expected(self, kind: str, of: str) -> Expected | None:
+    def expected_result(self, kind: str, of: str) -> Expected | None:
         """What is expected of a number, if it is one of these: a travel in degrees is any of the cycle."""
         found = self.flywheel
         if found is None or (kind == FLYWHEEL and found.given):
@@ -48,7 +48,8 @@ class CycleResults:
                 travel = math.radians(float(of))
             except ValueError:
                 return None
-            return self._at(found, kind, travel) if found.cycle.ends[0] <= travel <= found.cycle.ends[1] else None
+            return self._expected_at(found, kind,
+                                     travel) if found.cycle.ends[0] <= travel <= found.cycle.ends[1] else None
         if of:
             return None
         one, (wheel, mean) = self._unit(kind), pencil_errors(found, self.pencil)
@@ -57,7 +58,7 @@ class CycleResults:
             return Expected(closing / one, mean / one, abs(found.drawing.mean + closing) / one)
         return Expected(found.wheel.inertia / one, wheel / one, found.strip_error / one)
 
-    def _at(self, found: FlywheelResult, kind: str, travel: float) -> Expected:
+    def _expected_at(self, found: FlywheelResult, kind: str, travel: float) -> Expected:
         import numpy as np
 
         value = float(found.at(np.array([travel]))[PLACES[kind]][0])
@@ -85,7 +86,7 @@ class CycleResults:
             for travel, value in zip(found.told_travels, values, strict=True):
                 yield single_row(CYCLE[kind], f"{travel:g}", float(value), float(abs(values).max()), units)
         for kind in (CLOSING, FLYWHEEL):
-            if expected := self.expected(kind, ""):
+            if expected := self.expected_result(kind, ""):
                 yield single_row(CYCLE[kind], "", expected.value, abs(expected.value), units)
 
 

@@ -25,7 +25,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from graphplan.commands.choices import add_choices, add_preference, add_sheet, add_travel, count, drawable, on_paper
-from graphplan.commands.output import kind, paged, write, write_all
+from graphplan.commands.output import kind, page_names, write, write_all
 from graphplan.errors import Refused
 from graphplan.output import back_end
 
@@ -64,34 +64,34 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.sheet.layout.layout import pages, with_numbers
     from graphplan.sheet.strip import by_stages, strip
 
-    name = asked(options)
+    name = requested_format(options)
     found = drawable(options)
     composition = on_paper(options, found).composition
     composition = with_numbers(composition) if options.numbers else composition
-    names = paged(options.output, 2)
+    names = page_names(options.output, 2)
     more: list[Sheet] = []
     if options.strip:
         sheets = strip(composition, cut=options.strip)
-    elif _staged(options) and (name in WHOLE or len(names) > 1):
+    elif _wants_stages(options) and (name in WHOLE or len(names) > 1):
         sheets, more = by_stages(composition)
     else:
-        sheets = [_shown(sheet, found.drawing.drawn, options) for sheet in pages(composition)]
+        sheets = [_requested_steps(sheet, found.drawing.drawn, options) for sheet in pages(composition)]
     write_out, look = back_end(name), {"dpi": options.dpi or DOTS} if name == "png" else {}
     if name in WHOLE:
         write(write_out(sheets + more, *([composition.plates] if name == "dxf" else [])), options.output)
     else:
-        names = paged(options.output, len(sheets), "" if options.strip else PROTOCOL)
-        names += paged(options.output, 1 + len(more), STAGES)[1:]
+        names = page_names(options.output, len(sheets), "" if options.strip else PROTOCOL)
+        names += page_names(options.output, 1 + len(more), STAGES)[1:]
         write_all([(path, write_out(sheet, **look)) for path, sheet in zip(names, sheets + more, strict=False)])
     return 0
 
 
-def _staged(options: argparse.Namespace) -> bool:
+def _wants_stages(options: argparse.Namespace) -> bool:
     """Whether the stages are asked for, as they are where nothing else is and set squares are not used."""
     return options.by == STAGED or (options.strict and not (options.by or options.until or options.steps))
 
 
-def _shown(sheet: Sheet, drawn: Program, options: argparse.Namespace) -> Sheet:
+def _requested_steps(sheet: Sheet, drawn: Program, options: argparse.Namespace) -> Sheet:
     """What of the sheet is asked for."""
     if not (options.until or options.steps):
         return sheet
@@ -101,7 +101,7 @@ def _shown(sheet: Sheet, drawn: Program, options: argparse.Namespace) -> Sheet:
     return sheet_at_step(sheet, last, first if options.steps else 0)
 
 
-def asked(options: argparse.Namespace) -> str:
+def requested_format(options: argparse.Namespace) -> str:
     """The format that is asked for."""
     name = kind(options.output, ENDINGS, "sheet").removeprefix(".")
     if options.dpi and name != "png":

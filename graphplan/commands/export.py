@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 STYLE = "graphplan.sty"
 LATEX = "bare", "width", "overlays"  # options that LaTeX alone has a use for
-MOST = 2000.0  # mm: the widest picture
+MAX_WIDTH = 2000.0  # mm: the widest picture
 
 __doc__ = f"""{__doc__}
 formats:
@@ -54,7 +54,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     name = format_of(options.output, options.format)
-    more, write_out = _more(name, options), back_end(name)
+    more, write_out = _extra_options(name, options), back_end(name)
     write(write_out(*READ[FORMATS[name].reads](on_paper(options)), **more), options.output)
     if options.bare and options.output != STANDARD:
         from graphplan.output.exports.latex import package
@@ -63,7 +63,7 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def exported(name: str, on_sheet: Drafted) -> str | bytes:
+def export(name: str, on_sheet: Drafted) -> str | bytes:
     """A construction on its sheet in the format of this name; fails with `Refused` where that cannot be had."""
     content: str | bytes = back_end(name)(*READ[FORMATS[name].reads](on_sheet))
     return content
@@ -84,7 +84,7 @@ def format_of(output: str, named: str | None) -> str:
     return next(name for name, format in FORMATS.items() if format.suffix == suffix)
 
 
-def _more(name: str, options: argparse.Namespace) -> Mapping[str, Any]:
+def _extra_options(name: str, options: argparse.Namespace) -> Mapping[str, Any]:
     """What a back end reads besides the construction, of which it has a use for all that is given."""
     given = {option: value for option in LATEX if (value := getattr(options, option))}
     if given and FORMATS[name].suffix != ".tex":
@@ -99,8 +99,8 @@ def _width(text: str) -> float:
         width = float(text)
     except ValueError:
         width = 0.0
-    if not 0 < width <= MOST:
-        raise Refused("--width", text, f"mm up to {MOST:g}, or a part of \\linewidth up to 1")
+    if not 0 < width <= MAX_WIDTH:
+        raise Refused("--width", text, f"mm up to {MAX_WIDTH:g}, or a part of \\linewidth up to 1")
     return width
 
 

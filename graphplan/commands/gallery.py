@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from graphplan.commands.choices import add_language
-from graphplan.commands.export import exported
+from graphplan.commands.export import export
 from graphplan.commands.live import page
 from graphplan.commands.output import Messages, error, folder_at, write_all
 from graphplan.commands.result_schemas import tables
@@ -52,7 +52,7 @@ def run(options: argparse.Namespace) -> int:
     _refuse_foreign_readme(options.folder)
     site = dict(_Site(options).files())
     if options.check:
-        return _checked(options.folder, site)
+        return _report_differences(options.folder, site)
     for parent in {(options.folder / name).parent for name in site}:
         parent.mkdir(exist_ok=True)
     write_all([(str(options.folder / name), content) for name, content in site.items()])
@@ -69,7 +69,7 @@ def _refuse_foreign_readme(folder: Path) -> None:
                       "choose another folder")
 
 
-def _checked(folder: Path, site: Mapping[str, str | bytes]) -> int:
+def _report_differences(folder: Path, site: Mapping[str, str | bytes]) -> int:
     """Say what in the folder is not as the site is now: what differs, and what is no part of it."""
     stale = [f"{folder / name}: differs from what the scene gives now; run graphplan gallery {folder}"
              for name, content in site.items() if not _is(folder / name, content)]
@@ -93,15 +93,15 @@ class _Site:
 
     def files(self) -> Iterator[tuple[str, str | bytes]]:
         """Every file of the site, by its name in the folder: its scenes' one after the other, then its pages."""
-        from graphplan.mechanism.scene import load, packaged
+        from graphplan.mechanism.scene import load, packaged_names
         from graphplan.output.live.page import script
         from graphplan.output.manual import scenes
 
-        messages, names = Messages(self.options.quiet), _names(self.options.scenes or packaged())
+        messages, names = Messages(self.options.quiet), _names(self.options.scenes or packaged_names())
         shown = []
         for count, (name, scene) in enumerate(names.items(), 1):
             messages.progress(f"{count}/{len(names)} {name}")
-            one, files = self._shown(load(scene), name)
+            one, files = self._scene_on_site(load(scene), name)
             if one.live:
                 yield one.live, self._live(scene)
             yield from files.items()
@@ -141,7 +141,7 @@ class _Site:
 
         return tongue(self.options.language or "en")
 
-    def _shown(self, scene: Scene, name: str) -> tuple[ShownScene, dict[str, str | bytes]]:
+    def _scene_on_site(self, scene: Scene, name: str) -> tuple[ShownScene, dict[str, str | bytes]]:
         """A scene as the site shows it, and its files by their names."""
         from graphplan import sheet
         from graphplan.accuracy.drafted import draft
@@ -163,7 +163,7 @@ class _Site:
                                          f"{name}.txt": words}
         told: dict[str, str] = {f"{name}.svg": said("the sheet"), f"{name}.txt": said("the construction in words")}
         if not self.options.brief:
-            files |= {f"{name}.toml": scene.text} | dict(self._exported(name, on_sheet))
+            files |= {f"{name}.toml": scene.text} | dict(self._exports(name, on_sheet))
             told |= {f"{name}.toml": said("the scene")} | {
                 path: FORMATS[path.partition("/")[0]].told for path in files if "/" in path}
         live = "" if self.options.brief else f"{LIVE}/{name}.html"
@@ -177,11 +177,11 @@ class _Site:
         words += ["--language", self.options.language] if self.options.language else []
         return page(parser(["live"]).parse_args(words), shared=SCRIPT)
 
-    def _exported(self, name: str, on_sheet: Drafted) -> Iterator[tuple[str, str | bytes]]:
+    def _exports(self, name: str, on_sheet: Drafted) -> Iterator[tuple[str, str | bytes]]:
         """What other programs read."""
         for kind in FILES:
             with suppress(Refused):  # its library is not installed, or the format has no place for the scene
-                yield f"{kind}/{name}{FORMATS[kind].suffix}", exported(kind, on_sheet)
+                yield f"{kind}/{name}{FORMATS[kind].suffix}", export(kind, on_sheet)
 
 
 def _names(scenes: Sequence[str]) -> dict[str, str]:

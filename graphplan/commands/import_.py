@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.commands.output import STANDARD, Messages, apart, kind, write
+from graphplan.commands.output import STANDARD, Messages, kind, refuse_same_output, write
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -32,11 +32,11 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     from pathlib import Path
 
-    from graphplan.importing import imported
+    from graphplan.importing import import_scene
 
     kind(options.output, (".toml",), "scene")
-    apart(options.file, options.output)
-    text = imported(Path(options.file))
+    refuse_same_output(options.file, options.output)
+    text = import_scene(Path(options.file))
     write(text, options.output)
     if "\n# - " in text:
         told = "not all could be told; comments in the scene say what is guessed"

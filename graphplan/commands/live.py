@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_preference, add_sheet, given, presented, reported
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, load_scene, load_sheet_scene, make_report
 from graphplan.commands.output import kind, write
 from graphplan.errors import ConstructionError, Refused
 from graphplan.methods.styles import METHODS
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 ENDINGS = (".html",)
 CHOICES = "plans", "methods", "languages"
 AGAIN = 2  # further constructions for the poses of a plan or method that is not the page's own: each takes its time
-FEW = 2  # constructions for the poses of a page: their words in all languages are small, and quickly told
+MAX_OFFERED = 2  # constructions for the poses of a page: their words in all languages are small, and quickly told
 PLANS = "polar", "orthogonal"
 
 
@@ -67,8 +67,8 @@ def page(options: argparse.Namespace, *, steps_first: bool = False, shared: str 
     """The page of a scene; `steps_first` it is opened at the first step; with a `shared` script it leaves that out."""
     from graphplan.output.live.page import live
 
-    scene, own, variants = given(options), presented(options).sheet.language or "en", [*_variants(options)]
-    few = len(variants[0].compositions) <= FEW
+    scene, own, variants = load_scene(options), load_sheet_scene(options).sheet.language or "en", [*_variants(options)]
+    few = len(variants[0].compositions) <= MAX_OFFERED
     offered = options.choices if options.choices is not None else LANGUAGES if few else ("en",)
     languages = [own, *(code for code in LANGUAGES if code != own and code in offered)]
     return live(variants, languages, scene.title, steps_first=steps_first, shared=shared)
@@ -81,10 +81,10 @@ def _variants(options: argparse.Namespace) -> Iterator[Variant]:
     from graphplan.sheet.layout.composition import compose
 
     known: list[list[str]] = []
-    for plan, method in _ways(options):
+    for plan, method in _plans_and_methods(options):
         first = not known
         try:
-            drawing = _drawn(options, plan, method)
+            drawing = _construction_by(options, plan, method)
         except (Refused, ConstructionError):
             if first:
                 raise
@@ -94,18 +94,18 @@ def _variants(options: argparse.Namespace) -> Iterator[Variant]:
         known.append(steps)
         with suppress(*(() if first else (Refused,))):
             composition = compose(drawing, protocol="none")
-            others = _others(drawing)
+            others = _alternatives(drawing)
             yield Variant(drawing.plan, method, on_one_sheet(composition, others if first else others[:AGAIN]))
 
 
-def _others(drawing: Construction) -> list[Construction]:
+def _alternatives(drawing: Construction) -> list[Construction]:
     """The constructions that serve where this one cannot be drawn."""
     from graphplan.accuracy.reach import constructions
 
     return [other for other in constructions(drawing) if other is not drawing]
 
 
-def _ways(options: argparse.Namespace) -> Iterator[tuple[str, str]]:
+def _plans_and_methods(options: argparse.Namespace) -> Iterator[tuple[str, str]]:
     """Plan and method by their options: as they are given, and what else is wanted."""
     plan, method, offered = options.plan, options.method, options.choices or ("plans",) * (options.choices is None)
     forces = ",".join(part for part in plan.split(",") if part not in PLANS)
@@ -114,7 +114,7 @@ def _ways(options: argparse.Namespace) -> Iterator[tuple[str, str]]:
     yield from dict.fromkeys((plan, method) for plan in plans for method in methods)
 
 
-def _drawn(options: argparse.Namespace, plan: str, method: str) -> Construction:
+def _construction_by(options: argparse.Namespace, plan: str, method: str) -> Construction:
     """The construction by a plan and a method, compared with the solver."""
     how = argparse.Namespace(**{**vars(options), "plan": plan, "method": method})
-    return reported(how, presented(how)).drawing
+    return make_report(how, load_sheet_scene(how)).drawing

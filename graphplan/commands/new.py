@@ -58,7 +58,7 @@ def template(kind: str) -> str:
     top = zip(written[""].splitlines(), TOP, strict=True)
     tables = [_section(field, written) for name, field in sections.items() if name not in (*TOP, *LOADS)]
     loads = [_section(sections[name], written) for name in LOADS]
-    paragraphs = HEAD, "\n".join(_aligned((line, sections[name].words) for line, name in top)), *tables
+    paragraphs = HEAD, "\n".join(_align_comments((line, sections[name].words) for line, name in top)), *tables
     return "\n\n".join([*paragraphs, "\n".join([FORCES, *loads])]) + "\n"
 
 
@@ -75,10 +75,11 @@ def _section(section: Field, written: Mapping[str, str]) -> str:
     if section.name not in written:
         return f"{told}; see graphplan new --kind {next(kind for kind in KINDS if section.name in _sections(kind))}"
     says = {field.name: field.words for field in inner(section.kind)}
-    return "\n".join([told, *_aligned((line, _said(line, says)) for line in written[section.name].splitlines())])
+    return "\n".join([told, *_align_comments((line, _words_of_key(line, says))
+                                             for line in written[section.name].splitlines())])
 
 
-def _said(line: str, says: Mapping[str, str]) -> str:
+def _words_of_key(line: str, says: Mapping[str, str]) -> str:
     """What is said of the key in a line, or of the way in which it places a point."""
     line = line.removeprefix("#")
     if line.startswith("["):
@@ -91,7 +92,7 @@ def _said(line: str, says: Mapping[str, str]) -> str:
     return COORDINATES.says if isinstance(value, list) and len(value) == 2 else ""
 
 
-def _aligned(rows: Iterable[tuple[str, str]]) -> list[str]:
+def _align_comments(rows: Iterable[tuple[str, str]]) -> list[str]:
     """Lines with what is said of them, in a column."""
     lines = list(rows)
     wide = max((len(line) for line, told in lines if told), default=0)

@@ -54,7 +54,7 @@ def kind(path: str | None, endings: Sequence[str], what: str, option: str = "-o"
     return ending or endings[0]
 
 
-def apart(*paths: str | None) -> None:
+def refuse_same_output(*paths: str | None) -> None:
     """Refuse one name for two results, of which one would replace the other."""
     named = [path if path == STANDARD else os.path.realpath(path) for path in paths if path]
     if twice := next((name for name in named if named.count(name) > 1), ""):
@@ -116,7 +116,7 @@ def write(content: str | bytes, path: str | None = STANDARD, *, new: bool = Fals
         raise _unwritable(path, error) from None
 
 
-def paged(path: str | None, count: int, more: str = "") -> list[str | None]:
+def page_names(path: str | None, count: int, more: str = "") -> list[str | None]:
     """The names of so many pages: SHEET.svg, then SHEET-2.svg or, where their names add `more`, SHEET-more.svg and
     SHEET-more-2.svg. What is no file has the first page alone.
 
@@ -145,7 +145,7 @@ def write_sheets(pages: Sequence[Any], path: str | None, ending: str, dpi: int |
         module, function = {"png": ("pdf_png", "png"), "tex": ("exports.ink_tikz", "sheet_tikz")}.get(
             ending, (ending, ending))
         write_out, look = getattr(loaded(ending, module), function), {"dpi": dpi or DOTS} if ending == "png" else {}
-        names = paged(path, len(pages), PROTOCOL)
+        names = page_names(path, len(pages), PROTOCOL)
         write_all([(name, write_out(page, **look)) for name, page in zip(names, pages, strict=False)])
 
 

@@ -15,14 +15,15 @@ from graphplan.kernel.stages import Known
 from graphplan.marking.judge.verdict import STATES
 from graphplan.mechanism import values
 from graphplan.mechanism.fields import Fragment
-from graphplan.mechanism.schema import DRAFT, described, listed, table
+from graphplan.mechanism.schema import DRAFT, array_of, table, with_description
 from graphplan.mechanism.units import BY_QUANTITY
 
 COUNT: Fragment = {"type": "integer", "minimum": 0}
 DECIMAL: Fragment = {"type": "string", "pattern": r"^-?\d+(\.\d+)?(e[+-]?\d+)?$"}
 VALUE: Fragment = {"anyOf": [
-    values.NUMBER.schema, described("a fraction p/q, with --exact", {"type": "string", "pattern": r"^-?\d+(/\d+)?$"}),
-    described("proven digits, with --digits", DECIMAL)]}
+    values.NUMBER.schema, with_description("a fraction p/q, with --exact",
+                                           {"type": "string", "pattern": r"^-?\d+(/\d+)?$"}),
+    with_description("proven digits, with --digits", DECIMAL)]}
 PLAIN: dict[str, Fragment] = {
     "text": values.TEXT.schema, "number": values.NUMBER.schema, "positive": values.AMOUNT.schema,
     "null": {"type": "null"}, "count": COUNT, "decimal": DECIMAL, "value": VALUE,
@@ -30,13 +31,13 @@ PLAIN: dict[str, Fragment] = {
     "percent": {"type": "number", "minimum": 0, "maximum": 100},
     "flag": {"type": "boolean"},
     "confidence": {"type": "number", "minimum": 0, "maximum": 1},
-    "step": described("the number of the step, 0 for what is given", COUNT),
-    "verdict": described("follows: right after an earlier mistake; implied: not drawn, but a right mark rests on it; "
-                         "unsure: look at it; unseen: of a kind that the drawing does not show",
-                         {"enum": [*STATES]}),
+    "step": with_description("the number of the step, 0 for what is given", COUNT),
+    "verdict": with_description("follows: right after an earlier mistake; implied: not drawn, but a right mark rests "
+                                "on it; unsure: look at it; unseen: of a kind that the drawing does not show",
+                                {"enum": [*STATES]}),
     "counts": table(dict.fromkeys(STATES, COUNT)),
     "units": table({quantity: {"enum": [*units]} for quantity, units in BY_QUANTITY.items()}),
-    "known": described("locus: a line on which it ends", {"enum": [known.value for known in Known]}),
+    "known": with_description("locus: a line on which it ends", {"enum": [known.value for known in Known]}),
     "mark": {"enum": [POINT, LINE, OPENING, CIRCLE]},
     "operation": {"enum": [*TABLE]},
     "instrument": {"enum": sorted({op.instrument for op in TABLE.values()})},
@@ -46,7 +47,7 @@ EITHER = {"balance": "moment|force",
           "instant centre": "place|direction", "verify": "one drawing|a class|a stack"}
 
 
-def printed(command: str) -> Fragment:
+def result_schema(command: str) -> Fragment:
     """What a command prints."""
     return {"$schema": DRAFT, "title": f"graphplan {command}", **_kind(command)}
 
@@ -58,7 +59,7 @@ def _kind(word: str) -> Fragment:
     if word in EITHER or "|" in word:
         return {"anyOf": [_kind(part) for part in EITHER.get(word, word).split("|")]}
     if word.endswith("[]"):
-        return listed(_kind(word[:-2]))
+        return array_of(_kind(word[:-2]))
     if word.endswith("{}"):
         return {"type": "object", "additionalProperties": _kind(word[:-2])}
     return _kind(f"{word[:-1]}|null") if word.endswith("?") else _table(dict(tables()[word]))
@@ -70,7 +71,7 @@ def _table(written: dict[str, str]) -> Fragment:
     keys: dict[str, Fragment] = {}
     for name, told in written.items():
         kind, _, words = told.partition(", ")
-        keys[name.removesuffix("?")] = described(words, _kind(kind)) if words else _kind(kind)
+        keys[name.removesuffix("?")] = with_description(words, _kind(kind)) if words else _kind(kind)
     return table(keys, [name for name in written if not name.endswith("?")]) | least
 
 

@@ -34,16 +34,16 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.commands.result_schemas import printed
+    from graphplan.commands.result_schemas import result_schema
     from graphplan.mechanism import schema
 
     task = options.of.removesuffix("-keys")
     if task in TASKS:
         whole = import_module(TASKS[task]).TASK
         keys = task != options.of
-        write(schema.reference(whole) if keys else as_json(schema.titled(f"graphplan {task} task", whole), 2))
+        write(schema.reference(whole) if keys else as_json(schema.file_schema(f"graphplan {task} task", whole), 2))
     elif options.of == "keys":
         write(schema.reference())
     else:
-        write(as_json(printed(options.of) if options.of in RESULTS else schema.scene(), 2))
+        write(as_json(result_schema(options.of) if options.of in RESULTS else schema.scene(), 2))
     return 0

@@ -14,11 +14,11 @@ from __future__ import annotations
 import argparse
 from importlib.util import find_spec
 
-from graphplan.commands.choices import add_choices, add_preference, add_travel, drawn_by, given, reported
+from graphplan.commands.choices import add_choices, add_preference, add_travel, drawn_by, load_scene, make_report
 from graphplan.commands.output import as_json, write
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.replaced import beyond
+from graphplan.mechanism.replaced import scene_beyond
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -38,15 +38,15 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.check.answerable import report_regular_part
     from graphplan.check.json_results import result_data
 
-    report = report_regular_part(given(options), lambda scene: reported(options, scene, exact=options.exact,
-                                                                        alone=not options.pencil))
+    report = report_regular_part(load_scene(options), lambda scene: make_report(options, scene, exact=options.exact,
+                                                                                alone=not options.pencil))
     printed = result_data(report, each=options.bounds)
     if options.pencil:
         from graphplan.accuracy.drafted import draft
 
         printed["pencil"] = draft(report.drawing, options.pencil, check=report.check).data
-    if after := beyond(report.scene):
-        after_data = result_data(reported(options, after, exact=options.exact, alone=not options.pencil))
+    if after := scene_beyond(report.scene):
+        after_data = result_data(make_report(options, after, exact=options.exact, alone=not options.pencil))
         printed["beyond"] = {section: after_data[section] for section in ("points", "links", "slides")}
     write(as_json(printed, 2))
     return 0
@@ -65,7 +65,7 @@ def _run_certified(options: argparse.Namespace) -> int:
         how, _ = drawn_by(options, scene)
         return certify(scene, options.digits, method=how["method"], plan=options.plan, inertia=options.inertia)
 
-    certified_report = report_regular_part(given(options), proven)
+    certified_report = report_regular_part(load_scene(options), proven)
     if not certified_report.agrees:
         raise certified_report.disagreement
     write(as_json(certified_report.data, 2))

@@ -27,10 +27,10 @@ from graphplan.commands.choices import (
     add_paper,
     add_pencil,
     count,
-    given,
+    load_scene,
+    load_sheet_scene,
+    make_report,
     on_paper,
-    presented,
-    reported,
 )
 from graphplan.commands.output import Messages, new_folder, write_folder
 from graphplan.errors import Refused
@@ -68,7 +68,7 @@ def run(options: argparse.Namespace) -> int:
     messages = Messages(options.quiet)
     new_folder(options.output)
     students = _students(options, messages)
-    scene = given(options)
+    scene = load_scene(options)
     if not scene.vary:
         raise Refused(f"{options.scene}: vary", "the scene does not say what varies",
                       'a table [vary], such as "drive.0.omega" = [8, 10, 12]')
@@ -88,7 +88,7 @@ def run(options: argparse.Namespace) -> int:
 
 def drafted(options: argparse.Namespace, scene: Scene) -> Drafted:
     """A scene on its sheet, as the options say; fails as `graphplan draw` does."""
-    return on_paper(options, reported(options, presented(options, scene)))
+    return on_paper(options, make_report(options, load_sheet_scene(options, scene)))
 
 
 def _students(options: argparse.Namespace, messages: Messages) -> list[str]:

@@ -41,7 +41,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.commands.choices import add_choices, add_pencil, add_sheet, count, on_paper
-from graphplan.commands.output import STANDARD, Messages, as_json, error, kind, paged, write, write_all
+from graphplan.commands.output import STANDARD, Messages, as_json, error, kind, page_names, write, write_all
 from graphplan.errors import GraphplanError, Refused
 from graphplan.output import back_end
 
@@ -94,7 +94,7 @@ def run(options: argparse.Namespace) -> int:
     found = (_class if os.path.isdir(path) else _one)(desk, path)
     if options.report:
         pages = [as_json(found.data)] if ending == ".json" else found.pages(ending)
-        write_all(list(zip(paged(options.report, len(pages)), pages, strict=False)))
+        write_all(list(zip(page_names(options.report, len(pages)), pages, strict=False)))
     say = desk.on_sheet.composition.plans.tongue
     write(as_json(found.data) if options.json else "".join(f"{say(line)}\n" for line in found.lines))
     return 0 if found.judged else 2
@@ -200,7 +200,7 @@ class Desk:
         work = self.on_sheet.drawing, self.on_sheet.composition, submission, self.on_sheet.pencil
         found = (judge(*work) if self.options.method
                  else judge_any_method(*work, self.options.plan, self.options.inertia, construct))
-        judgement = replace(with_cycle(found, self._cycle.expected), name=printable(submission.name))
+        judgement = replace(with_cycle(found, self._cycle.expected_result), name=printable(submission.name))
         return Marked(judgement, score(judgement, self.weights))
 
 

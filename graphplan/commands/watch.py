@@ -32,8 +32,8 @@ def run(options: argparse.Namespace) -> int:
     if not path.is_file():
         raise Refused(f"{path}: watch", "there is no such file", f"graphplan new {path} makes one")
     options.output = options.output or str(path.with_suffix(".svg"))
-    draw.asked(options)  # what no save would mend is refused at once
-    for _ in _saved(path):
+    draw.requested_format(options)  # what no save would mend is refused at once
+    for _ in _saves(path):
         try:
             draw.run(options)
         except GraphplanError as fault:
@@ -44,7 +44,7 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _saved(path: Path) -> Iterator[None]:
+def _saves(path: Path) -> Iterator[None]:
     """Comes at once, and after every change of the file, which is missing or empty while it is being replaced.
 
     It is the text that is compared: scenes are small, and times of change are too coarse for two saves in a moment.

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from graphplan.mechanism.numbers import dot, less, plus, times, turned
+from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, times
 
 RESIDUE, TRAVEL = -1, -2
 """Columns of an equation beside those of the unknowns: what it leaves open, and its change with the travel."""
@@ -195,7 +195,7 @@ def _place_on_seat(links: Sequence[LinkPose], seat: Seat, arms: Sequence[Vector]
 
 def _lever_rates(spin: Moves, lever: Vector) -> Moves:
     """How the end of a lever moves that turns so."""
-    across = turned(lever) if spin else lever
+    across = quarter_turn(lever) if spin else lever
     return {k: across if w is None else times(w, across) for k, w in spin.items()}
 
 
@@ -221,7 +221,7 @@ def _closing_rows(links: Sequence[LinkPose], closing: Closing, arms: Sequence[Ve
     """What a pair leaves open."""
     place, moves = links[closing.link].point(_arm(arms, closing.arm))
     far_end, far_moves = links[closing.on].point(_arm(arms, closing.rest))
-    gap, moves = less(place, far_end), _subtract_rates(moves, far_moves)
+    gap, moves = minus(place, far_end), _subtract_rates(moves, far_moves)
     if closing.far is not None:
         far, _ = arms[closing.far]
         yield {RESIDUE: (dot(gap, gap) - far * far) / (far + far),
@@ -233,7 +233,7 @@ def _closing_rows(links: Sequence[LinkPose], closing: Closing, arms: Sequence[Ve
         return
     guide = links[closing.guide]
     ray = rotate(guide.turn, arms[closing.way])
-    swing = dot(turned(ray), gap)
+    swing = dot(quarter_turn(ray), gap)
     row = _add_rates({k: dot(ray, move) for k, move in moves.items()},
                      {k: swing if w is None else w * swing for k, w in guide.spin.items()})
     residual = dot(ray, gap)
@@ -288,5 +288,5 @@ def _subtract_rates(first: Moves, second: Moves) -> Moves:
     """The difference of two sets of derivatives of vectors."""
     difference = dict(first)
     for k, (x, y) in second.items():
-        difference[k] = less(difference[k], (x, y)) if k in difference else (-x, -y)
+        difference[k] = minus(difference[k], (x, y)) if k in difference else (-x, -y)
     return difference

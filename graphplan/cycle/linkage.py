@@ -19,7 +19,7 @@ from itertools import chain
 from typing import Any, ClassVar
 
 from graphplan.mechanism.model import FRAME, Contact, Gear, Number, Pair, Scene, Slide
-from graphplan.mechanism.numbers import X, less, times, turned
+from graphplan.mechanism.numbers import X, minus, quarter_turn, times
 from graphplan.mechanism.pairs.pair import ROLLING, TOUCHING, Along, Condition, KinematicPair, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.structure import structure
@@ -214,11 +214,11 @@ def _gear_bond(gear: Gear) -> Bond:
 
 def _contact_bonds(scene: Scene, contact: Contact) -> Iterator[Bond]:
     """A contact; where it rolls the radii are the distances of its point from the centres, along the normal."""
-    link, on, centre = contact.curved
+    link, on, centre = contact.curved_side
     if contact.direction is not None:
-        yield Along(link, on, centre, turned(contact.direction), TOUCHING, name=contact.name)
+        yield Along(link, on, centre, quarter_turn(contact.direction), TOUCHING, name=contact.name)
         if contact.rolling:
-            arm = less(scene.points[contact.at], scene.points[centre])
+            arm = minus(scene.points[contact.at], scene.points[centre])
             (x, y), (u, v) = (map(float, pair) for pair in (contact.direction, arm))
             yield RackBond(contact.name, link, on, centre, contact.direction, (y * u - x * v) / math.hypot(x, y))
         return
@@ -231,7 +231,7 @@ def _contact_bonds(scene: Scene, contact: Contact) -> Iterator[Bond]:
 
 def contact_point(scene: Scene, contact: Contact, points: Mapping[str, Any], turn: Any) -> Any:
     """Where two profiles touch when points, complex numbers, are elsewhere, and a straight one has turned so."""
-    centre, far_centre = contact.curved[2], contact.centres[1] or ""
+    centre, far_centre = contact.curved_side[2], contact.centres[1] or ""
     if contact.direction is None:
         return points[centre] + contact_fraction(scene, contact) * (points[far_centre] - points[centre])
     at, seat = (complex(*map(float, scene.points[name])) for name in (contact.at, centre))
@@ -268,7 +268,7 @@ class LinesOfCentres:
         """What holds an arm: the pin in one centre, and the other on its line."""
         gear = self.arms[name]
         line = places[gear.other] - places[gear.at]
-        across = turned(times(1 / abs(line), (line.real, line.imag)))
+        across = quarter_turn(times(1 / abs(line), (line.real, line.imag)))
         yield Along(name, gear.link, gear.at, X, "x", to=FRAME)
-        yield Along(name, gear.link, gear.at, turned(X), "y", to=FRAME)
+        yield Along(name, gear.link, gear.at, quarter_turn(X), "y", to=FRAME)
         yield Along(gear.on, name, gear.other, across, "across")

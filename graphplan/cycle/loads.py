@@ -47,18 +47,18 @@ def _table_values(scene: Scene, table: LoadTable, travel: Array, points: Mapping
                   motion: Motion) -> Array:
     """What a table says at these travels."""
     if table.over == SPEED:
-        return table.at(np.full(travel.shape, abs(float(scene.drives[0].rate)))) + 0 * travel
+        return table.values_at(np.full(travel.shape, abs(float(scene.drives[0].rate)))) + 0 * travel
     if not table.slide:
         reached = np.isfinite(np.sum(list(points.values()), axis=0))
-        return table.at(np.where(reached, travel / travel_unit(scene)[0], np.nan))
+        return table.values_at(np.where(reached, travel / travel_unit(scene)[0], np.nan))
     slide = next(slide for slide in scene.slides if slide.name == table.slide)
     direction = guide_direction(slide, points, guides)
     speeds = slide_rate(slide, motion(travel), points[slide.at], direction)
     if table.over_speed:
-        return table.at(speeds * abs(float(scene.drives[0].rate)))
+        return table.values_at(speeds * abs(float(scene.drives[0].rate)))
     places = slide_position(scene, slide, points, direction)
     senses = _stroke_senses(slide, motion, travel, speeds * onward(scene), scene, points, guides)
-    return table.at(places, np.where(senses, senses, next(iter(table.strokes))))
+    return table.values_at(places, np.where(senses, senses, next(iter(table.strokes))))
 
 
 def guide_direction(slide: Slide, points: Mapping[str, Array], guides: Mapping[str, Array]) -> Any:

@@ -24,7 +24,7 @@ from graphplan.errors import Refused, SingularPose
 from graphplan.mechanism.equations import Elimination
 from graphplan.mechanism.load_values import filled_in
 from graphplan.mechanism.model import FRAME, Assembly, Extreme, Gear, Number, Pair, Placement, Scene, Slide
-from graphplan.mechanism.numbers import TO_A_FLOAT, is_exact
+from graphplan.mechanism.numbers import FLOAT_RECKONING, is_exact
 from graphplan.mechanism.pairs.drives import TurningDrive
 from graphplan.mechanism.placements import needs
 from graphplan.mechanism.travel import coordinates, kept_pace, moved_on, sense
@@ -52,7 +52,7 @@ def at(scene: Scene, travel: Travel | Sequence[Travel] | str) -> Scene:
         if all(math.isfinite(abs(z[0])) for z in turn_there.points.values()):
             raise SingularPose(why, ())
         raise Refused(f"{scene.name}: the pose", why, said("a travel that the mechanism reaches"))
-    assembly = Assembly(with_drives, travels, shifts, moved_on(with_drives, shifts, TO_A_FLOAT),
+    assembly = Assembly(with_drives, travels, shifts, moved_on(with_drives, shifts, FLOAT_RECKONING),
                         points_under_slides(scene), turned)
     posed = filled_in(in_pose(scene, turn_there, 0), travels[0])
     reason_irrational = "the pose: constructed at another travel of its drive"
@@ -71,7 +71,7 @@ def in_pose(scene: Scene, turn: Turn, pose: int) -> Scene:
             z = ends[1] - ends[0] if ends else complex(turn.guides[one.name][pose]) if one.name in turn.guides else None
         return one.direction if z is None else (z.real, z.imag)
 
-    return scene.posed(points, direction)
+    return scene.with_pose(points, direction)
 
 
 def _fixed_placements(scene: Scene) -> dict[str, Placement]:

@@ -105,8 +105,8 @@ class Relations:
         places = {name: view((float(x), float(y))) for name, (x, y) in scene.points.items()}
         self.domain = Symbols()
         self.tape = self.domain.tape
-        self._on_paper = _OnPaper(self.scene.posed(places, lambda one: one.direction,
-                                                   lambda length: view.scale * float(length)))
+        self._on_paper = _OnPaper(self.scene.with_pose(places, lambda one: one.direction,
+                                                       lambda length: view.scale * float(length)))
         self.places, self.angles = self._on_paper.places, list[bool]()
         self._ground = Ground(self.domain, self.scene, view, self.places)
         self.free = self._ground.free
@@ -219,8 +219,8 @@ class Relations:
 
     def _touching(self, contact: Contact, points: Mapping[str, Spot]) -> Spot:
         """Where two profiles touch."""
-        on = self.placed[contact.curved[1]]
-        turn = planar(1.0) if contact.curved[1] == FRAME else on.turn
+        on = self.placed[contact.curved_side[1]]
+        turn = planar(1.0) if contact.curved_side[1] == FRAME else on.turn
         at = contact_point(self._on_paper.scene, contact, {name: planar(spot) for name, spot in points.items()}, turn)
         return at.re, at.im
 

@@ -19,8 +19,8 @@ from pathlib import Path
 
 from graphplan.errors import Refused, SceneError
 from graphplan.importing import linkage2, pmks
-from graphplan.importing.sketch import Sketch
-from graphplan.importing.written import proposed
+from graphplan.importing.sketch import LinkageSketch
+from graphplan.importing.written import propose_scene
 from graphplan.marking.files.safe import MB, contents, unpacked
 from graphplan.mechanism.scene import parse
 
@@ -31,13 +31,13 @@ COMMENT = re.compile(rb"^ *999\r?\nscene: ?([^\r\n]*)", re.MULTILINE)
 SCRIPT = re.compile(r'<(script|metadata)\b[^>]*\bid="scene"[^>]*>(.*?)</\1>', re.DOTALL)
 
 
-def imported(path: Path) -> str:
+def import_scene(path: Path) -> str:
     """The scene in a file, as TOML.
 
     Fails with `Refused` where the file is of no kind that is known, is damaged, or nothing in it moves.
     """
     data = contents(path, LARGEST)
-    if carried := _carried(path, data):
+    if carried := _embedded_scene(path, data):
         try:
             parse(carried, f"{path}")
         except SceneError as error:
@@ -48,10 +48,10 @@ def imported(path: Path) -> str:
     sketch = _reader(path, data)()
     if not sketch.title:
         sketch.title = path.stem
-    return proposed(sketch, f"{path}", f"imported from {path.name} ({sketch.program})")
+    return propose_scene(sketch, f"{path}", f"imported from {path.name} ({sketch.program})")
 
 
-def _carried(path: Path, data: bytes) -> str:
+def _embedded_scene(path: Path, data: bytes) -> str:
     """The scene that one of graphplan's own files carries."""
     found = ""
     with suppress(Refused, UnicodeDecodeError):
@@ -64,7 +64,7 @@ def _carried(path: Path, data: bytes) -> str:
     return found
 
 
-def _reader(path: Path, data: bytes) -> Callable[[], Sketch]:
+def _reader(path: Path, data: bytes) -> Callable[[], LinkageSketch]:
     """What reads a file."""
     start = data[:4096].lstrip(b"\xef\xbb\xbf \t\r\n")
     if data.startswith(b"PK"):
@@ -82,7 +82,7 @@ def _reader(path: Path, data: bytes) -> Callable[[], Sketch]:
     raise Refused(f"{path}", "not a linkage file of a known program", f"a file of these: {KINDS}")
 
 
-def _dxf(path: Path, data: bytes) -> Sketch:
+def _dxf(path: Path, data: bytes) -> LinkageSketch:
     try:
         from graphplan.importing import dxf
     except ModuleNotFoundError as missing:

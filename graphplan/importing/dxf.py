@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.importing.sketch import Driven, Sketch, Slot
+from graphplan.importing.sketch import LinkageSketch, SketchDrive, Slot
 from graphplan.importing.tolerances import JOINT_TOL
 from graphplan.marking.files.dxf import DEEPEST, of_document
 from graphplan.marking.files.safe import Budget, on_paper
@@ -28,15 +28,15 @@ DRIVES = re.compile(r"drive|crank|input|motor", re.IGNORECASE)
 LINK = re.compile(r"link[ _-]*(\S+)", re.IGNORECASE)
 OTHER = re.compile(r"dim|text|title|border|hidden|defpoints|hatch|cent(re|er)", re.IGNORECASE)
 OWN, SYMBOLS = "MECHANISM 1-1 ", re.compile(r"blocks|drive|dimensions")  # of graphplan's own sheets
-PIN = 0.06  # of the drawing: a larger circle is no pin
-BESIDE = 2.5  # heights of letters from a pin to its name
+MAX_PIN_RADIUS = 0.06  # of the drawing: a larger circle is no pin
+NAME_REACH = 2.5  # heights of letters from a pin to its name
 UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}  # of $INSUNITS
 THINGS = 4000
 
 
-def read(path: Path, data: bytes) -> Sketch:
+def read(path: Path, data: bytes) -> LinkageSketch:
     """The linkage of a file."""
-    return of_document(path, data, lambda document: _Drawing(path, document).sketch())
+    return of_document(path, data, lambda document: _DxfLinkage(path, document).sketch())
 
 
 @dataclass
@@ -56,7 +56,7 @@ class _Pin:
 
 
 @dataclass
-class _Drawing:
+class _DxfLinkage:
     """What is drawn, and then the sketch of it."""
 
     path: Path
@@ -67,7 +67,7 @@ class _Drawing:
     left: dict[str, int] = field(default_factory=dict)
     joints: list[complex] = field(default_factory=list)
 
-    def sketch(self) -> Sketch:
+    def sketch(self) -> LinkageSketch:
         """Its sketch: joints, links, slides, what is fixed and what drives."""
         self.budget = Budget(self.path, THINGS, "lines, circles and texts")
         self.hidden = {layer.dxf.name for layer in self.document.layers if layer.is_off() or layer.is_frozen()}
@@ -78,15 +78,15 @@ class _Drawing:
             raise Refused(f"{self.path}", "a line lies too far away", "coordinates below a million")
         self.size = max((max(part) - min(part) for part in ([spot.real for spot in spots],
                                                             [spot.imag for spot in spots]) if part), default=0.0) or 1.0
-        big = [pin for pin in self.pins if pin.radius > PIN * self.size]
+        big = [pin for pin in self.pins if pin.radius > MAX_PIN_RADIUS * self.size]
         self.pins = [pin for pin in self.pins if pin not in big]
-        found = Sketch("DXF", length=UNITS.get(self.document.units, ""))
+        found = LinkageSketch("DXF", length=UNITS.get(self.document.units, ""))
         if not found.length:
             found.note("the unit of length: the drawing states none that a scene has, mm is a guess")
         for what, count in [*self.left.items(), *([("large circles", len(big))] if big else [])]:
             found.note(f"{count} {what}: left out")
         self._links(found)
-        self._named(found)
+        self._name_joints(found)
         return found
 
     def _read(self, entities: Iterable[Any], depth: int, within: str) -> None:
@@ -133,7 +133,7 @@ class _Drawing:
         self.joints.append(at)
         return str(len(self.joints) - 1)
 
-    def _links(self, found: Sketch) -> None:
+    def _links(self, found: LinkageSketch) -> None:
         """Links by shapes and by layers, then pins that lie on them; guides are lines of slides, and drive nothing."""
         bars = [shape for shape in self.shapes if not GUIDES.search(shape.layer)]
         for shape in bars:
@@ -147,22 +147,23 @@ class _Drawing:
                 link = found.link(points, shape.layer if name else "", name[1] if name else "")
                 if DRIVES.search(shape.layer):
                     told = f"It is on the layer {shape.layer}; its speed is a guess."
-                    found.drives.append(Driven(link, "omega = 1", told))
+                    found.drives.append(SketchDrive(link, "omega = 1", told))
         for pin in self.pins:
-            self._pinned(found, pin, bars)
+            self._place_pin(found, pin, bars)
         for shape in self.shapes:
             if GUIDES.search(shape.layer):
                 self._guide(found, shape, bars)
 
-    def _put(self, found: Sketch, spot: complex) -> str:
+    def _put(self, found: LinkageSketch, spot: complex) -> str:
         key = self._joint(spot)
         return key if key in found.places else found.point(key, self.joints[int(key)])
 
-    def _pinned(self, found: Sketch, pin: _Pin, bars: Sequence[_Shape]) -> None:
+    def _place_pin(self, found: LinkageSketch, pin: _Pin, bars: Sequence[_Shape]) -> None:
         """A pin on the way of a bar is a joint of it, one on the ground is fixed."""
         guides = [shape for shape in self.shapes if GUIDES.search(shape.layer)
-                  and _beside(pin.at, shape.corners[0], shape.corners[-1]) <= JOINT_TOL * self.size]
-        on = [shape for shape in bars if any(_beside(pin.at, *side) <= JOINT_TOL * self.size for side in _sides(shape))
+                  and _distance_to_stroke(pin.at, shape.corners[0], shape.corners[-1]) <= JOINT_TOL * self.size]
+        on = [shape for shape in bars if any(_distance_to_stroke(pin.at, *side) <= JOINT_TOL * self.size
+                                             for side in _sides(shape))
               and (pin.at in shape.corners or not any(self._carries(shape, guide) for guide in guides))]
         if on:
             key = self._put(found, pin.at)
@@ -177,9 +178,10 @@ class _Drawing:
     def _carries(self, bar: _Shape, guide: _Shape) -> bool:
         """Whether a side of a bar runs along a guide, or on from it: then the guide is on its link."""
         start, end = guide.corners[0], guide.corners[-1]
-        return any(max(_across(corner, start, end) for corner in side) <= JOINT_TOL * self.size for side in _sides(bar))
+        return any(max(_distance_to_line(corner, start, end) for corner in side) <= JOINT_TOL * self.size
+                   for side in _sides(bar))
 
-    def _guide(self, found: Sketch, guide: _Shape, bars: Sequence[_Shape]) -> None:
+    def _guide(self, found: LinkageSketch, guide: _Shape, bars: Sequence[_Shape]) -> None:
         """The pins on a guide slide along it; it is of the link with a bar along it, else of the frame."""
         start, end = guide.corners[0], guide.corners[-1]
         carriers = [{self._joint(corner) for corner in bar.corners} for bar in bars if self._carries(bar, guide)]
@@ -187,17 +189,18 @@ class _Drawing:
                      FRAME)
         way = (end - start) / abs(end - start)
         for key, at in found.places.items():
-            if _beside(at, start, end) <= JOINT_TOL * self.size and key not in found.fixed and (
+            if _distance_to_stroke(at, start, end) <= JOINT_TOL * self.size and key not in found.fixed and (
                     along == FRAME or key not in found.links[along]):
                 found.slots.append(Slot(key, along, way))
                 if along == FRAME and self.own:
                     found.note("that each guide without a bar along it is on the frame is a guess")
 
-    def _named(self, found: Sketch) -> None:
+    def _name_joints(self, found: LinkageSketch) -> None:
         """Names by the texts beside the joints."""
         for key, at in found.places.items():
             near = [(abs(spot - at), text) for spot, high, text in self.texts
-                    if abs(spot - at) <= BESIDE * high + PIN * self.size and re.fullmatch(r"\S{1,6}", text)]
+                    if abs(spot - at) <= NAME_REACH * high + MAX_PIN_RADIUS * self.size and re.fullmatch(r"\S{1,6}",
+                                                                                                         text)]
             found.names[key] = min(near)[1] if near else ""
 
 
@@ -218,7 +221,7 @@ def _sides(shape: _Shape) -> Iterator[tuple[complex, complex]]:
     yield from pairwise([*shape.corners, *shape.corners[:shape.closed]])
 
 
-def _beside(at: complex, start: complex, end: complex) -> float:
+def _distance_to_stroke(at: complex, start: complex, end: complex) -> float:
     """How far a place is from a stroke."""
     way = end - start
     if not way:
@@ -227,6 +230,6 @@ def _beside(at: complex, start: complex, end: complex) -> float:
     return abs(at - start - min(max(part, 0.0), 1.0) * way)
 
 
-def _across(at: complex, start: complex, end: complex) -> float:
+def _distance_to_line(at: complex, start: complex, end: complex) -> float:
     """How far a place is from a line."""
     return abs(((end - start).conjugate() * (at - start)).imag) / abs(end - start)

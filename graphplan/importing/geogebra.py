@@ -21,7 +21,7 @@ from itertools import combinations, pairwise
 from pathlib import Path
 from typing import Any
 
-from graphplan.importing.sketch import Driven, Sketch, Slot
+from graphplan.importing.sketch import LinkageSketch, SketchDrive, Slot
 from graphplan.importing.tolerances import DIRECTION_TOL
 from graphplan.marking.files.constructions import CAPTION, LINES, NAME, Objects, Vector, of_construction, seen
 from graphplan.mechanism.model import FRAME
@@ -33,12 +33,12 @@ INNER = re.compile(r"(\w+)\s*[\[(](.*)[\])]")
 GUESS = "GeoGebra knows no speed: 1 {unit} is a guess."
 
 
-def read(path: Path, data: bytes) -> Sketch:
+def read(path: Path, data: bytes) -> LinkageSketch:
     """The linkage of a file."""
-    return of_construction(path, data, lambda objects: _Drawing(objects).sketch)
+    return of_construction(path, data, lambda objects: _GeoGebraLinkage(objects).sketch)
 
 
-class _Drawing:
+class _GeoGebraLinkage:
     """Reads the objects, link by link and then point by point."""
 
     def __init__(self, objects: Objects):
@@ -52,21 +52,21 @@ class _Drawing:
         self.driving = {*self._driving()}
         running = [label for label in objects.elements if self._command(label)[0] in ("Point", "PointIn")]
         self.moving = self._made_of([*self.driving, *running])
-        self.sketch = Sketch("GeoGebra")
+        self.sketch = LinkageSketch("GeoGebra")
         own = any(label.startswith("stroke_") for label in objects.elements)
         unit = "graphplan's own sheet, saved anew, is in mm of paper" if own else "GeoGebra's own is read as mm"
         self.sketch.note(f"the unit of length: {unit}")
-        for ends in self._straightened([*self._links(own)]) if own else self._links(own):
-            self._used(*ends)
+        for ends in self._join_straight_bars([*self._links(own)]) if own else self._links(own):
+            self._add_points(*ends)
             self.sketch.link(ends)
         for label in [*self.sketch.places]:
-            self._bound(label)
+            self._read_constraint(label)
         for label in sorted(self.points - self.sketch.places.keys()):
             if not (own and label.startswith("point_")):
-                self._carried(label)
+                self._read_carried_point(label)
         self._frame()
 
-    def _used(self, *labels: str) -> None:
+    def _add_points(self, *labels: str) -> None:
         for label in labels:
             if label not in self.sketch.places:
                 self.sketch.point(label, self.objects.values[label], self._name(label))
@@ -83,7 +83,7 @@ class _Drawing:
         """The command that makes an object, and its inputs; also where it stands within another one."""
         found = self.objects.commands.get(label)
         if found is None and label not in self.objects.elements and (inner := INNER.fullmatch(label.strip())):
-            found = inner[1], _parts(inner[2]), 0
+            found = inner[1], _split_inputs(inner[2]), 0
         return found or ("", [], 0)
 
     def _needs(self, label: str) -> set[str]:
@@ -141,7 +141,7 @@ class _Drawing:
         if left:
             self.sketch.note(f"{left} segments or polygons whose ends are no points of their own: left out")
 
-    def _straightened(self, links: list[list[str]]) -> list[list[str]]:
+    def _join_straight_bars(self, links: list[list[str]]) -> list[list[str]]:
         """With bars that go on straight as one: graphplan draws a bar from point to point."""
         bars, at = [link for link in links if len(link) == 2], self.objects.values
         for one, other in combinations(bars, 2):
@@ -152,19 +152,19 @@ class _Drawing:
                     links.append([*dict.fromkeys([*one, *other])])
         return links
 
-    def _bound(self, label: str) -> None:
+    def _read_constraint(self, label: str) -> None:
         """What holds a point of a link: circles, lines, turns."""
         command, inputs, _ = self._command(label)
         if command == "Intersect":
-            self._crossed(label, inputs[:2])
+            self._read_intersection(label, inputs[:2])
         elif command in ("Point", "PointIn") and inputs:
-            self._on(label, inputs[0])
+            self._read_point_on(label, inputs[0])
         elif command == "Rotate" and len(inputs) == 3 and {inputs[0], inputs[2]} <= self.points:
-            self._turned(label, *inputs)
+            self._read_rotation(label, *inputs)
         elif term := self.objects.terms.get(label, ""):
-            self._written(label, term)
+            self._read_term(label, term)
 
-    def _crossed(self, label: str, inputs: list[str]) -> None:
+    def _read_intersection(self, label: str, inputs: list[str]) -> None:
         lines = [name for name in inputs if self._is_line(name)]
         for centre in map(self._centre, inputs):
             if centre is None:
@@ -172,21 +172,21 @@ class _Drawing:
             self._bar(centre, label)
             through = {*self._ends(next((line for line in lines), ""))} - {centre, label}
             if lines and centre in self._ends(lines[0]) and through:
-                self._pointed(centre, label, through.pop())
+                self._read_pointer(centre, label, through.pop())
                 lines = []
         for line in lines:
-            self._guided(label, line)
+            self._add_slide(label, line)
 
-    def _pointed(self, centre: str, label: str, other: str) -> None:
+    def _read_pointer(self, centre: str, label: str, other: str) -> None:
         """A link that points where another point is: that slides on it, or is a handle that drives it."""
         if self.moves(other) or other in self.sketch.places:
-            self._used(other)
+            self._add_points(other)
             link = next(link for link, points in self.sketch.links.items() if {centre, label} <= {*points})
             self.sketch.slots.append(Slot(other, link, (centre, label)))
         else:
             self._drive(centre, label)
 
-    def _on(self, label: str, path: str) -> None:
+    def _read_point_on(self, label: str, path: str) -> None:
         """A point that runs on something: a crank's pin, a slide, or a point of a bar that moves."""
         centre, ends = self._centre(path), self._ends(path)
         if centre is not None:
@@ -195,10 +195,10 @@ class _Drawing:
         elif len(ends) == 2 and self.moves(path):
             self._bar(*ends, label)
         elif self._is_line(path):
-            self._guided(label, path)
+            self._add_slide(label, path)
             self.sketch.note(f"{self.sketch.names[label]} is free on a line: a drive, if nothing else drives")
 
-    def _turned(self, label: str, point: str, angle: str, centre: str) -> None:
+    def _read_rotation(self, label: str, point: str, angle: str, centre: str) -> None:
         if any(self.moves(name) for name in re.findall(NAME, angle) if name in self.objects.elements):
             self._bar(centre, label)
             if not self.moves(point):
@@ -206,7 +206,7 @@ class _Drawing:
         elif self.moves(point) or self.moves(centre):
             self._bar(centre, point, label)
 
-    def _written(self, label: str, term: str) -> None:
+    def _read_term(self, label: str, term: str) -> None:
         """An expression with a driving number, from one point that stands still: the pin of a crank."""
         needs = self._needs(label)
         pivots = [name for name in needs & self.points if not self.moves(name)]
@@ -220,7 +220,7 @@ class _Drawing:
             if partners:
                 self._drive(partners[0], label)
 
-    def _carried(self, label: str) -> None:
+    def _read_carried_point(self, label: str) -> None:
         """A point that is seen, and made of points of one link alone, is one of that link."""
         command, inputs, _ = self._command(label)
         on = command in ("Point", "PointIn") and len(inputs) == 1
@@ -230,7 +230,7 @@ class _Drawing:
         if any(self.moves(name) for name in self._needs(label) - self.points) and not on:
             return
         if link := next((key for key, points in self.sketch.links.items() if {*of} <= {*points}), ""):
-            self._used(label)
+            self._add_points(label)
             self.sketch.hold(link, label)
 
     # ---- circles and lines -----------------------------------------------------------------------------------------
@@ -255,7 +255,7 @@ class _Drawing:
         ends = tuple(name for name in inputs if name in self.points)
         return ends if command in ("Line", "Segment", "Ray") and len(ends) == len(inputs) == 2 else ()
 
-    def _guided(self, label: str, line: str) -> None:
+    def _add_slide(self, label: str, line: str) -> None:
         """A slide along a line."""
         value: Any = self.objects.values.get(line) or self.objects.term(line)
         ends, along = self._ends(line), AXES.get(line, getattr(value, "along", None))
@@ -270,12 +270,12 @@ class _Drawing:
 
     def _bar(self, *points: str) -> None:
         """A link of points, where none has them all."""
-        self._used(*points)
+        self._add_points(*points)
         if not any({*points} <= {*held} for held in self.sketch.links.values()):
             self.sketch.link(points)
 
     def _drive(self, centre: str, pin: str) -> None:
-        self.sketch.drives.append(Driven((centre, pin), "omega = 1", GUESS.format(unit="rad/s")))
+        self.sketch.drives.append(SketchDrive((centre, pin), "omega = 1", GUESS.format(unit="rad/s")))
 
     def _frame(self) -> None:
         """Points that are made fixed; where anything moves also all that do not."""
@@ -288,7 +288,7 @@ class _Drawing:
                 self.sketch.fixed[label] = None
 
 
-def _parts(inputs: str) -> list[str]:
+def _split_inputs(inputs: str) -> list[str]:
     """The inputs of a command that is written out, without those of commands within it taken apart."""
     found, depth = [""], 0
     for letter in inputs:

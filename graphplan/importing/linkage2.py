@@ -15,7 +15,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from graphplan.errors import Refused
-from graphplan.importing.sketch import Driven, Guide, Sketch, Slot
+from graphplan.importing.sketch import LinkageSketch, SketchDrive, SketchGuide, Slot
 from graphplan.importing.written import number
 from graphplan.marking.files.safe import number as read_number
 from graphplan.marking.files.safe import tree
@@ -26,7 +26,7 @@ LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
 STROKES = 30  # an actuator makes its throw twice in a cycle
 
 
-def read(path: Path, data: bytes) -> Sketch:
+def read(path: Path, data: bytes) -> LinkageSketch:
     """The linkage of a file."""
     root = tree(path, data)
     if root.tag != "linkage2":
@@ -39,22 +39,22 @@ def read(path: Path, data: bytes) -> Sketch:
 
 class _Linkage:
     def __init__(self, root: Element):
-        self.sketch = Sketch("Linkage")
+        self.sketch = LinkageSketch("Linkage")
         self.sketch.note("the unit of length: the file's own units, 96 to an inch on Linkage's screen, are read as mm")
         connectors = {connector.get("id", ""): connector for connector in root.iter("connector") if "x" in
                       connector.attrib and _moves(connector)}
         for key, connector in connectors.items():
-            self.connector(key, connector)
+            self.add_connector(key, connector)
         gears = 0
         for link in root:
             if link.tag in ("Link", "element") and _moves(link):
                 gears += _true(link, "gear")
-                self.link(link)
+                self.add_link(link)
         for key, connector in connectors.items():
             if _true(connector, "slider"):
-                self.slider(key, connector)
+                self.add_slider(key, connector)
             if _true(connector, "input"):
-                self.turned(key, connector)
+                self.add_drives(key, connector)
         if gears:
             self.sketch.note(f"{gears} gears or chain wheels were left out")
         for ratio in root.iter("ratio"):
@@ -62,37 +62,37 @@ class _Linkage:
             wheels = " and ".join(wheel.get("id", "?") for wheel in ratio)
             self.sketch.note(f"{ratio.get('type', 'gears')} between the links of id {wheels}, sizes {sizes}: left out")
 
-    def connector(self, key: str, connector: Element) -> None:
+    def add_connector(self, key: str, connector: Element) -> None:
         at = complex(read_number(connector.get("x", "")), read_number(connector.get("y", "")))
         self.sketch.point(key, at, connector.get("name", "").strip() or _letter(key))
         if _true(connector, "anchor"):
             self.sketch.fixed[key] = None
 
-    def link(self, link: Element) -> None:
+    def add_link(self, link: Element) -> None:
         points = [point for point in (part.get("id", "") for part in link if part.tag == "connector")
                   if point in self.sketch.places]
         name = link.get("name", "").strip()
         if _true(link, "gear") or not points:
             return
         if _true(link, "actuator") and len(points) == 2:
-            self.actuator(link, points, name)
+            self.add_actuator(link, points, name)
         else:
             self.sketch.link(points, name=name)
 
-    def actuator(self, link: Element, points: list[str], name: str) -> None:
+    def add_actuator(self, link: Element, points: list[str], name: str) -> None:
         """A barrel and a rod that slides in it."""
         sketch, (start, end) = self.sketch, points
         barrel = sketch.link([start], name=f"{name} barrel" if name else "")
         rod = sketch.link([end], name=f"{name} rod" if name else "")
-        sketch.guides.append(Guide(rod, barrel, end, (start, end)))
+        sketch.guides.append(SketchGuide(rod, barrel, end, (start, end)))
         throw, cycles = (read_number(link.get(what, "0") or "0") for what in ("throw", "cpm"))
         speed = throw * cycles / STROKES
         told = f"An actuator: throw {number(throw)}, {number(cycles)} cycles a minute, here at the speed of its stroke."
         if not speed:
             told, speed = "An actuator; its speed is a guess.", 1.0
-        sketch.drives.append(Driven(rod, f"speed = {number(speed)}", told, barrel, True))
+        sketch.drives.append(SketchDrive(rod, f"speed = {number(speed)}", told, barrel, True))
 
-    def slider(self, key: str, connector: Element) -> None:
+    def add_slider(self, key: str, connector: Element) -> None:
         limits = [limit.get("id", "") for limit in connector if limit.tag == "slidelimit"]
         sketch = self.sketch
         name = sketch.names[key]
@@ -105,7 +105,7 @@ class _Linkage:
             return sketch.note(f"{name} slides between connectors that are on no one link: left out")
         return sketch.slots.append(Slot(key, along, (limits[0], limits[1])))
 
-    def turned(self, key: str, connector: Element) -> None:
+    def add_drives(self, key: str, connector: Element) -> None:
         """An anchored input turns each of its links."""
         sketch, written = self.sketch, connector.get("rpm", "")
         links = [link for link, points in sketch.links.items() if key in points and len(points) > 1]
@@ -114,11 +114,11 @@ class _Linkage:
         speed = -read_number(written) if written else 0.0
         told = "" if speed else "The file tells no speed: 1 rad/s is a guess."
         rate = f"rpm = {number(speed)}" if speed else "omega = 1"
-        return sketch.drives.extend(_driven(links, rate, told))
+        return sketch.drives.extend(_drives_of(links, rate, told))
 
 
-def _driven(links: list[str], rate: str, told: str) -> Iterator[Driven]:
-    yield from (Driven(link, rate, told) for link in links)
+def _drives_of(links: list[str], rate: str, told: str) -> Iterator[SketchDrive]:
+    yield from (SketchDrive(link, rate, told) for link in links)
 
 
 def _true(element: Element, name: str) -> bool:

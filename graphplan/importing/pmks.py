@@ -31,7 +31,7 @@ from typing import Any
 from urllib.parse import unquote
 
 from graphplan.errors import Refused
-from graphplan.importing.sketch import Driven, Guide, Sketch, Slot
+from graphplan.importing.sketch import LinkageSketch, SketchDrive, SketchGuide, Slot
 from graphplan.importing.tolerances import PISTON_TOL
 from graphplan.importing.written import number as shown
 from graphplan.marking.files.safe import Budget, number
@@ -80,7 +80,7 @@ def knows(text: str) -> bool:
     return bool(address or STARTS.search(start) or (start[:1] == "{" and '"Joints"' in text))
 
 
-def read(path: Path, text: str) -> Sketch:
+def read(path: Path, text: str) -> LinkageSketch:
     """The linkage of a file.
 
     Fails with `Refused` where it is damaged.
@@ -98,8 +98,8 @@ def _read(text: str) -> Read:
     if address := ADDRESS.search(text):
         query = unquote(address[1])
         if query.startswith("data="):
-            return _packed(query[len("data=") :])
-        return _long_address(query) if re.search(r"(^|&)j=", query) else _short(query)
+            return _read_packed(query[len("data=") :])
+        return _long_address(query) if re.search(r"(^|&)j=", query) else _read_short(query)
     start = text.lstrip()
     if start.startswith("{"):
         return _file(json.loads(text))
@@ -190,7 +190,7 @@ def _yes(written: str) -> bool:
 # ---- PMKS+, 2023: short addresses ------------------------------------------------------------------------------------
 
 
-def _short(query: str) -> Read:
+def _read_short(query: str) -> Read:
     """Settings, joints, links, in letters of base 64; the last letter is the length, as a check."""
     whole, check = query[:-1], query[-1:]
     if not check or DIGITS[len(whole) % 62] != check:
@@ -225,7 +225,7 @@ def _integer(letters: str) -> int:
 # ---- PMKS+, 2025: sections, and packed addresses ---------------------------------------------------------------------
 
 
-def _packed(letters: str) -> Read:
+def _read_packed(letters: str) -> Read:
     """JSON in which separators are shortened, whole numbers are hexadecimal texts, and truths are y and n."""
     text = unpack(letters, MAX_LENGTH)
     for short, long in (("--", '"]_["'), ("RP", "Reference Point"), ("_", ","), ("~", '","')):
@@ -239,15 +239,15 @@ def _packed(letters: str) -> Read:
         return [[decode(part) if place in numeric else str(part) for place, part in enumerate(row)]
                 for row in data.get(what) or ()]
 
-    return _late(rows("j", 0, 2, 3, 4, 5, 8), rows("l", 0), rows("c", 0))
+    return _read_late(rows("j", 0, 2, 3, 4, 5, 8), rows("l", 0), rows("c", 0))
 
 
 def _sections(text: str) -> Read:
     rows = _by_section(text, lambda row: "".join(re.findall(r"^\s*---\s*(\w+)\s*---\s*$", row[0])) if row else "")
-    return _late(rows["j"], rows["l"], rows["c"])
+    return _read_late(rows["j"], rows["l"], rows["c"])
 
 
-def _late(joints: Sequence[Sequence[str]], links: Sequence[Sequence[str]], welds: Sequence[Sequence[str]]) -> Read:
+def _read_late(joints: Sequence[Sequence[str]], links: Sequence[Sequence[str]], welds: Sequence[Sequence[str]]) -> Read:
     """Joints: id, name, x, y, type, angle, ground, input, speed, welded ...; links: id, name, ..., joints in the
     seventh place; compound links: links in the sixth. Angles are degrees, speeds turns a minute, counter-clockwise."""
     found = [Joint(row[0], row[1], complex(number(row[2]), number(row[3])), "PR"[int(row[4])], [],
@@ -265,8 +265,8 @@ def _late(joints: Sequence[Sequence[str]], links: Sequence[Sequence[str]], welds
 # ---- what they have in common ----------------------------------------------------------------------------------------
 
 
-def _sketch(found: Read) -> Sketch:
-    sketch = Sketch("PMKS", title=found.title, length=found.unit)
+def _sketch(found: Read) -> LinkageSketch:
+    sketch = LinkageSketch("PMKS", title=found.title, length=found.unit)
     if not found.unit:
         sketch.note("the unit of length: mm is a guess")
     pistons = {joint.key: twin for joint in found.joints if joint.kind == "P" and (twin := _twin(joint, found.joints))}
@@ -277,7 +277,7 @@ def _sketch(found: Read) -> Sketch:
                 sketch.fixed[joint.key] = None
     names = dict.fromkeys(link for joint in found.joints for link in joint.links if not _is_ground([link]))
     for name in names:
-        held = [pistons.get(joint.key, joint).key for joint in found.joints if name in _carried(joint)]
+        held = [pistons.get(joint.key, joint).key for joint in found.joints if name in _carried_links(joint)]
         sketch.link(held, name, name)
     for weld in found.welds:
         first, *others = [link for link in weld if link in sketch.links] or [""]
@@ -301,12 +301,12 @@ def _is_ground(links: Sequence[str]) -> bool:
     return any(link.lower() == "ground" for link in links)
 
 
-def _carried(joint: Joint) -> list[str]:
+def _carried_links(joint: Joint) -> list[str]:
     """The links that have a joint as a point: of a sliding joint or a slot not that of the guide."""
     return joint.links[1:] if joint.kind in ("P", "RP") and len(joint.links) > 1 else joint.links
 
 
-def _sliding(sketch: Sketch, joint: Joint, twin: Joint | None) -> None:
+def _sliding(sketch: LinkageSketch, joint: Joint, twin: Joint | None) -> None:
     way = complex(math.cos(joint.angle), math.sin(joint.angle))
     way = complex(round(way.real, 14), round(way.imag, 14))
     if joint.kind == "G":
@@ -314,38 +314,38 @@ def _sliding(sketch: Sketch, joint: Joint, twin: Joint | None) -> None:
     elif joint.kind == "P" and twin:
         others = [link for link in joint.links if link not in twin.links and not _is_ground([link])]
         piston = next(link for link in joint.links if link in twin.links)
-        sketch.guides.append(Guide(piston, FRAME if joint.ground or not others else others[0], twin.key, way))
+        sketch.guides.append(SketchGuide(piston, FRAME if joint.ground or not others else others[0], twin.key, way))
     elif joint.kind in ("P", "RP") and len(joint.links) > 1:
         along, link = (FRAME if _is_ground([name]) else name for name in joint.links[:2])
         if joint.kind == "P" and link == FRAME:  # the guide of the first link is what stands still
             sketch.hold(along, joint.key)
-            sketch.guides.append(Guide(along, FRAME, joint.key, way))
+            sketch.guides.append(SketchGuide(along, FRAME, joint.key, way))
         elif joint.kind == "P":
-            sketch.guides.append(Guide(link, along, joint.key, way))
+            sketch.guides.append(SketchGuide(link, along, joint.key, way))
         else:
             if link == FRAME:
                 sketch.fixed[joint.key] = None
             sketch.slots.append(Slot(joint.key, along, way))
     elif joint.kind == "P" and joint.welded and joint.links:
-        sketch.guides.append(Guide(joint.links[0], FRAME, joint.key, way))
+        sketch.guides.append(SketchGuide(joint.links[0], FRAME, joint.key, way))
     elif joint.kind == "P":
         sketch.slots.append(Slot(joint.key, FRAME, way))
 
 
-def _drives(sketch: Sketch, found: Read, joint: Joint) -> Iterator[Driven]:
+def _drives(sketch: LinkageSketch, found: Read, joint: Joint) -> Iterator[SketchDrive]:
     links = [link for link in joint.links if not _is_ground([link]) and link in sketch.links]
     rate = f"rpm = {shown(joint.rpm)}" if joint.rpm else found.rate
     guess = "" if rate and rate != "omega = 0" else "The file tells no speed: 1 rad/s is a guess."
     if joint.kind != "R":
         guide = next((one for one in sketch.guides if one.link in links), None)
         if guide:
-            yield Driven(guide.link, "speed = 1", "A sliding input: its speed is a guess.", guide.along, True)
+            yield SketchDrive(guide.link, "speed = 1", "A sliding input: its speed is a guess.", guide.along, True)
         else:
             sketch.note(f"the input at {joint.name or 'a sliding joint'}: left out")
     elif joint.ground or _is_ground(joint.links):
-        yield from (Driven(link, "omega = 1" if guess else rate, guess) for link in links)
+        yield from (SketchDrive(link, "omega = 1" if guess else rate, guess) for link in links)
     elif len(links) == 2:
-        yield Driven(links[1], "omega = 1" if guess else rate, guess, links[0])
+        yield SketchDrive(links[1], "omega = 1" if guess else rate, guess, links[0])
     else:
         sketch.note(f"the input at {joint.name or 'a joint'} between {len(links)} links: left out")
 

@@ -18,12 +18,12 @@ from graphplan.mechanism.model import FRAME
 Way = tuple[str, str] | complex
 """The direction of a guide: from one point to another, or a vector."""
 
-LARGEST, MOST = 300, 1500  # links, and points that they have together
-FARTHEST = 1e9  # from the origin
+MAX_LINKS, MOST = 300, 1500  # links, and points that they have together
+MAX_DISTANCE = 1e9  # from the origin
 
 
 @dataclass(frozen=True)
-class Guide:
+class SketchGuide:
     """A link that slides along another, its point `at` on the guide line."""
 
     link: str
@@ -42,7 +42,7 @@ class Slot:
 
 
 @dataclass(frozen=True)
-class Driven:
+class SketchDrive:
     """A drive: the rate as TOML writes it (`rpm = 15`), of a link, or of the link that holds two points; `on` another.
 
     One that `slides` drives the guide of its two links. `told` says where the rate is from, or that it is a guess.
@@ -56,7 +56,7 @@ class Driven:
 
 
 @dataclass
-class Sketch:
+class LinkageSketch:
     """What was read, and in `notes` what could not be told."""
 
     program: str
@@ -67,9 +67,9 @@ class Sketch:
     links: dict[str, list[str]] = field(default_factory=dict)
     called: dict[str, str] = field(default_factory=dict)
     fixed: dict[str, None] = field(default_factory=dict)
-    guides: list[Guide] = field(default_factory=list)
+    guides: list[SketchGuide] = field(default_factory=list)
     slots: list[Slot] = field(default_factory=list)
-    drives: list[Driven] = field(default_factory=list)
+    drives: list[SketchDrive] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
 
     def point(self, key: str, at: complex, name: str = "") -> str:
@@ -77,7 +77,7 @@ class Sketch:
 
         Fails with `ValueError` where it lies too far away.
         """
-        if not abs(at) < FARTHEST:
+        if not abs(at) < MAX_DISTANCE:
             raise ValueError(f"a point lies at {at.real:g}, {at.imag:g}")
         self.places[key], self.names[key] = at, name
         return key
@@ -88,8 +88,8 @@ class Sketch:
         Fails with `ValueError` where there are too many.
         """
         number = len(self.links)
-        if number == LARGEST:
-            raise ValueError(f"it has more than {LARGEST} links")
+        if number == MAX_LINKS:
+            raise ValueError(f"it has more than {MAX_LINKS} links")
         while not key or key in self.links or key == FRAME:
             key, number = f"link {number}", number + 1
         self.links[key], self.called[key] = [], name
@@ -117,7 +117,7 @@ class Sketch:
         return [key for key, points in self.bodies.items() if point in points]
 
     @cached_property
-    def size(self) -> float:
+    def extent(self) -> float:
         """The larger of width and height; 1 of a single point."""
         xs, ys = [at.real for at in self.places.values()], [at.imag for at in self.places.values()]
         return max(max(xs) - min(xs), max(ys) - min(ys)) if xs and max(xs) - min(xs) + max(ys) - min(ys) else 1.0
@@ -133,13 +133,13 @@ class Sketch:
         return 3 * len(self.links) - 2 * sum(count - 1 for count in held.values()) - 2 * len(self.guides)
 
 
-def tidied(sketch: Sketch) -> Sketch:
+def tidy(sketch: LinkageSketch) -> LinkageSketch:
     """The sketch itself, with links that are rigid together as one, pins in slots as blocks, and no loose pieces."""
     _join(sketch)
     _rigid(sketch)
     _slide(sketch)
     _find_driven(sketch)
-    _connected(sketch)
+    _drop_loose_pieces(sketch)
     slides = {(guide.link, guide.along) for guide in sketch.guides}
     sketch.drives = [one for one in sketch.drives if {str(one.link), one.on} <= {*sketch.links, FRAME}
                      and one.link != FRAME and (not one.slides or (one.link, one.on) in slides)]
@@ -149,16 +149,16 @@ def tidied(sketch: Sketch) -> Sketch:
     return sketch
 
 
-def _join(sketch: Sketch) -> None:
+def _join(sketch: LinkageSketch) -> None:
     """Points of one link that coincide are one."""
     for points in [*sketch.links.values()]:
         for one, other in combinations([*points], 2):
-            if one != other and abs(sketch.places[one] - sketch.places[other]) <= PLACE_TOL * sketch.size:
+            if one != other and abs(sketch.places[one] - sketch.places[other]) <= PLACE_TOL * sketch.extent:
                 _replace_point(sketch, other, one)
 
 
-def _replace_point(sketch: Sketch, old: str, new: str) -> None:
-    def kept(way: Way) -> Way:
+def _replace_point(sketch: LinkageSketch, old: str, new: str) -> None:
+    def with_new(way: Way) -> Way:
         return (new if way[0] == old else way[0], new if way[1] == old else way[1]) if isinstance(way, tuple) else way
 
     for key, points in sketch.links.items():
@@ -166,14 +166,14 @@ def _replace_point(sketch: Sketch, old: str, new: str) -> None:
     if old in sketch.fixed:
         del sketch.fixed[old]
         sketch.fixed[new] = None
-    sketch.guides = [replace(one, at=new if one.at == old else one.at, way=kept(one.way)) for one in sketch.guides]
-    sketch.slots = [replace(one, at=new if one.at == old else one.at, way=kept(one.way)) for one in sketch.slots]
+    sketch.guides = [replace(one, at=new if one.at == old else one.at, way=with_new(one.way)) for one in sketch.guides]
+    sketch.slots = [replace(one, at=new if one.at == old else one.at, way=with_new(one.way)) for one in sketch.slots]
 
 
 # ---- rigid together --------------------------------------------------------------------------------------------------
 
 
-def _rigid(sketch: Sketch) -> None:
+def _rigid(sketch: LinkageSketch) -> None:
     """Bodies that share two points are one, and so are three of which each two share another point."""
     while together := next(_found_rigid(sketch), None):
         into = FRAME if FRAME in together else together[0]
@@ -182,7 +182,7 @@ def _rigid(sketch: Sketch) -> None:
                 _absorb(sketch, other, into)
 
 
-def _found_rigid(sketch: Sketch) -> Iterator[tuple[str, ...]]:
+def _found_rigid(sketch: LinkageSketch) -> Iterator[tuple[str, ...]]:
     bodies = {key: {*points} for key, points in sketch.bodies.items()}
     at: dict[str, list[str]] = {}
     for key, points in bodies.items():
@@ -203,7 +203,7 @@ def _found_rigid(sketch: Sketch) -> Iterator[tuple[str, ...]]:
                 yield one, other, third
 
 
-def _absorb(sketch: Sketch, link: str, into: str) -> None:
+def _absorb(sketch: LinkageSketch, link: str, into: str) -> None:
     """Give the points of a link, and all that is said of it, to another."""
     points = sketch.links.pop(link)
     name = sketch.called.pop(link)
@@ -213,13 +213,14 @@ def _absorb(sketch: Sketch, link: str, into: str) -> None:
         sketch.links[into] = [*dict.fromkeys([*sketch.links[into], *points])]
         sketch.called[into] = sketch.called[into] or name
 
-    def now(key: str) -> str:
+    def key_now(key: str) -> str:
         return into if key == link else key
 
-    guides = [replace(one, link=now(one.link), along=now(one.along)) for one in sketch.guides]
+    guides = [replace(one, link=key_now(one.link), along=key_now(one.along)) for one in sketch.guides]
     sketch.guides = [one for one in guides if one.link != one.along]
-    sketch.slots = [replace(one, along=now(one.along)) for one in sketch.slots]
-    sketch.drives = [replace(one, link=one.link if isinstance(one.link, tuple) else now(one.link), on=now(one.on))
+    sketch.slots = [replace(one, along=key_now(one.along)) for one in sketch.slots]
+    sketch.drives = [replace(one, link=one.link if isinstance(one.link, tuple) else key_now(one.link),
+                             on=key_now(one.on))
                      for one in sketch.drives]
     sketch.drives = [one for one in sketch.drives if one.link not in (FRAME, one.on)]
 
@@ -227,12 +228,12 @@ def _absorb(sketch: Sketch, link: str, into: str) -> None:
 # ---- slots -----------------------------------------------------------------------------------------------------------
 
 
-def _slide(sketch: Sketch) -> None:
+def _slide(sketch: LinkageSketch) -> None:
     """A pin in a slot carries a block; two pins of a link in one slot let it slide alone."""
     slots = [replace(slot, way=_level(sketch.vector(slot.way)) if slot.along == FRAME else slot.way)
              for slot in sketch.slots if slot.at not in sketch.bodies[slot.along]
-             and abs(sketch.vector(slot.way)) > PLACE_TOL * sketch.size]
-    sketch.guides = [guide for guide in sketch.guides if abs(sketch.vector(guide.way)) > PLACE_TOL * sketch.size]
+             and abs(sketch.vector(slot.way)) > PLACE_TOL * sketch.extent]
+    sketch.guides = [guide for guide in sketch.guides if abs(sketch.vector(guide.way)) > PLACE_TOL * sketch.extent]
     while slots:
         slot = slots.pop(0)
         holders = [key for key in sketch.holders(slot.at) if key != slot.along]
@@ -247,7 +248,7 @@ def _slide(sketch: Sketch) -> None:
             sketch.note(f"{sketch.names[slot.at] or 'a pin'} slides in a slot, but no link has it: left out")
             continue
         block = block or sketch.link([slot.at])
-        sketch.guides.append(Guide(block, slot.along, slot.at, slot.way))
+        sketch.guides.append(SketchGuide(block, slot.along, slot.at, slot.way))
     sketch.slots = []
     for link in [key for key, points in sketch.links.items() if len(points) == 1 and not _slides(sketch, key)]:
         del sketch.links[link], sketch.called[link]  # it only turns about its point
@@ -258,24 +259,24 @@ def _level(way: complex) -> complex:
     return way if way.real and way.imag else way / abs(way)
 
 
-def _slides(sketch: Sketch, link: str) -> bool:
+def _slides(sketch: LinkageSketch, link: str) -> bool:
     return any(link in (guide.link, guide.along) for guide in sketch.guides)
 
 
-def _guide(sketch: Sketch, link: str, slot: Slot) -> Guide:
+def _guide(sketch: LinkageSketch, link: str, slot: Slot) -> SketchGuide:
     """The guide of a link that slides alone; of the frame's pins it is the other link that slides."""
     if link != FRAME:
-        return Guide(link, slot.along, slot.at, slot.way)
+        return SketchGuide(link, slot.along, slot.at, slot.way)
     ends = slot.way if isinstance(slot.way, tuple) else ()
     at = next((point for point in ends if point in sketch.links[slot.along]), "")
     if not at:
         at = sketch.point(f"{slot.at} on {slot.along}", sketch.places[slot.at], sketch.names[slot.at])
         sketch.hold(slot.along, at)
-    return Guide(slot.along, FRAME, at, slot.way)
+    return SketchGuide(slot.along, FRAME, at, slot.way)
 
 
-def _on_one_line(sketch: Sketch, slot: Slot, other: Slot) -> bool:
-    ahead, size = sketch.vector(slot.way), sketch.size
+def _on_one_line(sketch: LinkageSketch, slot: Slot, other: Slot) -> bool:
+    ahead, size = sketch.vector(slot.way), sketch.extent
     across = [sketch.vector(other.way), sketch.places[other.at] - sketch.places[slot.at]]
     return slot.at != other.at and all(abs((ahead.conjugate() * vector).imag) <= LINE_TOL * abs(ahead) * size
                                        for vector in across)
@@ -284,9 +285,9 @@ def _on_one_line(sketch: Sketch, slot: Slot, other: Slot) -> bool:
 # ---- drives, and what hangs together ---------------------------------------------------------------------------------
 
 
-def _find_driven(sketch: Sketch) -> None:
+def _find_driven(sketch: LinkageSketch) -> None:
     """The links that drives mean by two of their points."""
-    found: list[Driven] = []
+    found: list[SketchDrive] = []
     for drive in sketch.drives:
         link: str | tuple[str, str] = drive.link
         if isinstance(link, tuple):
@@ -297,7 +298,7 @@ def _find_driven(sketch: Sketch) -> None:
     sketch.drives = found
 
 
-def _connected(sketch: Sketch) -> None:
+def _drop_loose_pieces(sketch: LinkageSketch) -> None:
     """Leave out what hangs on nothing: of several pieces that which has the frame stays, or else the largest."""
     bodies = {key: points for key, points in sketch.bodies.items() if key != FRAME or points}
     beside: dict[str, set[str]] = {key: set() for key in bodies}

@@ -12,24 +12,24 @@ from fractions import Fraction
 from itertools import combinations, count, islice
 
 from graphplan.errors import Refused, SceneError, printable
-from graphplan.importing.sketch import Driven, Sketch, tidied
+from graphplan.importing.sketch import LinkageSketch, SketchDrive, tidy
 from graphplan.importing.tolerances import LINE_TOL, PLACE_TOL
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import parse
-from graphplan.mechanism.scene_text import written
+from graphplan.mechanism.scene_text import decimal_text
 
 BARE = re.compile(r"[A-Za-z0-9_-]+")
 DIGITS = 14  # of a coordinate, counted from the size of the sketch
 ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-LARGEST = 1e12
-LONGEST = 300  # characters of a comment, a title or a source
+MAX_NUMBER = 1e12
+MAX_TEXT_LENGTH = 300  # characters of a comment, a title or a source
 
 
-def scene(sketch: Sketch, source: str) -> str:
+def scene(sketch: LinkageSketch, source: str) -> str:
     """A sketch as the text of a scene; `source` says where it is from."""
     points, links = named_points(sketch), named_links(sketch)
     title = sketch.title or "Imported linkage"
-    lines = [f"title  = {text(title[:LONGEST])}", f"source = {text(source[:LONGEST])}"]
+    lines = [f"title  = {text(title[:MAX_TEXT_LENGTH])}", f"source = {text(source[:MAX_TEXT_LENGTH])}"]
     if sketch.notes:
         lines += ["", "# What could not be told from the file:", *(comment(f"- {note}") for note in sketch.notes)]
     if sketch.length:
@@ -37,7 +37,7 @@ def scene(sketch: Sketch, source: str) -> str:
     lines += ["", "[points]", *_points(sketch, points), "", "[links]", *_links(sketch, points, links)]
     for guide in sketch.guides:
         way = guide.way
-        direction = text(f"{points[way[0]]} {points[way[1]]}") if isinstance(way, tuple) else _pair(way, sketch.size)
+        direction = text(f"{points[way[0]]} {points[way[1]]}") if isinstance(way, tuple) else _pair(way, sketch.extent)
         lines += ["", "[[slides]]", f"link = {text(links[guide.link])}", f"along = {text(links[guide.along])}",
                   f"at = {text(points[guide.at])}", f"direction = {direction}"]
     for drive in sketch.drives:
@@ -45,19 +45,19 @@ def scene(sketch: Sketch, source: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _points(sketch: Sketch, names: Mapping[str, str]) -> Iterator[str]:
+def _points(sketch: LinkageSketch, names: Mapping[str, str]) -> Iterator[str]:
     for key, at in sketch.places.items():
-        yield f"{_key(names[key])} = {_pair(at, sketch.size)}"
+        yield f"{_key(names[key])} = {_pair(at, sketch.extent)}"
 
 
-def _links(sketch: Sketch, points: Mapping[str, str], names: Mapping[str, str]) -> Iterator[str]:
+def _links(sketch: LinkageSketch, points: Mapping[str, str], names: Mapping[str, str]) -> Iterator[str]:
     for key, held in sketch.links.items():
         yield f"{_key(names[key])} = {text(' '.join(points[point] for point in held))}"
     if sketch.fixed:
         yield f"{FRAME} = {text(' '.join(points[point] for point in sketch.fixed))}"
 
 
-def _drive(drive: Driven, links: Mapping[str, str]) -> list[str]:
+def _drive(drive: SketchDrive, links: Mapping[str, str]) -> list[str]:
     told = [comment(drive.told)] if drive.told else []
     link = links[str(drive.link)]
     if drive.slides:
@@ -69,7 +69,7 @@ def _drive(drive: Driven, links: Mapping[str, str]) -> list[str]:
 # ---- names -----------------------------------------------------------------------------------------------------------
 
 
-def named_points(sketch: Sketch) -> dict[str, str]:
+def named_points(sketch: LinkageSketch) -> dict[str, str]:
     """The names of the points: the file's own where they may stand in a scene; those that are taken get numbers, as
     points of different links that coincide do (A2, A3)."""
     found: dict[str, str] = {}
@@ -83,10 +83,10 @@ def named_points(sketch: Sketch) -> dict[str, str]:
     return found
 
 
-def _name_there(sketch: Sketch, key: str) -> str:
+def _name_there(sketch: LinkageSketch, key: str) -> str:
     """The name of another point in the same place."""
     return next((_name(sketch.names[other]) for other, at in sketch.places.items()
-                 if sketch.names[other] and abs(at - sketch.places[key]) <= PLACE_TOL * sketch.size), "")
+                 if sketch.names[other] and abs(at - sketch.places[key]) <= PLACE_TOL * sketch.extent), "")
 
 
 def _name(written: str) -> str:
@@ -101,7 +101,7 @@ def _free(name: str, used: object, taken: set[str]) -> str:
     return next(f"{name}{k}" for k in count(2) if f"{name}{k}" not in taken)
 
 
-def named_links(sketch: Sketch) -> dict[str, str]:
+def named_links(sketch: LinkageSketch) -> dict[str, str]:
     """The names of the links: the file's own, or numbers; the frame is the frame."""
     found: dict[str, str] = {FRAME: FRAME}
     own = {key: " ".join(re.sub(r"[\"\\]", "", sketch.called[key]).split())[:30] for key in sketch.links}
@@ -125,7 +125,7 @@ def text(written: str) -> str:
 
 def comment(told: str) -> str:
     """A comment on one line, of a length that one reads."""
-    return f"# {printable(' '.join(told.split()))[:LONGEST]}"
+    return f"# {printable(' '.join(told.split()))[:MAX_TEXT_LENGTH]}"
 
 
 def _key(name: str) -> str:
@@ -141,29 +141,29 @@ def number(value: float, size: float = 1.0) -> str:
 
     Fails with `ValueError` where it is too large.
     """
-    if not abs(value) < LARGEST:
+    if not abs(value) < MAX_NUMBER:
         raise ValueError(f"the number {value:g} is too large")
     places = DIGITS - Decimal(abs(size) or 1.0).adjusted()
-    return written(Fraction(round(Decimal(repr(float(value))), min(places, 60)) + 0))
+    return decimal_text(Fraction(round(Decimal(repr(float(value))), min(places, 60)) + 0))
 
 
 # --- a scene that moves ----------------------------------------------------------------------------------------------
 
 
-TRIED = 40  # proposals
+MAX_PROPOSALS = 40  # proposals
 GUESS = "omega = 1"
 
 
-def proposed(sketch: Sketch, path: str, source: str) -> str:
+def propose_scene(sketch: LinkageSketch, path: str, source: str) -> str:
     """The text of a scene that can be read.
 
     Fails with `Refused` where nothing moves as the file has it, or it has nothing that could be a linkage.
     """
-    tidied(sketch)
+    tidy(sketch)
     if not sketch.links:
         raise Refused(path, f"no links are found in this file of {sketch.program}", "bars between points")
     error: SceneError | None = None
-    for attempt in islice(_attempts(sketch), TRIED):
+    for attempt in islice(_attempts(sketch), MAX_PROPOSALS):
         text = scene(attempt, source)
         try:
             parse(text, path)
@@ -177,57 +177,57 @@ def proposed(sketch: Sketch, path: str, source: str) -> str:
     raise Refused(path, f"as a scene it has a fault at {wrong.where}: {wrong.what}", wrong.instead)
 
 
-def _attempts(sketch: Sketch) -> Iterator[Sketch]:
+def _attempts(sketch: LinkageSketch) -> Iterator[LinkageSketch]:
     """The sketch as it is, and in the ways in which its drives may match its mobility."""
     if not sketch.fixed:
-        for framed in _framed(sketch):
-            yield from _driven(framed)
+        for framed in _with_frames(sketch):
+            yield from _with_drives(framed)
         return
-    yield from _driven(sketch)
+    yield from _with_drives(sketch)
 
 
-def _driven(sketch: Sketch) -> Iterator[Sketch]:
+def _with_drives(sketch: LinkageSketch) -> Iterator[LinkageSketch]:
     missing = sketch.freedoms - len(sketch.drives)
     if sketch.drives:
         yield sketch
     if missing > 0:
         if sketch.drives and not missing % 2:
-            yield from _ended(sketch, missing // 2)
-        yield from _more(sketch, missing)
+            yield from _with_fixed_ends(sketch, missing // 2)
+        yield from _with_more_drives(sketch, missing)
     elif missing < 0 < sketch.freedoms:
-        yield from _fewer(sketch, sketch.freedoms)
+        yield from _with_fewer_drives(sketch, sketch.freedoms)
     elif sketch.freedoms < 1 and not sketch.drives:  # special geometry may move all the same
-        yield from _more(sketch, 1)
+        yield from _with_more_drives(sketch, 1)
 
 
-def _more(sketch: Sketch, missing: int) -> Iterator[Sketch]:
+def _with_more_drives(sketch: LinkageSketch, missing: int) -> Iterator[LinkageSketch]:
     """With drives on cranks, the shortest first, or else on what slides on the frame."""
     names = named_links(sketch)
     have = {drive.link for drive in sketch.drives}
     cranks = sorted((key for key, points in sketch.links.items() if key not in have and {*points} & {*sketch.fixed}),
                     key=lambda key: _reach(sketch, key))
     told = {key: f"Link {names[key]} drives: a guess, and so is the speed." for key in sketch.links}
-    turning = [Driven(key, GUESS, told[key]) for key in cranks if len(sketch.links[key]) > 1]
-    sliding = [Driven(one.link, "speed = 1", told[one.link], FRAME, True) for one in sketch.guides
+    turning = [SketchDrive(key, GUESS, told[key]) for key in cranks if len(sketch.links[key]) > 1]
+    sliding = [SketchDrive(one.link, "speed = 1", told[one.link], FRAME, True) for one in sketch.guides
                if one.along == FRAME]
-    others = [Driven(key, GUESS, told[key]) for key in sketch.links if key not in {*cranks} | have]
+    others = [SketchDrive(key, GUESS, told[key]) for key in sketch.links if key not in {*cranks} | have]
     for more in combinations([*turning, *sliding, *others], missing):
         given = f"the file tells {len(sketch.drives) or 'no'} drive{'' if len(sketch.drives) == 1 else 's'}"
-        yield _with(sketch, [*sketch.drives, *more], f"which link drives: mobility {sketch.freedoms}, and {given}")
+        yield _with_note(sketch, [*sketch.drives, *more], f"which link drives: mobility {sketch.freedoms}, and {given}")
 
 
-def _fewer(sketch: Sketch, wanted: int) -> Iterator[Sketch]:
+def _with_fewer_drives(sketch: LinkageSketch, wanted: int) -> Iterator[LinkageSketch]:
     names = named_links(sketch)
     for kept in combinations(sketch.drives, wanted):
         left = [f"link {names[str(drive.link)]} ({drive.rate})" for drive in sketch.drives if drive not in kept]
-        yield _with(sketch, [*kept], f"mobility {wanted}, so of its drives were left out: {', '.join(left)}")
+        yield _with_note(sketch, [*kept], f"mobility {wanted}, so of its drives were left out: {', '.join(left)}")
 
 
-def _with(sketch: Sketch, drives: list[Driven], note: str) -> Sketch:
+def _with_note(sketch: LinkageSketch, drives: list[SketchDrive], note: str) -> LinkageSketch:
     return replace(sketch, drives=drives, notes=[*sketch.notes, note])
 
 
-def _reach(sketch: Sketch, link: str) -> float:
+def _reach(sketch: LinkageSketch, link: str) -> float:
     """How far a link reaches from its pin on the frame."""
     points = sketch.links[link]
     pins = [point for point in points if point in sketch.fixed]
@@ -237,13 +237,13 @@ def _reach(sketch: Sketch, link: str) -> float:
 # ---- a frame, where the file tells none ------------------------------------------------------------------------------
 
 
-def _framed(sketch: Sketch) -> Iterator[Sketch]:
+def _with_frames(sketch: LinkageSketch) -> Iterator[LinkageSketch]:
     """With the ends of the chain on the frame; of a closed chain with a link as frame: one that lies level, the longest
     first."""
     names = named_points(sketch)
     for freedoms in (1, 2):
         if sketch.freedoms > freedoms and not (sketch.freedoms - freedoms) % 2:
-            yield from _ended(sketch, (sketch.freedoms - freedoms) // 2)
+            yield from _with_fixed_ends(sketch, (sketch.freedoms - freedoms) // 2)
     closed = [key for key, points in sketch.links.items() if len(points) > 1]
     for key in sorted(closed, key=lambda key: _level(sketch, key)):
         found = deepcopy(sketch)
@@ -259,7 +259,7 @@ def _framed(sketch: Sketch) -> Iterator[Sketch]:
         yield found
 
 
-def _ended(sketch: Sketch, many: int) -> Iterator[Sketch]:
+def _with_fixed_ends(sketch: LinkageSketch, many: int) -> Iterator[LinkageSketch]:
     """With so many points on the frame that are on one link alone, first those of links with few points."""
     names = named_points(sketch)
     held = {point: sketch.holders(point) for point in sketch.places}
@@ -273,6 +273,6 @@ def _ended(sketch: Sketch, many: int) -> Iterator[Sketch]:
         yield found
 
 
-def _level(sketch: Sketch, link: str) -> tuple[bool, float]:
+def _level(sketch: LinkageSketch, link: str) -> tuple[bool, float]:
     one, other = (sketch.places[point] for point in sketch.links[link][:2])
-    return abs((other - one).imag) > LINE_TOL * sketch.size, -abs(other - one)
+    return abs((other - one).imag) > LINE_TOL * sketch.extent, -abs(other - one)

@@ -18,7 +18,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple, Self
 
-from graphplan.phrases import Phrase, Said, digits, joined, said, sentence
+from graphplan.phrases import Phrase, Said, digits, join, said, sentence
 
 POINT, LINE, OPENING, CIRCLE = "point", "line", "opening", "circle"
 
@@ -330,4 +330,4 @@ class Choice:
         """Why this form, beside all others or so many."""
         if not self.others:
             return said("{0}, the only form that can be drawn here", self.best.text)
-        return said("{0} rather than {1}", self.best.text, joined(other.text for other in self.others[:rivals]))
+        return said("{0} rather than {1}", self.best.text, join(other.text for other in self.others[:rivals]))

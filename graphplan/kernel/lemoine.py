@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PENCIL, PROTRACTOR, SCALE, SET_SQUARES, STRAIGHTEDGE, Movement
 from graphplan.kernel.program import Program, Step
-from graphplan.phrases import Said, joined, phrase, said
+from graphplan.phrases import Said, join, phrase, said
 
 
 @dataclass(frozen=True)
@@ -59,10 +59,10 @@ class Counts:
         if not self.strict:
             moved = [BY[instrument](number) for instrument, number in self.others.items()]
             drawn = [said("lines {0}", self.R2), said("arcs {0}", self.C3), *moved, *laid]
-            return said("{0} operations: {1}", self.operations, joined(drawn))
+            return said("{0} operations: {1}", self.operations, join(drawn))
         terms = [f"{n} {name}" for name in ("R1", "R2", "C1", "C2", "C3") if (n := getattr(self, name))]
         simple = said("simplicity {0}, exactitude {1}", self.simplicity, self.exactitude)
-        return joined([joined((" + ".join(terms) or "0", simple), ": "), *laid])
+        return join([join((" + ".join(terms) or "0", simple), ": "), *laid])
 
 
 BY = {SET_SQUARES: phrase("by set squares {0}"), PROTRACTOR: phrase("by protractor {0}"),

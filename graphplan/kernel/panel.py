@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Self
 
-from graphplan.phrases import Said, arranged, said
+from graphplan.phrases import Said, arrange, said
 
 
 class Panel(str):
@@ -21,8 +21,8 @@ class Panel(str):
 
     def __new__(cls, name: str = "", words: Said | None = None, heading: Said | None = None) -> Self:
         self = super().__new__(cls, name)
-        self.words = words or arranged("{0}", name)
-        self.heading, self.whole = heading or arranged("{0:capital}", self.words), self
+        self.words = words or arrange("{0}", name)
+        self.heading, self.whole = heading or arrange("{0:capital}", self.words), self
         return self
 
     @property

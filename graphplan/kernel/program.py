@@ -32,7 +32,7 @@ from graphplan.kernel.origin import Origin, on_pose, origin
 from graphplan.kernel.panel import Panel as Panel
 from graphplan.kernel.plans import require_one_plan
 from graphplan.kernel.stages import Stage, Teller, group_by_stage
-from graphplan.phrases import Said, arranged, phrase
+from graphplan.phrases import Said, arrange, phrase
 
 NUMBERED = {POINT: phrase("point {0}"), LINE: phrase("line {0}"), OPENING: phrase("opening {0}"),
             CIRCLE: phrase("arc {0}")}
@@ -334,7 +334,7 @@ class Program:
     def sentence_with_reason(self, index: int) -> Said:
         """A step in words, with the law or purpose where there is one."""
         step = self.steps[index]
-        return arranged("{0} ({1:capital}.)", self.sentence(index), step.why) if step.why else self.sentence(index)
+        return arrange("{0} ({1:capital}.)", self.sentence(index), step.why) if step.why else self.sentence(index)
 
 
 def _joins(name: str) -> bool:

@@ -11,7 +11,7 @@ from typing import Any
 from graphplan.marking.tables.reader import Answer
 from graphplan.marking.tables.results import factor
 from graphplan.mechanism.units import Dimension, Units
-from graphplan.phrases import Said, arranged, digits, said, unit
+from graphplan.phrases import Said, arrange, digits, said, unit
 
 RIGHT, WRONG, MISSING = "right", "wrong", "missing"
 SURE = 1.5  # times the two standard deviations by which a drawing may be off: three
@@ -54,7 +54,7 @@ class Expected:
     def told(self, value: float) -> Said:
         """A number in its unit."""
         pattern = "{0} {1}" if self.dimension else "{0}{1}"
-        return arranged(pattern, digits(value / self.one), unit(self.written))
+        return arrange(pattern, digits(value / self.one), unit(self.written))
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,9 @@ from itertools import combinations, islice
 
 from graphplan.errors import Fault, by_name
 from graphplan.mechanism.equations import PRIME, Elimination, System
-from graphplan.mechanism.items import Faults, quoted
+from graphplan.mechanism.items import Faults, quote_key
 from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Pair, Scene
-from graphplan.mechanism.numbers import exactly, is_exact, shown
+from graphplan.mechanism.numbers import exactly, is_exact, number_text
 from graphplan.mechanism.order import ordered_links
 from graphplan.mechanism.structure import Bracing, bracing, mobility
 from graphplan.mechanism.tolerances import COINCIDENCE_TOL
@@ -26,7 +26,7 @@ def check_use(scene: Scene, elsewhere: Collection[str], faults: Faults) -> None:
     """Every point is a point of a link, or serves to place a point or to give a direction."""
     for point, links in scene.links_of.items():
         if not links and point not in elsewhere:
-            faults.add(f"points.{quoted(point)}", "no link has this point", "name it in a link, or remove it")
+            faults.add(f"points.{quote_key(point)}", "no link has this point", "name it in a link, or remove it")
 
 
 def check_joints(scene: Scene, placed: Mapping[str, Pair], faults: Faults) -> None:
@@ -36,7 +36,7 @@ def check_joints(scene: Scene, placed: Mapping[str, Pair], faults: Faults) -> No
         for a, b in combinations([point for point in links[link] if point in joints], 2):
             if _coincide(placed[a], placed[b]):
                 instead = "joints that lie apart, or one name for both"
-                faults.add(f"links.{quoted(link)}", f"the joints {a} and {b} coincide", instead)
+                faults.add(f"links.{quote_key(link)}", f"the joints {a} and {b} coincide", instead)
 
 
 def _coincide(a: Pair, b: Pair) -> bool:
@@ -57,7 +57,7 @@ def check_frame(scene: Scene, faults: Faults) -> None:
 
     for link, points in scene.links.items():
         if is_frame_synonym(link):
-            faults.add(f"links.{quoted(link)}", f"link {link} would move: the fixed link is called frame",
+            faults.add(f"links.{quote_key(link)}", f"link {link} would move: the fixed link is called frame",
                        f'frame = "{" ".join(points)}"')
 
 
@@ -77,7 +77,7 @@ def check_connections(scene: Scene, faults: Faults) -> None:
             lonely = "shares no joint or slide with any other"
             told = "is connected to neither the frame nor a given motion" if link in joined else lonely
             instead = "a point that it shares with another link, or a slide"
-            faults.add(f"links.{quoted(link)}", f"link {link} {told}", instead)
+            faults.add(f"links.{quote_key(link)}", f"link {link} {told}", instead)
 
 
 def check_gears(scene: Scene, faults: Faults) -> None:
@@ -89,11 +89,11 @@ def check_gears(scene: Scene, faults: Faults) -> None:
     system = System(free)
     columns = {unknown: j for j, unknown in enumerate(system.unknowns)}
     rows = [{columns[unknown]: c for unknown, c in equation.terms.items()} for equation in system.pairs]
-    moved = Elimination(rows, len(columns), PRIME).moved
+    moved = Elimination(rows, len(columns), PRIME).random_motion
     for number, gear in enumerate(scene.gears, 1):
         bar, of = _bar(gear), " and ".join(gear.centres)
         if gear.direction is None:
-            terms = system.terms(next(bar.states(system.posed)))
+            terms = system.terms(next(bar.states(system.posed_scene)))
             if not sum(c * moved[columns[unknown]] for unknown, c in terms.items()) % PRIME:
                 continue
             what, instead = f"nothing holds the centres {of} apart", "an arm: a link with a joint at each"
@@ -123,7 +123,7 @@ def check_mobility(scene: Scene, faults: Faults) -> Scene:
     A fault unless it has as many drives and given motions as degrees of freedom, and each link is held just once.
     """
     counted = Faults()
-    moved = _counted(scene, counted)
+    moved = _check_freedoms(scene, counted)
     loose = Faults()
     if scene.gears and faults.none_in("points") and counted.none_in("links"):  # a missing pivot tells more
         check_gears(scene, loose)
@@ -132,14 +132,14 @@ def check_mobility(scene: Scene, faults: Faults) -> Scene:
     return moved
 
 
-def _counted(scene: Scene, faults: Faults) -> Scene:
+def _check_freedoms(scene: Scene, faults: Faults) -> Scene:
     """The same by the count of freedoms, with what special geometry makes redundant."""
     freedoms, drives, motions = mobility(scene), len(scene.drives), len(scene.motions)
     given = drives + 2 * motions
     told = _count(drives, "drive") + (f" and {_count(motions, 'given motion')} (two degrees each)" if motions else "")
     what = f"mobility {freedoms} but {told}"
     held = bracing(scene)
-    loose, twice = _listed(held.loose), _listed(held.overbraced)
+    loose, twice = _links_text(held.loose), _links_text(held.overbraced)
     if freedoms < given and not held.loose and (found := _in_its_pose(scene, given, told, faults)):
         return found
     if freedoms < given:
@@ -149,7 +149,7 @@ def _counted(scene: Scene, faults: Faults) -> Scene:
     elif freedoms > given and (ways := missing_pivots(scene, freedoms - given)):
         points = ", or ".join(" and ".join(way) for way in ways)
         on_none = f"{points} {'is' if len(ways[0]) == 1 else 'are'} on no other link"
-        instead = " or ".join([*(framed(scene, way) for way in ways), f"{freedoms - given} more [[drive]]"])
+        instead = " or ".join([*(frame_entry(scene, way) for way in ways), f"{freedoms - given} more [[drive]]"])
         faults.add("links.frame", f"{what}, and {on_none}", instead)
     elif freedoms > given:
         faults.add("drive", what, f"{freedoms - given} more [[drive]], since {loose} can still move")
@@ -164,7 +164,7 @@ def _in_its_pose(scene: Scene, given: int, told: str, faults: Faults) -> Scene |
     from graphplan.mechanism.special import special  # few scenes need it
 
     found = special(scene)
-    links = _listed(found.links)
+    links = _links_text(found.links)
     if found.freedoms < given:
         return None
     if found.freedoms > given:
@@ -202,7 +202,7 @@ def _check_balance(scene: Scene, faults: Faults) -> None:
     """With the balances in the place of the drives each link is held just once: then statics determines all forces."""
     held: Bracing = bracing(scene, balanced=True)
     if not held.sound:
-        loose, twice = _listed(held.loose), _listed(held.overbraced)
+        loose, twice = _links_text(held.loose), _links_text(held.overbraced)
         what = f"it does not hold {loose}, and {twice} {_are(held.overbraced)} statically indeterminate"
         faults.add("balance", what, "a moment or a force that works when the drive moves the mechanism")
 
@@ -211,7 +211,7 @@ def _count(number: int, noun: str) -> str:
     return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"
 
 
-def _listed(links: tuple[str, ...]) -> str:
+def _links_text(links: tuple[str, ...]) -> str:
     more = f" and {len(links) - 12} more" if len(links) > 12 else ""
     return f"link{'s' if len(links) > 1 else ''} {' '.join(links[:12])}{more}"
 
@@ -236,7 +236,7 @@ def missing_pivots(scene: Scene, freedoms: int) -> list[tuple[str, ...]]:
     return list(islice(held, TOLD))
 
 
-def framed(scene: Scene, way: tuple[str, ...]) -> str:
+def frame_entry(scene: Scene, way: tuple[str, ...]) -> str:
     """The frame with these points, as it is written."""
     return f'frame = "{" ".join((*scene.links.get(FRAME, ()), *way))}"'
 
@@ -252,5 +252,5 @@ def questions(scene: Scene) -> Iterator[Fault]:
     """What is to be looked at again, each with where it stands and what was perhaps meant."""
     for number, friction in enumerate(scene.loads.frictions if scene.loads else (), 1):
         if (coefficient := friction.coefficient) > ROUGHEST:
-            yield Fault(f"friction.{number}.coefficient", f"{shown(coefficient)} is more than dry surfaces have",
-                        f"perhaps {shown(coefficient / 100)}, if that is in percent")
+            yield Fault(f"friction.{number}.coefficient", f"{number_text(coefficient)} is more than dry surfaces have",
+                        f"perhaps {number_text(coefficient / 100)}, if that is in percent")

@@ -125,10 +125,10 @@ class Elimination:
     @property
     def free(self) -> frozenset[int]:
         """The columns that the system leaves undetermined."""
-        return frozenset(j for j, value in enumerate(self.moved) if value)
+        return frozenset(j for j, value in enumerate(self.random_motion) if value)
 
     @property
-    def moved(self) -> list[Any]:
+    def random_motion(self) -> list[Any]:
         """What solves the system with nothing on the right: what moves when chance moves all that no row binds."""
         chance = Random(1974)
         return self._null_vector({j: chance.randrange(1, PRIME) for j in self._unbound})
@@ -164,7 +164,7 @@ WAYS = ("x", "y", "turn")
 Node = TypeVar("Node", bound=Hashable)
 
 
-class Equation(NamedTuple):
+class FreedomEquation(NamedTuple):
     """One condition on the freedoms: its terms, whole numbers that stand for residues or decimals of a pose, and the
     statement that it is."""
 
@@ -186,7 +186,7 @@ class System:
     axes: Mapping[str, tuple[Decimal, Decimal]] | None = None
 
     @cached_property
-    def posed(self) -> Scene:
+    def posed_scene(self) -> Scene:
         """The scene in the numbers of the coefficients."""
         if self.axes is not None:
             return self.scene
@@ -195,10 +195,10 @@ class System:
         def any_way(_: object = None) -> tuple[int, int]:
             return chance.randrange(1, PRIME), chance.randrange(1, PRIME)
 
-        return self.scene.posed({point: any_way() for point in self.scene.points}, any_way, lambda _: any_way()[0])
+        return self.scene.with_pose({point: any_way() for point in self.scene.points}, any_way, lambda _: any_way()[0])
 
     @cached_property
-    def known(self) -> frozenset[str]:
+    def given_points(self) -> frozenset[str]:
         """The points whose motion is given beforehand: those of the frame, and the given motions."""
         return frozenset(self.scene.links.get(FRAME, ())) | frozenset(self.scene.motions)
 
@@ -206,7 +206,7 @@ class System:
     def unknowns(self) -> tuple[Unknown, ...]:
         """All freedoms, in the scene's order."""
         links = [(("link", k), way) for k in self.scene.moving for way in WAYS]
-        joints = [(("joint", p), way) for p in self.scene.joints if p not in self.known for way in ("x", "y")]
+        joints = [(("joint", p), way) for p in self.scene.joints if p not in self.given_points for way in ("x", "y")]
         return tuple(links + joints)
 
     @cached_property
@@ -214,19 +214,19 @@ class System:
         return frozenset(self.unknowns)
 
     @cached_property
-    def equations(self) -> tuple[Equation, ...]:
+    def equations(self) -> tuple[FreedomEquation, ...]:
         """All equations: of the pairs, of the drives or the balances."""
-        loads, scene = self.posed.loads, self.posed
+        loads, scene = self.posed_scene.loads, self.posed_scene
         held = (loads.balances if loads else ()) if self.balanced else scene.drives
-        return (*self.pairs, *self._stated(held))
+        return (*self.pairs, *self._equations_of(held))
 
     @cached_property
-    def pairs(self) -> tuple[Equation, ...]:
+    def pairs(self) -> tuple[FreedomEquation, ...]:
         """The equations of the pairs that drive nothing, and of the points whose motion is given: link by link."""
-        scene, dropped = self.posed, frozenset(self.scene.redundant)
+        scene, dropped = self.posed_scene, frozenset(self.scene.redundant)
         points = [pair for pair in scene.pairs if isinstance(pair, DrivenPoint) and pair.at not in scene.joints]
-        pins = self._stated([*map(self._pinned, scene.revolutes), *points])
-        others = self._stated(pair for pair in scene.binding if not isinstance(pair, Revolute))
+        pins = self._equations_of([*map(self._with_pin, scene.revolutes), *points])
+        others = self._equations_of(pair for pair in scene.binding if not isinstance(pair, Revolute))
         place = {(link, point): i for i, (link, point) in enumerate(
             (link, point) for link in scene.moving for point in scene.links[link])}
         linked = sorted(pins, key=lambda equation: place[equation.fact.link, equation.fact.at])
@@ -236,21 +236,21 @@ class System:
         """The root of a number; in general position the number itself will do."""
         return square.sqrt() if self.axes is not None else square
 
-    def _pinned(self, joint: Revolute) -> Revolute:
+    def _with_pin(self, joint: Revolute) -> Revolute:
         """A joint with a pin of its own, or where its motion is given one of the frame."""
         links = [link for link in joint.links if link != FRAME]
-        pin = FRAME if joint.at in self.known else PIN
+        pin = FRAME if joint.at in self.given_points else PIN
         return replace(joint, pinned=(pin, *links), axes=self.axes or {})
 
-    def _stated(self, pairs: Iterable[KinematicPair | Balance]) -> Iterator[Equation]:
+    def _equations_of(self, pairs: Iterable[KinematicPair | Balance]) -> Iterator[FreedomEquation]:
         """What these pairs state, as equations."""
         for pair in pairs:
-            yield from (Equation(self.terms(fact), fact) for fact in pair.states(self.posed))
+            yield from (FreedomEquation(self.terms(fact), fact) for fact in pair.states(self.posed_scene))
 
     def terms(self, fact: Statement) -> dict[Unknown, Any]:
         """How much each freedom counts in what is stated."""
         terms: dict[Unknown, Any] = {}
-        arms: Any = [self.posed.points[point] if point else (0, 0) for _, point in fact.ends]
+        arms: Any = [self.posed_scene.points[point] if point else (0, 0) for _, point in fact.ends]
         for (body, point), weights in zip(fact.ends, fact.weights(arms, self._root), strict=True):
             thing = ("link", body) if body != PIN else ("joint", point)
             terms |= {(thing, way): weight for way, weight in zip(WAYS, weights, strict=True)

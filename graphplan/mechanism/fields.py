@@ -22,7 +22,7 @@ Fragment = dict[str, Any]
 
 
 @dataclass
-class Names:
+class SceneNames:
     """What a table may speak of, as far as it is read: names and places of points, links with their points, pairs.
 
     `held` says of each point how many links have it, `irrational` gathers where fractions do not hold what is written,
@@ -33,7 +33,7 @@ class Names:
     points: Collection[str]
     placed: dict[str, Pair] = field(default_factory=dict)
     links: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    held: Counter[str] = field(default_factory=Counter)
+    link_counts: Counter[str] = field(default_factory=Counter)
     pairs: tuple[KinematicPair, ...] = ()
     units: Units = field(default_factory=Units)
     irrational: list[str] = field(default_factory=list)
@@ -52,15 +52,16 @@ class Names:
         """The links that are not the frame."""
         return tuple(link for link in self.links if link != FRAME)
 
-    def linked(self, links: dict[str, tuple[str, ...]]) -> None:
+    def take_links(self, links: dict[str, tuple[str, ...]]) -> None:
         """Take in the links with their points."""
-        self.links, self.held = links, Counter(point for points in links.values() for point in dict.fromkeys(points))
+        self.links, self.link_counts = links, Counter(point for points in links.values()
+                                                      for point in dict.fromkeys(points))
 
     @property
     def movable(self) -> tuple[str, ...]:
         """The points that links have and the frame has not."""
         fixed = {*self.links.get(FRAME, ())}
-        return tuple(p for p in self.points if p in self.held and p not in fixed)
+        return tuple(p for p in self.points if p in self.link_counts and p not in fixed)
 
 
 class Field(NamedTuple):
@@ -77,13 +78,13 @@ class Field(NamedTuple):
 
 
 @dataclass
-class Row:
+class TableRow:
     """A table as it was read: its values by key, the items that they are from, and what the scene has."""
 
     item: Item
     items: dict[str, Item]
     values: dict[str, Any]
-    names: Names
+    names: SceneNames
 
     def __getitem__(self, key: str) -> Any:
         return self.values[key]
@@ -93,7 +94,7 @@ class Kind(NamedTuple):
     """A kind of value that is no table: in words, how it is read (None where that noted a fault), and its schema."""
 
     says: str
-    read: Callable[[Item, Names], Any]
+    read: Callable[[Item, SceneNames], Any]
     schema: Fragment
 
 
@@ -105,7 +106,7 @@ class Table(NamedTuple):
 
     says: str
     fields: tuple[Field, ...]
-    make: Callable[[Row], Any] = lambda row: row.values
+    make: Callable[[TableRow], Any] = lambda row: row.values
     either: tuple[str, ...] = ()
     remedy: str = ""
 
@@ -114,7 +115,7 @@ class Table(NamedTuple):
         """The names of its fields."""
         return [field.name for field in self.fields]
 
-    def read(self, item: Item, names: Names) -> Any:
+    def read(self, item: Item, names: SceneNames) -> Any:
         """What is made of a table; None where it, or a value in it, has a fault."""
         items = item.fields(self.keys, {field.name: field.wanted for field in self.fields if field.wanted})
         if items is None:
@@ -124,11 +125,11 @@ class Table(NamedTuple):
             if name in items:
                 values[name] = kind.read(items[name], names)
             elif default is not None:
-                values[name] = kind.read(item.instead(default), names)
+                values[name] = kind.read(item.with_value(default), names)
         if self.either and sum(key in items for key in self.either) != 1:
             twice = f"{' and '.join(self.either)} are both given"
             item.fault(twice if self.either[0] in items else f"{self.either[0]} is missing", self.remedy)
-        return self.make(Row(item, items, values, names)) if len(item.faults) == before else None
+        return self.make(TableRow(item, items, values, names)) if len(item.faults) == before else None
 
 
 class Either(NamedTuple):
@@ -145,7 +146,7 @@ class Either(NamedTuple):
         """The forms in words."""
         return ", or ".join(form.says for form in self.forms)
 
-    def read(self, item: Item, names: Names) -> Any:
+    def read(self, item: Item, names: SceneNames) -> Any:
         """What the form makes of a table."""
         if self.choose:
             form = self.choose(item)
@@ -173,7 +174,7 @@ class Rows(NamedTuple):
         """The entries in words."""
         return f"{'a table or ' if self.single else ''}an array of tables: {self.entry.says}"
 
-    def read(self, item: Item, names: Names) -> Any:
+    def read(self, item: Item, names: SceneNames) -> Any:
         """What is made of the tables without faults, in order."""
         rows = [item] if self.single and not isinstance(item.value, list) else item.rows()
         found: list[Any] = []
@@ -196,7 +197,7 @@ class Named(NamedTuple):
 
     entry: Value
     key: Kind
-    check: Callable[[str, Item, Names], object] = lambda name, item, names: None
+    check: Callable[[str, Item, SceneNames], object] = lambda name, item, names: None
     least: int = 0
 
     @property
@@ -204,7 +205,7 @@ class Named(NamedTuple):
         """The entries in words."""
         return f"by {self.key.says}: {self.entry.says}"
 
-    def read(self, item: Item, names: Names) -> Any:
+    def read(self, item: Item, names: SceneNames) -> Any:
         """What the entries say, without those that say nothing."""
         found = {}
         for name, entry in (item.table() or {}).items():
@@ -230,7 +231,7 @@ def inner(value: Value) -> Iterator[Field]:
             yield from inner(entry)
 
 
-def on_link(row: Row, link: str, what: str = "link") -> bool:
+def on_link(row: TableRow, link: str, what: str = "link") -> bool:
     """Whether the point of a row is a point of this link; a fault where it is not."""
     own = row.names.links.get(link, ())
     key = "at" if "at" in row.items else "centre"

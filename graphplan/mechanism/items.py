@@ -13,19 +13,19 @@ from fractions import Fraction
 from typing import TypeVar
 
 from graphplan.errors import Fault, by_name, printable
-from graphplan.mechanism.numbers import Unusable, integer, shown
+from graphplan.mechanism.numbers import Unusable, integer, number_text
 
 T = TypeVar("T")
 Vector = tuple[Fraction, Fraction]
 
-_LONGEST = 300
+MAX_PART_LENGTH = 300
 """Characters of one part of a fault line: a name may be a novel, an error line may not."""
 
-_GUESSES = 50
+MAX_SUGGESTIONS = 50
 """Only so many faults are given suggestions: guessing is slow, and nobody reads further."""
 
 
-_UNKNOWN = 3
+MAX_UNKNOWN_KEYS = 3
 """More unknown keys than so many are told together: they belong to a table whose header is missing."""
 
 
@@ -57,7 +57,7 @@ class Faults:
     def unknown(self, where: str, kind: str, name: str, known: Collection[str]) -> None:
         """Note that there is no such `kind` (point, link, ...), with the names that were probably meant."""
         anything = f"a {kind} that the scene has"
-        instead = perhaps(name, sorted(known, key=by_name), kind) if len(self) < _GUESSES else anything
+        instead = suggestion(name, sorted(known, key=by_name), kind) if len(self) < MAX_SUGGESTIONS else anything
         fault = self._note(where, f"there is no {kind} {name}", instead)
         if not known:
             self._following.add(fault)
@@ -76,7 +76,7 @@ class Item:
     faults: Faults
     key: str = ""
 
-    def instead(self, value: object) -> Item:
+    def with_value(self, value: object) -> Item:
         """Another value at the same place, such as a part of this one."""
         return replace(self, value=value)
 
@@ -92,7 +92,7 @@ class Item:
             return value
         if isinstance(value, Unusable):
             return self.fault(f"{value.text} is not a usable number", "a finite number between 1e-60 and 1e60 in size")
-        return self.fault(*(self.slip() or (f"{described(value)} where a number is wanted", "a number such as 12.5")))
+        return self.fault(*(self.slip() or (f"{describe(value)} where a number is wanted", "a number such as 12.5")))
 
     def slip(self) -> tuple[str, str] | None:
         """What is wrong with a text that was meant as a number, and what to write; None where it is none."""
@@ -106,35 +106,35 @@ class Item:
         """A number above zero."""
         number = self.number()
         if number is not None and number <= 0:
-            return self.fault(f"the {what} {shown(number)} is not positive", f"a {what} above 0")
+            return self.fault(f"the {what} {number_text(number)} is not positive", f"a {what} above 0")
         return number
 
     def amount(self) -> Fraction | None:
         """A number that is not negative."""
         number = self.number()
         if number is not None and number < 0:
-            return self.fault(f"the {self.key} {shown(number)} is negative", "a number of 0 or more")
+            return self.fault(f"the {self.key} {number_text(number)} is negative", "a number of 0 or more")
         return number
 
     def vector(self) -> Vector | None:
         """Two numbers: coordinates or components."""
         if not isinstance(self.value, list) or len(self.value) != 2:
-            return self.fault(f"{described(self.value)} where two numbers are wanted", "two numbers such as [10, 5]")
-        x, y = (self.instead(part).number() for part in self.value)
+            return self.fault(f"{describe(self.value)} where two numbers are wanted", "two numbers such as [10, 5]")
+        x, y = (self.with_value(part).number() for part in self.value)
         return None if x is None or y is None else (x, y)
 
     def text(self, wanted: str, instead: str) -> str | None:
         """A string."""
         if isinstance(self.value, str):
             return self.value
-        return self.fault(f"{described(self.value)} where {wanted} is wanted", instead)
+        return self.fault(f"{describe(self.value)} where {wanted} is wanted", instead)
 
     def choice(self, words: Collection[str]) -> str | None:
         """One of a few words."""
         if isinstance(self.value, str) and self.value in words:
             return self.value
-        instead = perhaps(self.value, words, "word") if isinstance(self.value, str) else "one of " + ", ".join(words)
-        return self.fault(f"{described(self.value)} is not known here", instead)
+        instead = suggestion(self.value, words, "word") if isinstance(self.value, str) else "one of " + ", ".join(words)
+        return self.fault(f"{describe(self.value)} is not known here", instead)
 
     def name_of(self, kind: str, known: Collection[str]) -> str | None:
         """The name of a point or link that the scene has."""
@@ -164,15 +164,15 @@ class Item:
         """Two points, as one string."""
         names = self.points(known)
         if names is not None and len(names) != 2:
-            return self.fault(f"{described(self.value)} where two points are wanted", f'two points such as "{such}"')
+            return self.fault(f"{describe(self.value)} where two points are wanted", f'two points such as "{such}"')
         return None if names is None else " ".join(names)
 
     def table(self) -> dict[str, Item] | None:
         """The items of a table."""
         if not isinstance(self.value, dict):
-            return self.fault(f"{described(self.value)} where a table is wanted", "a table of keys and values")
+            return self.fault(f"{describe(self.value)} where a table is wanted", "a table of keys and values")
         prefix = f"{self.where}." if self.where else ""
-        return {key: Item(value, prefix + quoted(key), self.faults, key) for key, value in self.value.items()}
+        return {key: Item(value, prefix + quote_key(key), self.faults, key) for key, value in self.value.items()}
 
     def fields(self, known: Iterable[str], required: Mapping[str, str]) -> dict[str, Item] | None:
         """The items of a table with these keys only; `required` keys must be there, each with what it should say."""
@@ -180,11 +180,11 @@ class Item:
         if items is None:
             return None
         unknown = [key for key in items if key not in keys]
-        if len(unknown) > _UNKNOWN:  # a table's header is missing above them
-            listed = ", ".join(unknown[:_UNKNOWN]) + ", ..."
+        if len(unknown) > MAX_UNKNOWN_KEYS:  # a table's header is missing above them
+            listed = ", ".join(unknown[:MAX_UNKNOWN_KEYS]) + ", ..."
             self.faults.add(self.where or "file", f"unknown keys {listed}", "the header of their table above them")
-        for key in unknown if len(unknown) <= _UNKNOWN else ():
-            items[key].fault("unknown key", perhaps(key, keys, "key"))
+        for key in unknown if len(unknown) <= MAX_UNKNOWN_KEYS else ():
+            items[key].fault("unknown key", suggestion(key, keys, "key"))
         missing = [key for key in required if key not in items]
         for key in missing:
             self.fault(f"{key} is missing", required[key])
@@ -194,16 +194,16 @@ class Item:
         """The tables of an array of tables; their places are numbered from 1."""
         if isinstance(self.value, list):
             return [Item(row, f"{self.where}.{i}", self.faults) for i, row in enumerate(self.value, 1)]
-        self.fault(f"{described(self.value)} where a list of tables is wanted", f"[[{self.where}]], in double brackets")
+        self.fault(f"{describe(self.value)} where a list of tables is wanted", f"[[{self.where}]], in double brackets")
         return []
 
 
-def quoted(key: str) -> str:
+def quote_key(key: str) -> str:
     """A key as TOML wants it: in quotes unless it is made of letters, digits, _ and -."""
     return key if re.fullmatch(r"[\w-]+", key) else f'"{key}"'
 
 
-def described(value: object) -> str:
+def describe(value: object) -> str:
     """What a wrong value is, in words."""
     if isinstance(value, bool):
         return str(value).lower()
@@ -216,13 +216,13 @@ def described(value: object) -> str:
     if isinstance(value, dict):
         return f"a table with the keys {', '.join(list(value)[:4])}" if value else "an empty table"
     if isinstance(value, Fraction):
-        return f"the number {shown(value)}"
+        return f"the number {number_text(value)}"
     if isinstance(value, int):
-        return described(integer(value))
+        return describe(integer(value))
     return "a date or time"
 
 
-def perhaps(name: str, known: Iterable[str], kind: str) -> str:
+def suggestion(name: str, known: Iterable[str], kind: str) -> str:
     """What was probably meant by `name`: the nearest known names, or else the whole choice."""
     from difflib import get_close_matches  # few scenes have faults
 
@@ -242,4 +242,4 @@ def perhaps(name: str, known: Iterable[str], kind: str) -> str:
 
 def one_line(text: str) -> str:
     """The text without line breaks and other unprintables, and not too long: a fault is one line."""
-    return printable(text[:_LONGEST]) + "..." * (len(text) > _LONGEST)
+    return printable(text[:MAX_PART_LENGTH]) + "..." * (len(text) > MAX_PART_LENGTH)

@@ -13,65 +13,65 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from graphplan.mechanism.fields import Either, Field, Kind, Named, Names, Row, Rows, Table, on_link
-from graphplan.mechanism.items import Item, described, perhaps
+from graphplan.mechanism.fields import Either, Field, Kind, Named, Rows, SceneNames, Table, TableRow, on_link
+from graphplan.mechanism.items import Item, describe, suggestion
 from graphplan.mechanism.loads import SPEED, SPEED_OF, TRAVEL, LoadTable
 from graphplan.mechanism.model import FRAME, Balance, Contact, Drive, Force, Friction, Loads, Mass, Moment, Pair, Slide
-from graphplan.mechanism.numbers import decimal, shown
+from graphplan.mechanism.numbers import decimal, number_text
 from graphplan.mechanism.pairs.gear import LOADS
 from graphplan.mechanism.pairs.sliding import has_slide
 from graphplan.mechanism.values import AMOUNT, GUIDE, LINK, NUMBER, POINT, TWO_LINKS, VECTOR, moving
 
-MOST = 100_000  # rows of a table
-LARGEST = 8_000_000  # bytes of a file
+MAX_ROWS = 100_000  # rows of a table
+MAX_BYTES = 8_000_000  # bytes of a file
 SUCH = "values = [[0, 0], [30, -1200], [360, 0]]"
 EITHER = "value", "over"
 COLUMNS = "lines of a place and a value, with a comma, a semicolon, a tab or blanks between them"
 Pairs = tuple[tuple[Fraction, Fraction], ...]
 
 
-def _over(item: Item, names: Names) -> str | None:
+def _read_over(item: Item, names: SceneNames) -> str | None:
     name = item.text("what the load changes with", 'over = "travel", or a slide such as over = "3 along frame"')
     slides = [pair.name for pair in names.pairs if isinstance(pair, Slide)]
     known = [TRAVEL, *slides, SPEED, *(SPEED_OF + slide for slide in slides)]
     if name is None or name in known or not item.faults.none_in("slides"):
         return name
-    return item.fault(f"there is no slide {name}", perhaps(name, known, "slide"))
+    return item.fault(f"there is no slide {name}", suggestion(name, known, "slide"))
 
 
-def _values(item: Item, names: Names) -> Pairs | None:
+def _read_values(item: Item, names: SceneNames) -> Pairs | None:
     if not isinstance(item.value, list):
-        return item.fault(f"{described(item.value)} where rows are wanted", SUCH)
-    if len(item.value) > MOST:
-        return item.fault(f"{len(item.value)} rows", f"at most {MOST}")
-    rows = [item.instead(row).vector() for row in item.value]
+        return item.fault(f"{describe(item.value)} where rows are wanted", SUCH)
+    if len(item.value) > MAX_ROWS:
+        return item.fault(f"{len(item.value)} rows", f"at most {MAX_ROWS}")
+    rows = [item.with_value(row).vector() for row in item.value]
     return None if None in rows else tuple(row for row in rows if row)
 
 
-def _powers(item: Item, names: Names) -> tuple[Fraction, ...] | None:
+def _read_powers(item: Item, names: SceneNames) -> tuple[Fraction, ...] | None:
     if not isinstance(item.value, list) or not 1 <= len(item.value) <= 3:
-        return item.fault(f"{described(item.value)} where up to three numbers are wanted",
+        return item.fault(f"{describe(item.value)} where up to three numbers are wanted",
                           "powers = [c0, c1, c2] of the load c0 + c1 v + c2 v |v|")
-    found = [item.instead(value).number() for value in item.value]
+    found = [item.with_value(value).number() for value in item.value]
     return None if None in found else tuple(c for c in found if c is not None)
 
 
-def _file(item: Item, names: Names) -> Pairs | None:
+def _read_file(item: Item, names: SceneNames) -> Pairs | None:
     name = item.text("the name of a file", 'the name of a file beside the scene, such as file = "indicator.csv"')
     if name is None:
         return None
     if os.path.isabs(name) or ".." in name.replace("\\", "/").split("/") or not name.endswith((".csv", ".txt")):
-        return item.fault(f"{described(name)} is not the name of a table beside the scene",
+        return item.fault(f"{describe(name)} is not the name of a table beside the scene",
                           "a file .csv or .txt in its folder")
     try:
         with open(os.path.join(names.folder, name), "rb") as file:
-            text = file.read(LARGEST + 1).decode("utf-8-sig")
+            text = file.read(MAX_BYTES + 1).decode("utf-8-sig")
     except (OSError, ValueError) as error:  # ValueError: no UTF-8, or a path that no file system has
         why = getattr(error, "strerror", None) or "it is no text in UTF-8"
         return item.fault(f"{name} cannot be read ({why})", "a readable file beside the scene")
-    if len(text) > LARGEST:
-        return item.fault(f"{name} is larger than {LARGEST // 10**6} MB", f"a table of at most {MOST} rows")
-    found = _columns(item.instead(name), text)
+    if len(text) > MAX_BYTES:
+        return item.fault(f"{name} is larger than {MAX_BYTES // 10**6} MB", f"a table of at most {MAX_ROWS} rows")
+    found = _columns(item.with_value(name), text)
     if found is not None:
         names.files[name] = found
     return found
@@ -88,9 +88,9 @@ def _columns(item: Item, text: str) -> Pairs | None:
         if len(row) == 2 and row[0] is not None and row[1] is not None:
             found.append((row[0], row[1]))
         elif found or number > lines[0][0] or any(cell is not None for cell in row):
-            return item.fault(f"{item.value}, line {number}: {described(line)} is not a place and a value", COLUMNS)
-        if len(found) > MOST:
-            return item.fault(f"{item.value} has more than {MOST} rows", f"at most {MOST}")
+            return item.fault(f"{item.value}, line {number}: {describe(line)} is not a place and a value", COLUMNS)
+        if len(found) > MAX_ROWS:
+            return item.fault(f"{item.value} has more than {MAX_ROWS} rows", f"at most {MAX_ROWS}")
     return tuple(found)
 
 
@@ -111,22 +111,23 @@ def _numeral(cell: str) -> Fraction | None:
 
 OVER = Field("over", 'what the load changes with: "travel" (degrees or lengths of the first drive from this pose), a '
              'slide such as "3 along frame" (its position, once around), "speed" (of the first drive), or "speed of '
-             '3 along frame"', Kind("travel · slide · speed", _over, {"type": "string"}))
+             '3 along frame"', Kind("travel · slide · speed", _read_over, {"type": "string"}))
 TABLE = (
     OVER,
     Field("values", "the rows of the load: place and value, straight between them; two rows at one place are a jump",
-          Kind("list of rows", _values, {"type": "array", "items": VECTOR.schema, "minItems": 2, "maxItems": MOST})),
+          Kind("list of rows", _read_values,
+               {"type": "array", "items": VECTOR.schema, "minItems": 2, "maxItems": MAX_ROWS})),
     Field("file", "the same rows in a file .csv or .txt beside the scene, in two columns",
-          Kind("file name", _file, {"type": "string", "pattern": r"\.(csv|txt)$"})),
+          Kind("file name", _read_file, {"type": "string", "pattern": r"\.(csv|txt)$"})),
     Field("powers", "of a load over a speed v instead of rows: [c0, c1, c2] of c0 + c1 v + c2 v |v|",
-          Kind("one to three numbers", _powers, {"type": "array", "items": NUMBER.schema, "minItems": 1,
-                                                 "maxItems": 3})),
+          Kind("one to three numbers", _read_powers, {"type": "array", "items": NUMBER.schema, "minItems": 1,
+                                                      "maxItems": 3})),
 )
 DIRECTION = Field("direction", "of a force with over: the direction in which it is positive, fixed in the plane, or by "
                   "two points with which it turns", GUIDE)
 
 
-def table(row: Row) -> LoadTable | None:
+def table(row: TableRow) -> LoadTable | None:
     """The table of a load, checked; None where the load is constant, or the table has a fault."""
     over, given = row.values.get("over"), [key for key in ("values", "file", "powers") if key in row.items]
     if over is None:
@@ -163,12 +164,12 @@ def _out_of_order(table: LoadTable) -> Iterator[tuple[str, str]]:
     around = [*places, *places[:2]] if table.over_position else places
     for three in zip(around, around[1:], around[2:], strict=False):
         if len({*three}) == 1:
-            yield f"three rows at one place, {shown(three[0])}", "at most two, for a jump"
+            yield f"three rows at one place, {number_text(three[0])}", "at most two, for a jump"
     steps = [b - a for a, b in pairwise(places)]
     if not table.over_position:
         for i, step in enumerate(steps, 1):
             if step < 0:
-                yield f"row {i + 1} goes back to {shown(places[i])}", "rows in the order of their places"
+                yield f"row {i + 1} goes back to {number_text(places[i])}", "rows in the order of their places"
         return
     senses = [step > 0 for step in steps if step]
     turns = sum(a != b for a, b in pairwise(senses))
@@ -178,7 +179,7 @@ def _out_of_order(table: LoadTable) -> Iterator[tuple[str, str]]:
                "first the outward stroke's rows, then the return's")
 
 
-def _period(table: LoadTable, names: Names) -> Fraction:
+def _period(table: LoadTable, names: SceneNames) -> Fraction:
     """The whole turns after which a table over the travel of a turning drive repeats; 0 where it covers none."""
     first = next((pair for pair in names.pairs if isinstance(pair, Drive)), None)
     span = Fraction(table.rows[-1][0]) - Fraction(table.rows[0][0])
@@ -188,7 +189,7 @@ def _period(table: LoadTable, names: Names) -> Fraction:
 # --- masses, forces, moments ---------------------------------------------------------------------------------------
 
 
-def _weighed(link: str, item: Item, names: Names) -> None:
+def _check_mass(link: str, item: Item, names: SceneNames) -> None:
     """A fault where a link can have no mass."""
     if link == FRAME:
         item.fault("the frame is given a mass", "a moving link")
@@ -200,13 +201,13 @@ MASSES = Named(Table("a mass", (
     Field("mass", "its mass", AMOUNT, "a mass, such as mass = 10"),
     Field("inertia", "its inertia about the centre of mass, in mass * m^2", AMOUNT, default=0),
     Field("centre", "its centre of mass, a point of that link", POINT, 'a point of the link, such as centre = "S"'),
-), lambda row: Mass(**row.values) if on_link(row, row.item.key) else None), LINK, _weighed)
+), lambda row: Mass(**row.values) if on_link(row, row.item.key) else None), LINK, _check_mass)
 
 _LOADED = moving("a load on the frame moves nothing")
 _STILL: Pair = (Fraction(0), Fraction(0))
 
 
-def _force(row: Row) -> Force | None:
+def _force(row: TableRow) -> Force | None:
     """A force; of one with a table the value is filled in once the whole scene is read."""
     changing, found = "over" in row.items, table(row)
     if not on_link(row, row["on"]) or (changing and found is None):
@@ -221,7 +222,7 @@ def _force(row: Row) -> Force | None:
     return Force(row["on"], row["at"], _STILL, found, vector, through)
 
 
-def _moment(row: Row) -> Moment | None:
+def _moment(row: TableRow) -> Moment | None:
     """A moment; of one with a table the value is filled in once the whole scene is read."""
     changing, found = "over" in row.items, table(row)
     if changing and found is None:
@@ -245,7 +246,7 @@ MOMENTS = Rows(Table("a moment", (
 # --- balance and friction ------------------------------------------------------------------------------------------
 
 
-def _balance(row: Row) -> Balance | None:
+def _balance(row: TableRow) -> Balance | None:
     vector, _, written = row["direction"]
     return Balance(row["on"], row["at"], vector, written) if on_link(row, row["on"]) else None
 
@@ -264,19 +265,19 @@ BALANCE = Rows(Either((Table("a moment", (
 ), _balance))), single=True)
 
 
-def _journal(row: Row) -> Friction | None:
+def _journal(row: TableRow) -> Friction | None:
     at = row["at"]
-    if row.names.held[at] < 2 and row.item.faults.none_in("links"):
+    if row.names.link_counts[at] < 2 and row.item.faults.none_in("links"):
         return row.items["at"].fault(f"{at} is not a joint of two links", "a joint")
     return Friction(at, None, row["radius"], row["coefficient"])
 
 
-def _rubbing(row: Row) -> Friction | None:
+def _rubbing(row: TableRow) -> Friction | None:
     slide = has_slide(row, "a joint and its radius")
     return Friction("", slide.links, Fraction(0), row["coefficient"]) if slide else None
 
 
-def _sliding(row: Row) -> Friction | None:
+def _sliding(row: TableRow) -> Friction | None:
     item, links = row.items["contact"], row["contact"]
     known = [pair for pair in row.names.pairs if isinstance(pair, Contact)]
     found = next((pair for pair in known if {*pair.links} == {*links}), None)
@@ -289,7 +290,7 @@ def _sliding(row: Row) -> Friction | None:
     return Friction("", None, Fraction(0), row["coefficient"], found.links)
 
 
-def _rubbed(friction: Friction) -> tuple[object, str]:
+def _friction_pair(friction: Friction) -> tuple[object, str]:
     """The pair that has the friction."""
     if friction.contact:
         return friction.contact, "friction of contact {} {}".format(*friction.contact)
@@ -310,7 +311,7 @@ FRICTION = Rows(Either((Table("friction in a journal", (
 ), _rubbing), Table("friction in a contact", (
     Field("contact", "the two links that touch", TWO_LINKS, 'two links that touch, such as contact = ["2", "3"]'),
     _COEFFICIENT,
-), _sliding))), once=_rubbed, remedy="one for each joint, slide or contact")
+), _sliding))), once=_friction_pair, remedy="one for each joint, slide or contact")
 
 
 def loads_of(read: Mapping[str, Any]) -> Loads | None:

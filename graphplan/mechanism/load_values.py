@@ -16,8 +16,8 @@ from typing import Any
 from graphplan.mechanism.equations import Elimination
 from graphplan.mechanism.loads import SPEED, LoadTable
 from graphplan.mechanism.model import Force, Moment, Scene, Slide
-from graphplan.mechanism.numbers import Number, Pair, dot, exactly, is_exact, less, root, times
-from graphplan.mechanism.pairs.pair import FRAME, Along, Rate, Side, Sides, Statement
+from graphplan.mechanism.numbers import Number, Pair, dot, exactly, is_exact, minus, root, times
+from graphplan.mechanism.pairs.pair import FRAME, Along, LinkSide, LinkSides, Rate, Statement
 from graphplan.mechanism.tolerances import DEAD_POINT_TOL
 from graphplan.mechanism.travel import sense_of_travel
 
@@ -53,7 +53,7 @@ def filled_in(scene: Scene, travel: Number = Fraction(0)) -> Scene:
         if isinstance(load, Force):
             assert load.direction is not None
             ends = [scene.points[point] for point in load.through or ()]
-            direction = less(ends[1], ends[0]) if ends else load.direction
+            direction = minus(ends[1], ends[0]) if ends else load.direction
             length, rational = _length(direction)
             exact = exact and rational and is_exact(direction)
             x, y = times(found / length, exactly(direction))
@@ -68,7 +68,7 @@ def filled_in(scene: Scene, travel: Number = Fraction(0)) -> Scene:
     return replace(scene, loads=replace(loads, forces=forces, moments=moments), irrational=tuple(irrational))
 
 
-def driven(scene: Scene) -> Scene:
+def with_moving_drives(scene: Scene) -> Scene:
     """The scene with drives that move: where all stand still the first one as it speeds up, or forwards."""
     if any(drive.rate for drive in scene.drives) or not scene.drives:
         return scene
@@ -78,7 +78,7 @@ def driven(scene: Scene) -> Scene:
 
 def onward(scene: Scene) -> int:
     """Whether the drives move on as their travel counts, 1, or begin to move back from rest, -1."""
-    return sense_of_travel(driven(scene)) * sense_of_travel(scene)
+    return sense_of_travel(with_moving_drives(scene)) * sense_of_travel(scene)
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ class OwnPose:
             return Fraction(table.value(speed / length)), rational and self.exact
         origin = guide_origin(self.scene, slide)
         ends = [exactly(self.scene.points[point]) for point in ((slide.at, origin) if origin else (slide.at,))]
-        away = less(*ends) if origin else ends[0]
+        away = minus(*ends) if origin else ends[0]
         place = Fraction(dot(away, exactly(slide.direction))) / length
         exact = rational and is_exact(slide.direction, *(self.scene.points[p] for p in (slide.at, origin) if p))
         stroke = self._stroke(slide, table)
@@ -121,7 +121,8 @@ class OwnPose:
         """
         velocities, accelerations = self._moving
         speed, length = velocities.get(slide.name, Fraction(0)), _length(slide.direction)[0]
-        fast = max(abs(float(d.rate)) * (1 if d.slides else self.scene.extent) for d in driven(self.scene).drives)
+        fast = max(abs(float(d.rate)) * (1 if d.slides else self.scene.extent)
+                   for d in with_moving_drives(self.scene).drives)
         least = DEAD_POINT_TOL * fast * float(length)
         there = speed if abs(speed) > least else accelerations.get(slide.name, Fraction(0))
         return (1 if there > 0 else -1) if there else next(iter(table.strokes))
@@ -129,7 +130,7 @@ class OwnPose:
     @cached_property
     def _moving(self) -> tuple[dict[str, Fraction], dict[str, Fraction]]:
         """The rates of the slides while the drives move, at constant speeds."""
-        moved = driven(self.scene)
+        moved = with_moving_drives(self.scene)
         return self._rates(moved.with_drives(drive.driven_at(drive.rate, Fraction(0)) for drive in moved.drives))
 
     def _rates(self, scene: Scene) -> tuple[dict[str, Fraction], dict[str, Fraction]]:
@@ -144,13 +145,14 @@ class OwnPose:
             return None if values is None else {link: Rate(*values[k : k + 3]) for link, k in columns.items()}
 
         along = {slide.name: Along(*slide.links, slide.at, exactly(slide.direction), "along") for slide in scene.slides}
-        first = rates([_prescribed(fact)[0] for fact in facts])
+        first = rates([_prescribed_rates(fact)[0] for fact in facts])
         if first is None:
             return {}, {}
-        second = rates([_prescribed(fact)[1] + Fraction(fact.left_over(self._sides(fact, first))) for fact in facts])
+        second = rates([_prescribed_rates(fact)[1] + Fraction(fact.left_over(self._sides(fact, first)))
+                        for fact in facts])
         slips = {name: (self._sides(fact, first), self._sides(fact, second or first)) for name, fact in along.items()}
         return ({name: Fraction(dot(along[name].direction, one.slip)) for name, (one, _) in slips.items()},
-                {name: Fraction(dot(along[name].direction, less(other.slip, one.surplus)))
+                {name: Fraction(dot(along[name].direction, minus(other.slip, one.surplus)))
                  for name, (one, other) in slips.items() if second})
 
     def _row(self, fact: Statement, columns: Mapping[str, int]) -> dict[int, Fraction]:
@@ -160,11 +162,11 @@ class OwnPose:
         return {columns[link] + k: Fraction(weight) for (link, _), rate in zip(fact.ends, weights, strict=True)
                 if link in columns for k, weight in enumerate(rate)}
 
-    def _sides(self, fact: Statement, rates: Mapping[str, Rate]) -> Sides:
+    def _sides(self, fact: Statement, rates: Mapping[str, Rate]) -> LinkSides:
         """The two links of a statement, with these rates; a link's base is at the scene's origin."""
         none = Fraction(0)
-        return Sides(*(Side(exactly(self.scene.points[point]) if point else (none, none),
-                            rates.get(link, Rate(none, none, none))) for link, point in fact.ends))
+        return LinkSides(*(LinkSide(exactly(self.scene.points[point]) if point else (none, none),
+                                    rates.get(link, Rate(none, none, none))) for link, point in fact.ends))
 
 
 def _solver(rows: Sequence[Mapping[int, Fraction]], width: int,
@@ -185,7 +187,7 @@ def _length(direction: Pair) -> tuple[Fraction, bool]:
     return root(x * x + y * y)
 
 
-def _prescribed(fact: Statement) -> tuple[Fraction, Fraction]:
+def _prescribed_rates(fact: Statement) -> tuple[Fraction, Fraction]:
     """The velocity and the acceleration that a statement prescribes, times the length of its direction."""
     length = _length(fact.direction)[0] if isinstance(fact, Along) and fact.way == "along" else 1
     return length * Fraction(fact.rate), length * Fraction(fact.change)

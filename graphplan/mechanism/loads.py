@@ -107,11 +107,11 @@ class LoadTable:
         if self.powers:
             square = place * place if place > 0 else -place * place
             return sum((c * v for c, v in zip(self.powers, (Fraction(1), place, square), strict=False)), Fraction(0))
-        place, rows = self._home(place, after), self.strokes[sense]
+        place, rows = self._wrap_to_period(place, after), self.strokes[sense]
         ways, slack = [sense * p for p, _ in rows], self.length * TABLE_END_TOL
         at = sense * place
         if not ways[0] - slack <= at <= ways[-1] + slack:
-            raise self.uncovered(place)
+            raise self.coverage_error(place)
         found = bisect_right(ways, at + slack) if after else bisect_left(ways, at - slack)
         if found in (0, len(rows)):
             return rows[min(found, len(rows) - 1)][1]
@@ -125,7 +125,7 @@ class LoadTable:
         ends = (min(max(place + k * near, min(self.corners)), max(self.corners)) for k in (-1, 1))
         return len({self.value(end, sense) for end in (*ends, place)}) == 1
 
-    def at(self, places: Any, senses: Any = 1, after: bool = True) -> Any:
+    def values_at(self, places: Any, senses: Any = 1, after: bool = True) -> Any:
         """The same at many places, an array of shape (n,) of floats; `senses` is 1 or -1, or an array of them.
 
         Places that are nan have no load; fails with `Refused` where the table does not cover one.
@@ -136,14 +136,14 @@ class LoadTable:
         if self.powers:
             terms = 1.0 + 0 * places, places, places * np.abs(places)
             return sum(float(c) * v for c, v in zip(self.powers, terms, strict=False))
-        home, senses = self._home(places, after), np.broadcast_to(np.asarray(senses, float), places.shape)
+        home, senses = self._wrap_to_period(places, after), np.broadcast_to(np.asarray(senses, float), places.shape)
         found = np.full(places.shape, np.nan)
         for sense in self.strokes:
             there = (senses * sense > 0) & np.isfinite(home)
-            found[there] = self._along(home[there], sense, after)
+            found[there] = self._values_of_stroke(home[there], sense, after)
         return found
 
-    def _along(self, places: Any, sense: int, after: bool) -> Any:
+    def _values_of_stroke(self, places: Any, sense: int, after: bool) -> Any:
         """The loads at places that change in one sense."""
         import numpy as np
 
@@ -151,7 +151,7 @@ class LoadTable:
         ways, at, slack = sense * rows[:, 0], sense * places, float(self.length * TABLE_END_TOL)
         outside = (at < ways[0] - slack) | (at > ways[-1] + slack)
         if outside.any():
-            raise self.uncovered(float(places[outside][0]))
+            raise self.coverage_error(float(places[outside][0]))
         found = np.searchsorted(ways, at + slack, "right") if after else np.searchsorted(ways, at - slack, "left")
         one, other = np.clip(found - 1, 0, len(rows) - 1), np.clip(found, 0, len(rows) - 1)
         apart = ways[other] - ways[one]
@@ -159,7 +159,7 @@ class LoadTable:
         value = rows[one, 1] + part * (rows[other, 1] - rows[one, 1])
         return np.where(found == 0, rows[0, 1], np.where(found == len(rows), rows[-1, 1], value))
 
-    def _home(self, places: Any, after: bool) -> Any:
+    def _wrap_to_period(self, places: Any, after: bool) -> Any:
         """Where places lie in the first period of a table of whole turns: its end counts as its beginning, or where the
         load before a jump is asked for its beginning as its end."""
         if not self.period:
@@ -171,7 +171,7 @@ class LoadTable:
         turns = (places - first + slack) // period if after else -((first - places + slack) // period) - 1
         return places - turns * period
 
-    def uncovered(self, place: Number) -> Refused:
+    def coverage_error(self, place: Number) -> Refused:
         """The error that says that this place is not covered."""
         low, high = (f"{float(end):.6g}" for end in (min(self.corners), max(self.corners)))
         table = f"its table {self.file}" if self.file else "its table"

@@ -27,7 +27,7 @@ from graphplan.mechanism.values import Written
 
 __all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Extreme", "Find", "Flywheel", "Force",
            "Friction", "Gear", "LoadTable", "Loads", "Mass", "Moment", "Motion", "Number", "Pair", "Placement",
-           "Presentation", "Run", "Scene", "Slide", "SlidingDrive", "TurningDrive", "Units", "Written"]
+           "Presentation", "RunRequest", "Scene", "Slide", "SlidingDrive", "TurningDrive", "Units", "Written"]
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ class Flywheel:
 
 
 @dataclass(frozen=True)
-class Run:
+class RunRequest:
     """How far the true motion is followed: from which `speed` of the first drive (rad/s, or lengths/s), over which
     `travel` (degrees, or lengths), and whether it is to come to rest (`stops`); None where nothing is said."""
 
@@ -129,7 +129,7 @@ class Find:
     by_default: bool = field(default=False, compare=False)
 
     @property
-    def traced(self) -> dict[str, tuple[str, str]]:
+    def curvature_points(self) -> dict[str, tuple[str, str]]:
         """The points on links the curvature of whose paths is asked for, by name: M on 2."""
         return {name: (point, link) for name in self.curvature for point, _, link in [name.partition(" on ")]}
 
@@ -198,7 +198,7 @@ class Scene:
     irrational: tuple[str, ...] = ()
     loads: Loads | None = None
     flywheel: Flywheel | None = None
-    run: Run | None = None
+    run: RunRequest | None = None
     sheet: Presentation = field(default_factory=Presentation)
     text: str = field(default="", repr=False, compare=False)
     redundant: tuple[Condition, ...] = ()
@@ -236,7 +236,7 @@ class Scene:
         found = {condition.pair for condition in self.repeating}
         joints = (f"{link} at {joint.at}" for joint in self.revolutes for link in joint.links[1:]
                   if not found.isdisjoint(f"{k} at {joint.at}" for k in (joint.links if link == FRAME else (link,))))
-        return (*joints, *(pair.name for pair in self.guided if pair.name in found))
+        return (*joints, *(pair.name for pair in self.directed_pairs if pair.name in found))
 
     @cached_property
     def links_of(self) -> dict[str, tuple[str, ...]]:
@@ -299,7 +299,7 @@ class Scene:
         return tuple(found)
 
     @property
-    def guided(self) -> tuple[Slide | Gear | Contact, ...]:
+    def directed_pairs(self) -> tuple[Slide | Gear | Contact, ...]:
         """The pairs that may have a direction."""
         return *self.slides, *self.gears, *self.contacts
 
@@ -323,20 +323,20 @@ class Scene:
         slide = self.driven_slide(drive)
         return Balance(slide.link, slide.at, slide.direction, slide.written, slide.along)
 
-    def posed(self, points: dict[str, Any], direction: Callable[[Any], Any],
-              length: Callable[[Any], Any] = lambda radius: radius) -> Scene:
+    def with_pose(self, points: dict[str, Any], direction: Callable[[Any], Any],
+                  length: Callable[[Any], Any] = lambda radius: radius) -> Scene:
         """The scene in another pose, or in other numbers: its points, the direction of each guide and balance, and by
         `length` the radii of its gears. A balance between two moving links keeps to the guide that it drives."""
-        def directed(one: Any) -> Any:
-            one = one.scaled(length) if isinstance(one, Gear) else one
+        def with_direction(one: Any) -> Any:
+            one = one.with_lengths(length) if isinstance(one, Gear) else one
             return replace(one, direction=direction(one)) if getattr(one, "direction", None) is not None else one
 
-        written = tuple(map(directed, self.written))
+        written = tuple(map(with_direction, self.written))
         guides = {frozenset(pair.links): pair.direction for pair in written if isinstance(pair, Slide)}
 
-        def balanced(one: Balance) -> Balance:
+        def with_guide(one: Balance) -> Balance:
             guide = guides.get(frozenset(one.links)) if one.at and one.on != FRAME else None
-            return directed(one) if guide is None else replace(one, direction=guide)
+            return with_direction(one) if guide is None else replace(one, direction=guide)
 
-        loads = self.loads and replace(self.loads, balances=tuple(map(balanced, self.loads.balances)))
+        loads = self.loads and replace(self.loads, balances=tuple(map(with_guide, self.loads.balances)))
         return replace(self, points=points, written=written, loads=loads)

@@ -24,7 +24,7 @@ def plus(a: Pair, b: Pair) -> Pair:
     return a[0] + b[0], a[1] + b[1]
 
 
-def less(a: Pair, b: Pair) -> Pair:
+def minus(a: Pair, b: Pair) -> Pair:
     """The vector from b to a."""
     return a[0] - b[0], a[1] - b[1]
 
@@ -34,7 +34,7 @@ def times(factor: Number, a: Pair) -> Pair:
     return factor * a[0], factor * a[1]
 
 
-def turned(a: Pair) -> Pair:
+def quarter_turn(a: Pair) -> Pair:
     """The vector a, turned counter-clockwise by a quarter."""
     return -a[1], a[0]
 
@@ -87,28 +87,28 @@ def root(square: Fraction, bits: int = ROOT_BITS) -> tuple[Fraction, bool]:
     return Fraction(isqrt(product << 2 * bits), square.denominator << bits), False
 
 
-def mapped(thing: Any, number: Callable[[Any], Any]) -> Any:
+def map_numbers(thing: Any, number: Callable[[Any], Any]) -> Any:
     """The same thing with every float and every fraction in it, however deep, as `number` makes it."""
     if isinstance(thing, Fraction | float):
         return number(thing)
     if isinstance(thing, tuple):
-        return tuple(mapped(part, number) for part in thing)
+        return tuple(map_numbers(part, number) for part in thing)
     if isinstance(thing, dict):
-        return {name: mapped(part, number) for name, part in thing.items()}
+        return {name: map_numbers(part, number) for name, part in thing.items()}
     if is_dataclass(thing) and not isinstance(thing, type):
-        return replace(thing, **{part.name: mapped(getattr(thing, part.name), number) for part in fields(thing)})
+        return replace(thing, **{part.name: map_numbers(getattr(thing, part.name), number) for part in fields(thing)})
     return thing
 
 
 Circular = Callable[[Fraction], tuple[Fraction, Fraction]]
 
 
-def _to_a_float(degrees: Fraction) -> tuple[Fraction, Fraction]:
+def _float_heading(degrees: Fraction) -> tuple[Fraction, Fraction]:
     angle = radians(float(degrees))
     return Fraction(cos(angle)), Fraction(sin(angle))
 
 
-def heading(degrees: Fraction, circular: Circular = _to_a_float) -> tuple[Fraction, Fraction, bool]:
+def heading(degrees: Fraction, circular: Circular = _float_heading) -> tuple[Fraction, Fraction, bool]:
     """Cosine and sine of an angle, and whether they are exact: so at the multiples of 90 degrees."""
     quarter, rest = divmod(degrees + 45, 90)
     c, s = circular(rest - 45)  # within an eighth of a turn, where both functions are at their best
@@ -123,16 +123,16 @@ class Reckoning(NamedTuple):
     heading: Callable[[Fraction], tuple[Any, Any, bool]]
 
 
-TO_A_FLOAT = Reckoning(root, heading)
+FLOAT_RECKONING = Reckoning(root, heading)
 """Roots to some 60 digits, cosines and sines to a float's."""
 
 
-def shown(number: Fraction | float) -> str:
+def number_text(number: Fraction | float) -> str:
     """A number for an error line: as an integer where it is one, otherwise to six digits."""
     return str(number) if isinstance(number, Fraction) and number.denominator == 1 else f"{float(number):.6g}"
 
 
-def shown_apart(one: Fraction | float, other: Fraction | float) -> tuple[str, str]:
+def distinct_texts(one: Fraction | float, other: Fraction | float) -> tuple[str, str]:
     """Two numbers for an error line that says that they differ: to as many digits as show it."""
     for digits in (6, 9, 12, 15, 17):
         texts = f"{float(one):.{digits}g}", f"{float(other):.{digits}g}"

@@ -18,7 +18,7 @@ from graphplan.mechanism.model import FRAME, Contact, Drive, Force, Gear, Loads,
 Load = TypeVar("Load", Force, Moment)
 
 
-def ordered(scene: Scene) -> Scene:
+def sort_scene(scene: Scene) -> Scene:
     """The scene with its links, points, pairs and loads in this order; its balances stay numbered as they are."""
     links = ordered_links(scene)
     higher = (*sorted(scene.gears, key=_by_links), *sorted(scene.contacts, key=_by_links))
@@ -27,9 +27,9 @@ def ordered(scene: Scene) -> Scene:
                    loads=scene.loads and _ordered_loads(scene.loads))
 
 
-def lower(scene: Scene) -> Scene:
+def without_higher_pairs(scene: Scene) -> Scene:
     """The scene in this order without its higher pairs, where others stand for them."""
-    found = ordered(scene)
+    found = sort_scene(scene)
     return replace(found, written=tuple(pair for pair in found.written if not isinstance(pair, Gear | Contact)))
 
 
@@ -49,12 +49,12 @@ def _ordered_loads(loads: Loads) -> Loads:
 
 def named_forces(loads: Loads) -> dict[str, Force]:
     """The given forces by their letters: P_2 and P_2' on link 2."""
-    return _lettered("P", _ordered_loads(loads).forces)
+    return _by_letter("P", _ordered_loads(loads).forces)
 
 
 def named_moments(loads: Loads) -> dict[str, Moment]:
     """The given moments by their letters: M_2 and M_2' on link 2."""
-    return _lettered("M", _ordered_loads(loads).moments)
+    return _by_letter("M", _ordered_loads(loads).moments)
 
 
 def changing_loads(loads: Loads | None) -> dict[str, Force | Moment]:
@@ -67,13 +67,13 @@ def with_values(loads: Loads, values: Mapping[str, Any]) -> Loads:
     """The loads, some with other values by their letters: pairs for forces, numbers for moments; or arrays of them."""
     found: dict[int, Any] = {id(load): values[name] for name, load in changing_loads(loads).items() if name in values}
 
-    def valued(load: Any) -> Any:
+    def with_value(load: Any) -> Any:
         return replace(load, value=found[id(load)]) if id(load) in found else load
 
-    return replace(loads, forces=tuple(map(valued, loads.forces)), moments=tuple(map(valued, loads.moments)))
+    return replace(loads, forces=tuple(map(with_value, loads.forces)), moments=tuple(map(with_value, loads.moments)))
 
 
-def _lettered(letter: str, loads: Sequence[Load]) -> dict[str, Load]:
+def _by_letter(letter: str, loads: Sequence[Load]) -> dict[str, Load]:
     """Loads by their letters: that of their link, with a prime where it is taken."""
     links = [load.on for load in loads]
     return {f"{letter}_{load.on}" + "'" * links[:i].count(load.on): load for i, load in enumerate(loads)}

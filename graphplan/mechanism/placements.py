@@ -12,10 +12,10 @@ from itertools import chain
 from typing import Any
 
 from graphplan.errors import by_name
-from graphplan.mechanism.fields import Either, Field, Kind, Named, Names, Table, Value
-from graphplan.mechanism.items import Item, described, quoted
+from graphplan.mechanism.fields import Either, Field, Kind, Named, SceneNames, Table, Value
+from graphplan.mechanism.items import Item, describe, quote_key
 from graphplan.mechanism.model import Pair, Placement
-from graphplan.mechanism.numbers import TO_A_FLOAT, Reckoning, exactly, is_exact, shown
+from graphplan.mechanism.numbers import FLOAT_RECKONING, Reckoning, exactly, is_exact, number_text
 from graphplan.mechanism.tolerances import TANGENCY_TOL
 from graphplan.mechanism.values import (
     DIRECTION,
@@ -32,7 +32,7 @@ from graphplan.mechanism.values import (
 )
 
 
-def _way(how: str, says: str, *fields: Field) -> Table:
+def _placement_table(how: str, says: str, *fields: Field) -> Table:
     """A way to place a point, by the data under these keys."""
     return Table(f"{how}: {says}" if how in ("polar", "compass") else says, fields,
                  lambda row: Placement(how, row.values))
@@ -40,7 +40,7 @@ def _way(how: str, says: str, *fields: Field) -> Table:
 
 def _distances(wanted: int) -> Kind:
     """Distances from so many points."""
-    def read(item: Item, names: Names) -> dict[str, Fraction] | None:
+    def read(item: Item, names: SceneNames) -> dict[str, Fraction] | None:
         table = item.table()
         if table is None:
             return None
@@ -57,7 +57,7 @@ def _distances(wanted: int) -> Kind:
         "minProperties": wanted, "maxProperties": wanted})
 
 
-def _coordinates(item: Item, names: Names) -> Placement | None:
+def _coordinates(item: Item, names: SceneNames) -> Placement | None:
     at = item.vector()
     return None if at is None else Placement("given", {"at": at})
 
@@ -70,28 +70,29 @@ _LINE = Table("a line", (
           "the line's direction, such as [1, 0]"),
 ))
 WAYS = (
-    _way("polar", "from a point, by distance and angle",
-         Field("from", "the point to measure from", POINT, 'the point to measure from, such as from = "O"'),
-         Field("distance", "the distance from that point", DISTANCE, "a length, such as distance = 250"),
-         Field("angle", "the direction in degrees from +x, counter-clockwise", NUMBER,
-               "degrees from +x, such as angle = 20")),
-    _way("compass", "where two arcs meet",
-         Field("distances", "the distances from two points: two arcs", _distances(2),
-               "the distances from two points, such as distances = { A = 730, C = 300 }"),
-         Field("side", "the side of the ray from the first to the second centre", choice("left", "right"),
-               'side = "left" or "right" of the ray from the first to the second centre')),
-    _way("arc-line", "where an arc meets a line",
-         Field("distances", "the distance from one point: an arc", _distances(1),
-               "the distance from one point, such as distances = { A = 730 }"),
-         Field("on", "the line that the arc meets", _LINE,
-               "the line, such as on = { through = [0, 107], direction = [1, 0] }"),
-         Field("pick", "the intersection further along the line's direction (right) or back (left)",
-               choice("left", "right"),
-               'pick = "right" (further along) or "left" (back along) the line\'s direction')),
-    _way("on-line", "on the line of two points",
-         Field("on", "the two points of the line", TWO_POINTS, 'the line\'s two points, such as on = "A B"'),
-         Field("distance", "how far from the first point towards the second", NUMBER,
-               "a length from the first point towards the second, such as distance = 340")),
+    _placement_table("polar", "from a point, by distance and angle",
+                     Field("from", "the point to measure from", POINT, 'the point to measure from, such as from = "O"'),
+                     Field("distance", "the distance from that point", DISTANCE, "a length, such as distance = 250"),
+                     Field("angle", "the direction in degrees from +x, counter-clockwise", NUMBER,
+                           "degrees from +x, such as angle = 20")),
+    _placement_table("compass", "where two arcs meet",
+                     Field("distances", "the distances from two points: two arcs", _distances(2),
+                           "the distances from two points, such as distances = { A = 730, C = 300 }"),
+                     Field("side", "the side of the ray from the first to the second centre", choice("left", "right"),
+                           'side = "left" or "right" of the ray from the first to the second centre')),
+    _placement_table("arc-line", "where an arc meets a line",
+                     Field("distances", "the distance from one point: an arc", _distances(1),
+                           "the distance from one point, such as distances = { A = 730 }"),
+                     Field("on", "the line that the arc meets", _LINE,
+                           "the line, such as on = { through = [0, 107], direction = [1, 0] }"),
+                     Field("pick", "the intersection further along the line's direction (right) or back (left)",
+                           choice("left", "right"),
+                           'pick = "right" (further along) or "left" (back along) the line\'s direction')),
+    _placement_table("on-line", "on the line of two points",
+                     Field("on", "the two points of the line", TWO_POINTS,
+                           'the line\'s two points, such as on = "A B"'),
+                     Field("distance", "how far from the first point towards the second", NUMBER,
+                           "a length from the first point towards the second, such as distance = 340")),
 )
 COORDINATES = Kind("coordinates [x, y]", _coordinates, VECTOR.schema)
 
@@ -103,17 +104,17 @@ def _form(item: Item) -> Value | None:
     way = max(WAYS, key=lambda way: sum(key in way.keys for key in item.value))  # type: ignore[attr-defined]
     if item.value.keys() & {*way.keys}:
         return way
-    return item.fault(f"{described(item.value)} places no point",
+    return item.fault(f"{describe(item.value)} places no point",
                       'coordinates [x, y], or a table such as { from = "O", distance = 250, angle = 20 }')
 
 
-def _named(point: str, item: Item, names: Names) -> None:
+def _check_name(point: str, item: Item, names: SceneNames) -> None:
     """A fault where a point's name cannot stand in a list of points."""
     if "," in point or point.split() != [point] or not point.isprintable():
         item.fault("a point's name is empty or has blanks or commas", "a name without them, such as A2")
 
 
-POINTS = Named(Either((COORDINATES, *WAYS), _form), POINT, _named, least=1)
+POINTS = Named(Either((COORDINATES, *WAYS), _form), POINT, _check_name, least=1)
 
 
 def needs(placement: Placement) -> tuple[str, ...]:
@@ -130,7 +131,7 @@ def place(placements: Mapping[str, Placement], table: Item) -> dict[str, Pair]:
     for name in _in_order(placements, table):
         placement = placements[name]
         if all(centre in points for centre in needs(placement)):
-            item = Item(None, f"{table.where}.{quoted(name)}", table.faults)
+            item = Item(None, f"{table.where}.{quote_key(name)}", table.faults)
             try:
                 points[name] = _put(placement, points)
             except Misfit as misfit:
@@ -152,7 +153,8 @@ def placed_by(placements: Mapping[str, Placement], by: Reckoning) -> dict[str, P
 
 def _put(placement: Placement, points: Mapping[str, Pair]) -> Pair:
     rational = is_exact(*(points[name] for name in needs(placement)))
-    x, y, exact = RULES[placement.how](placement.data, lambda name: exactly(points[name]), not rational, TO_A_FLOAT)
+    x, y, exact = RULES[placement.how](placement.data, lambda name: exactly(points[name]), not rational,
+                                       FLOAT_RECKONING)
     return (x, y) if exact and rational else (float(x), float(y))
 
 
@@ -164,7 +166,7 @@ def _in_order(placements: Mapping[str, Placement], table: Item) -> list[str]:
             return list(TopologicalSorter(waiting).static_order())
         except CycleError as error:
             ring = sorted({*error.args[1]}, key=by_name)
-            where = f"{table.where}.{quoted(ring[0])}"
+            where = f"{table.where}.{quote_key(ring[0])}"
             told = f"points {', '.join(ring)} are placed from each other" if ring[1:] else "it is placed from itself"
             table.faults.add(where, told, "coordinates for one of them")
             waiting = {name: [p for p in on if p not in ring] for name, on in waiting.items() if name not in ring}
@@ -180,16 +182,16 @@ def _in_order(placements: Mapping[str, Placement], table: Item) -> list[str]:
 Put = tuple[Any, Any, bool]
 
 
-def _given(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -> Put:
+def _place_given(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -> Put:
     return *data["at"], True
 
 
-def _polar(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -> Put:
+def _place_polar(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -> Put:
     (x, y), (c, s, exact) = at(data["from"]), sharp.heading(data["angle"])
     return x + data["distance"] * c, y + data["distance"] * s, exact
 
 
-def _compass(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -> Put:
+def _place_compass(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -> Put:
     (a, p), (b, q) = data["distances"].items()
     (ax, ay), (bx, by) = at(a), at(b)
     dx, dy = bx - ax, by - ay
@@ -199,15 +201,15 @@ def _compass(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -
     along = (p * p - q * q + square) / (2 * square)
     across, exact = _half_chord(p * p / square - along * along, p * p / square, rounded, sharp)
     if across is None:
-        apart = shown(float(sharp.root(square)[0]))
-        raise Misfit(f"compass arcs around {a} (radius {shown(p)}) and {b} (radius {shown(q)}) do not meet, "
-                     f"the centres are {apart} apart",
+        apart = number_text(float(sharp.root(square)[0]))
+        raise Misfit(f"compass arcs around {a} (radius {number_text(p)}) and {b} (radius {number_text(q)}) do not "
+                     f"meet, the centres are {apart} apart",
                      f"radii {'whose sum is at least' if (p + q) ** 2 < square else 'that differ by at most'} {apart}")
     turned = across if data["side"] == "left" else -across
     return ax + along * dx - turned * dy, ay + along * dy + turned * dx, exact
 
 
-def _arc_line(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -> Put:
+def _place_arc_line(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -> Put:
     ((centre, radius),) = data["distances"].items()
     through, direction = data["on"]["through"], data["on"]["direction"]
     (cx, cy), (tx, ty) = at(centre), at(through) if isinstance(through, str) else through
@@ -217,14 +219,14 @@ def _arc_line(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) 
     gap = (ux * (cy - ty) - uy * (cx - tx)) ** 2 / square
     half, exact = _half_chord((radius**2 - gap) / square, radius**2 / square, rounded, sharp)
     if half is None:
-        away = shown(float(sharp.root(gap)[0]))
-        raise Misfit(f"the arc around {centre} (radius {shown(radius)}) does not meet the line, which is {away} away",
-                     f"a radius of at least {away}")
+        away = number_text(float(sharp.root(gap)[0]))
+        raise Misfit(f"the arc around {centre} (radius {number_text(radius)}) does not meet the line, "
+                     f"which is {away} away", f"a radius of at least {away}")
     step = foot + (half if data["pick"] == "right" else -half)
     return tx + step * ux, ty + step * uy, exact and straight
 
 
-def _on_line(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -> Put:
+def _place_on_line(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -> Put:
     first = data["on"].split()[0]
     (x, y), (ux, uy, _) = at(first), vector(data["on"], at, sharp)
     length, exact = sharp.root(ux * ux + uy * uy)
@@ -239,4 +241,5 @@ def _half_chord(square: Any, radius_square: Any, rounded: bool, sharp: Reckoning
 
 
 RULES: dict[str, Callable[[dict[str, Any], Where, bool, Reckoning], Put]] = {
-    "given": _given, "polar": _polar, "compass": _compass, "arc-line": _arc_line, "on-line": _on_line}
+    "given": _place_given, "polar": _place_polar, "compass": _place_compass, "arc-line": _place_arc_line,
+    "on-line": _place_on_line}

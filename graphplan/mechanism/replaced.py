@@ -16,7 +16,7 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.mechanism.model import FRAME, Contact, Gear, Number, Pair, Scene
-from graphplan.mechanism.numbers import dot, is_exact, less, plus, root, times, turned
+from graphplan.mechanism.numbers import dot, is_exact, minus, plus, quarter_turn, root, times
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.pairs.pair import LINE, ROLLING, TOUCHING, TURNING
 from graphplan.mechanism.pairs.sliding import Slide
@@ -64,7 +64,7 @@ class RollingGuide(StandIn):
         return f"{self.link} rolling on {self.along} at {self.at}"
 
     @property
-    def other(self) -> str:
+    def other_centre(self) -> str:
         """The centre that the point is drawn towards."""
         return next(centre for centre in self.through or () if centre != self.base)
 
@@ -79,13 +79,13 @@ class EqualTurning(StandIn):
 
 
 @dataclass(frozen=True)
-class Replaced(Scene):
+class ReplacedScene(Scene):
     """A scene with lower pairs in the place of its higher ones, and the contacts by the links that stand for them."""
 
     bars: Mapping[str, Contact] = field(default_factory=dict)
 
 
-def replaced(scene: Scene) -> Scene:
+def with_lower_pairs(scene: Scene) -> Scene:
     """The scene with lower pairs in the place of its gears and contacts; itself where it has none.
 
     Bars and blocks are links named 0, pitch points are named P with the numbers of the links; neither takes a name that
@@ -104,10 +104,10 @@ def replaced(scene: Scene) -> Scene:
     points, links = scene.points | stand_ins.points, {**stand_ins.links, **stand_ins.bars}
     parts = {part.name: getattr(scene, part.name) for part in fields(Scene)}
     parts |= {"points": points, "links": links, "written": (*scene.written, *stand_ins.pairs)}
-    return Replaced(**parts, bars=stand_ins.contacts)
+    return ReplacedScene(**parts, bars=stand_ins.contacts)
 
 
-def beyond(scene: Scene) -> Scene | None:
+def scene_beyond(scene: Scene) -> Scene | None:
     """The scene just beyond the points where profiles go on with another curvature; None where none does, and at
     another travel, where others touch."""
     if scene.assembly is not None:
@@ -144,7 +144,7 @@ def straight(pair: Higher) -> Slide | None:
 
 def bars(scene: Scene) -> Mapping[str, Contact]:
     """The bars and blocks of a scene that is replaced, by their names, with the contacts that they stand for."""
-    return scene.bars if isinstance(scene, Replaced) else {}
+    return scene.bars if isinstance(scene, ReplacedScene) else {}
 
 
 class _StandIns:
@@ -168,17 +168,17 @@ class _StandIns:
         if one + two == 0:
             self.pairs.append(EqualTurning(*gear.links, B, (1, 0), given=gear))
             return
-        ratio, direction = one / (one + two), less(self._at(C), self._at(B))
-        point = self._named(gear, plus(self._at(B), times(_fraction(ratio), direction)))
+        ratio, direction = one / (one + two), minus(self._place_of(C), self._place_of(B))
+        point = self._new_point(gear, plus(self._place_of(B), times(_fraction(ratio), direction)))
         self._roll(gear, point, direction, (B, C), base=B, ratio=ratio)
 
     def _rack(self, gear: Gear, B: str) -> None:
         """The pitch point of a rack: the foot of the gear's centre on the pitch line, to the right of that."""
         rail, length = straight(gear), -gear.radius
         assert rail is not None
-        square = turned(_fractions(rail.direction))
+        square = quarter_turn(_fractions(rail.direction))
         whole, _ = root(_fraction(dot(square, square)))
-        point = self._named(gear, plus(self._at(B), times(_fraction(length) / whole, square)))
+        point = self._new_point(gear, plus(self._place_of(B), times(_fraction(length) / whole, square)))
         self._roll(gear, point, square, base=B, rail=rail, length=length)
 
     def contact(self, contact: Contact) -> None:
@@ -196,15 +196,15 @@ class _StandIns:
     def _rolling(self, contact: Contact, rail: Slide | None) -> None:
         """A rolling guide where a contact touches: in a point of no link, as it wanders on both."""
         free = not self.scene.links_of[contact.at]
-        point = contact.at if free else self._named(contact, self._at(contact.at))
+        point = contact.at if free else self._new_point(contact, self._place_of(contact.at))
         base, *others = filter(None, contact.centres)
-        arm = less(self._at(contact.at), self._at(base))
+        arm = minus(self._place_of(contact.at), self._place_of(base))
         if rail is None:
-            direction = less(self._at(others[0]), self._at(base))
+            direction = minus(self._place_of(others[0]), self._place_of(base))
             share = dot(arm, direction) / dot(direction, direction)
             self._roll(contact, point, direction, (base, others[0]), base=base, ratio=share)
             return
-        square = turned(_fractions(rail.direction))
+        square = quarter_turn(_fractions(rail.direction))
         long, exact = root(_fraction(dot(square, square)))
         length = dot(arm, square) / long
         drawn = exact or not is_exact(rail.direction, self.scene.points[base])
@@ -217,7 +217,7 @@ class _StandIns:
         self.links[link] = tuple(dict.fromkeys((*self.links[link], at)))
         self.pairs.append(RollingGuide(link, along, at, direction, through, None, pair, base, ratio, rail, length))
 
-    def _named(self, pair: Higher, place: Pair) -> str:
+    def _new_point(self, pair: Higher, place: Pair) -> str:
         """A new point, named after the links that it belongs to: it is their relative pole."""
         numbers = ["0" if link == FRAME else link for link in sorted(pair.links, key=_rank)]
         plain = all(len(number) == 1 and number.isalnum() for number in numbers)
@@ -225,7 +225,7 @@ class _StandIns:
         self.points[name] = place
         return name
 
-    def _at(self, point: str) -> tuple[Fraction, Fraction]:
+    def _place_of(self, point: str) -> tuple[Fraction, Fraction]:
         return _fractions(self.scene.points[point])
 
 

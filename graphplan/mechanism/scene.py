@@ -25,8 +25,8 @@ from graphplan.mechanism.checks import (
     check_mobility,
     check_use,
 )
-from graphplan.mechanism.fields import Field, Names, Table
-from graphplan.mechanism.items import Faults, Item, perhaps, quoted
+from graphplan.mechanism.fields import Field, SceneNames, Table
+from graphplan.mechanism.items import Faults, Item, quote_key, suggestion
 from graphplan.mechanism.load_fields import BALANCE, FORCES, FRICTION, MASSES, MOMENTS, loads_of
 from graphplan.mechanism.load_values import filled_in
 from graphplan.mechanism.model import Contact, Find, Gear, Pair, Presentation, Scene, Slide
@@ -95,7 +95,7 @@ def source_text(source: str, name: str) -> str:
     except IsADirectoryError:
         fault = Fault("file", "this is a directory", "a scene file")
     except FileNotFoundError:
-        fault = Fault("file", "no such file and no packaged scene", perhaps(source, packaged(), "scene"))
+        fault = Fault("file", "no such file and no packaged scene", suggestion(source, packaged_names(), "scene"))
     except (OSError, ValueError) as error:  # ValueError: a path that no file system has
         fault = Fault("file", f"it cannot be read ({getattr(error, 'strerror', None) or error})", "a readable file")
     raise SceneError(name, (fault,))
@@ -106,13 +106,13 @@ def _bytes(source: str) -> bytes:
         if sys.stdin is None:
             raise OSError(EBADF, "standard input is closed")
         return sys.stdin.buffer.read()
-    if source in packaged() and not os.path.exists(source):
+    if source in packaged_names() and not os.path.exists(source):
         source = os.path.join(FOLDER, f"{source}.toml")
     with open(source, "rb") as file:
         return file.read()
 
 
-def packaged() -> list[str]:
+def packaged_names() -> list[str]:
     """The names of the packaged scenes, in alphabetical order."""
     return sorted(name.removesuffix(".toml") for name in os.listdir(FOLDER) if name.endswith(".toml"))
 
@@ -124,7 +124,7 @@ def parse(text: str, name: str, by_drive: bool = False) -> Scene:
     Its own text has the rows of such files in their stead, so that it holds wherever it is taken.
     """
     faults = Faults()
-    folder = FOLDER if name in packaged() and not os.path.exists(name) else os.path.dirname(name)
+    folder = FOLDER if name in packaged_names() and not os.path.exists(name) else os.path.dirname(name)
     tables = tables_of(text, name)
     scene, files = _read(tables, name, faults, folder, by_drive)
     if len(faults):
@@ -179,8 +179,8 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         if field.wanted and not (field.name in items and items[field.name].value):
             faults.add(field.name, f"the scene has no {field.name}", field.wanted)
     points = items.get("points", Item({}, "points", faults))
-    names = Names(dict.fromkeys(points.value) if isinstance(points.value, dict) else {}, tables=tables,
-                  scene=name, folder=folder)
+    names = SceneNames(dict.fromkeys(points.value) if isinstance(points.value, dict) else {}, tables=tables,
+                       scene=name, folder=folder)
     kinds, read = {field.name: field.kind for field in SCENE.fields}, {}
     for key in ORDER:
         if key in items and (value := kinds[key].read(items[key], names)) is not None:
@@ -189,24 +189,24 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
             placements = read.get(key, {})
             names.placed = place(placements, points)
         elif key == "links" and key in read:
-            names.linked(read[key])
+            names.take_links(read[key])
         elif key == "units" and key in read:
             names.units = read[key]
         elif key in PAIR_KEYS:
-            names.pairs = _told_apart((*names.pairs, *read.get(key, ())))
+            names.pairs = _name_higher_pairs((*names.pairs, *read.get(key, ())))
     scene = Scene(
         title=read.get("title", ""), source=read.get("source", ""), name=name, units=names.units,
         points={point: names.placed.get(point, (Fraction(0), Fraction(0))) for point in names.points},
         placements=placements, links=names.links, written=names.pairs, motions=read.get("motion", {}),
-        find=read.get("find") or _asked(names), loads=loads_of(read), flywheel=read.get("flywheel"),
+        find=read.get("find") or _default_find(names), loads=loads_of(read), flywheel=read.get("flywheel"),
         run=read.get("run"), sheet=read.get("sheet") or Presentation(), vary=read.get("vary", {}))
     scene = scene if len(faults) else _touching_on_normals(scene)
     kept = by_drive or scene.flywheel or scene.run
     scene = _kept_by_its_drive(scene) if kept else _without_unasked_loads(scene, tables.get("find"))
     counting = _counting(scene)
-    rounded = [f"points.{quoted(point)}: {placements[point].how} placement" for point in placements
+    rounded = [f"points.{quote_key(point)}: {placements[point].how} placement" for point in placements
                if point in names.placed and point in counting and not is_exact(names.placed[point])]
-    scene = _checked(replace(scene, irrational=(*rounded, *names.irrational)), names.placed, faults, by_drive)
+    scene = _check_whole(replace(scene, irrational=(*rounded, *names.irrational)), names.placed, faults, by_drive)
     if not len(faults):
         try:
             scene = filled_in(scene)
@@ -239,7 +239,7 @@ def _without_unasked_loads(scene: Scene, find: object) -> Scene:
     return replace(scene, loads=None) if motion and scene.loads and not scene.loads.balances else scene
 
 
-def _told_apart(pairs: tuple[KinematicPair, ...]) -> tuple[KinematicPair, ...]:
+def _name_higher_pairs(pairs: tuple[KinematicPair, ...]) -> tuple[KinematicPair, ...]:
     """The pairs, with several gears and contacts of the same two links named by where they are."""
     between = Counter(frozenset(pair.links) for pair in pairs if isinstance(pair, Gear | Contact))
     return tuple(replace(pair, alone=between[frozenset(pair.links)] < 2) if isinstance(pair, Gear | Contact) else pair
@@ -253,8 +253,9 @@ def _counting(scene: Scene) -> set[str]:
     """
     loads = scene.loads
     find = scene.find
-    found = {*scene.joints, *scene.motions, *find.velocity, *find.acceleration, *(p for p, _ in find.traced.values())}
-    for pair in scene.guided:
+    found = {*scene.joints, *scene.motions, *find.velocity, *find.acceleration,
+             *(p for p, _ in find.curvature_points.values())}
+    for pair in scene.directed_pairs:
         found |= {point for fact in pair.states(scene) for _, point in fact.ends} | {*(pair.through or ())}
     found |= {contact.at for contact in scene.contacts if contact.rolling}
     if loads is not None:
@@ -263,19 +264,20 @@ def _counting(scene: Scene) -> set[str]:
     return found
 
 
-def _asked(names: Names) -> Find:
+def _default_find(names: SceneNames) -> Find:
     """What is asked for where nothing is said: velocity and acceleration of every joint that can move, or where there
     is none of every point that can, and the rates of every link."""
     at = {pair.at for pair in names.pairs if isinstance(pair, Slide)}
-    moving = tuple(p for p in names.movable if names.held[p] > 1 or p in at) or names.movable
+    moving = tuple(p for p in names.movable if names.link_counts[p] > 1 or p in at) or names.movable
     return Find(moving, moving, links=names.moving, by_default=True)
 
 
-def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults, by_drive: bool) -> Scene:
+def _check_whole(scene: Scene, placed: dict[str, Pair], faults: Faults, by_drive: bool) -> Scene:
     """The scene after the checks of the whole, each where what it rests on has no faults of its own."""
     if not faults.none_in("links"):
         return scene
-    guides = {point for pair in scene.guided for point in pair.through or ()} | {pair.at for pair in scene.contacts}
+    guides = {point for pair in scene.directed_pairs for point in pair.through or ()} | {pair.at
+                                                                                         for pair in scene.contacts}
     centres = {point for placement in scene.placements.values() for point in needs(placement)}
     if faults.none_in("points", *PAIR_KEYS[:-1]):
         check_use(scene, guides | centres, faults)
@@ -300,7 +302,7 @@ T = TypeVar("T")
 LOOK = "paper", "frame", "language", "convention", "owner", "number", "date", "drawn_by", "approved_by"
 
 
-def _only(table: Table, *names: str) -> Table:
+def _keep_fields(table: Table, *names: str) -> Table:
     """A table of a scene, of which a task has these keys alone."""
     return table._replace(fields=tuple(field for field in table.fields if field.name in names))
 
@@ -310,9 +312,9 @@ def task_table(says: str, units: tuple[str, ...], *fields: Field) -> Table:
     return Table(says, (
         Field("title", "what it is", TEXT),
         Field("source", "where it comes from: author, title, year, figure", TEXT),
-        Field("units", "the units of the task", _only(UNITS, *units)),
+        Field("units", "the units of the task", _keep_fields(UNITS, *units)),
         *fields,
-        Field("sheet", "how the sheet should look; the command line has the last word", _only(SHEET, *LOOK)),
+        Field("sheet", "how the sheet should look; the command line has the last word", _keep_fields(SHEET, *LOOK)),
     ))
 
 
@@ -330,7 +332,7 @@ def read_task(whole: Table, text: str, name: str, made: Callable[[dict[str, Any]
     Fails with `SceneError`, one line a fault, in which `name` stands for the file.
     """
     faults = Faults()
-    item, names = Item(tables_of(text, name), "", faults), Names(())
+    item, names = Item(tables_of(text, name), "", faults), SceneNames(())
     items = item.fields(whole.keys, {}) or {}
     read: dict[str, Any] = {}
     for field in sorted(whole.fields, key=lambda field: field.name != "units"):  # the sheet speaks of units

@@ -17,39 +17,39 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.mechanism.items import quoted
+from graphplan.mechanism.items import quote_key
 from graphplan.mechanism.numbers import decimal
-from graphplan.mechanism.variation import numbers, parts
+from graphplan.mechanism.variation import numbers, path_parts
 
 QUOTED = r'"""[\s\S]*?"""|\'\'\'[\s\S]*?\'\'\'|"(?:[^"\\\n]|\\.)*"|\'[^\'\n]*\'|#[^\n]*'
 NUMERAL = r"(?<![\w.+-])[+-]?\d[\d_]*(?:\.\d[\d_]*)?(?:[eE][+-]?\d+)?(?![\w.:-])"
 TOKENS = re.compile(rf"{QUOTED}|({NUMERAL})")
 HEADER = re.compile(r"[ \t]*\[\[?[^\[\],]+\]\]?[ \t]*")
-DIGITS = 120  # of a decimal; more than any numeral has
-FAR = 10**15  # added to the place of a numeral: no list is so long that it could be a place in it
+MAX_DIGITS = 120  # of a decimal; more than any numeral has
+PLACE_OFFSET = 10**15  # added to the place of a numeral: no list is so long that it could be a place in it
 Tables = dict[str, Any]
 
 
-def written(number: Fraction) -> str:
+def decimal_text(number: Fraction) -> str:
     """A decimal as one writes it: 12, 0.25."""
     if number.denominator == 1:
         return str(number.numerator)
-    quotient = Context(prec=DIGITS).divide(Decimal(number.numerator), Decimal(number.denominator))
+    quotient = Context(prec=MAX_DIGITS).divide(Decimal(number.numerator), Decimal(number.denominator))
     return f"{quotient.normalize():f}"
 
 
 def with_numbers(text: str, values: Mapping[str, Fraction]) -> str:
     """The text with other numbers at these paths."""
-    places = {str(FAR + token.start()): token for token in TOKENS.finditer(text) if token[1]}
-    numbered = TOKENS.sub(lambda token: str(FAR + token.start()) if token[1] else token[0], text)
+    places = {str(PLACE_OFFSET + token.start()): token for token in TOKENS.finditer(text) if token[1]}
+    numbered = TOKENS.sub(lambda token: str(PLACE_OFFSET + token.start()) if token[1] else token[0], text)
     where = {tuple(_key(part, places) for part in path): places.get(str(place))
              for path, place in numbers(tomllib.loads(numbered))}
     edits = {}
     for path, value in values.items():
-        token = where.get(parts(path))
+        token = where.get(path_parts(path))
         if token is None:
             raise Refused(f"vary.{path}", "its number is not found in the text", "write it as a plain decimal")
-        edits[token.span()] = written(value)
+        edits[token.span()] = decimal_text(value)
     for (start, end), new in sorted(edits.items(), reverse=True):
         text = text[:start] + new + text[end:]
     return text
@@ -66,14 +66,14 @@ def with_rows(text: str, files: Mapping[str, Sequence[tuple[Any, Any]]]) -> str:
         name = tomllib.loads(f"file = {found[2]}")["file"]
         if name not in files:
             return found[0]
-        return f"{found[1]}values = [{', '.join(f'[{written(x)}, {written(y)}]' for x, y in files[name])}]"
+        return f"{found[1]}values = [{', '.join(f'[{decimal_text(x)}, {decimal_text(y)}]' for x, y in files[name])}]"
 
-    def meant(tables: Tables) -> None:
+    def insert_rows(tables: Tables) -> None:
         for load in (load for table in ("forces", "moments") for load in tables.get(table, ())):
             if load.get("file") in files:
                 load["values"] = [[*row] for row in files[load.pop("file")]]
 
-    return edited(text, lambda text: re.sub(rf"(?m)(^\s*|[{{,]\s*)file\s*=\s*({QUOTED})", rows, text), meant)
+    return edit_text(text, lambda text: re.sub(rf"(?m)(^\s*|[{{,]\s*)file\s*=\s*({QUOTED})", rows, text), insert_rows)
 
 
 def with_keys(text: str, table: str, keys: Mapping[str, str]) -> str:
@@ -125,7 +125,7 @@ def _lines_of(text: str, table: str) -> tuple[int, int] | None:
     return first, next(said, first - 1) + 1
 
 
-def edited(text: str, edit: Callable[[str], str], meant: Callable[[Tables], None]) -> str:
+def edit_text(text: str, edit: Callable[[str], str], meant: Callable[[Tables], None]) -> str:
     """The text after an edit that does to its tables what is `meant`; fails with `Refused` where it does not."""
     tables = tomllib.loads(text, parse_float=decimal)
     meant(tables)
@@ -156,7 +156,7 @@ def doubled_key(text: str, message: str, line: int) -> tuple[str, str, str] | No
     TOML refuses the text with this message at this line, where a value may end that began earlier.
     """
     if inline := INLINE.fullmatch(message):
-        return f"line {line}", f"the key {quoted(inline[1])} is given twice in one table", "one of the two"
+        return f"line {line}", f"the key {quote_key(inline[1])} is given twice in one table", "one of the two"
     seen: dict[Path, tuple[int, str]] = {}
     for number, sort, path in _entries(text):
         if number > line:
@@ -164,7 +164,7 @@ def doubled_key(text: str, message: str, line: int) -> tuple[str, str, str] | No
         whole = next((path[:end] for end in range(1, len(path)) if seen.get(path[:end], (0, ""))[1] == "="), path)
         first, before = seen.get(whole, (0, ""))
         if before and not sort == before == "[[":
-            name, wrong = ".".join(map(quoted, whole)), first if sort == "[[" else number
+            name, wrong = ".".join(map(quote_key, whole)), first if sort == "[[" else number
             return (f"line {number}", f"{name} is given twice, first in line {first}", "each name once") \
                 if "[[" not in (sort, before) else \
                 (f"line {wrong}", f"{name} is a list of tables, but not here", f"[[{name}]] in each place")

@@ -14,7 +14,7 @@ from graphplan.mechanism.scene import SCENE
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 
 
-def described(says: str, fragment: Fragment) -> Fragment:
+def with_description(says: str, fragment: Fragment) -> Fragment:
     """A fragment with its description."""
     return {"description": says, **fragment}
 
@@ -25,33 +25,33 @@ def table(keys: dict[str, Fragment], required: Collection[str] | None = None) ->
             "additionalProperties": False}
 
 
-def listed(entry: Fragment) -> Fragment:
+def array_of(entry: Fragment) -> Fragment:
     """A list, or an array of tables."""
     return {"type": "array", "items": entry}
 
 
 def scene() -> Fragment:
     """The JSON Schema of a scene file."""
-    return titled("graphplan scene", SCENE)
+    return file_schema("graphplan scene", SCENE)
 
 
-def titled(title: str, whole: Table) -> Fragment:
+def file_schema(title: str, whole: Table) -> Fragment:
     """The JSON Schema of a whole file."""
-    return {"$schema": DRAFT, "title": title, **described(f"A{whole.says[1:]}.", schema(whole))}
+    return {"$schema": DRAFT, "title": title, **with_description(f"A{whole.says[1:]}.", schema(whole))}
 
 
 def schema(value: Value) -> Fragment:
     """The JSON Schema of a kind of value."""
     match value:
         case Table(fields=fields, either=either):
-            keys = {field.name: described(field.words, schema(field.kind) | (
+            keys = {field.name: with_description(field.words, schema(field.kind) | (
                 {} if field.default is None else {"default": field.default})) for field in fields}
             one = {"oneOf": [{"required": [key]} for key in either]} if either else {}
             return table(keys, [field.name for field in fields if field.wanted]) | one
         case Either(forms=forms):
-            return {"anyOf": [described(form.says, schema(form)) for form in forms]}
+            return {"anyOf": [with_description(form.says, schema(form)) for form in forms]}
         case Rows(entry=entry, single=single):
-            rows = listed(schema(entry))
+            rows = array_of(schema(entry))
             return {"anyOf": [schema(entry), rows]} if single else rows
         case Named(entry=entry, key=key, least=least):
             named = {"type": "object", "propertyNames": key.schema, "additionalProperties": schema(entry)}

@@ -9,8 +9,8 @@ from itertools import combinations, permutations
 from math import pi
 
 from graphplan.errors import by_name
-from graphplan.mechanism.fields import Field, Kind, Named, Names, Row, Table
-from graphplan.mechanism.items import Item, described, perhaps
+from graphplan.mechanism.fields import Field, Kind, Named, SceneNames, Table, TableRow
+from graphplan.mechanism.items import Item, describe, suggestion
 from graphplan.mechanism.model import (
     FRAME,
     Contact,
@@ -21,19 +21,31 @@ from graphplan.mechanism.model import (
     Motion,
     Number,
     Presentation,
-    Run,
+    RunRequest,
     Slide,
     Units,
 )
-from graphplan.mechanism.numbers import shown
+from graphplan.mechanism.numbers import number_text
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
-from graphplan.mechanism.values import AMOUNT, DISTANCE, FLAG, LINK, NAME, NUMBER, POINT, TEXT, VECTOR, asked, choice
+from graphplan.mechanism.values import (
+    AMOUNT,
+    DISTANCE,
+    FLAG,
+    LINK,
+    NAME,
+    NUMBER,
+    POINT,
+    TEXT,
+    VECTOR,
+    choice,
+    name_list,
+)
 from graphplan.words import LANGUAGES
 
 # --- links ---------------------------------------------------------------------------------------------------------
 
 
-def _link(item: Item, names: Names) -> tuple[str, ...]:
+def _link(item: Item, names: SceneNames) -> tuple[str, ...]:
     """The points of a link; none of a faulty one."""
     named = item.points(names.points)
     if named == ():
@@ -56,59 +68,59 @@ UNITS = Table("the units", (
 # --- motions and questions -----------------------------------------------------------------------------------------
 
 
-def _moved(point: str, item: Item, names: Names) -> None:
+def _check_motion(point: str, item: Item, names: SceneNames) -> None:
     """A fault where a point cannot have a given motion."""
     if point not in names.points:
         item.faults.unknown(item.where, "point", point, names.points)
     elif point in names.links.get(FRAME, ()):
         item.fault(f"{point} is a point of the frame, which stands still", "a point of moving links only")
-    elif point not in names.held and item.faults.none_in("links"):
+    elif point not in names.link_counts and item.faults.none_in("links"):
         item.fault(f"no link has the point {point}", "a point of a link")
 
 
 MOTIONS = Named(Table("a motion", (
     Field("velocity", "its velocity, in length/s", VECTOR, "two components, such as velocity = [10, 5]"),
     Field("acceleration", "its acceleration, in length/s^2", VECTOR, default=[0, 0]),
-), lambda row: Motion(**row.values)), POINT, _moved)
+), lambda row: Motion(**row.values)), POINT, _check_motion)
 
 
-def _still(point: object, item: Item, names: Names) -> bool:
+def _has_no_motion(point: object, item: Item, names: SceneNames) -> bool:
     """Whether a point that is asked for has no motion, as no link has it; that is a fault."""
-    lonely = point in names.points and point not in names.held and item.faults.none_in("links")
+    lonely = point in names.points and point not in names.link_counts and item.faults.none_in("links")
     if lonely:
         item.fault(f"no link has the point {point}, so it has no motion", "a point of a link")
     return lonely
 
 
-def _frame(name: object, item: Item, names: Names) -> bool:
+def _is_frame(name: object, item: Item, names: SceneNames) -> bool:
     """Whether it is the frame of which something is asked; that is a fault."""
     if name == FRAME:
         item.fault("the frame stands still", "a moving link")
     return name == FRAME
 
 
-def _slides(names: Names) -> tuple[str, ...]:
+def _slides(names: SceneNames) -> tuple[str, ...]:
     return tuple(pair.name for pair in names.pairs if isinstance(pair, Slide))
 
 
-def _pairs(names: Names) -> Iterator[str]:
+def _pairs(names: SceneNames) -> Iterator[str]:
     """The joints, the slides, the gears and the contacts."""
-    yield from (p for p in names.points if names.held[p] > 1)
+    yield from (p for p in names.points if names.link_counts[p] > 1)
     yield from dict.fromkeys(pair.name for pair in names.pairs if isinstance(pair, Slide | Gear | Contact))
 
 
-def _links(names: Names) -> tuple[str, ...]:
+def _links(names: SceneNames) -> tuple[str, ...]:
     """All links, the ground last, be it a link or not."""
     return (*sorted(names.moving, key=by_name), FRAME)
 
 
-def _traced(names: Names) -> tuple[str, ...]:
+def _points_on_links(names: SceneNames) -> tuple[str, ...]:
     """The moving points on each of their links, such as M on 2."""
     return tuple(f"{point} on {link}" for link in _links(names)[:-1]
                  for point in sorted(names.links[link], key=by_name) if point in names.movable)
 
 
-def _untraced(name: object, item: Item, names: Names) -> bool:
+def _has_no_path(name: object, item: Item, names: SceneNames) -> bool:
     """Whether a point on a link that is asked for has no path; that is a fault."""
     point, on, link = name.partition(" on ") if isinstance(name, str) else ("", "", "")
     if not on or point not in names.points or link not in names.bodies:
@@ -123,7 +135,7 @@ def _untraced(name: object, item: Item, names: Names) -> bool:
     return True
 
 
-def _turning(names: Names) -> tuple[str, ...]:
+def _turning(names: SceneNames) -> tuple[str, ...]:
     """The links that can turn: no chain of slides ties them to the frame."""
     still, pairs = {FRAME}, [pair.links for pair in names.pairs if isinstance(pair, Slide) and pair.turns_alike]
     while more := {link for links in pairs if still & {*links} for link in links} - still:
@@ -131,48 +143,50 @@ def _turning(names: Names) -> tuple[str, ...]:
     return tuple(link for link in _links(names) if link not in still)
 
 
-def _unturned(link: object, item: Item, names: Names) -> bool:
+def _never_turns(link: object, item: Item, names: SceneNames) -> bool:
     """Whether a link that is asked for never turns; that is a fault."""
     if link in names.moving and link not in _turning(names):
         item.fault(f"link {link} only slides and never turns, so it has no inflection circle", "a link that turns")
         return True
-    return _frame(link, item, names)
+    return _is_frame(link, item, names)
 
 
-_POINTS = asked("point", '["A", "C"]', lambda names: names.points, lambda names: names.movable,
-                entry=POINT, wrong=_still)
+_POINTS = name_list("point", '["A", "C"]', lambda names: names.points, lambda names: names.movable,
+                    entry=POINT, wrong=_has_no_motion)
 FIND = Table("what is asked for", (
     Field("velocity", 'the points whose velocities are asked for, or "all"', _POINTS, default=[]),
     Field("acceleration", 'the points whose accelerations are asked for, or "all"', _POINTS, default=[]),
     Field("links", 'the links whose angular velocities and accelerations are asked for, or "all"; without it those '
           "of which two points are asked for",
-          asked("link", '["2", "3"]', lambda names: names.moving, entry=LINK, after=("links",), wrong=_frame)),
+          name_list("link", '["2", "3"]', lambda names: names.moving, entry=LINK, after=("links",), wrong=_is_frame)),
     Field("slides", 'the slides (such as "3 along 2") whose velocities and accelerations are asked for, or "all"; '
           "without it those whose point is asked for",
-          asked("slide", '["3 along 2"]', _slides, after=("links", "slides"), wrong=_frame)),
+          name_list("slide", '["3 along 2"]', _slides, after=("links", "slides"), wrong=_is_frame)),
     Field("poles", 'the pairs of links (such as "2 frame", of link 2 relative to the frame) whose instant centres are '
           'asked for, or "all"',
-          asked("pair of links", '["2 frame", "2 3"]', lambda names: [*map(" ".join, permutations(_links(names), 2))],
-                lambda names: tuple(map(" ".join, combinations(_links(names), 2))), many="pairs of links",
-                after=("links",)), default=[]),
+          name_list("pair of links", '["2 frame", "2 3"]',
+                    lambda names: [*map(" ".join, permutations(_links(names), 2))],
+                    lambda names: tuple(map(" ".join, combinations(_links(names), 2))), many="pairs of links",
+                    after=("links",)), default=[]),
     Field("reactions", 'the joints, slides (such as "3 along 2"), gears and contacts (such as "2 3") whose reactions '
           'are asked for, or "all"',
-          asked("joint, slide, gear or contact", '["A", "3 along 2"]', lambda names: [*_pairs(names)],
-                lambda names: None, many="joints, slides, gears and contacts",
-                after=("slides", "gears", "contacts", "links", "points"))),
+          name_list("joint, slide, gear or contact", '["A", "3 along 2"]', lambda names: [*_pairs(names)],
+                    lambda names: None, many="joints, slides, gears and contacts",
+                    after=("slides", "gears", "contacts", "links", "points"))),
     Field("curvature", 'the points on links (such as "M on 2") the centres of curvature of whose paths are asked for, '
           'or "all"',
-          asked("point on a link", '["M on 2"]', _traced, many="points on links", after=("links", "points"),
-                wrong=_untraced), default=[]),
+          name_list("point on a link", '["M on 2"]', _points_on_links, many="points on links",
+                    after=("links", "points"),
+                    wrong=_has_no_path), default=[]),
     Field("inflection", 'the links whose inflection circles are asked for, or "all"',
-          asked("link", '["2"]', _turning, entry=LINK, after=("links", "slides"), wrong=_unturned), default=[]),
+          name_list("link", '["2"]', _turning, entry=LINK, after=("links", "slides"), wrong=_never_turns), default=[]),
 ), lambda row: Find(**row.values))
 
 
 # --- the machine over its cycle ------------------------------------------------------------------------------------
 
 
-def _speed(row: Row) -> Number | None:
+def _speed(row: TableRow) -> Number | None:
     """The speed of the first drive that a table gives, in rad/s or turns a minute; none where it gives none."""
     first = next((pair for pair in row.names.pairs if isinstance(pair, Drive)), None)
     if "rpm" not in row.items or first is None:
@@ -182,10 +196,10 @@ def _speed(row: Row) -> Number | None:
     return float(row["rpm"] / 30 * Fraction(pi))
 
 
-def _flywheel(row: Row) -> Flywheel | None:
+def _flywheel(row: TableRow) -> Flywheel | None:
     uneven = row.values.get("unevenness")
     if uneven is not None and not 0 < uneven < 2:
-        return row.items["unevenness"].fault(f"an unevenness of {shown(uneven)}", "more than 0 and less than 2")
+        return row.items["unevenness"].fault(f"an unevenness of {number_text(uneven)}", "more than 0 and less than 2")
     if ("unevenness" in row.items) == ("inertia" in row.items):
         return row.item.fault("unevenness and inertia are both given" if uneven is not None else
                               "unevenness is missing", "unevenness, or inertia where the unevenness is asked for")
@@ -193,7 +207,7 @@ def _flywheel(row: Row) -> Flywheel | None:
     if speed is None:
         return None
     if speed <= 0:
-        return row.item.fault(f"a mean speed of {shown(speed)}", "a speed above 0; its drive tells the sense")
+        return row.item.fault(f"a mean speed of {number_text(speed)}", "a speed above 0; its drive tells the sense")
     return Flywheel(speed, uneven, row.values.get("inertia"), row["closes"])
 
 
@@ -207,12 +221,12 @@ FLYWHEEL = Table("a flywheel", (
 ), _flywheel, either=("speed", "rpm"), remedy="either speed in rad/s or rpm")
 
 
-def _run(row: Row) -> Run | None:
+def _run(row: TableRow) -> RunRequest | None:
     if "speed" in row.items and "rpm" in row.items:
         return row.item.fault("speed and rpm are both given", "either speed in rad/s or rpm")
     if row.values.get("travel") == 0:
         return row.items["travel"].fault("the travel is 0", "degrees or lengths, such as travel = 720")
-    return Run(_speed(row), row.values.get("travel"), row["stops"])
+    return RunRequest(_speed(row), row.values.get("travel"), row["stops"])
 
 
 RUN = Table("a run", (
@@ -231,37 +245,37 @@ RUN = Table("a run", (
 SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
 PAPERS = tuple(f"{size}{way}" for size in SIZES for way in ("", " portrait"))
 FRAMES = ("iso", "gost")
-ASIDE = "aside"
-PROTOCOLS = ("auto", ASIDE, "pages", "none")  # where the words stand: beside the plans, or on pages of their own
+BESIDE_PLANS = "aside"
+PROTOCOLS = ("auto", BESIDE_PLANS, "pages", "none")  # where the words stand: beside the plans, or on pages of their own
 PLANS = ("N-plan", "velocity plan", "acceleration plan", "lever")  # and force plans, by their links
-MOST_POSITIONS = 72  # positions that are drawn
+MAX_POSITIONS = 72  # positions that are drawn
 LENGTH = r"(?=[0.]*[1-9])(\d{1,9}(?:\.\d{1,9})?)"  # above zero
 RATIO = rf"\s*{LENGTH}\s*:\s*{LENGTH}\s*"
 
 
-def _line(item: Item, names: Names) -> str | None:
+def _line(item: Item, names: SceneNames) -> str | None:
     text = item.text("a text", "a text in quotes")
     if text is not None and not text.replace("\N{NO-BREAK SPACE}", " ").isprintable():
         item.fault("a text with line breaks or characters that cannot be printed", "a text on one line")
     return text
 
 
-def _ratio(item: Item, names: Names) -> Fraction | None:
+def _ratio(item: Item, names: SceneNames) -> Fraction | None:
     """The scene's lengths in a millimetre of paper, from a ratio such as 1:2."""
     ratio = re.fullmatch(RATIO, item.value) if isinstance(item.value, str) else None
     if ratio is None:
-        return item.fault(f"{described(item.value)} is not a ratio",
+        return item.fault(f"{describe(item.value)} is not a ratio",
                           'a length on paper to a length of the scene, such as "1:2"')
     return Fraction(ratio[2]) / Fraction(ratio[1]) / 1000 / METRES[names.units.length]
 
 
-def _plan(name: str, item: Item, names: Names) -> None:
+def _plan(name: str, item: Item, names: SceneNames) -> None:
     """A fault where unknown plan; which force plans there are only the drawing tells."""
     if name not in PLANS and not name.startswith(("force plan ", "lever ")):
-        item.fault("unknown plan", perhaps(name, (*PLANS, "force plan 2, 3"), "plan"))
+        item.fault("unknown plan", suggestion(name, (*PLANS, "force plan 2, 3"), "plan"))
 
 
-def _stands_still(point: object, item: Item, names: Names) -> bool:
+def _stands_still(point: object, item: Item, names: SceneNames) -> bool:
     """Whether a point whose path is asked for has none; that is a fault."""
     still = point in names.points and point not in names.movable
     if still:
@@ -269,21 +283,22 @@ def _stands_still(point: object, item: Item, names: Names) -> bool:
     return still
 
 
-def _on_another(names: Names) -> Iterator[str]:
+def _on_another(names: SceneNames) -> Iterator[str]:
     """Each link with each other one, by name."""
     return (f"{link} {on}" for link, on in permutations((FRAME, *names.moving), 2))
 
 
-def _count(item: Item, names: Names) -> int | None:
+def _count(item: Item, names: SceneNames) -> int | None:
     number = item.number()
     if number is None:
         return None
-    if number.denominator != 1 or not 1 <= number <= MOST_POSITIONS:
-        return item.fault(f"{shown(number)} is not a number of positions", f"a whole number from 1 to {MOST_POSITIONS}")
+    if number.denominator != 1 or not 1 <= number <= MAX_POSITIONS:
+        return item.fault(f"{number_text(number)} is not a number of positions",
+                          f"a whole number from 1 to {MAX_POSITIONS}")
     return int(number)
 
 
-def _presentation(row: Row) -> Presentation | None:
+def _presentation(row: TableRow) -> Presentation | None:
     """How the scene wishes its sheet; all plans are drawn in lengths of the mechanism plan, so k_a is k_v^2/k_s."""
     values = {key: row[key] for key in row.items}
     if "scale" in values:
@@ -291,9 +306,9 @@ def _presentation(row: Row) -> Presentation | None:
             row.items["scale"].fault("k_s and scale are both given", "give one of the two")
         values["k_s"] = values.pop("scale")
     k_s, k_v, k_a = (values.get(key) for key in ("k_s", "k_v", "k_a"))
-    if k_s and k_v and k_a and shown(k_a) != shown(k_v**2 / k_s):
-        what = f"{shown(k_a)} does not fit k_s and k_v"
-        row.items["k_a"].fault(what, f"k_v^2/k_s, which is {shown(k_v**2 / k_s)}")
+    if k_s and k_v and k_a and number_text(k_a) != number_text(k_v**2 / k_s):
+        what = f"{number_text(k_a)} does not fit k_s and k_v"
+        row.items["k_a"].fault(what, f"k_v^2/k_s, which is {number_text(k_v**2 / k_s)}")
     return Presentation(**{key: value for key, value in values.items() if value})
 
 
@@ -323,16 +338,17 @@ SHEET = Table("the sheet", (
     Field("multiples", "how many times as large as by these scales other plans are drawn, by their names",
           Named(_above_0("multiple"), TEXT, _plan)),
     Field("curves", 'the points whose paths over the motion are drawn on the mechanism plan, or "all"',
-          asked("point", '["M"]', lambda names: names.points, lambda names: names.movable, after=("points", "links"),
-                entry=POINT, wrong=_stands_still)),
+          name_list("point", '["M"]', lambda names: names.points, lambda names: names.movable,
+                    after=("points", "links"),
+                    entry=POINT, wrong=_stands_still)),
     Field("centrodes", "of which links, each with the link that it moves on, the fixed and the moving centrodes are "
           'drawn there; or "all", those of all links on the frame',
-          asked("pair of links", '["2 frame"]', lambda names: [*_on_another(names)],
-                lambda names: tuple(f"{link} {FRAME}" for link in names.moving), many="pairs of links",
-                after=("links",))),
+          name_list("pair of links", '["2 frame"]', lambda names: [*_on_another(names)],
+                    lambda names: tuple(f"{link} {FRAME}" for link in names.moving), many="pairs of links",
+                    after=("links",))),
     Field("cubics", "the links of which the points that keep the curvature of their paths are drawn there and their "
           'centres: the cubic of stationary curvature of this pose; or "all"',
-          asked("link", '["2"]', lambda names: names.moving, after=("links",), entry=LINK)),
+          name_list("link", '["2"]', lambda names: names.moving, after=("links",), entry=LINK)),
     Field("positions", "how many positions of the mechanism are drawn there in faint lines, at equal travels",
-          Kind("whole number", _count, {"type": "integer", "minimum": 1, "maximum": MOST_POSITIONS})),
+          Kind("whole number", _count, {"type": "integer", "minimum": 1, "maximum": MAX_POSITIONS})),
 ), _presentation)

@@ -32,7 +32,7 @@ def slip(text: str, key: str = "") -> tuple[str, str] | None:
     if not wrong:
         return None
     what = f'"{text.strip()}" has {" and ".join(wrong)}'
-    return what, _instead(number, unit, key) if unit else number
+    return what, _remedy(number, unit, key) if unit else number
 
 
 def slip_in_line(line: str) -> tuple[str, str] | None:
@@ -54,7 +54,7 @@ def slips_in_vectors(text: str) -> Iterator[tuple[str, str, str]]:
                 yield f"line {count}", f"{vector[0]} has a decimal comma", right
 
 
-def _instead(number: str, unit: str, key: str) -> str:
+def _remedy(number: str, unit: str, key: str) -> str:
     """The number alone, and how the scene says its unit."""
     if unit in DEGREES:
         return f"{number}, as angles are in degrees"

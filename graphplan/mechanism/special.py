@@ -18,7 +18,7 @@ from functools import cache, partial
 from random import Random
 from typing import Any, NamedTuple
 
-from graphplan.mechanism.equations import PIN, Equation, System, Thing, Unknown
+from graphplan.mechanism.equations import PIN, FreedomEquation, System, Thing, Unknown
 from graphplan.mechanism.model import FRAME, Balance, Condition, Scene, Slide
 from graphplan.mechanism.numbers import Reckoning, exactly, heading, is_exact, root
 from graphplan.mechanism.order import Key, by_name
@@ -27,7 +27,7 @@ from graphplan.mechanism.placements import placed_by
 from graphplan.mechanism.tolerances import SERIES_TOL
 from graphplan.mechanism.values import Misfit, vector
 
-ORDER = 4
+SERIES_ORDER = 4
 """How far the motion is continued: velocities, accelerations, and twice more for links that can all but move."""
 
 
@@ -51,15 +51,15 @@ def special(scene: Scene) -> Special:
         system = System(*fine_pose(replace(scene, motions={}, redundant=())))
         pairs, found = _in_order(scene, system.pairs), _Echelon()
         redundant = tuple(equation.fact.condition for equation in pairs if not found.add(equation.terms))
-        repeating = tuple(pairs[i].fact.condition for i in sorted(found.repeated()))
+        repeating = tuple(pairs[i].fact.condition for i in sorted(found.repeating_rows()))
         freedoms = len(system.unknowns) - found.rank
-        course = _Course(system.posed)
+        course = _Course(system.posed_scene)
         moves = course.continues(found, pairs, system.unknowns)
         links = tuple(sorted(filter(course.starts, scene.moving), key=by_name))
         return Special(freedoms, links, moves, redundant, repeating)
 
 
-def _in_order(scene: Scene, equations: Iterable[Equation]) -> list[Equation]:
+def _in_order(scene: Scene, equations: Iterable[FreedomEquation]) -> list[FreedomEquation]:
     """The order in which conditions are taken in: of those that repeat each other the last is called redundant.
 
     Driven links come first, joints before other pairs, links with many pairs; of one link its pairs with the frame.
@@ -69,7 +69,7 @@ def _in_order(scene: Scene, equations: Iterable[Equation]) -> list[Equation]:
     fixed = {FRAME, *scene.links.get(FRAME, ())}
     pairs = Counter(link for pair in scene.binding for link in pair.links)
 
-    def rank(equation: Equation) -> tuple[bool, bool, int, Key, bool, Key, str, str]:
+    def rank(equation: FreedomEquation) -> tuple[bool, bool, int, Key, bool, Key, str, str]:
         link, on, way, name = equation.fact.condition
         return (link not in driven, way not in ("x", "y"), -pairs[link], by_name(link), on not in fixed, by_name(on),
                 way, name)
@@ -122,10 +122,10 @@ class _Course:
         one, nothing = Decimal(1), Decimal(0)
         self._attitudes = {body: Attitude(*map(_Series, (nothing, nothing, one, nothing))) for body in bodies}
 
-    def continues(self, found: _Echelon, pairs: Sequence[Equation], unknowns: Iterable[Unknown]) -> bool:
+    def continues(self, found: _Echelon, pairs: Sequence[FreedomEquation], unknowns: Iterable[Unknown]) -> bool:
         """Whether the motion can be continued beyond its velocities, what is free going any way it likes."""
         chance = Random(1909)
-        for _ in range(ORDER):
+        for _ in range(SERIES_ORDER):
             self.lengthen()
             any_way = {unknown: Decimal(chance.randrange(-999, 999)) / 1000 for unknown in unknowns}
             values = found.solve([-self.excess(equation.fact) for equation in pairs], any_way)
@@ -193,11 +193,11 @@ class _Echelon:
         self._rows.append(_Row(terms, max(terms, key=lambda k: abs(terms[k]), default=None), taken))
         return bool(terms)
 
-    def repeated(self) -> set[int]:
+    def repeating_rows(self) -> set[int]:
         """The equations that take part in any repetition: each follows from others of them."""
-        return {i for last, row in enumerate(self._rows) if row.pivot is None for i in self._parts(last)}
+        return {i for last, row in enumerate(self._rows) if row.pivot is None for i in self._rows_of_repetition(last)}
 
-    def _parts(self, last: int) -> set[int]:
+    def _rows_of_repetition(self, last: int) -> set[int]:
         """The equations whose weighted sum is nothing, the last of them among them."""
         weights = {last: Decimal(1)}
         for i in range(last, -1, -1):
@@ -241,7 +241,8 @@ def fine_pose(scene: Scene) -> tuple[Scene, bool, dict[str, Place]]:
         reach = max(max(map(abs, arm)) for arm in arms.values()) or Decimal(1)
         places = {name: (x / reach, y / reach) for name, (x, y) in arms.items()}
         axes = {link: _unit(*map(Decimal, scene.across_link(link, places))) for link in scene.moving}
-        return scene.posed(places, lambda one: _guide(one, points), lambda radius: _decimal(Fraction(radius)) / reach
+        return scene.with_pose(places, lambda one: _guide(one, points),
+                               lambda radius: _decimal(Fraction(radius)) / reach
                            ), False, axes
 
 

@@ -110,7 +110,7 @@ def structure(scene: Scene) -> Structure:
     found = [[name for sort, name in stage if sort == "link"] for stage in stages(system)]
     order = {link: i for i, link in enumerate(ordered_links(scene))}
     teams = [tuple(sorted(team, key=order.__getitem__)) for team in found if team]
-    surroundings = _Surroundings(scene, system.known, {link: i for i, team in enumerate(teams) for link in team})
+    surroundings = _Surroundings(scene, system.given_points, {link: i for i, team in enumerate(teams) for link in team})
     return Structure(mobility(scene) + len(scene.redundant), tuple(_group(surroundings, team) for team in teams))
 
 
@@ -122,7 +122,7 @@ def _group(around: _Surroundings, links: tuple[str, ...]) -> Group:
     outer = [bond for bond in bonds if len(bond.bodies) == 1]
     if len(bodies) == 1:
         held = len([bond for bond in outer if bond.kind != "T"])
-        return Group(links, 1, held, "driving link") if around.driven(links) else Group(links, 0, held, "follower")
+        return Group(links, 1, held, "driving link") if around.is_driven(links) else Group(links, 0, held, "follower")
     first, *last = sorted((bond.kind for bond in outer), reverse=True)
     form = "".join([first, *(bond.kind for bond in bonds if len(bond.bodies) > 1), *last])
     if len(bodies) == 2 and form in _MODIFICATIONS:  # another form has a pair that special geometry has made redundant
@@ -161,10 +161,10 @@ class _Surroundings:
                 self.pairs[link].append(pair)
         self.dropped = Counter((condition.link, condition.on) for condition in scene.redundant)
         self.lost = Counter(condition.pair for condition in scene.redundant)
-        self.first = {point: min((stage[link] for link in links if link != FRAME and self._held(link, point)),
+        self.first = {point: min((stage[link] for link in links if link != FRAME and self._is_held(link, point)),
                                  default=-1) for point, links in scene.links_of.items()}
 
-    def _held(self, link: str, point: str) -> bool:
+    def _is_held(self, link: str, point: str) -> bool:
         """Whether a joint holds a link, at least in one way."""
         return self.dropped[link, point] < Revolute.binds
 
@@ -172,7 +172,7 @@ class _Surroundings:
         """The drives of these links."""
         return list(dict.fromkeys(pair for link in links for pair in self.pairs[link] if isinstance(pair, Drive)))
 
-    def driven(self, links: tuple[str, ...]) -> bool:
+    def is_driven(self, links: tuple[str, ...]) -> bool:
         """Whether a drive prescribes how these links move, or a given motion."""
         led = any(point in self.scene.motions for link in links for point in self.scene.links[link])
         return led or any(end == FRAME or self.stage[end] <= self.stage[links[0]] for drive in self._drives(links)
@@ -194,7 +194,7 @@ class _Surroundings:
         """The pairs of a group: its inner ones, and the outer ones with what moves already."""
         now = self.stage[links[0]]
         for point in dict.fromkeys(point for link in links for point in self.scene.links[link]):
-            held = [link for link in self.scene.links_of[point] if link in body and self._held(link, point)]
+            held = [link for link in self.scene.links_of[point] if link in body and self._is_held(link, point)]
             bodies = tuple(dict.fromkeys(body[link] for link in held))
             if point in self.known or self.first[point] < now:
                 yield from (_Bond("R", (one,)) for one in bodies)

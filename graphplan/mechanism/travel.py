@@ -121,7 +121,7 @@ def turned_about(at: Pair, cos: Number, sin: Number) -> Attitude:
 
 def following(first: Attitude, then: Attitude) -> Attitude:
     """One after the other."""
-    x, y = then.at((first.x, first.y))
+    x, y = then.place_of((first.x, first.y))
     return Attitude(x, y, then.cos * first.cos - then.sin * first.sin,
                     then.sin * first.cos + then.cos * first.sin)
 

@@ -7,9 +7,9 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.errors import by_name
-from graphplan.mechanism.fields import Kind, Names, Row
-from graphplan.mechanism.items import Item, Vector, described
-from graphplan.mechanism.numbers import TO_A_FLOAT, Pair, Reckoning, exactly, is_exact, shown
+from graphplan.mechanism.fields import Kind, SceneNames, TableRow
+from graphplan.mechanism.items import Item, Vector, describe
+from graphplan.mechanism.numbers import FLOAT_RECKONING, Pair, Reckoning, exactly, is_exact, number_text
 from graphplan.mechanism.pairs.pair import FRAME
 
 NAME = r"[^\s,]+"
@@ -26,27 +26,27 @@ LINK = Kind("link", lambda item, names: item.name_of("link", names.links), {"typ
 BODY = Kind("link", lambda item, names: item.name_of("link", names.bodies), LINK.schema)
 
 
-def _two_links(item: Item, names: Names) -> tuple[str | None, ...] | None:
+def _two_links(item: Item, names: SceneNames) -> tuple[str | None, ...] | None:
     if not isinstance(item.value, list) or len(item.value) != 2:
-        return item.fault(f"{described(item.value)} where two links are wanted", 'two links such as ["3", "2"]')
-    return tuple(LINK.read(item.instead(name), names) for name in item.value)
+        return item.fault(f"{describe(item.value)} where two links are wanted", 'two links such as ["3", "2"]')
+    return tuple(LINK.read(item.with_value(name), names) for name in item.value)
 
 
 TWO_LINKS = Kind("two links", _two_links, {"type": "array", "items": LINK.schema, "minItems": 2, "maxItems": 2})
 
 
-def _flag(item: Item, names: Names) -> bool | None:
-    told = f"{described(item.value)} where true or false is wanted"
+def _flag(item: Item, names: SceneNames) -> bool | None:
+    told = f"{describe(item.value)} where true or false is wanted"
     return item.value if isinstance(item.value, bool) else item.fault(told, "true or false, without quotes")
 
 
 FLAG = Kind("true · false", _flag, {"type": "boolean"})
 
 
-def _centres(item: Item, names: Names) -> tuple[str, ...] | None:
+def _centres(item: Item, names: SceneNames) -> tuple[str, ...] | None:
     if not isinstance(item.value, list) or not item.value:
-        return item.fault(f"{described(item.value)} where centres are wanted", 'points such as ["B", "C"]')
-    found = tuple(POINT.read(item.instead(name), names) for name in item.value)
+        return item.fault(f"{describe(item.value)} where centres are wanted", 'points such as ["B", "C"]')
+    found = tuple(POINT.read(item.with_value(name), names) for name in item.value)
     return None if None in found else found
 
 
@@ -55,13 +55,13 @@ CENTRES = Kind("centres", _centres, {"type": "array", "items": POINT.schema, "mi
 
 def _two(what: str, such: str, whole: bool = False) -> Kind:
     """Two numbers above zero."""
-    def read(item: Item, names: Names) -> tuple[Any, ...] | None:
+    def read(item: Item, names: SceneNames) -> tuple[Any, ...] | None:
         if not isinstance(item.value, list) or len(item.value) != 2:
-            return item.fault(f"{described(item.value)} where two {what} are wanted", f"two numbers such as {such}")
-        found = tuple(item.instead(one).positive(f"number of {what}" if whole else "radius") for one in item.value)
+            return item.fault(f"{describe(item.value)} where two {what} are wanted", f"two numbers such as {such}")
+        found = tuple(item.with_value(one).positive(f"number of {what}" if whole else "radius") for one in item.value)
         for number in found if whole else ():
             if number is not None and number.denominator != 1:
-                return item.fault(f"{shown(number)} {what}", f"whole numbers such as {such}")
+                return item.fault(f"{number_text(number)} {what}", f"whole numbers such as {such}")
         return None if None in found else found
 
     entry = {"type": "integer", "minimum": 1} if whole else DISTANCE.schema
@@ -72,7 +72,7 @@ TEETH = _two("teeth", "[24, 36]", whole=True)
 RADII = _two("radii", "[48, 72]")
 
 
-def centres_on(row: Row, *wanted: tuple[str, str]) -> bool:
+def centres_on(row: TableRow, *wanted: tuple[str, str]) -> bool:
     """Whether each of these centres is a point of its link; a fault for one that is not."""
     astray = [(centre, link) for centre, link in wanted if centre not in row.names.links.get(link, ())]
     for centre, link in astray:
@@ -89,7 +89,7 @@ def choice(*words: str) -> Kind:
 
 def moving(fault: str) -> Kind:
     """A link that is not the frame; with the frame it is this fault."""
-    def read(item: Item, names: Names) -> str | None:
+    def read(item: Item, names: SceneNames) -> str | None:
         link = item.name_of("link", names.links)
         if link == FRAME:
             item.fault(fault, "a moving link")
@@ -98,24 +98,25 @@ def moving(fault: str) -> Kind:
     return Kind("moving link", read, LINK.schema)
 
 
-def asked(noun: str, such: str, known: Callable[[Names], Collection[str]],
-          every: Callable[[Names], Any] | None = None, *, many: str = "", after: tuple[str, ...] = (),
-          entry: Kind = TEXT, wrong: Callable[[object, Item, Names], bool] = lambda name, item, names: False) -> Kind:
+def name_list(noun: str, such: str, known: Callable[[SceneNames], Collection[str]],
+              every: Callable[[SceneNames], Any] | None = None, *, many: str = "", after: tuple[str, ...] = (),
+              entry: Kind = TEXT, wrong: Callable[[object, Item, SceneNames], bool] = lambda name, item,
+              names: False) -> Kind:
     """A list of what results are asked of, of those `known` that are not `wrong`; or "all", which means `every` one.
 
     Where the tables `after` have faults nothing is said of names: what is meant may be among those.
     """
     many = many or f"{noun}s"
 
-    def read(item: Item, names: Names) -> Any:
+    def read(item: Item, names: SceneNames) -> Any:
         if not item.faults.none_in(*after):
             return ()
         if item.value == "all":
             return (every or known)(names)
         if not isinstance(item.value, list):
-            return item.fault(f"{described(item.value)} where a list of {many} is wanted",
+            return item.fault(f"{describe(item.value)} where a list of {many} is wanted",
                               f'a list such as {such}, or "all"')
-        parts, choice = [item.instead(value) for value in item.value], known(names)
+        parts, choice = [item.with_value(value) for value in item.value], known(names)
         found = [part.name_of(noun, choice) for part in parts
                  if not (isinstance(part.value, str) and wrong(part.value, item, names))]
         return tuple(dict.fromkeys(name for name in found if name is not None))
@@ -148,7 +149,7 @@ class Misfit(Exception):
         super().__init__(what)
 
 
-def _direction(item: Item, names: Names) -> Direction | None:
+def _direction(item: Item, names: SceneNames) -> Direction | None:
     """A direction in one of its three spellings."""
     if isinstance(item.value, list):
         components = item.vector()
@@ -162,7 +163,7 @@ def _direction(item: Item, names: Names) -> Direction | None:
     return item.number()
 
 
-def _guide(item: Item, names: Names) -> tuple[Pair, tuple[str, ...] | None, Written] | None:
+def _guide(item: Item, names: SceneNames) -> tuple[Pair, tuple[str, ...] | None, Written] | None:
     """A guide's direction in this pose, the two points that give it, if points do, and the direction as written."""
     direction = _direction(item, names)
     if direction is None:
@@ -191,7 +192,7 @@ def points_of(direction: object) -> tuple[str, ...]:
     return tuple(direction.split()) if isinstance(direction, str) else ()
 
 
-def vector(direction: Direction, at: Where, by: Reckoning = TO_A_FLOAT) -> tuple[Any, Any, bool]:
+def vector(direction: Direction, at: Where, by: Reckoning = FLOAT_RECKONING) -> tuple[Any, Any, bool]:
     """The direction as a vector, and whether it is exact (provided that its points are)."""
     if isinstance(direction, tuple):
         return *direction, True

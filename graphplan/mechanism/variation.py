@@ -11,19 +11,19 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from math import floor
 
-from graphplan.mechanism.fields import Either, Field, Kind, Named, Names, Row, Table, Value
-from graphplan.mechanism.items import Item, described, quoted
-from graphplan.mechanism.numbers import shown
+from graphplan.mechanism.fields import Either, Field, Kind, Named, SceneNames, Table, TableRow, Value
+from graphplan.mechanism.items import Item, describe, quote_key
+from graphplan.mechanism.numbers import number_text
 from graphplan.mechanism.values import NUMBER
 
-MOST = 10_000  # values of one number
+MAX_VALUES = 10_000  # values of one number
 SAME_FOR_ALL = ("vary", "sheet", "units")  # tables whose numbers do not vary
 SUCH = "{ from = 20, to = 160, step = 5 }, or a list such as [8, 10, 12]"
 
 Choices = dict[str, tuple[Fraction, ...]]  # the values that a number may have, by its path
 
 
-def parts(path: str) -> tuple[str, ...]:
+def path_parts(path: str) -> tuple[str, ...]:
     """The keys and places of a path."""
     return tuple(quoted or bare for quoted, bare in re.findall(r'"([^"]*)"|([^."]+)', path))
 
@@ -37,7 +37,7 @@ def numbers(tables: object, above: tuple[str, ...] = ()) -> Iterator[tuple[tuple
         yield above, tables
 
 
-def _at(tables: object, path: tuple[str, ...]) -> object:
+def _value_at(tables: object, path: tuple[str, ...]) -> object:
     """What stands at a path; None where nothing does."""
     for part in path:
         if isinstance(tables, list):
@@ -47,38 +47,40 @@ def _at(tables: object, path: tuple[str, ...]) -> object:
     return tables
 
 
-def _path(name: str, item: Item, names: Names) -> None:
+def _path(name: str, item: Item, names: SceneNames) -> None:
     """A fault where there is no such number, or it must be the same for all."""
-    path = parts(name)
-    value = _at(names.tables, path)
-    varying = [".".join(map(quoted, found)) for found, _ in numbers(names.tables) if found[0] not in SAME_FOR_ALL]
+    path = path_parts(name)
+    value = _value_at(names.tables, path)
+    varying = [".".join(map(quote_key, found)) for found, _ in numbers(names.tables) if found[0] not in SAME_FOR_ALL]
     if path[:1] and path[0] in SAME_FOR_ALL:
         item.fault("this is the same for all variants", "the path of a number of the mechanism or of its motion")
     elif value is None:
         item.faults.unknown(item.where, "number", name, varying)
     elif isinstance(value, Mapping | list) or not any(numbers(value)):
         such = next((one for one in varying if one.startswith(f"{name}.")), "drive.0.omega")
-        item.fault(f"{described(value)} is not a number", f"the path of a number, such as {such}")
+        item.fault(f"{describe(value)} is not a number", f"the path of a number, such as {such}")
 
 
-def _range(row: Row) -> tuple[Fraction, ...] | None:
+def _range(row: TableRow) -> tuple[Fraction, ...] | None:
     """The values from one to another, a step apart."""
     low, high, step = row["from"], row["to"], row["step"]
     count = floor((high - low) / step) + 1
     if high < low:
-        return row.items["to"].fault(f"{shown(high)} is less than from, {shown(low)}", f"at least {shown(low)}")
-    if count > MOST:
-        return row.items["step"].fault(f"{shown(step)} makes {count} values", f"a larger step: at most {MOST} values")
+        return row.items["to"].fault(f"{number_text(high)} is less than from, {number_text(low)}",
+                                     f"at least {number_text(low)}")
+    if count > MAX_VALUES:
+        return row.items["step"].fault(f"{number_text(step)} makes {count} values",
+                                       f"a larger step: at most {MAX_VALUES} values")
     return tuple(low + step * place for place in range(count))
 
 
-def _list(item: Item, names: Names) -> tuple[Fraction, ...] | None:
+def _list(item: Item, names: SceneNames) -> tuple[Fraction, ...] | None:
     """The values one by one."""
-    found = [item.instead(value).number() for value in item.value] if isinstance(item.value, list) else []
+    found = [item.with_value(value).number() for value in item.value] if isinstance(item.value, list) else []
     if not found:
         return item.fault("an empty list", SUCH)
-    if len(found) > MOST:
-        return item.fault(f"{len(found)} values", f"at most {MOST}")
+    if len(found) > MAX_VALUES:
+        return item.fault(f"{len(found)} values", f"at most {MAX_VALUES}")
     return tuple(dict.fromkeys(value for value in found if value is not None))
 
 
@@ -88,13 +90,13 @@ RANGE = Table("a range", (
     Field("step", "how far apart the values are", Kind("number above 0", lambda item, names: item.positive("step"),
           {"type": "number", "exclusiveMinimum": 0}), "how far apart the values are, such as step = 5"),
 ), _range)
-LIST = Kind("list of numbers", _list, {"type": "array", "items": NUMBER.schema, "minItems": 1, "maxItems": MOST})
+LIST = Kind("list of numbers", _list, {"type": "array", "items": NUMBER.schema, "minItems": 1, "maxItems": MAX_VALUES})
 
 
 def _form(item: Item) -> Value | None:
     if isinstance(item.value, dict | list):
         return RANGE if isinstance(item.value, dict) else LIST
-    return item.fault(f"{described(item.value)} where a range is wanted", SUCH)
+    return item.fault(f"{describe(item.value)} where a range is wanted", SUCH)
 
 
 PATH = Kind("path of a number", lambda item, names: None, {"type": "string", "minLength": 1})

@@ -19,7 +19,7 @@ from graphplan.kernel.loci import sides
 from graphplan.kernel.primitives import cross, dot
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Assembly, Extreme, Pair, Scene, Slide
-from graphplan.mechanism.numbers import less
+from graphplan.mechanism.numbers import minus
 from graphplan.mechanism.order import ordered_points
 from graphplan.mechanism.pairs.pair import Attitude
 from graphplan.mechanism.pairs.revolute import Revolute
@@ -124,7 +124,7 @@ class Assembler(Placing):
                     if isinstance(pair, Slide):
                         u, v = (next(lies for link, lies in body.lies.items() if link in pair.links)
                                 for body in (one, two))
-                        here, there = ((lies.at(self.given.points[pair.at]), lies.turned(pair.direction))
+                        here, there = ((lies.place_of(self.given.points[pair.at]), lies.turn_vector(pair.direction))
                                        for lies in (u, v))
                         pairs.append(Guide(i, *here, place[id(two)], *there))
                     elif pair not in outer:
@@ -230,7 +230,7 @@ class Assembler(Placing):
                 side = "left" if self._turns(O, B, hold) > 0 else "right"
                 self.marks[B] = self.board.circles_meet(reach, self._arc(swung, hold, B), side=side, name=B)
             o, a, b = (self.scene.points[name] for name in (O, A, B))
-            way = "on" if float(dot(less(a, o), less(b, o))) > 0 else "back"
+            way = "on" if float(dot(minus(a, o), minus(b, o))) > 0 else "back"
             ray = self.board.line(self.mark(O), self.marks[B])
             self.marks[A] = self.board.line_meets_circle(ray, turns, way=way, name=A)
         self._put([coupler, swung])
@@ -238,7 +238,7 @@ class Assembler(Placing):
     def _reach(self, base: Mark, turns: Mark, coupler: Body, extreme: Extreme) -> Mark:
         """The circle about the pivot on which the joint lies: the coupler is set off from the crank on a line."""
         O, A, B = extreme.pivot, extreme.pin, extreme.joint
-        dx, dy = less(self._figure(coupler, B), self._figure(coupler, A))
+        dx, dy = minus(self._figure(coupler, B), self._figure(coupler, A))
         E = self.board.line_meets_circle(base, turns, way="on")
         arc = self.board.circle(E, self.board.link_length(dx=dx, dy=dy, quantity=Quantity(f"{A}{B}", "length")))
         F = self.board.line_meets_circle(base, arc, way="on" if extreme.way == "outer" else "back")
@@ -246,7 +246,7 @@ class Assembler(Placing):
 
     def _arc(self, body: Body, centre: str, point: str) -> Mark:
         """The circle about a joint on which another point of its body lies."""
-        dx, dy = less(self._figure(body, point), self._figure(body, centre))
+        dx, dy = minus(self._figure(body, point), self._figure(body, centre))
         length = Quantity(f"{centre}{point}", "length")
         return self.board.circle(self.mark(centre), self.board.link_length(dx=dx, dy=dy, quantity=length))
 
@@ -259,8 +259,8 @@ class Assembler(Placing):
         """Draw the guide of two bodies that turn about known points."""
         places = [undone(next(lies for link, lies in body.lies.items() if link in slide.links),
                          self._figure(body, point)) for body, point in ((one, A), (two, C))]
-        v, u = less(places[1], places[0]), slide.direction
-        way = "on" if float(dot(u, less(self.given.points[C], self.given.points[A]))) >= 0 else "back"
+        v, u = minus(places[1], places[0]), slide.direction
+        way = "on" if float(dot(u, minus(self.given.points[C], self.given.points[A]))) >= 0 else "back"
         if alike(v, u):
             ends = (A, C) if way == "on" else (C, A)
             line = self.board.line(*map(self.mark, ends))
@@ -277,7 +277,7 @@ class Assembler(Placing):
         two.heading = self._heads(outer, two), line
         within = next(lies for link, lies in two.lies.items() if link in inner.links)
         turned = undone(Attitude(0, 0, within.cos, within.sin), two.heading[0])
-        one.heading = next(lies for link, lies in one.lies.items() if link in inner.links).turned(turned), line
+        one.heading = next(lies for link, lies in one.lies.items() if link in inner.links).turn_vector(turned), line
         self.mark(A)
         crossing = self.board.meet(line, self._path(inner, two, at))
         two.spots.append((at, crossing))
@@ -287,9 +287,9 @@ class Assembler(Placing):
     def _turns(self, A: str, B: str, C: str) -> float:
         """Whether B lies left of the ray from A to C in this pose: positive, or negative where it is right."""
         a, b, c = (self.scene.points[name] for name in (A, B, C))
-        return float(cross(less(c, a), less(b, a)))
+        return float(cross(minus(c, a), minus(b, a)))
 
     def _ahead(self, A: str, B: str, u: Pair, scene: Scene | None = None) -> str:
         """How B lies from A along a direction, in the given pose or another."""
         a, b = ((scene or self.given).points[name] for name in (A, B))
-        return "on" if float(dot(u, less(b, a))) > 0 else "back"
+        return "on" if float(dot(u, minus(b, a))) > 0 else "back"

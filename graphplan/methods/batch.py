@@ -15,7 +15,7 @@ from graphplan.kernel.program import Step, error_at
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides as straight_guides
-from graphplan.mechanism.replaced import replaced, rolling_guides
+from graphplan.mechanism.replaced import rolling_guides, with_lower_pairs
 from graphplan.methods.executors import crew
 from graphplan.methods.forces.changing import given_loads
 from graphplan.methods.recorded import ReadableDrawing
@@ -77,7 +77,7 @@ def _discard_torn_poses(construction: ReadableDrawing, points: Mapping[str, Any]
     """Take the results of poses in which points lie apart on whose coincidence the program relies."""
     places = {name: complex(*map(float, at)) for name, at in construction.scene.points.items()}
     close = _coincidence_distance(construction.scene)
-    wandering = {guide.at: guide for guide in rolling_guides(replaced(construction.scene))}
+    wandering = {guide.at: guide for guide in rolling_guides(with_lower_pairs(construction.scene))}
 
     def place(name: str) -> Any:
         """Where a point is in each pose: a pitch point on its line of centres; of a rack it is not asked."""
@@ -87,7 +87,7 @@ def _discard_torn_poses(construction: ReadableDrawing, points: Mapping[str, Any]
         if guide.ratio is None:
             return np.array([complex(np.inf)])
         B = place(guide.base)
-        return B + float(guide.ratio) * (place(guide.other) - B)
+        return B + float(guide.ratio) * (place(guide.other_centre) - B)
 
     for one, other in construction.relied:
         gap = np.abs(place(one) - place(other))
@@ -220,7 +220,7 @@ def _poses_and_inputs(construction: ReadableDrawing, points: Mapping[str, Any], 
         if np.any(np.abs(arrays.setdefault(at, arrays[name]) - arrays[name]) > _coincidence_distance(scene)):
             why = "they coincide in the scene and differ here"
             raise Refused(f"points {at} and {name}", why, "the same array for both")
-    for guide in rolling_guides(replaced(scene)):
+    for guide in rolling_guides(with_lower_pairs(scene)):
         if guide.rail and not guide.base and guide.rail.at in arrays and guide.at not in arrays:
             raise Refused(f"point {guide.at}", f"it moves with {guide.rail.at}, and stands still here",
                           "its place in each pose")

@@ -9,7 +9,7 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import FRAME, Contact, Scene, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import straight
-from graphplan.phrases import Said, arranged, joined, said
+from graphplan.phrases import Said, arrange, join, said
 
 
 class _MechanismPlan(Panel):
@@ -93,7 +93,7 @@ class JointForce:
     @property
     def words(self) -> Said:
         """The link and the joint."""
-        return joined((_bare(self.link), said("at {0}", self.point)), " ")
+        return join((_bare(self.link), said("at {0}", self.point)), " ")
 
 
 class LeverPlan(Panel):
@@ -102,15 +102,15 @@ class LeverPlan(Panel):
     @classmethod
     def of(cls, what: JointForce | Slide | int | None = None, part: str = "") -> LeverPlan:
         if what is None:
-            return cls("lever", said("lever"), arranged("{0:capital}", said("Zhukovsky's lever")))
+            return cls("lever", said("lever"), arrange("{0:capital}", said("Zhukovsky's lever")))
         if isinstance(what, int):
             return cls(f"lever {what}", said("lever {0}", what), said("Zhukovsky's lever {0}", what))
         name = f"lever {what.name}, {part}"
         if isinstance(what, Slide):
-            whose = joined((slide_named(what), part))
+            whose = join((slide_named(what), part))
             return cls(name, said("lever {0}", whose), said("Zhukovsky's lever {0}", whose))
         force = said("Zhukovsky's lever: the force on {0} at {1}, along {2}", link_named(what.link), what.point, part)
-        return cls(name, said("lever {0}", joined((what.words, part))), force)
+        return cls(name, said("lever {0}", join((what.words, part))), force)
 
 
 def listed(links: Sequence[str]) -> Said:
@@ -182,7 +182,7 @@ def redundancies(scene: Scene) -> Iterator[Said]:
                    named[name])
     if scene.loads and scene.indeterminate_pairs:
         yield said("statically indeterminate, so not drawn: reactions {0}",
-                   joined(named[pair] for pair in scene.indeterminate_pairs))
+                   join(named[pair] for pair in scene.indeterminate_pairs))
 
 
 def _bare(link: str) -> str:

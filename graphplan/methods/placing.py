@@ -14,7 +14,7 @@ from graphplan.kernel.primitives import dot
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Stage
 from graphplan.mechanism.model import FRAME, Assembly, Pair, Scene, Slide
-from graphplan.mechanism.numbers import less, plus, times
+from graphplan.mechanism.numbers import minus, plus, times
 from graphplan.mechanism.order import ordered_points
 from graphplan.mechanism.pairs.pair import Attitude
 from graphplan.mechanism.travel import STILL, following, turned_about, undone
@@ -75,7 +75,7 @@ class Placing:
     def _figure(self, body: Body, point: str) -> Pair:
         """Where a point is in a body's figure."""
         link = next((link for link in body.lies if point in self.given.links.get(link, ())), FRAME)
-        at: Pair = body.lies.get(link, STILL).at(self.given.points[point])
+        at: Pair = body.lies.get(link, STILL).place_of(self.given.points[point])
         return at
 
     def _drawn(self, body: Body, links: tuple[str, ...] = ()) -> list[tuple[Pair, Mark]]:
@@ -105,19 +105,19 @@ class Placing:
                 return self.board.give_name(same, name)
             if found := widest(drawn):
                 (p, P), (q, Q) = found
-                return self._corner(P, Q, less(at, p), less(q, p), name)
+                return self._corner(P, Q, minus(at, p), minus(q, p), name)
         if links and body is self.ground:
             link = next((link for link in links if not self._at_root(body, link, at)), links[0])
             return self._driven(body, link, at, name)
         drawn = self._drawn(body)
         if drawn and body is self.ground:
-            dx, dy = less(at, drawn[0][0])
+            dx, dy = minus(at, drawn[0][0])
             return self.board.lay_off(drawn[0][1], dx=dx, dy=dy, name=name)
         if not drawn or body.heading is None:
             raise self._unknown(*body.lies)
         (p, P), (u, line) = drawn[0], body.heading
         with self.board.on(MECHANISM, tuple(body.lies)):
-            return self.board.set_off(line, P, **figure(less(at, p), u), name=name)
+            return self.board.set_off(line, P, **figure(minus(at, p), u), name=name)
 
     def _at_root(self, body: Body, link: str, at: Pair) -> bool:
         """Whether a place is the very joint about which a link is driven."""
@@ -142,7 +142,7 @@ class Placing:
         with self.board.on(MECHANISM, (link,), self._stage(law, (link,))):
             if weld.slide is None:
                 root = self._figure(body, weld.at)
-                return self.board.crank(self.mark(weld.at), angle=angle(less(at, root)), name=name)
+                return self.board.crank(self.mark(weld.at), angle=angle(minus(at, root)), name=name)
             before = undone(Attitude(weld.sign * self._move(weld)[0], weld.sign * self._move(weld)[1], 1, 0), at)
             line = self._line(body, before, weld.slide.direction)
             shift = self.assembly.shifts[self.given.drives.index(weld.drive)]
@@ -155,10 +155,10 @@ class Placing:
     def _line(self, body: Body, p: Pair, u: Pair) -> Mark:
         """The line through a place of a body's figure that runs as a vector of it does."""
         drawn = self._drawn(body)
-        on = [(place, mark) for place, mark in drawn if alike(less(place, p), u)]
+        on = [(place, mark) for place, mark in drawn if alike(minus(place, p), u)]
         if ends := widest(on):
             (one, P), (two, Q) = ends
-            return self.board.line(P, Q) if float(dot(u, less(two, one))) > 0 else self.board.line(Q, P)
+            return self.board.line(P, Q) if float(dot(u, minus(two, one))) > 0 else self.board.line(Q, P)
         P = on[0][1] if on else self._laid(body, p)
         if body.heading and alike(body.heading[0], u):
             along, line = body.heading
@@ -174,11 +174,11 @@ class Placing:
         mover, guide = (link for link in sorted(slide.links, key=lambda link: link not in body.lies))
         on = self.bodies[self.net.body[guide]] if guide in self.net.body else self.ground
         lies = on.lies.get(guide, STILL)
-        return self._line(on, lies.at(undone(body.lies[mover], at)), lies.turned(slide.direction))
+        return self._line(on, lies.place_of(undone(body.lies[mover], at)), lies.turn_vector(slide.direction))
 
     def _heads(self, slide: Slide, body: Body) -> Pair:
         """The direction of a slide in a body's figure."""
-        way: Pair = next(lies for link, lies in body.lies.items() if link in slide.links).turned(slide.direction)
+        way: Pair = next(lies for link, lies in body.lies.items() if link in slide.links).turn_vector(slide.direction)
         return way
 
     def guide(self, slide: Slide) -> Mark:
@@ -188,7 +188,7 @@ class Placing:
             return self.board.parallel(self.lines[slide.name], point)
         body = self.bodies.get(self.net.body.get(slide.along, ""), self.ground)
         lies = body.lies.get(slide.along, STILL)
-        line = self._line(body, lies.at(self.given.points[slide.at]), lies.turned(slide.direction))
+        line = self._line(body, lies.place_of(self.given.points[slide.at]), lies.turn_vector(slide.direction))
         return self.board.parallel(line, point)
 
     # ---- the ground --------------------------------------------------------------------------------------------------
@@ -204,7 +204,7 @@ class Placing:
             for slide in self.net.all_slides:
                 at = self.given.points[slide.at]
                 if FRAME in slide.links and (slide not in self.net.slides or not any(
-                        alike(less(place, at), slide.direction) for place, _ in self._drawn(self.ground))):
+                        alike(minus(place, at), slide.direction) for place, _ in self._drawn(self.ground))):
                     self.ground.spots.append((at, self.board.given(x=at[0], y=at[1], name=f"{slide.at}_0")))
 
     def _stage(self, law: Said, links: tuple[str, ...]) -> Stage:

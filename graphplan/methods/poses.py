@@ -79,7 +79,7 @@ class Pose:
             B = self.standing[guide.base]
             if guide.through is None:
                 return self.board.lay_along(self._line_of_centres(guide), B, length=guide.length, name=guide.at)
-            C, why = self.standing[guide.other], divided(guide)
+            C, why = self.standing[guide.other_centre], divided(guide)
             return self.board.step_off(B, C, B, ratio=guide.ratio, name=guide.at, why=why)
 
     def letter_of_point(self, point: str) -> str:

@@ -15,7 +15,7 @@ from typing import Any
 
 from graphplan.machine.frames import Frame
 from graphplan.output.tolerances import STEP_TOL
-from graphplan.phrases import Said, arranged, digits, unit
+from graphplan.phrases import Said, arrange, digits, unit
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import CAPS, DEPTH, LetterSizes, Runs, name_runs, sentence_runs, width
 from graphplan.sheet.plates import pens
@@ -37,9 +37,9 @@ Span = tuple[float, float]
 def scale_words(letter: str, k: float, measure: str, convention: str = "real") -> Said:
     """A scale as it stands beside a diagram, such as k_M = 10 N m/mm, or where so it is the convention in mm a unit."""
     if convention == "drawn":
-        return arranged("mu_{0} = {1} {2}", letter, digits(1 / k), unit(f"mm/({measure})" if " " in measure else
+        return arrange("mu_{0} = {1} {2}", letter, digits(1 / k), unit(f"mm/({measure})" if " " in measure else
                                                                        f"mm/{measure}"))
-    return arranged("k_{0} = {1} {2}", letter, digits(k), unit(f"{measure}/mm"))
+    return arrange("k_{0} = {1} {2}", letter, digits(k), unit(f"{measure}/mm"))
 
 
 def divisions(low: float, high: float, most: float, turns: bool = False) -> list[float]:
@@ -190,7 +190,7 @@ class Figures:
                  scale: str = "") -> Text:
         """What a diagram shows, its unit and its scale; the scale is called by another letter where that is told."""
         name = scale or letter
-        told = self.tongue(arranged("{0}, {1};  ", letter, unit(measure)))
+        told = self.tongue(arrange("{0}, {1};  ", letter, unit(measure)))
         k_told = self.tongue(scale_words(name, abs(k), measure, convention))
         return self.text(at, (*sentence_runs(told, (letter,)), *sentence_runs(k_told, (f"k_{name}", f"mu_{name}"))),
                          anchor)
@@ -280,7 +280,7 @@ class Figures:
             around = [(x + mm * math.cos(t), y + mm * math.sin(t)) for k in range(91) for t in (math.radians(4 * k),)]
             yield from clip_item(Polyline(DIVISION, "ruling", None, tuple(around)), rect)
             if x + mm < rect.right - 2.0:
-                told = arranged("{0} {1}", digits(radius), unit(measure)) if radius == radii[0] else digits(radius)
+                told = arrange("{0} {1}", digits(radius), unit(measure)) if radius == radii[0] else digits(radius)
                 yield from self.backed((x + mm, y + 0.8), told)
 
 

@@ -25,7 +25,7 @@ from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
-from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
+from graphplan.phrases import Phrase, Said, arrange, join, phrase, said
 from graphplan.sheet.frames.frame import SheetFrame, frame_of
 from graphplan.sheet.frames.title import Page, TitleBlock
 from graphplan.sheet.layout.layout import back_to_front
@@ -57,7 +57,7 @@ class PaperLengths(Lengths):
     """The lengths of what is drawn in mm of paper: they are told as they are."""
 
     def _given_quantity(self, quantity: Quantity, laid: PaperDistance, where: int) -> Said:
-        return arranged("{0}: {1}", quantity.written, laid.text) if quantity.written else laid.text
+        return arrange("{0}: {1}", quantity.written, laid.text) if quantity.written else laid.text
 
 
 @dataclass(frozen=True)
@@ -278,7 +278,7 @@ class Panelled(ABC):
         program = self.values.drawing.program
         for stage, steps in program.stages:
             yield replace(self._heading(stage.title, SIZE), gap=LEAD / 2)
-            yield from self._words_rows(arranged("{0:capital}.", stage.law))
+            yield from self._words_rows(arrange("{0:capital}.", stage.law))
             runs = without_repetitions(steps) if self.repeats(steps[0].panel) else [(steps, ())]
             for spoken, repeated in runs:
                 for step in spoken:
@@ -302,7 +302,7 @@ class Panelled(ABC):
     def sentence_with_lengths(self, step: Step) -> Said:
         """A step in words, with its length on paper."""
         told, lengths = self.values.drawing.program.sentence_with_reason(step.index), self.measure(step.panel)
-        return joined((told, *(arranged("{0}.", length.text) for length in lengths.for_step(step))), " ")
+        return join((told, *(arrange("{0}.", length.text) for length in lengths.for_step(step))), " ")
 
 
 def pages(kind: Callable[[str], Panelled], paper: str | None = None, papers: Sequence[str] = PAPERS) -> list[Sheet]:

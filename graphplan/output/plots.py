@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from graphplan.output.canvas import CIRCLE, CROSSED, LAYER, LINE, MARGIN, TITLE, Canvas
-from graphplan.phrases import digits, joined, phrase, said, unit
+from graphplan.phrases import digits, join, phrase, said, unit
 from graphplan.sheet.lettering.lettering import SIZE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates.display import Arrow, Rect
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, PAPER, RED, VIOLET, Pen
@@ -166,7 +166,7 @@ class _Column:
             less = f" {'+' if datum < 0 else '−'} {self.say(digits(abs(datum)))} {self.say(measure)}" if datum else ""
             words[0] = f"{letter} = {self.say(curve.name)}{less}"
         else:
-            reach = joined((digits(float(scales.poles[quantity])), unit("mm")), " ")
+            reach = join((digits(float(scales.poles[quantity])), unit("mm")), " ")
             words.append(f"O_{letter}H_{letter} = {self.say(reach)}")
         plans, (low, high) = self._plans(quantity), self.extents[quantity]
         if np.nanmin(plans) < low or np.nanmax(plans) > high:
@@ -215,7 +215,7 @@ class _Column:
         curve, scales, places = self.diagram.curve, self.diagram.scales, self.diagram.places
         xs, angle = scales.x(curve.time[places]), curve.travel_unit == "rad"
         travel = np.degrees(curve.travel[places]) if angle else curve.travel[places]
-        drive = said("drive") if angle else joined((said("drive"), unit(curve.travel_unit)))
+        drive = said("drive") if angle else join((said("drive"), unit(curve.travel_unit)))
         rows = {said("position"): [str(k) for k in range(len(xs))],
                 drive: [self.say(digits(value)) + ("°" if angle else "") for value in travel]}
         for y, (what, words) in zip((level - 3, level - 3 - LINE), rows.items(), strict=True):
@@ -225,8 +225,8 @@ class _Column:
                 canvas.text((axis + x, y), (TextRun(word),), anchor="middle")
         whole = digits(float(curve.time[-1] - curve.time[0]))
         scale = said("{0} = {1} {2} per mm", "mu_t", digits(float(scales.mu_t)), unit("s"))
-        length = joined((digits(self.length), unit("mm")), " "), joined((whole, unit("s")), " ")
-        canvas.text((axis, level - 3 - 2 * LINE), self._set(self.say(joined((scale, said("{0} are {1}", *length))))))
+        length = join((digits(self.length), unit("mm")), " "), join((whole, unit("s")), " ")
+        canvas.text((axis, level - 3 - 2 * LINE), self._set(self.say(join((scale, said("{0} are {1}", *length))))))
 
     def _errors(self, canvas: Canvas, left: float, level: float) -> None:
         """How far what was found is from the plans, in parts of the largest ordinate."""

@@ -30,7 +30,7 @@ from graphplan.marking.judge.findings import (
 from graphplan.marking.judge.score import GROUPS, KINDS, Score
 from graphplan.marking.judge.verdict import STATES, UNSEEN, Judgement, NumberVerdict, Verdict
 from graphplan.output.svg import svg
-from graphplan.phrases import arranged, digits, phrase, said
+from graphplan.phrases import arrange, digits, phrase, said
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates.display import Sheet
 from graphplan.words.tongue import Tongue
@@ -178,7 +178,7 @@ class _Report(HtmlPage):
             return ""
         if verdict.at_fault == verdict.step:
             return verdict.mistake
-        return arranged("{0}: {1}", named(self.judgement.drawing.drawn, verdict.at_fault), verdict.mistake)
+        return arrange("{0}: {1}", named(self.judgement.drawing.drawn, verdict.at_fault), verdict.mistake)
 
     # ---- numbers ---------------------------------------------------------------------------------------------------
 

@@ -15,7 +15,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM
 from graphplan.methods.positions import layout
 from graphplan.output.executable import OnPaper
-from graphplan.phrases import arranged, coordinates, joined, said
+from graphplan.phrases import arrange, coordinates, join, said
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.words.lengths import Length, Lengths
@@ -57,9 +57,9 @@ def _pose(scene: Scene, scales: Scales, say: Tongue) -> list[str]:
     program = layout(scene)
     values = evaluate(program, Floats())
     lengths = Lengths(program, values, lambda index: MECHANISM, scales)
-    given = [joined((step.name, coordinates([round(float(part) / scales.k_s, 1) for part in values[step.index]])), " ")
+    given = [join((step.name, coordinates([round(float(part) / scales.k_s, 1) for part in values[step.index]])), " ")
              for step in program.steps[: program.givens]]
-    lines = _wrapped(say(said("Mechanism plan, in mm of paper: {0}.", joined(given))), "")
+    lines = _wrapped(say(said("Mechanism plan, in mm of paper: {0}.", join(given))), "")
     for step in program.steps[program.givens :]:
         sentence = program.sentence_with_reason(step.index)
         lines += _wrapped(say(with_lengths(sentence, partial(lengths.for_step, step))), "  ")
@@ -69,9 +69,9 @@ def _pose(scene: Scene, scales: Scales, say: Tongue) -> list[str]:
 def _scales(composition: Composition) -> Iterator[str]:
     """What a millimetre of each plan stands for."""
     plans, scales = composition.plans, composition.scales
-    told = [joined((plan.words, joined(scales.scale_texts(plan, plans.kinds(plan)))), ": ") for plan in plans.panels]
+    told = [join((plan.words, join(scales.scale_texts(plan, plans.kinds(plan)))), ": ") for plan in plans.panels]
     paper = composition.arrangement.paper
-    yield from _wrapped(plans.tongue(said("Scales on {0}: {1}.", paper, joined(told, "; "))), "")
+    yield from _wrapped(plans.tongue(said("Scales on {0}: {1}.", paper, join(told, "; "))), "")
 
 
 def _passages(passages: Iterable[Passage], say: Tongue, movements: bool) -> Iterator[str]:
@@ -94,11 +94,11 @@ def _head(passage: Passage, say: Tongue) -> Iterator[str]:
     """A stage's title, its equations with what is known in them, and its law where it was not told before."""
     if passage.stage is None or passage.title is None:
         return
-    yield from ("", *_wrapped(say(arranged("{0:capital}", passage.title)), "  "))
+    yield from ("", *_wrapped(say(arrange("{0:capital}", passage.title)), "  "))
     for equation in () if passage.again else passage.stage.equations:
         yield from (4 * " " + line for line in (equation.text, _underlines(equation)) if line)
     if passage.law:
-        yield from _wrapped(say(arranged("{0:capital}.", passage.law)), "    ", "")
+        yield from _wrapped(say(arrange("{0:capital}.", passage.law)), "    ", "")
 
 
 def _underlines(equation: Equation) -> str:

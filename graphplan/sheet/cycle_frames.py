@@ -96,7 +96,7 @@ def scene_in(scene: Scene, points: Mapping[str, complex], guides: Mapping[str, c
     if scene.loads and loads:
         vectors = {name: (z.real, z.imag) if isinstance(z, complex) else z for name, z in loads.items()}
         scene = replace(scene, loads=with_values(scene.loads, vectors))
-    return scene.posed({name: (points[name].real, points[name].imag) for name in scene.points}, direction)
+    return scene.with_pose({name: (points[name].real, points[name].imag) for name in scene.points}, direction)
 
 
 def sheets(composition: Composition, ways: Sequence[tuple[Construction, Places]], points: Places,

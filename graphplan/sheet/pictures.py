@@ -21,7 +21,7 @@ import shapely
 
 from graphplan.kernel.kinds import CIRCLE, OPENING, POINT, Movement
 from graphplan.kernel.program import Panel, Program, Step
-from graphplan.phrases import Said, arranged
+from graphplan.phrases import Said, arrange
 from graphplan.sheet.layout.layout import back_to_front
 from graphplan.sheet.lettering.label_candidates import AIR
 from graphplan.sheet.lettering.letters import plate_items
@@ -231,7 +231,7 @@ class Picture:
     def heading(self) -> Said:
         """What stands over it: its stage, or of several the plan."""
         one, *more = self.parts
-        return arranged("{0:capital}", self.excerpt.panel.words) if more else one.title
+        return arrange("{0:capital}", self.excerpt.panel.words) if more else one.title
 
     @property
     def letters_crowded(self) -> bool:

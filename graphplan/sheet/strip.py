@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.errors import Refused
-from graphplan.phrases import Said, arranged, said
+from graphplan.phrases import Said, arrange, said
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, STRIP, Page, TitleBlock
 from graphplan.sheet.layout.composition import Composition, with_results_alone
@@ -201,7 +201,7 @@ class Strip:
 
     def _rows(self, one: Picture, number: int = 99) -> tuple[list[TextRow], list[TextRow]]:
         """What stands above a picture and below it: by stages also what these are."""
-        heading = self._title(arranged("{0}. {1}", number + 1, one.heading), self.columns[0].width)
+        heading = self._title(arrange("{0}. {1}", number + 1, one.heading), self.columns[0].width)
         return [*heading], [row for part in one.parts for row in self._part_rows(part, len(one.parts) > 1)]
 
     def _part_rows(self, part: Part, titled: bool) -> Iterator[TextRow]:
@@ -212,7 +212,7 @@ class Strip:
         if stage and self.cut == STAGE and part.begins and not part.passage.again:
             for equation in stage.equations:
                 yield from words.equation(equation, wide - words.indent, first)
-            yield from words.paragraph(arranged("{0:capital}.", stage.law), wide, first)
+            yield from words.paragraph(arrange("{0:capital}.", stage.law), wide, first)
         for entry, movements in part.entries:
             if len(movements) == len(entry.movements) and self.cut != STEP:
                 yield from words.entry(entry, wide)

@@ -11,7 +11,7 @@ from typing import Any
 
 from graphplan.errors import by_name
 from graphplan.mechanism.model import FRAME
-from graphplan.mechanism.numbers import Pair, dot, plus, times, turned
+from graphplan.mechanism.numbers import Pair, dot, plus, quarter_turn, times
 from graphplan.solver.rates import Rates
 
 
@@ -23,7 +23,7 @@ def centre(rates: Rates, point: str, link: str) -> Pair:
     v, a = _point_rates(rates, point)
     scene = rates.equations.scene
     try:
-        return plus(scene.points[point], times(dot(v, v) / dot(turned(v), a), turned(v)))
+        return plus(scene.points[point], times(dot(v, v) / dot(quarter_turn(v), a), quarter_turn(v)))
     except ArithmeticError:
         links = sorted(scene.links_of[point], key=lambda one: (one != link, by_name(one)))
         pivots = [p for one in links for p in scene.links[one] if FRAME in scene.links_of[p]]
@@ -38,7 +38,7 @@ def curvature(rates: Rates, point: str) -> Pair:
     v, a = _point_rates(rates, point)
     square, links = dot(v, v), rates.equations.scene.links_of[point]
     try:
-        return times(dot(turned(v), a) / square / square, turned(v))
+        return times(dot(quarter_turn(v), a) / square / square, quarter_turn(v))
     except ArithmeticError:
         if not any(FRAME in slide.links and {*links} & {*slide.links} for slide in rates.equations.scene.slides):
             raise
@@ -47,13 +47,13 @@ def curvature(rates: Rates, point: str) -> Pair:
 
 def from_pole(rates: Rates, point: str, link: str) -> Pair:
     """The vector from the pole of a link's motion to its point; divides by zero where the link does not turn."""
-    return divide_vector(turned(rates.velocity[point]), -rates.omega[link])
+    return divide_vector(quarter_turn(rates.velocity[point]), -rates.omega[link])
 
 
 def inflection_pole(rates: Rates, link: str) -> Pair:
     """The point opposite the pole on a link's inflection circle; divides by zero where the link does not turn."""
     base, omega = rates.equations.bases[link], rates.omega[link]
-    tangential = times(-rates.alpha[link], turned(from_pole(rates, base, link)))
+    tangential = times(-rates.alpha[link], quarter_turn(from_pole(rates, base, link)))
     towards = divide_vector(plus(rates.acceleration[base], tangential), omega)
     return plus(rates.equations.scene.points[base], divide_vector(towards, omega))
 

@@ -23,8 +23,8 @@ from typing import TYPE_CHECKING, Any
 from graphplan.errors import Refused, by_name
 from graphplan.mechanism.equations import PIN, Elimination, transpose
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene
-from graphplan.mechanism.numbers import dot, is_exact, less, times
-from graphplan.mechanism.pairs.pair import Along, KinematicPair, Rate, Side, Sides, Statement
+from graphplan.mechanism.numbers import dot, is_exact, minus, times
+from graphplan.mechanism.pairs.pair import Along, KinematicPair, LinkSide, LinkSides, Rate, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.solver.blocks import TOGETHER
 
@@ -94,7 +94,7 @@ class Equations:
         if not point or link in (FRAME, PIN):
             return 0, 0
         if (link, point) not in self._arms:
-            self._arms[link, point] = less(self.scene.points[point], self.scene.points[self.bases[link]])
+            self._arms[link, point] = minus(self.scene.points[point], self.scene.points[self.bases[link]])
         return self._arms[link, point]
 
     @cached_property
@@ -137,13 +137,13 @@ class Equations:
         return [change + fact.left_over(sides[fact.ends])
                 for fact, (_, change) in zip(self.facts, self.prescribed_rates, strict=True)]
 
-    def sides(self, one: tuple[str, str], other: tuple[str, str], rates: dict[str, Rate]) -> Sides:
+    def sides(self, one: tuple[str, str], other: tuple[str, str], rates: dict[str, Rate]) -> LinkSides:
         """Two links, each at a point, with these rates."""
-        return Sides(self.side(*one, rates), self.side(*other, rates))
+        return LinkSides(self.side(*one, rates), self.side(*other, rates))
 
-    def side(self, link: str, point: str, rates: dict[str, Rate]) -> Side:
+    def side(self, link: str, point: str, rates: dict[str, Rate]) -> LinkSide:
         """One link at one point, with these rates."""
-        return Side(self.arm(link, point), rates[link])
+        return LinkSide(self.arm(link, point), rates[link])
 
     def rates(self, values: Sequence[Number], zero: Number) -> dict[str, Rate]:
         """The solved unknowns link by link, the resting frame among them; a pin, which no arm reaches, adds nothing."""

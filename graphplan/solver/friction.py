@@ -18,7 +18,7 @@ from typing import Any
 
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import FRAME, Contact, Gear, Number, Pair, Scene, Slide
-from graphplan.mechanism.numbers import dot, less, plus, times, turned
+from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, times
 from graphplan.mechanism.pairs.pair import Along, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.units import metre
@@ -141,7 +141,7 @@ def contact_forces(found: Reactions) -> dict[str, Pair]:
     for pair in scene.binding:
         own = [next(facts) for _ in pair.states(scene)]
         if isinstance(pair, Slide) and pair.name in found.slides:
-            across, normal = next(fact for fact in own if isinstance(fact, Along)), turned(pair.direction)
+            across, normal = next(fact for fact in own if isinstance(fact, Along)), quarter_turn(pair.direction)
             size = dot(normal, found.slides[pair.name][0]) / dot(normal, normal)
             whole[pair.name] = times(size, across.direction)
         elif isinstance(pair, Gear | Contact) and pair.name in found.higher:
@@ -176,7 +176,7 @@ def frictional_forces(plain: Reactions, last: Reactions, against: Rubbing) -> Fr
     for name, circle in against.journals.items():
         couples[name] = circle * math.hypot(*last.joints[name]) / unit if circle else circle
     for slide in plain.equations.scene.slides:
-        across = turned(slide.direction)
+        across = quarter_turn(slide.direction)
         size = dot(across, last.slides[slide.name][0]) / dot(across, across)
         drags[slide.name] = times(against.guides[slide] * max(size, -size), slide.direction)
     slides = {name: (plus(force, drags[name]), moment) for name, (force, moment) in last.slides.items()}
@@ -260,8 +260,8 @@ def contact_slip(rates: Rates, contact: Contact) -> Number:
     In as many times the normal's length as it has.
     """
     fact = next(contact.states(rates.equations.scene))
-    slip = less(moved_with(rates, fact.link, contact.at), moved_with(rates, fact.on, contact.at))
-    return dot(slip, turned(first_held(rates.equations, contact)))
+    slip = minus(moved_with(rates, fact.link, contact.at), moved_with(rates, fact.on, contact.at))
+    return dot(slip, quarter_turn(first_held(rates.equations, contact)))
 
 
 def moved_with(rates: Rates, link: str, place: str) -> Pair:
@@ -269,7 +269,7 @@ def moved_with(rates: Rates, link: str, place: str) -> Pair:
     if link == FRAME:
         return 0, 0
     arm, base = rates.equations.arm(link, place), rates.equations.bases[link]
-    return plus(rates.velocity[base], times(rates.omega[link], turned(arm)))
+    return plus(rates.velocity[base], times(rates.omega[link], quarter_turn(arm)))
 
 
 def sign(value: float, least: float) -> int:
@@ -287,7 +287,7 @@ def delivered_power(found: Reactions) -> Number:
     for balance, value in zip(required_loads(scene).balances, found.balances, strict=True):
         (one, other), omega = balance.links, {**rates.omega, FRAME: 0}
         if isinstance(value, tuple):
-            power += dot(value, less(moved_with(rates, one, balance.at), moved_with(rates, other, balance.at)))
+            power += dot(value, minus(moved_with(rates, one, balance.at), moved_with(rates, other, balance.at)))
         else:
             power += value * metre(scene.units) * (omega[one] - omega[other])
     return power

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from graphplan.mechanism.model import Contact, Force, Gear, Number, Pair
-from graphplan.mechanism.numbers import plus, times, turned
+from graphplan.mechanism.numbers import plus, quarter_turn, times
 from graphplan.mechanism.pairs.pair import Along, Rate, Statement
 from graphplan.solver.equations import Equations
 
@@ -42,7 +42,7 @@ def force(equations: Equations, pair: Gear | Contact, sizes: Sequence[Any]) -> P
 
 def push(equations: Equations, gear: Gear, size: Any) -> Pair:
     """The radial force on the first wheel, off its mate, from its circumferential force."""
-    return times(gear.tangent * abs(size), turned(first_held(equations, gear)))
+    return times(gear.tangent * abs(size), quarter_turn(first_held(equations, gear)))
 
 
 def pushes(equations: Equations, sizes: Sizes) -> Iterator[Force]:
@@ -58,7 +58,7 @@ def leaning_statements(equations: Equations, pair: Gear | Contact, lean: Number)
     """What holds the links of a gear or a contact by a force that leans by so much from its first direction."""
     first, *others = pair.states(equations.scene)
     x, y, lever = held_at(equations, first)
-    direction = plus((x, y), times(lean, turned((x, y))))
+    direction = plus((x, y), times(lean, quarter_turn((x, y))))
     if isinstance(pair, Gear):
         yield Along(first.link, first.on, first.at, direction, first.way, lever=lever)
     elif pair.rolling:

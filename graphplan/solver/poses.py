@@ -14,7 +14,7 @@ import numpy as np
 
 from graphplan.mechanism.equations import transpose
 from graphplan.mechanism.model import Balance, Force, Scene
-from graphplan.mechanism.numbers import mapped
+from graphplan.mechanism.numbers import map_numbers
 from graphplan.mechanism.order import with_values
 from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
@@ -87,11 +87,12 @@ def scene_in_poses(scene: Scene, points: Mapping[str, Any], guides: Mapping[str,
         return _pair(guides[pair.name]) if pair.name in guides else tuple(map(float, pair.direction))
 
     driven = scene.with_drives(drive.driven_at(*map(float, drive.rates)) for drive in scene.drives)
-    acting = mapped(scene.loads, float)
+    acting = map_numbers(scene.loads, float)
     if loads:
         acting = with_values(acting, {name: _pair(z) if np.iscomplexobj(z) else z for name, z in loads.items()})
-    return replace(driven, loads=acting).posed({name: place_of(name) for name in scene.points},
-                        lambda one: one.direction if isinstance(one, Balance) else direction(one), float)
+    places = {name: place_of(name) for name in scene.points}
+    return replace(driven, loads=acting).with_pose(
+        places, lambda pair: pair.direction if isinstance(pair, Balance) else direction(pair), float)
 
 
 def solve(scene: Scene, n: int, sizes: bool = False) -> rates.Rates:

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from graphplan.errors import SingularPose
 from graphplan.mechanism.equations import Elimination
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
-from graphplan.mechanism.numbers import dot, less, times
-from graphplan.mechanism.pairs.pair import Rate, Sides
+from graphplan.mechanism.numbers import dot, minus, times
+from graphplan.mechanism.pairs.pair import LinkSides, Rate
 from graphplan.solver.equations import Equations, Solution, motion_equations
 
 if TYPE_CHECKING:
@@ -90,18 +90,19 @@ def read(equations: Equations, first: dict[str, Rate], second: dict[str, Rate]) 
     carriers = {p: FRAME if FRAME in links else links[0] for p, links in equations.scene.links_of.items() if links}
     slides = equations.scene.slides
 
-    def sides(slide: Slide, rates: dict[str, Rate]) -> Sides:
+    def sides(slide: Slide, rates: dict[str, Rate]) -> LinkSides:
         return equations.sides((slide.link, slide.at), (slide.along, slide.at), rates)
 
     return Rates(
         equations,
-        velocity={p: first[link].at(equations.arm(link, p)) for p, link in carriers.items()},
-        acceleration={p: less(second[link].at(equations.arm(link, p)), equations.side(link, p, first).centripetal)
+        velocity={p: first[link].velocity_at(equations.arm(link, p)) for p, link in carriers.items()},
+        acceleration={p: minus(second[link].velocity_at(equations.arm(link, p)),
+                               equations.side(link, p, first).centripetal)
                       for p, link in carriers.items()},
         omega={link: first[link].turn for link in equations.columns},
         alpha={link: second[link].turn for link in equations.columns},
         slide_velocity={s.name: component_along(s, sides(s, first).slip) for s in slides},
-        slide_acceleration={s.name: component_along(s, less(sides(s, second).slip, sides(s, first).surplus))
+        slide_acceleration={s.name: component_along(s, minus(sides(s, second).slip, sides(s, first).surplus))
                             for s in slides},
     )
 

@@ -28,7 +28,7 @@ from graphplan.mechanism.model import (
     Scene,
     Slide,
 )
-from graphplan.mechanism.numbers import less, times, turned
+from graphplan.mechanism.numbers import minus, quarter_turn, times
 from graphplan.mechanism.pairs.pair import Along, Rate
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.units import inertia, metre, weight
@@ -121,8 +121,8 @@ def read(equations: Equations, values: Iterable[Number], free: Container[int], r
             continue
         if isinstance(pair, Slide):
             across = found["across"]
-            slides[pair.name] = times(across, turned(pair.direction)), scale_number(1 / unit,
-                                                                                    found.get("turn", 0 * across))
+            slides[pair.name] = times(across, quarter_turn(pair.direction)), scale_number(1 / unit,
+                                                                                          found.get("turn", 0 * across))
         elif isinstance(pair, Gear | Contact):
             higher[pair.name] = tuple(found.values())
     for balance, value in zip(required_loads(scene).balances, unknown, strict=True):
@@ -155,7 +155,7 @@ def inertia_loads(scene: Scene, link: str, mass: Mass, rates: Rates) -> Iterator
     """By d'Alembert: weight and inertia force m g - m a_S at the centre of mass S, and the couple -I alpha."""
     weigh, (x, y) = times(weight(scene.units), required_loads(scene).gravity), rates.acceleration[mass.centre]
     resist = scale_number(inertia(scene.units), x), scale_number(inertia(scene.units), y)
-    yield Force(link, mass.centre, times(mass.mass, less(weigh, resist)))
+    yield Force(link, mass.centre, times(mass.mass, minus(weigh, resist)))
     yield Moment(link, scale_number(-weight(scene.units), mass.inertia * rates.alpha[link]))
 
 

@@ -32,13 +32,13 @@ class Tongue:
 
     def __call__(self, text: str) -> str:
         """The text in this tongue; what is no phrase, such as a title, stays as it is."""
-        return str(self._formed(text))
+        return str(self._in_all_forms(text))
 
     def title(self, title: str) -> str:
         """The title of a packaged scene in this tongue; any other as its author wrote it."""
         return str(self.catalogue[TITLES].get(title, title)) if self.catalogue else title
 
-    def _formed(self, value: Any) -> Any:
+    def _in_all_forms(self, value: Any) -> Any:
         """The value as it is put into others: a phrase in all its forms."""
         if self.catalogue is None or not isinstance(value, Said):
             return Shaped(value) if isinstance(value, str) else value
@@ -46,8 +46,8 @@ class Tongue:
             return Shaped(_SYMBOL.sub(self._symbol, value.key))
         if value.section == NUMBERS:
             return Shaped(value.key.translate(self.signs))
-        put = [self._formed(part) for part in value.put]
-        named = {name: self._formed(part) for name, part in value.named.items()}
+        put = [self._in_all_forms(part) for part in value.put]
+        named = {name: self._in_all_forms(part) for name, part in value.named.items()}
         forms = self._forms(value)
         return Forms({name: pattern.format(*put, **named) for name, pattern in forms.items()})
 

@@ -7,11 +7,11 @@ from functools import cache
 import graphplan as gp
 from graphplan.accuracy.drafted import Drafted, draft
 from graphplan.accuracy.hand import Pencil
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.scales import Scales
 
-SCENES = packaged()
+SCENES = packaged_names()
 
 
 @cache

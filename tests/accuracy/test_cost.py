@@ -22,7 +22,7 @@ from graphplan.errors import Refused
 from graphplan.kernel import Board
 from graphplan.kernel.lemoine import counts
 from graphplan.kernel.passes import freeze
-from graphplan.mechanism.sections import ASIDE
+from graphplan.mechanism.sections import BESIDE_PLANS
 from graphplan.sheet.layout import composition
 from graphplan.sheet.layout.composition import Composition, best_composition
 from graphplan.sheet.layout.layout import pages
@@ -107,7 +107,7 @@ def test_paper_without_room_for_every_plan_is_refused() -> None:
     line."""
     drawing = gp.construct(gp.load("walschaerts-loaded"), plan="polar")
     with pytest.raises(Refused, match="words and plans do not fit"):
-        draft(drawing, Pencil(), "A2", protocol=ASIDE)
+        draft(drawing, Pencil(), "A2", protocol=BESIDE_PLANS)
 
 
 def test_errors_compose_no_sheet_again(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -35,7 +35,7 @@ from graphplan.marking.judge.student_sheet import apart as apart_by
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.marking.submission import read
 from graphplan.marking.traces import PlanFrame, Submission
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construction import Construction
 from graphplan.sheet.handout import code, task
 from graphplan.sheet.layout.composition import Composition, compose
@@ -113,7 +113,7 @@ def main() -> None:
     parser.add_argument("kinds", nargs="*", metavar="KIND", help=f"of {', '.join(KINDS)}; default all")
     parser.add_argument("-n", type=int, default=20, help="how many drawings of each scene, faultless and mistaken")
     parser.add_argument("--seed", type=int, default=9000, help="where the seeds begin")
-    parser.add_argument("--scenes", nargs="*", default=packaged(), help="packaged scenes")
+    parser.add_argument("--scenes", nargs="*", default=packaged_names(), help="packaged scenes")
     parser.add_argument("--missed", action="store_true", help="print every drawing that was not judged exactly")
     asked = parser.parse_args()
     for kind in asked.kinds or KINDS:

@@ -16,7 +16,7 @@ from random import Random
 from typing import NamedTuple
 
 from graphplan.commands import GARBAGE, main
-from graphplan.mechanism.scene import load, packaged
+from graphplan.mechanism.scene import load, packaged_names
 
 SECONDS = 5.0  # of the processor, for one command
 TRIES = 3  # of a command that takes longer: what else the machine does adds to a time and never takes from it
@@ -35,7 +35,7 @@ STRANGE = ("é", "λ", "𝔸", "\u202e", "\u0000", "\x1b[31m", "\ufeff", "٣", "
 def scenes() -> list[str]:
     """The texts that are spoilt: the packaged scenes, and those that once failed."""
     failed = sorted((Path(__file__).parent.parent / "faults").glob("[0-9]*.toml"))
-    return [*(load(name).text for name in packaged()), *(path.read_text(encoding="utf-8") for path in failed)]
+    return [*(load(name).text for name in packaged_names()), *(path.read_text(encoding="utf-8") for path in failed)]
 
 
 # ---- spoiling ------------------------------------------------------------------------------------------------------

@@ -18,7 +18,7 @@ from graphplan.check.trusted import report
 from graphplan.errors import Refused
 from graphplan.kernel import TABLE
 from graphplan.mechanism.model import Friction, Scene
-from graphplan.mechanism.scene import load, packaged, parse
+from graphplan.mechanism.scene import load, packaged_names, parse
 
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899")
 
@@ -75,7 +75,7 @@ ALIKE = (("velocity", "slide velocity"), ("omega",), ("acceleration", "slide acc
 BESIDE = {"omega": "velocity", "alpha": "acceleration"}  # a turning that is nothing counts beside what others make
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_packaged_scenes_are_certified(name: str) -> None:
     """Every packaged scene has 30 proven digits, which agree with the floats to rounding, and hold exact fractions; but
     one whose loads are known to a float's digits, which has 15 and is refused more."""

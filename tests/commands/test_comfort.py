@@ -16,9 +16,9 @@ import pytest
 
 from graphplan import __version__
 from graphplan.commands import main
-from graphplan.commands.catalogue import fitted
+from graphplan.commands.catalogue import fit_columns
 from graphplan.commands.new import KINDS, LOADS, template
-from graphplan.mechanism.scene import load, packaged, parse
+from graphplan.mechanism.scene import load, packaged_names, parse
 from graphplan.mechanism.schema import scene
 
 ROOT = Path(__file__).parent.parent.parent
@@ -84,7 +84,7 @@ def test_the_list_names_every_scene(capsys: pytest.CaptureFixture[str]) -> None:
     """`list` has a line for every packaged scene, with its title and source in full where no terminal bounds it."""
     assert main(["list"]) == 0
     lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines() if line}
-    for name in packaged():
+    for name in packaged_names():
         assert load(name).title in lines[name]
         assert load(name).source in lines[name]
 
@@ -101,10 +101,10 @@ def test_the_list_as_data(capsys: pytest.CaptureFixture[str]) -> None:
 def test_the_list_fits_the_terminal(width: int) -> None:
     """On a terminal no line is longer than it is wide, and what is short is not cut."""
     rows = [("four-bar", "4", "v a", "Four-bar linkage with a coupler point", "A book of some length, page 1" * 3)] * 2
-    lines = [*fitted(rows, width)]
+    lines = [*fit_columns(rows, width)]
     assert all(len(line) <= width for line in lines)
     assert all(line.startswith("four-bar  4  v a") for line in lines)
-    assert [*fitted([("a", "1", "v", "short", "source")], width)] == ["a  1  v  short  source"]
+    assert [*fit_columns([("a", "1", "v", "short", "source")], width)] == ["a  1  v  short  source"]
 
 
 # --- near names, version, help ---------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from graphplan.commands import SUBCOMMANDS, main
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.styles import METHODS, OF_PATHS
 
 Complete = Callable[[str], set[str]]
@@ -95,7 +95,7 @@ def test_scenes_are_offered(complete: Complete) -> None:
     """Where a scene is wanted there are the packaged ones, the TOML files and the folders, and nothing else."""
     assert complete("graphplan solve four") == {"four-bar"}
     offers = {offer.rstrip("/").replace("\\ ", " ") for offer in complete("graphplan check ")}
-    assert offers == {*packaged(), "own scene.toml", "folder"}
+    assert offers == {*packaged_names(), "own scene.toml", "folder"}
 
 
 def test_folders_are_offered(complete: Complete) -> None:

@@ -16,10 +16,10 @@ from jsonschema import Draft202012Validator
 import graphplan
 from graphplan.commands import main
 from graphplan.commands.new import KINDS, template
-from graphplan.commands.result_schemas import printed as schema_of
+from graphplan.commands.result_schemas import result_schema as schema_of
 from graphplan.errors import SceneError
 from graphplan.mechanism.items import Item
-from graphplan.mechanism.scene import load, packaged, parse
+from graphplan.mechanism.scene import load, packaged_names, parse
 from graphplan.mechanism.schema import scene
 from graphplan.mechanism.units import BY_QUANTITY
 
@@ -51,7 +51,7 @@ def test_schemas_are_sound(of: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert schema["$schema"] == Draft202012Validator.META_SCHEMA["$id"]
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_packaged_scenes_are_valid(name: str) -> None:
     """Every packaged scene is valid after the schema of scenes."""
     text = (SCENES / f"{name}.toml").read_text(encoding="utf-8")
@@ -142,7 +142,7 @@ def test_schema_and_loader_know_the_same_keys(monkeypatch: pytest.MonkeyPatch) -
         return fields(item, known, required)
 
     monkeypatch.setattr(Item, "fields", recorded)
-    for name in packaged():
+    for name in packaged_names():
         load(name)
     for kind in KINDS:
         parse(whole(kind), kind)
@@ -172,7 +172,7 @@ def test_everything_in_a_scene_is_described() -> None:
     assert list(bare(scene())) == []
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_printed_results_are_valid(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     """What `solve` prints of every packaged scene is valid after its schema."""
     assert errors(schema_of("solve"), printed(capsys, "solve", name)) == []
@@ -187,7 +187,7 @@ def test_other_numbers_are_valid(how: list[str], capsys: pytest.CaptureFixture[s
     assert errors(schema_of("solve"), printed(capsys, "solve", *how)) == []
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_printed_steps_are_valid(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     """What `steps --json` prints of every packaged scene is valid after its schema."""
     assert errors(schema_of("steps"), printed(capsys, "steps", name, "--json", "--protocol", "none")) == []

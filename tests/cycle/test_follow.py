@@ -84,7 +84,7 @@ def own(scene: Scene, turn: Turn, link: str) -> list[str]:
     under = {q for s in scene.slides for q in scene.links.get(s.along, ())
              if q != s.at and np.array_equal(turn.points[q], turn.points[s.at], equal_nan=True)}
     under |= {q for c in scene.contacts for q in c.through or ()  # a straight profile's point under the other's centre
-              if np.array_equal(turn.points[q], turn.points[c.curved[2]], equal_nan=True)}
+              if np.array_equal(turn.points[q], turn.points[c.curved_side[2]], equal_nan=True)}
     return [point for point in scene.links.get(link, ()) if point not in under]
 
 

@@ -12,7 +12,7 @@ import graphplan as gp
 from graphplan.cycle.relations import Relations, relations
 from graphplan.cycle.turn import points_under_slides
 from graphplan.mechanism.model import FRAME
-from graphplan.mechanism.scene import packaged, parse
+from graphplan.mechanism.scene import packaged_names, parse
 from graphplan.mechanism.travel import paces
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.view import View
@@ -55,7 +55,7 @@ def placed_from(found: Relations, pins: dict[str, complex]) -> dict[str, complex
             for name, start in froms.items() if start in pins}
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_the_linkage_follows(name: str) -> None:
     """Wherever a linkage can be led by its drives and a dragged pin, its relations put every point there."""
     found, scene, rng = relations_of(name), gp.load(name), Random(name)

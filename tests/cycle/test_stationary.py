@@ -87,6 +87,6 @@ def test_it_is_drawn_in_its_own_pose_alone() -> None:
     found = traced_motion(scene)
     assert found
     assert [str(one.words) for one in found.centrodes] == ["circling points of 2", "centre points of 2"]
-    moved = scene.posed(scene.points | {"A": (32, 24)}, lambda one: one.direction)
+    moved = scene.with_pose(scene.points | {"A": (32, 24)}, lambda one: one.direction)
     assert all([*one.items(lambda spot: spot, scene)] for one in found.centrodes)
     assert not any([*one.items(lambda spot: spot, moved)] for one in found.centrodes)

@@ -13,7 +13,7 @@ from samples import SAMPLES, as_drawing, as_linkage, as_pmks, geogebra, packed, 
 
 import graphplan as gp
 from graphplan.commands import main
-from graphplan.importing import imported
+from graphplan.importing import import_scene
 from graphplan.importing.pmks import unpack
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.scene import parse
@@ -23,7 +23,7 @@ def taken(data: bytes, name: str, folder: Path) -> str:
     """The scene of a file."""
     path = folder / name
     path.write_bytes(data)
-    return imported(path)
+    return import_scene(path)
 
 
 def at(scene: Scene, point: str) -> tuple[float, float]:
@@ -110,7 +110,7 @@ def test_own_files_that_were_saved_anew_are_read_as_drawings(form: str, tmp_path
             archive.writestr("geogebra.xml", drawing)
     else:
         path.write_bytes(re.sub(rb"999\nscene: [^\n]*\n", b"", path.read_bytes()))
-    found = parse(imported(path), "saved anew")
+    found = parse(import_scene(path), "saved anew")
     assert {frozenset(points) for points in found.links.values()} == {frozenset(points) for points in
                                                                      meant.links.values()}
 
@@ -132,7 +132,7 @@ def drawn(path: Path, unit: int, bars: dict[str, list[tuple[float, float]]], gro
     for letter, (x, y) in (letters or {}).items():
         space.add_text(letter, height=4, dxfattribs={"insert": (x + 2, y + 2)})
     document.saveas(path)
-    return parse(imported(path), "drawing")
+    return parse(import_scene(path), "drawing")
 
 
 def test_lines_of_dxf_are_bars_and_polylines_links(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ import pytest
 
 from graphplan.check.motion import check_flywheel
 from graphplan.commands import main
-from graphplan.commands.result_schemas import printed
+from graphplan.commands.result_schemas import result_schema
 from graphplan.errors import Disagreement, Refused
 from graphplan.machine.flywheel.result import FlywheelResult, flywheel
 from graphplan.mechanism.model import Flywheel, Moment, Scene
@@ -124,7 +124,7 @@ def test_command(tmp_path, capsys) -> None:
     """The command prints the numbers that the contract names, and takes options before the scene's table."""
     assert main(["flywheel", YOKE, "-q", "--unevenness", "0.05"]) == 0
     found = json.loads(capsys.readouterr().out)
-    jsonschema.validate(found, printed("flywheel"))
+    jsonschema.validate(found, result_schema("flywheel"))
     assert [len(found[key]) for key in ("reduced_inertia", "reduced_moment", "energy")] == [25, 25, 25]
     assert found["reduced_inertia"][4] == [60.0, pytest.approx(13)]
     assert found["closing_moment"] == pytest.approx(400 / math.pi)

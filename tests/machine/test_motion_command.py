@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from graphplan.commands import main
-from graphplan.commands.result_schemas import printed
+from graphplan.commands.result_schemas import result_schema
 from graphplan.machine.motion.driven import driven
 from graphplan.machine.reduced.reduction import reduction
 from graphplan.mechanism.scene import load, parse, source_text
@@ -42,7 +42,7 @@ def motion(tmp_path: Path, scene: str, *options: str) -> dict[str, Any]:
     file = tmp_path / "motion.json"
     assert main(["motion", scene, "-q", "-o", str(file), *options]) == 0
     found: dict[str, Any] = json.loads(file.read_text())
-    jsonschema.validate(found, printed("motion"))
+    jsonschema.validate(found, result_schema("motion"))
     assert max(found["check"].values()) < 1e-9
     return found
 

@@ -22,7 +22,7 @@ from tiers import sample  # noqa: E402
 from graphplan.accuracy.drafted import Drafted  # noqa: E402
 from graphplan.accuracy.hand import Pencil  # noqa: E402
 from graphplan.commands import main, parser  # noqa: E402
-from graphplan.commands.result_schemas import printed as printed_schema  # noqa: E402
+from graphplan.commands.result_schemas import result_schema as printed_schema  # noqa: E402
 from graphplan.commands.variants import drafted  # noqa: E402
 from graphplan.commands.verify import Desk  # noqa: E402
 from graphplan.marking.classroom.register import Register, TaskSheet  # noqa: E402

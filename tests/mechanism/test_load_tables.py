@@ -10,7 +10,7 @@ import pytest
 
 from graphplan.errors import Refused, SceneError
 from graphplan.mechanism.loads import LoadTable
-from graphplan.mechanism.model import Balance, Flywheel, Run
+from graphplan.mechanism.model import Balance, Flywheel, RunRequest
 from graphplan.mechanism.scene import load, parse
 
 YOKE = """
@@ -156,7 +156,7 @@ def test_flywheel_and_run() -> None:
     bare = (YOKE + "value = [1, 2]\n").replace('[balance]\nlink = "1"\n', "")
     scene = parse(bare + '[flywheel]\nspeed = 15\nunevenness = 0.02\n[run]\ntravel = 720\n', "yoke")
     assert scene.flywheel == Flywheel(Fraction(15), Fraction(1, 50))
-    assert scene.run == Run(travel=Fraction(720))
+    assert scene.run == RunRequest(travel=Fraction(720))
     assert scene.loads is not None
     assert scene.loads.balances == (Balance("1"),)
     for table, fault in [
@@ -178,15 +178,15 @@ def test_many_places_at_once() -> None:
                                   (slide, np.linspace(-1e-10, 2 + 1e-10, 9), np.resize([1, -1], 9))]:
         for after in (True, False):
             alone = [table.value(Fraction(p), int(s), after) for p, s in zip(places, senses, strict=True)]
-            assert table.at(places, senses, after) == pytest.approx(np.array(alone, float), rel=1e-12), table
+            assert table.values_at(places, senses, after) == pytest.approx(np.array(alone, float), rel=1e-12), table
     assert travel.value(Fraction(90)) == -3
     assert travel.value(Fraction(90), after=False) == 3
     assert travel.value(Fraction(90), -1) == 3
     assert (travel.value(Fraction(360)), travel.value(Fraction(360), after=False)) == (1, 1)
     jump = LoadTable("travel", ((0, 1), (360, 5)), period=360)  # type: ignore[arg-type]
     for place in (-360, 0, 360, 720 + 1e-8):
-        assert jump.at([place, place]) == pytest.approx([1, 1])
-        assert jump.at([place, place], after=False) == pytest.approx([5, 5])
+        assert jump.values_at([place, place]) == pytest.approx([1, 1])
+        assert jump.values_at([place, place], after=False) == pytest.approx([5, 5])
     assert slide.value(Fraction(0), -1) == 1
     with pytest.raises(Refused, match="goes from 0 to 2, and 2"):
-        slide.at(np.array([1.0, 2.1]))
+        slide.values_at(np.array([1.0, 2.1]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from graphplan.errors import SceneError
-from graphplan.mechanism.scene import load, packaged, parse
+from graphplan.mechanism.scene import load, packaged_names, parse
 
 
 def _lines(text: str) -> tuple[str, ...]:
@@ -14,7 +14,7 @@ def _lines(text: str) -> tuple[str, ...]:
     return error.value.lines
 
 
-@pytest.mark.parametrize("name", packaged()[::6])
+@pytest.mark.parametrize("name", packaged_names()[::6])
 def test_points_without_their_header_are_a_few_lines(name: str) -> None:
     """That the scene has no points says why it knows none of their names."""
     lines = _lines(load(name).text.replace("[points]\n", "", 1))

@@ -18,7 +18,7 @@ from graphplan.cycle import closure
 from graphplan.cycle.groups import ClosureGroup
 from graphplan.cycle.linkage import CentreDistance, GearBond, Linkage, RackBond, unit_direction
 from graphplan.mechanism.model import FRAME, Contact, Gear, Scene
-from graphplan.mechanism.numbers import dot, less, turned
+from graphplan.mechanism.numbers import dot, minus, quarter_turn
 from graphplan.mechanism.pairs import KINDS
 from graphplan.mechanism.pairs.pair import (
     LINE,
@@ -27,19 +27,19 @@ from graphplan.mechanism.pairs.pair import (
     Along,
     Attitude,
     KinematicPair,
+    LinkSide,
+    LinkSides,
     Rate,
     Rolling,
-    Side,
-    Sides,
     Statement,
     Touching,
     Turning,
 )
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 from graphplan.mechanism.travel import paces
 
 STEP = 2.0**-12
-SCENES = packaged()
+SCENES = packaged_names()
 HIGHER = higher.scenes()
 
 
@@ -53,7 +53,7 @@ def in_floats(name: str) -> Scene:
         return x / math.hypot(x, y), y / math.hypot(x, y)
 
     points = {name: (float(x) / reach, float(y) / reach) for name, (x, y) in scene.points.items()}
-    return scene.posed(points, lambda one: unit(one.direction), lambda radius: float(radius) / reach)
+    return scene.with_pose(points, lambda one: unit(one.direction), lambda radius: float(radius) / reach)
 
 
 def stated(scene: Scene) -> Iterator[tuple[KinematicPair, Statement]]:
@@ -85,7 +85,8 @@ def test_what_is_stated_of_poses_is_stated_of_rates(name: str) -> None:
         assert once == pytest.approx(_weighed(weights, first), abs=1e-6)
         first = _allowed(fact, first, arms)
         _, twice = _derived(fact, first, second, arms)
-        left = fact.left_over(Sides(*(Side(arm, first[link]) for (link, _), arm in zip(fact.ends, arms, strict=True))))
+        left = fact.left_over(LinkSides(*(LinkSide(arm, first[link]) for (link, _),
+                                          arm in zip(fact.ends, arms, strict=True))))
         assert twice == pytest.approx(float(_weighed(weights, second) - left), abs=1e-5)
 
 
@@ -107,8 +108,8 @@ def _allowed(fact: Statement, rates: dict[str, Rate], arms: Any) -> dict[str, Ra
     if not isinstance(fact, Touching | Rolling):
         return rates
     normal = fact.line if isinstance(fact, Rolling) else fact.direction
-    one, other = (rates[link].at(arm) for (link, _), arm in zip(fact.ends, arms, strict=True))
-    excess = dot(normal, less(other, one)) / dot(normal, normal)
+    one, other = (rates[link].velocity_at(arm) for (link, _), arm in zip(fact.ends, arms, strict=True))
+    excess = dot(normal, minus(other, one)) / dot(normal, normal)
     x, y, turn = rates[fact.on]
     return rates | {fact.on: Rate(x - excess * normal[0], y - excess * normal[1], turn)}
 
@@ -119,7 +120,7 @@ def passed(pair: KinematicPair, scene: Scene) -> list[list[float]]:
     if POINT in pair.passes:
         rows += [[1, 0, -y], [0, 1, x]]
     if LINE in pair.passes:
-        across = turned(pair.direction)  # type: ignore[attr-defined]
+        across = quarter_turn(pair.direction)  # type: ignore[attr-defined]
         rows.append([*map(float, across), float(dot(across, (-y, x)))])
     if TURNING in pair.passes:
         rows.append([0, 0, 1])

@@ -9,7 +9,7 @@ import pytest
 
 from graphplan.errors import SceneError
 from graphplan.mechanism.model import FRAME
-from graphplan.mechanism.scene import load, packaged, parse
+from graphplan.mechanism.scene import load, packaged_names, parse
 
 FOUR_BAR = {"links": {"1": "O A", "2": "A B M", "3": "B C", "frame": "O C"},
             "points": {"O": (0, 0), "A": (30, 40), "B": (130, 90), "C": (150, 0), "M": (60, 120)}}
@@ -71,7 +71,7 @@ def test_a_missing_drive_is_none() -> None:
     assert line == "scene: drive: mobility 2 but 1 drive; 1 more [[drive]], since links 2 3 4 can still move"
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_every_pivot_of_a_packaged_scene_is_missed(name: str) -> None:
     """Whichever pivot of one link is left out of a packaged scene's frame is among those that are told."""
     scene = load(name)

@@ -10,8 +10,8 @@ import pytest
 
 from graphplan.errors import Refused
 from graphplan.mechanism.numbers import decimal
-from graphplan.mechanism.scene import FOLDER, packaged
-from graphplan.mechanism.scene_text import edited, with_keys, with_numbers, without_table, written
+from graphplan.mechanism.scene import FOLDER, packaged_names
+from graphplan.mechanism.scene_text import decimal_text, edit_text, with_keys, with_numbers, without_table
 from graphplan.mechanism.variation import numbers
 
 TEXT = '''\
@@ -55,7 +55,7 @@ def test_numbers_are_written_as_one_writes_them() -> None:
     """Whole numbers have no point, others no digit too many and no power of ten."""
     told = {"2e1": "20", "12.50": "12.5", "1e-7": "0.0000001", "-3": "-3", "1e20": "1" + 20 * "0"}
     for text, expected in told.items():
-        assert written(Fraction(text)) == expected
+        assert decimal_text(Fraction(text)) == expected
 
 
 def test_each_number_can_be_another() -> None:
@@ -68,7 +68,7 @@ def test_each_number_can_be_another() -> None:
                 if one[1] == Fraction(777, 100)] == [(path, Fraction(777, 100))]
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_all_numbers_of_packaged_scenes_are_found(name: str) -> None:
     """Each packaged scene with its own numbers written anew says what it said."""
     with open(f"{FOLDER}/{name}.toml", encoding="utf-8") as file:
@@ -111,7 +111,8 @@ def test_keys_are_set_in_their_table() -> None:
 def test_an_edit_that_goes_astray_is_refused() -> None:
     """A text that says something else after an edit than is meant is not taken."""
     with pytest.raises(Refused, match="its text cannot be edited"):
-        edited('vary.x = 1\ntitle = "T"\n', lambda text: without_table(text, "vary"), lambda tables: tables.pop("vary"))
+        edit_text('vary.x = 1\ntitle = "T"\n', lambda text: without_table(text, "vary"),
+                  lambda tables: tables.pop("vary"))
 
 
 def test_lines_of_another_system_are_edited_alike() -> None:
@@ -123,4 +124,4 @@ def test_lines_of_another_system_are_edited_alike() -> None:
         del tables["vary"]
         tables["sheet"]["k_s"] = 2
 
-    assert edited(TEXT.replace("\n", "\r\n"), edit, meant) == edited(TEXT, edit, meant)
+    assert edit_text(TEXT.replace("\n", "\r\n"), edit, meant) == edit_text(TEXT, edit, meant)

@@ -8,8 +8,8 @@ import pytest
 
 from graphplan.commands.new import template
 from graphplan.errors import SceneError
-from graphplan.mechanism.scene import load, packaged, parse
-from graphplan.mechanism.variation import MOST
+from graphplan.mechanism.scene import load, packaged_names, parse
+from graphplan.mechanism.variation import MAX_VALUES
 
 SCENE = template("four-bar")
 
@@ -45,7 +45,7 @@ FAULTS = {
     '"drive.0.omega" = { from = 1, to = 2 }': 'vary."drive.0.omega": step is missing; how far apart',
     '"drive.0.omega" = { from = 1, too = 2, step = 1 }': 'vary."drive.0.omega".too: unknown key; perhaps to',
     '"drive.0.omega" = { from = 0, to = 1, step = 1e-9 }': 'vary."drive.0.omega".step: 1e-09 makes 1000000001 values; '
-                                                           f"a larger step: at most {MOST} values",
+                                                           f"a larger step: at most {MAX_VALUES} values",
 }
 
 
@@ -66,4 +66,4 @@ def test_other_commands_do_not_see_it() -> None:
 
 def test_packaged_scenes_vary() -> None:
     """Some packaged scenes can be given to a class as they are."""
-    assert {"four-bar", "ozols-5-1"} <= {name for name in packaged() if load(name).vary}
+    assert {"four-bar", "ozols-5-1"} <= {name for name in packaged_names() if load(name).vary}

@@ -14,7 +14,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.tape.blocks import BlockWriter
 from graphplan.mechanism.model import FRAME, Scene
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.batch import Poses
 from graphplan.methods.motion.network import Network
 from graphplan.methods.replay import moving_parts, replay_of
@@ -60,7 +60,7 @@ def at(poses: Poses, k: int) -> dict[str, dict[str, Any]]:
                    for name, z in named.items()} for kind, named in poses.results.items()}
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_many_poses_are_each_pose(name: str) -> None:
     """Over arrays, alone, and by the rules themselves every packaged scene gives the same floats, forces too."""
     drawing = gp.construct(gp.load(name))

@@ -14,7 +14,7 @@ import graphplan as gp
 from graphplan.check.json_results import result_data
 from graphplan.check.report import path_truth
 from graphplan.check.trusted import report
-from graphplan.commands.result_schemas import printed
+from graphplan.commands.result_schemas import result_schema
 from graphplan.errors import SceneError
 from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.scene import parse
@@ -130,7 +130,7 @@ M, ALL = 'curvature = ["M on 2"]', 'curvature = "all"\ninflection = "all"'
 def solved(text: str, find: str, **how: Any) -> dict[str, Any]:
     """What `solve` prints of a scene that asks for this."""
     found: dict[str, Any] = json.loads(json.dumps(result_data(report(parse(text + find, "scene"), **how))))
-    validate(found, printed("solve"))
+    validate(found, result_schema("solve"))
     return found
 
 

@@ -11,7 +11,7 @@ from tiers import sample, scenes
 import graphplan as gp
 from graphplan.kernel.program import Step
 from graphplan.mechanism.model import FRAME, Scene
-from graphplan.mechanism.replaced import replaced
+from graphplan.mechanism.replaced import with_lower_pairs
 from graphplan.methods.construction import Construction
 from graphplan.methods.forces.free_bodies import roman
 from graphplan.methods.motion.acceleration import CORIOLIS, GREEK, NORMAL
@@ -32,7 +32,7 @@ class Motion:
     """The motion of a scene by the solver, read by the names that sentences use: B2 and B(2) are B of link 2."""
 
     def __init__(self, scene: Scene):
-        self.scene, self.rates = replaced(scene), gp.analytic.solve(scene)
+        self.scene, self.rates = with_lower_pairs(scene), gp.analytic.solve(scene)
 
     def place(self, name: str) -> tuple[complex, complex, set[str]]:
         """Where a named point lies, its velocity, and its links."""

@@ -17,7 +17,7 @@ from graphplan.check.poses import PoseBatch, pose_gaps, sound_poses
 from graphplan.check.trusted import report
 from graphplan.commands import main
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.replaced import bars, replaced, rolling_guides
+from graphplan.mechanism.replaced import bars, rolling_guides, with_lower_pairs
 from graphplan.mechanism.scene import parse
 from graphplan.solver import solve
 
@@ -111,9 +111,9 @@ def test_collinear_trains_need_no_crossing() -> None:
 def test_names_of_stand_ins_are_nobody_elses() -> None:
     """A scene that has a link 0 and a point P_12 keeps both; stand-ins take other names, the same in any order."""
     cam = TEXTS["cam"].replace("'2' = ", "'0' = ").replace("['1', '2']", "['1', '0']")
-    assert set(bars(replaced(parse(cam, "cam")))) == {"0'"}
+    assert set(bars(with_lower_pairs(parse(cam, "cam")))) == {"0'"}
     linkage = LINKAGE.replace("M =", "P_12 =").replace("C M", "C P_12").replace('["M"]', '["P_12"]')
-    assert [guide.at for guide in rolling_guides(replaced(parse(linkage, "linkage")))] == ["P_12'", "P_23"]
+    assert [guide.at for guide in rolling_guides(with_lower_pairs(parse(linkage, "linkage")))] == ["P_12'", "P_23"]
 
 
 def test_planets_that_repeat_each_other_are_drawn_once() -> None:

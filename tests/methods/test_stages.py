@@ -15,7 +15,7 @@ import graphplan as gp
 from graphplan.errors import GraphplanError
 from graphplan.kernel.program import Program
 from graphplan.kernel.stages import Equation, Known, Stage
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 
@@ -71,7 +71,7 @@ def test_compounds_are_told_as_one_step() -> None:
                             "line 10, parallel to QC.")
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_a_compound_stands_in_one_stage(name: str) -> None:
     """The movements of a compound are of one stage, and none is a part of two compounds."""
     compounds = [compound.movements for compound in drawing_of(name).compounds]
@@ -80,7 +80,7 @@ def test_a_compound_stands_in_one_stage(name: str) -> None:
     assert len({step.index for steps in compounds for step in steps}) == sum(map(len, compounds))
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_a_stage_leaves_no_more_open_than_it_solves(name: str) -> None:
     """A vector equation finds two numbers, one of moments one: no stage that finds a vector or a force has more open.
     """
@@ -89,7 +89,7 @@ def test_a_stage_leaves_no_more_open_than_it_solves(name: str) -> None:
     assert [stage for stage in found if not _solved(stage)] == []
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_tangential_velocities_stand_square(name: str) -> None:
     """Where of one point's velocity about another's the direction alone is known, it is square to their line."""
     scene = gp.load(name)

@@ -9,11 +9,11 @@ from fractions import Fraction
 import pytest
 
 from graphplan.mechanism.order import turning_drives
-from graphplan.mechanism.scene import load, packaged
+from graphplan.mechanism.scene import load, packaged_names
 from graphplan.methods.motion.time_scale import round_number, tempo
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_kappa_is_round_and_the_prescribed_velocity_can_be_drawn(name: str) -> None:
     """kappa is 1, 2 or 5 times a power of ten, exactly; a crank's velocity is a tenth to a half of the mechanism."""
     scene = load(name)

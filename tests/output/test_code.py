@@ -22,7 +22,7 @@ from graphplan.kernel.tape.blocks import Blocks
 from graphplan.kernel.tape.machine import LANES, Machine
 from graphplan.kernel.tape.written import places
 from graphplan.mechanism.model import FRAME
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construction import Construction
 from graphplan.output.exports.code import Code, c, javascript
 
@@ -155,7 +155,7 @@ def run_javascript(case: Case, tmp_path: Path) -> Any:
 READINGS = {"Python": by_python, "numpy": by_blocks, "machine code": by_machine, "C": by_c, "JavaScript": by_javascript}
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 @pytest.mark.parametrize("reading", READINGS)
 def test_every_reading_gives_the_numbers_of_the_rules(reading: str, name: str, tmp_path: Path) -> None:
     """To the last bit, and what they refuse it refuses: a pose all in one place, and one that nobody knows."""

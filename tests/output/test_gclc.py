@@ -15,7 +15,7 @@ from laid_out import laid_out
 from objects import NAMES, PLACES, Place, coordinates, drafted_plates, farthest, loose, moved, programs
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 from graphplan.output.exports.gclc import cornered, decimal, gclc
 from graphplan.output.exports.walk import extent, identifiers
 from graphplan.sheet.lettering.letters import letter_plates
@@ -33,7 +33,7 @@ def off(mark: DrawnStep, found: tuple[float, ...]) -> float:
     return math.dist(found, there) / (1.0 + math.hypot(*there))
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_every_mark_is_read_where_it_lies(name: str) -> None:
     """Every point, line, opening and circle of every packaged scene is recovered from the commands alone."""
     plates = cornered(laid_out(name)[1])

@@ -14,7 +14,7 @@ from tiers import THOROUGH, sample
 import graphplan as gp
 from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import pencil
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 from graphplan.output.exports.latex import letters, package
 from graphplan.output.exports.tikz import TikzWriter, tikz
 from graphplan.output.exports.tkz import TkzWriter, tkz_euclide
@@ -27,7 +27,7 @@ FORMATS = {"tikz": tikz, "tkz-euclide": tkz_euclide}
 NEEDED = "standalone.cls", "beamer.cls", "adjustbox.sty", "tkz-euclide.sty", "t2aenc.def", "lmodern.sty"
 EACH = pytest.mark.parametrize(("kind", "name", "engine", "language"), [
     (kind, name, ENGINES[(k + k // len(LANGUAGES) + i) % 3], LANGUAGES[k % len(LANGUAGES)])
-    for k, name in enumerate(packaged()) for i, kind in enumerate(FORMATS)
+    for k, name in enumerate(packaged_names()) for i, kind in enumerate(FORMATS)
     if THOROUGH or (name, kind) in {("slotted-link", "tikz"), ("plough-lift", "tkz-euclide"), ("triad", "tikz")}
 ])  # fmt: skip
 SPOKEN = sample(("uk",), LANGUAGES)
@@ -38,7 +38,7 @@ def composed(name: str, language: str) -> Composition:
     return draft(gp.construct(gp.load(name)), pencil(""), tongue=tongue(language)).composition
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_every_scene_is_written_in_what_every_font_has(name: str) -> None:
     """Both writers write every packaged scene, in English with ASCII alone beside the comments."""
     _, plates = laid_out(name)
@@ -79,7 +79,7 @@ def test_one_document_has_all_pictures(language: str, tmp_path: Path) -> None:
         pytest.skip(f"not at hand: {missing}")
     (tmp_path / "graphplan.sty").write_text(package(), encoding="utf-8")
     pages = list[str]()
-    for name in sample(["four-bar", "shaper"], packaged()):
+    for name in sample(["four-bar", "shaper"], packaged_names()):
         composition = composed(name, language)
         for k, (kind, export) in enumerate(FORMATS.items()):
             source = export(composition, bare=True, width=0.6 * k)
@@ -96,7 +96,7 @@ def test_slides_are_compiled(engine: str, language: str, tmp_path: Path) -> None
     """Every stage has its slide, between one of the mechanism and one of everything, and nothing is complained of."""
     if missing := lacking(engine, *NEEDED):
         pytest.skip(f"not at hand: {missing}")
-    for name in sample(["five-bar"], packaged()):
+    for name in sample(["five-bar"], packaged_names()):
         composition = composed(name, language)
         complaints = compiled(tikz(composition, overlays=True), engine, tmp_path)
         assert [line for line in complaints if not re.search("Rerun|has changed", line)] == []

@@ -13,7 +13,7 @@ from random import Random
 from typing import Any
 
 from graphplan.mechanism.numbers import decimal
-from graphplan.mechanism.scene_text import written
+from graphplan.mechanism.scene_text import decimal_text
 
 Tables = dict[str, Any]
 Results = dict[tuple[str, ...], Any]
@@ -223,7 +223,7 @@ def _toml(value: Any) -> str:
         return f"[{', '.join(map(_toml, value))}]"
     if isinstance(value, dict):
         return "{ " + ", ".join(f"{_toml(key)} = {_toml(part)}" for key, part in value.items()) + " }"
-    return written(Fraction(value))
+    return decimal_text(Fraction(value))
 
 
 def results_of(printed: Tables) -> Results:

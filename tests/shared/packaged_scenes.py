@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import cache
 
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene import load, packaged
+from graphplan.mechanism.scene import load, packaged_names
 
 
 @cache
@@ -17,4 +17,4 @@ def read(name: str) -> Scene:
 
 def those(have: Callable[[Scene], object]) -> list[str]:
     """The names of the packaged scenes that have something."""
-    return [name for name in packaged() if have(read(name))]
+    return [name for name in packaged_names() if have(read(name))]

@@ -26,7 +26,7 @@ from graphplan.accuracy.hand import Pencil
 from graphplan.check.trusted import report
 from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene import load, packaged
+from graphplan.mechanism.scene import load, packaged_names
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.svg import svg
 from graphplan.output.text import steps
@@ -245,7 +245,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0, metavar="K", help="the seed of the first of them")
     asked = parser.parse_args()
     scenes = (random_scenes(asked.random, asked.seed) if asked.random
-              else ((name, load(name)) for name in asked.scenes or packaged()))
+              else ((name, load(name)) for name in asked.scenes or packaged_names()))
     rows = dict(measured(scenes))
     text = table(rows)
     if asked.file:

@@ -15,7 +15,7 @@ import pytest
 from graphplan import analytic
 from graphplan.check.arithmetics import FLOATS, bounded_rates, enclose_scene, enclosures
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.replaced import beyond
+from graphplan.mechanism.replaced import scene_beyond
 from graphplan.mechanism.scene import load, parse
 from graphplan.solver import poses
 
@@ -203,7 +203,7 @@ def test_parallel_profiles_touch_alike() -> None:
 def test_the_textbooks_values() -> None:
     """Ozols's arc cam, whose acceleration jumps where its arcs meet (fig. 5-33), and his gear-linkage (fig. 7-16)."""
     cam = parse(higher.ARC_CAM, "5-33")
-    for scene, wanted in ((cam, -981.278), (beyond(cam), -5336.199)):
+    for scene, wanted in ((cam, -981.278), (scene_beyond(cam), -5336.199)):
         found = analytic.solve(scene)
         assert float(found.velocity["A"][1]) == pytest.approx(319.276, abs=5e-4)
         assert float(found.acceleration["A"][1]) == pytest.approx(wanted, abs=5e-4)

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 import graphplan as gp
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 from graphplan.mechanism.units import metre
 from graphplan.solver import poses
 
 TURNS = np.exp(1j * np.array([0.0, 0.7, 4.0]))
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", packaged_names())
 def test_each_pose_is_solved_as_alone(name: str) -> None:
     """A scene turned round as a whole: velocities, accelerations and reactions turn with it, gravity apart."""
     scene = gp.load(name)

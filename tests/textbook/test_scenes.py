@@ -13,14 +13,14 @@ import graphplan as gp
 from graphplan.check.shortcuts import shortcuts
 from graphplan.check.trusted import report
 from graphplan.kernel.kinds import LINE
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 from graphplan.mechanism.structure import structure
 from graphplan.methods.construction import Construction
 
 CHOICES: list[dict[str, str]] = [{}, *({"method": m} for m in ("trial", "auxiliary", "poles")), {"plan": "polar"}]
 FLATTEST = 15  # degrees
 
-packaged_scenes = pytest.mark.parametrize("name", packaged())
+packaged_scenes = pytest.mark.parametrize("name", packaged_names())
 
 
 @cache

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from graphplan.mechanism.model import Pair, Scene
-from graphplan.mechanism.numbers import dot, less, plus, times, turned
+from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, times
 from graphplan.mechanism.scene import load
 
 Points = Mapping[str, Pair]
@@ -50,12 +50,12 @@ class Degeneracy:
 
 def _turn_by_tangent(v: Pair, d: Fraction) -> Pair:
     """A vector turned by an angle of tangent d, and as much longer."""
-    return plus(v, times(d, turned(v)))
+    return plus(v, times(d, quarter_turn(v)))
 
 
 def _point_beyond(P: Pair, part: float, v: Pair, d: Fraction) -> Pair:
     """From a point a part of a vector on, and d of the vector aside."""
-    return plus(P, plus(times(Fraction(part), v), times(d, turned(v))))
+    return plus(P, plus(times(Fraction(part), v), times(d, quarter_turn(v))))
 
 
 def _half(a: Pair, b: Pair) -> Pair:
@@ -65,33 +65,33 @@ def _half(a: Pair, b: Pair) -> Pair:
 
 def _crossing(a: Pair, b: Pair, c: Pair, d: Pair) -> Pair:
     """Where the lines ab and cd meet."""
-    u, n = less(b, a), turned(less(d, c))
-    return plus(a, times(Fraction(dot(n, less(c, a))) / dot(n, u), u))
+    u, n = minus(b, a), quarter_turn(minus(d, c))
+    return plus(a, times(Fraction(dot(n, minus(c, a))) / dot(n, u), u))
 
 
 def _on_the_line_of_poles(p: Points, d: Fraction) -> Points:
     Q = _crossing(p["K"], p["A"], p["L"], p["B"])
     R = _crossing(p["M"], p["D"], p["N"], p["E"])
-    return {"C": _point_beyond(Q, 0.4375, less(R, Q), d)}
+    return {"C": _point_beyond(Q, 0.4375, minus(R, Q), d)}
 
 
 def _bars_through_one_point(p: Points, d: Fraction) -> Points:
     X = _crossing(p["A"], p["E"], p["B"], p["F"])
-    return {"C": plus(p["G"], times(Fraction(1, 8), _turn_by_tangent(less(X, p["G"]), d)))}
+    return {"C": plus(p["G"], times(Fraction(1, 8), _turn_by_tangent(minus(X, p["G"]), d)))}
 
 
 def _poles_in_line(p: Points, d: Fraction) -> Points:
     X = _crossing(p["D"], p["G"], p["A"], p["B"])
-    return {"E": plus(p["F"], times(Fraction(1, 2), _turn_by_tangent(less(X, p["F"]), d)))}
+    return {"E": plus(p["F"], times(Fraction(1, 2), _turn_by_tangent(minus(X, p["F"]), d)))}
 
 
 def _rod_across_the_guide(p: Points, d: Fraction) -> Points:
     B = plus(p["A"], _turn_by_tangent((0, -p["A"][1]), d))
-    return {"B": B, "S": plus(p["A"], times(Fraction(2, 5), less(B, p["A"])))}
+    return {"B": B, "S": plus(p["A"], times(Fraction(2, 5), minus(B, p["A"])))}
 
 
 def _rocker_in_line(p: Points, d: Fraction) -> Points:
-    B = _point_beyond(p["A"], 0.5625, less(p["C"], p["A"]), d)
+    B = _point_beyond(p["A"], 0.5625, minus(p["C"], p["A"]), d)
     return {"B": B, "S": _half(p["A"], B)}
 
 
@@ -107,13 +107,13 @@ def _force_along_the_crank(p: Points, d: Fraction) -> Points:
 
 DEGENERACIES = (
     Degeneracy("parallel bars", "KA turned towards LB: the auxiliary point Q goes far away", "rosenauer-basic", False,
-               LOCI, lambda p, d: {"K": less(p["A"], times(4, _turn_by_tangent(less(p["B"], p["L"]), d)))}),
+               LOCI, lambda p, d: {"K": minus(p["A"], times(4, _turn_by_tangent(minus(p["B"], p["L"]), d)))}),
     Degeneracy("joints coincide", "B brought to A, on link 3", "rosenauer-basic", False,
-               LOCI, lambda p, d: {"B": plus(p["A"], times(d, less(p["B"], p["A"])))}),
+               LOCI, lambda p, d: {"B": plus(p["A"], times(d, minus(p["B"], p["A"])))}),
     Degeneracy("pole at infinity", "FE turned towards DG: the relative pole of links 2 and 5 goes far away",
                "class-four", False,
                RINGS,
-               lambda p, d: {"E": plus(p["F"], times(Fraction(1, 2), _turn_by_tangent(less(p["G"], p["D"]), d)))}),
+               lambda p, d: {"E": plus(p["F"], times(Fraction(1, 2), _turn_by_tangent(minus(p["G"], p["D"]), d)))}),
     Degeneracy("short crank", "the crank d times as long", "four-bar", False,
                PLANS, lambda p, d: {"A": times(d, p["A"])}),
     Degeneracy("C on QR", "C brought to the line of the auxiliary points", "rosenauer-basic", True,
@@ -129,7 +129,7 @@ DEGENERACIES = (
     Degeneracy("dead centre with the drive", "crank and coupler stretched, under load", "jaanimets-10", False,
                FORCES, _crank_in_line),
     Degeneracy("parallel bars, loaded", "AN turned towards FB: the auxiliary point Q goes far away", "rosenauer-loaded",
-               False, LOCI, lambda p, d: {"N": less(p["A"], times(2, _turn_by_tangent(less(p["B"], p["F"]), d)))}),
+               False, LOCI, lambda p, d: {"N": minus(p["A"], times(2, _turn_by_tangent(minus(p["B"], p["F"]), d)))}),
     Degeneracy("lever without arm", "the balancing force turned along the crank", "jaanimets-10", True,
                FORCES, _force_along_the_crank),
 )

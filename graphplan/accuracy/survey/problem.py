@@ -24,7 +24,7 @@ from graphplan.kernel.numbers import Domain, Fractions
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.mechanism.model import Find, Scene
-from graphplan.mechanism.numbers import mapped
+from graphplan.mechanism.numbers import map_numbers
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.solver import Rates, poses, solve
@@ -126,7 +126,7 @@ def binary(scene: Scene, forces: bool = False) -> Scene:
     plain = replace(driven, irrational=(), placements={}, find=find, loads=loads)
     numbers = {"points": plain.points, "written": tuple(map(_as_given, plain.written)), "motions": plain.motions,
                "loads": loads and replace(loads, balances=tuple(map(_as_given, loads.balances)))}
-    return place_points(replace(plain, **mapped(numbers, lambda number: Fraction(float(number)))), {})
+    return place_points(replace(plain, **map_numbers(numbers, lambda number: Fraction(float(number)))), {})
 
 
 def _as_given(one: Any) -> Any:
@@ -144,7 +144,7 @@ def place_points(scene: Scene, places: Mapping[str, complex]) -> Scene:
         (ax, ay), (bx, by) = (points[name] for name in one.through)
         return bx - ax, by - ay
 
-    return scene.posed(points, direction)
+    return scene.with_pose(points, direction)
 
 
 def truth(scene: Scene) -> ReferenceSolution:

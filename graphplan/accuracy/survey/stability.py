@@ -34,7 +34,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import VELOCITY
-from graphplan.phrases import joined
+from graphplan.phrases import join
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED, VIOLET
 from graphplan.sheet.plates.plans import Plans
@@ -166,7 +166,7 @@ def form_of(drawing: Construction) -> str:
     method = drawing.method
     if drawing.ways or any(step.choice and step.choice.compound.weighed for step in drawing.drawn.steps):
         return method[VELOCITY][0]
-    return joined(method["force"]) if "force" in method else ORTHOGONAL if drawing.turned else POLAR
+    return join(method["force"]) if "force" in method else ORTHOGONAL if drawing.turned else POLAR
 
 
 def as_drawn(drawing: Construction) -> Results:
@@ -180,7 +180,7 @@ def as_drawn(drawing: Construction) -> Results:
 def why_not_drawn_so(drawing: Construction, way: str) -> str:
     """Why a construction is not drawn in the way that is asked for, if it is not: it is the next best one."""
     if way in (POLES, FALSE) and not any(way in form for form in drawing.ways):
-        return f"no {way}: {joined(drawing.ways)}"
+        return f"no {way}: {join(drawing.ways)}"
     for step in drawing.drawn.steps:
         if step.choice and drawing.prefer in {*map(plain, step.choice.compound.forms)} - {plain(step.choice.best.form)}:
             return f"no {drawing.prefer} at step {drawing.drawn.number(step.index)}: {step.choice.best.form}"

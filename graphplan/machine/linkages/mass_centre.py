@@ -27,7 +27,7 @@ from graphplan.kernel.stages import Stage
 from graphplan.machine.linkages.spanning import SpanningTree, as_multiple, moments_of_mass, spanning_tree
 from graphplan.machine.tolerances import VECTOR_TOL
 from graphplan.mechanism.model import FRAME, Mass, Number, Scene
-from graphplan.mechanism.numbers import less
+from graphplan.mechanism.numbers import minus
 from graphplan.mechanism.units import KILOGRAMS, METRES
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said, digits, said
@@ -114,7 +114,7 @@ def _vectors(tree: SpanningTree, mass: Number) -> Iterator[PrincipalVector]:
         yield PrincipalVector("", tree.base, root.at, tree.beyond(root.link) / mass, Fraction(0))
     for hanging in tree.hangings:
         start, end = tree.line(hanging.link)
-        line = less(scene.points[end], scene.points[start])
+        line = minus(scene.points[end], scene.points[start])
         if start == end:
             continue
         found = as_multiple(moments_of_mass(tree, hanging.link), line)

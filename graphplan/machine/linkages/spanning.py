@@ -15,7 +15,7 @@ from functools import cached_property
 
 from graphplan.machine.tolerances import COINCIDENCE_TOL
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene
-from graphplan.mechanism.numbers import dot, less, plus, times, turned
+from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, times
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ def _reached(scene: Scene, first: list[Hanging], found: set[str], chained: bool)
 def as_multiple(vector: Pair, of: Pair) -> Pair:
     """A vector as so many times another one, and so many times that one turned a quarter counter-clockwise."""
     square = dot(of, of)
-    return dot(vector, of) / square, dot(vector, turned(of)) / square
+    return dot(vector, of) / square, dot(vector, quarter_turn(of)) / square
 
 
 def moments_of_mass(tree: SpanningTree, link: str) -> Pair:
@@ -129,5 +129,5 @@ def moments_of_mass(tree: SpanningTree, link: str) -> Pair:
     total: Pair = (0, 0)
     for point, mass in (*((masses[link].centre, masses[link].mass) for _ in (0,) if link in masses),
                         *((hanging.at, tree.beyond(hanging.link)) for hanging in tree.hung_on(link))):
-        total = plus(total, times(mass, less(scene.points[point], scene.points[start])))
+        total = plus(total, times(mass, minus(scene.points[point], scene.points[start])))
     return total

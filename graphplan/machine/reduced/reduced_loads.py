@@ -49,7 +49,7 @@ class SpeedLoad:
     @property
     def law(self) -> Callable[[Array], Array]:
         """The load by the speed."""
-        return self.table.at
+        return self.table.values_at
 
     def moment(self, omega: Any) -> Any:
         """Its moment where the drive has this rate, in rad/s or m/s."""
@@ -152,9 +152,9 @@ class LoadValues:
     def _value(self, table: LoadTable, motion: UnitMotion, turn: Turn, rates: Rates, travel: Array,
                side: int) -> Array:
         if not table.slide:
-            return table.at(motion.told(travel), 1, side > 0)
+            return table.values_at(motion.told(travel), 1, side > 0)
         slide = self.slides[table.slide]
-        return table.at(self.place(slide, turn), self._sense(slide, motion, turn, rates, side), side > 0)
+        return table.values_at(self.place(slide, turn), self._sense(slide, motion, turn, rates, side), side > 0)
 
     def over_speed(self, motion: UnitMotion, turn: Turn, rates: Rates) -> Iterator[SpeedLoad]:
         """The loads over speeds."""

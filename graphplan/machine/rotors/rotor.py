@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
-from graphplan.mechanism.items import Faults, Item, described
+from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
+from graphplan.mechanism.items import Faults, Item, describe
 from graphplan.mechanism.model import Presentation
-from graphplan.mechanism.numbers import heading, shown
+from graphplan.mechanism.numbers import heading, number_text
 from graphplan.mechanism.scene import read_task, task_table
 from graphplan.mechanism.units import KILOGRAMS, METRES, Units
 from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER
@@ -71,17 +71,17 @@ class TrialWeights(Trial):
 
 def _amounts(least: int, most: int, what: str, such: str) -> Kind:
     """A list of numbers from 0."""
-    def read(item: Item, names: Names) -> tuple[Fraction, ...] | None:
+    def read(item: Item, names: SceneNames) -> tuple[Fraction, ...] | None:
         if not isinstance(item.value, list) or not least <= len(item.value) <= most:
-            return item.fault(f"{described(item.value)} where {what} are wanted", such)
-        numbers = [item.instead(value).amount() for value in item.value]
+            return item.fault(f"{describe(item.value)} where {what} are wanted", such)
+        numbers = [item.with_value(value).amount() for value in item.value]
         return tuple(number for number in numbers if number is not None) if None not in numbers else None
 
     return Kind("list of numbers from 0", read,
                 {"type": "array", "items": AMOUNT.schema, "minItems": least, "maxItems": most})
 
 
-def _size(row: Row) -> Fraction:
+def _size(row: TableRow) -> Fraction:
     """Mass times radius of the trial mass."""
     values = row.values
     if ("mass_radius" in values) == ("mass" in values or "radius" in values):
@@ -92,16 +92,16 @@ def _size(row: Row) -> Fraction:
     return found
 
 
-def _trial_mass(row: Row) -> tuple[Fraction, Fraction, Fraction | None, Fraction | None]:
+def _trial_mass(row: TableRow) -> tuple[Fraction, Fraction, Fraction | None, Fraction | None]:
     """Mass times radius, angle, place and radius."""
     return _size(row), row["angle"] % 360, row.values.get("at"), row.values.get("radius")
 
 
-def _three_runs(row: Row) -> ThreeRuns:
+def _three_runs(row: TableRow) -> ThreeRuns:
     return ThreeRuns(*_trial_mass(row), row["amplitudes"], row.values.get("fourth"))
 
 
-def _marked(row: Row) -> Marked:
+def _marked(row: TableRow) -> Marked:
     return Marked(*_trial_mass(row), row["first"], row["with_trial"])
 
 
@@ -237,14 +237,14 @@ def direction(x: Fraction | float, y: Fraction | float) -> float:
 # ---- the masses -----------------------------------------------------------------------------------------------------
 
 
-def _name(item: Item, names: Names) -> str | None:
+def _name(item: Item, names: SceneNames) -> str | None:
     text = item.text("a name", 'a name in quotes, such as "fan"')
     if text is not None and not (text.isprintable() and 0 < len(text.strip()) <= LONGEST):
-        return item.fault(f"{described(text)} is not a name", f"a name of {LONGEST} letters or less")
+        return item.fault(f"{describe(text)} is not a name", f"a name of {LONGEST} letters or less")
     return text
 
 
-def _polar(row: Row) -> Eccentric:
+def _polar(row: TableRow) -> Eccentric:
     """A mass by its distance from the axis and its angle, or mass times radius with an angle."""
     values = row.values
     c, s, exact = heading(values["angle"])
@@ -252,7 +252,7 @@ def _polar(row: Row) -> Eccentric:
     return Eccentric(values.get("name", ""), (size * c, size * s), values.get("at"), values.get("mass"), exact)
 
 
-def _placed(row: Row) -> Eccentric:
+def _placed(row: TableRow) -> Eccentric:
     """A mass by its coordinates."""
     mass, values = row["mass"], row.values
     return Eccentric(values.get("name", ""), (mass * values["x"], mass * values["y"]), values.get("at"), mass)
@@ -283,11 +283,11 @@ MASSES = Rows(Either((
 def _numbers(least: int, what: str, such: str, positive: str = "") -> Kind:
     """A list of one number or two, at least so many; one alone may stand without brackets. Above 0 where that is what
     is `positive`."""
-    def found(item: Item, names: Names) -> tuple[Fraction, ...] | None:
+    def found(item: Item, names: SceneNames) -> tuple[Fraction, ...] | None:
         values = item.value if isinstance(item.value, list) else [item.value]
         if not least <= len(values) <= 2:
-            return item.fault(f"{described(item.value)} where {what} wanted", such)
-        parts = [item.instead(value) for value in values]
+            return item.fault(f"{describe(item.value)} where {what} wanted", such)
+        parts = [item.with_value(value) for value in values]
         numbers = tuple(part.positive(positive) if positive else part.number() for part in parts)
         return None if None in numbers else tuple(number for number in numbers if number is not None)
 
@@ -297,11 +297,12 @@ def _numbers(least: int, what: str, such: str, positive: str = "") -> Kind:
                 listed if least == 2 else {"anyOf": [entry, listed]})
 
 
-def _rotor(row: Row) -> Rotor | None:
+def _rotor(row: TableRow) -> Rotor | None:
     """The rotor, each mass named and in its place."""
     values, planes = row.values, row["planes"]
     if len(planes) == 2 and planes[0] == planes[1]:
-        return row.items["planes"].fault(f"both planes stand at {shown(planes[0])}", "two places, or one plane alone")
+        return row.items["planes"].fault(f"both planes stand at {number_text(planes[0])}",
+                                         "two places, or one plane alone")
     speed = math.pi * float(values["rpm"]) / 30 if "rpm" in values else float(values.get("omega", 0))
     if "rpm" in values and "omega" in values:
         row.items["rpm"].fault("omega and rpm are both given", "omega or rpm, not both")
@@ -309,12 +310,12 @@ def _rotor(row: Row) -> Rotor | None:
     if bool(speed) != bool(bearings):
         row.item.fault("bearings and a speed belong together", "bearings = [-50, 650] with rpm = 1500, or neither")
     if bearings and bearings[0] == bearings[1]:
-        row.items["bearings"].fault(f"both bearings stand at {shown(bearings[0])}", "two places")
+        row.items["bearings"].fault(f"both bearings stand at {number_text(bearings[0])}", "two places")
     return Rotor(planes, _in_place(row, planes), _each(row, "radius", planes), _each(row, "mass", planes), bearings,
                  speed)
 
 
-def _in_place(row: Row, planes: tuple[Fraction, ...]) -> tuple[Eccentric, ...]:
+def _in_place(row: TableRow, planes: tuple[Fraction, ...]) -> tuple[Eccentric, ...]:
     """The masses by name, those of a rotor with one plane in it unless they stand elsewhere."""
     found = []
     for number, mass in enumerate(row.values.get("masses", ()), 1):
@@ -325,7 +326,7 @@ def _in_place(row: Row, planes: tuple[Fraction, ...]) -> tuple[Eccentric, ...]:
     return tuple(found)
 
 
-def _each(row: Row, key: str, planes: tuple[Fraction, ...]) -> tuple[Fraction | None, ...]:
+def _each(row: TableRow, key: str, planes: tuple[Fraction, ...]) -> tuple[Fraction | None, ...]:
     """What is given of the correction in each plane, one number for both."""
     given = row.values.get(key, (None,))
     if len(given) > len(planes):
@@ -371,7 +372,7 @@ def parse(text: str, name: str) -> RotorTask:
         if trials and rotor.radii[0] is None and rotor.weights[0] is None:  # where the trial masses were put
             rotor = replace(rotor, radii=tuple(trial.radius for trial in trials))
         if len(trials) == 2 and trials[0].at == trials[1].at:
-            faults.add("trial", f"both trial masses were put at {shown(trials[0].at)}", "a place for each plane")
+            faults.add("trial", f"both trial masses were put at {number_text(trials[0].at)}", "a place for each plane")
         return RotorTask(read.get("title", ""), read.get("source", ""), name, units, rotor, trials,
                          read.get("sheet") or Presentation())
 

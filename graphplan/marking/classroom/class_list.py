@@ -11,7 +11,7 @@ from typing import Any
 from graphplan.marking.judge.findings import Called, called, complaint, look_at, not_handed_in, opinion, wrong_numbers
 from graphplan.marking.judge.score import KINDS, UNJUDGED, Score
 from graphplan.marking.judge.verdict import Judgement
-from graphplan.phrases import Said, arranged, joined, phrase, said
+from graphplan.phrases import Said, arrange, join, phrase, said
 
 NOT_JUDGED = phrase("Not judged")
 
@@ -54,7 +54,7 @@ class Marked:
             return UNJUDGED()
         if self.faultless:
             return said("no wrong step")
-        return joined((opinion(self.judgement), *look_at(self.judgement)), " ")
+        return join((opinion(self.judgement), *look_at(self.judgement)), " ")
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ class Classroom:
             yield said("Most frequent first wrong step: {0} ({1}).", self.hardest.told,
                        self.histogram[self.hardest])
         if self.unread:
-            yield arranged("{0}: {1}.", NOT_JUDGED(), len(self.unread))
+            yield arrange("{0}: {1}.", NOT_JUDGED(), len(self.unread))
 
     @property
     def data(self) -> dict[str, Any]:
@@ -140,5 +140,5 @@ def lines(found: Classroom) -> Iterator[Said]:
     """The class as text: a line for each drawing and each file that could not be judged, then the findings."""
     for one in found.marked:
         points = [] if one.score.total is None else [said("{0} of 100", f"{one.score.total:.0f}")]
-        yield arranged("{0}: {1}", one.file, joined((*points, one.told), "; "))
+        yield arrange("{0}: {1}", one.file, join((*points, one.told), "; "))
     yield from found.findings()

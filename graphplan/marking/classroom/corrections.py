@@ -25,7 +25,7 @@ from graphplan.marking.judge.overlay import (
 from graphplan.marking.judge.score import Score
 from graphplan.marking.judge.verdict import EARNED, UNSURE, WRONG, Judgement, Verdict
 from graphplan.marking.traces import Trace
-from graphplan.phrases import joined
+from graphplan.phrases import join
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.display import Circle, Item, Photograph, Rect, Sheet, Spot, move_item
 from graphplan.sheet.plates.view import View, clip_item
@@ -137,7 +137,7 @@ class Corrections:
         for panel in self.judgement.frames:
             over += told(student, panel, student.rect(panel), [*true, *over])
         words = composition.plans.tongue(
-            joined((self.score.told, opinion(self.judgement), *look_at(self.judgement)), " "))
+            join((self.score.told, opinion(self.judgement), *look_at(self.judgement)), " "))
         names = tuple(step.name for step in self.judgement.drawing.drawn.steps if step.name)
         rect = student.rect(next(iter(self.printed.views)))
         return [*over, *boxed(words, names, (rect.left, rect.top), [*true, *over], rect, CALLED)[1]]

@@ -16,8 +16,8 @@ from graphplan.errors import Refused
 from graphplan.marking.classroom.pages import Sight, StackPage
 from graphplan.marking.classroom.register import Register, TaskSheet
 from graphplan.marking.files.safe import MB, text
-from graphplan.mechanism.items import perhaps
-from graphplan.phrases import Said, joined, said
+from graphplan.mechanism.items import suggestion
+from graphplan.phrases import Said, join, said
 from graphplan.sheet.frames.frame import corner_numbers, page_code
 
 SURE, ENOUGH = 3, 2  # marks that tell a sheet though another one is misread, and though the others are lost
@@ -69,7 +69,7 @@ def coded(sight: Sight, register: Register) -> Coded:
     for mirrored, marks in ((False, sight.marks), (True, sight.mirrored)):
         fitting = list(_fitting(marks, register.sheets))
         if len(fitting) > 1:
-            names = joined(_told(sheet) for sheet, _ in fitting)
+            names = join(_told(sheet) for sheet, _ in fitting)
             return Coded(None, why=said("its corner marks fit several sheets: {0}", names))
         if fitting and len(marks) > best.marks:
             best = Coded(*fitting[0], mirrored, len(marks))
@@ -143,7 +143,7 @@ def _page(told: str, name: str, pages: Sequence[StackPage]) -> str:
         return name
     if len({page.path for page in pages}) == 1 and name.isdecimal() and 0 < int(name) <= len(names):
         return names[int(name) - 1]
-    raise Refused(f"--assign {told}", f"there is no page {name} in the stack", perhaps(name, names, "page"))
+    raise Refused(f"--assign {told}", f"there is no page {name} in the stack", suggestion(name, names, "page"))
 
 
 def _assignment(told: str, student: str, variant: str, register: Register) -> Assignment:
@@ -186,7 +186,7 @@ def _named(seen: Seen, code: Coded, register: Register, word: Assignment) -> Pla
     if sheet is None:
         students = [sheet.student for sheet in register.sheets if sheet.student]
         raise Refused(f"--assign {seen.page.name}={word.student}", "this student has no sheet, and the page no code",
-                      perhaps(word.student, students, "student"))
+                      suggestion(word.student, students, "student"))
     notes = *_notes(code), said("named by the teacher")
     return Placed(seen, _fate(code), sheet, word.student or sheet.student, code.mirrored, notes)
 

@@ -25,8 +25,8 @@ from graphplan.marking.classroom.flaws import Draw, Flaw, Quality, flaw, sheet_o
 from graphplan.marking.tolerances import SCALE_STEP
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import decimal
-from graphplan.mechanism.scene_text import Tables, edited, with_keys, with_numbers, without_table, written
-from graphplan.mechanism.variation import Choices, parts
+from graphplan.mechanism.scene_text import Tables, decimal_text, edit_text, with_keys, with_numbers, without_table
+from graphplan.mechanism.variation import Choices, path_parts
 from graphplan.methods.executors import SharedOut
 from graphplan.phrases import said
 from graphplan.sheet.layout.scales import Scales, round_up
@@ -52,7 +52,7 @@ class Variant:
     @property
     def told(self) -> str:
         """What was drawn, by what a reader of the key calls it: `A x` for `points.A.0`."""
-        return ", ".join(f"{_called(path)} = {written(value)}" for path, value in self.values.items())
+        return ", ".join(f"{_called(path)} = {decimal_text(value)}" for path, value in self.values.items())
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ def _called(path: str) -> str:
 
 def told(values: Values) -> str:
     """What was drawn, by the paths in the scene."""
-    return ", ".join(f"{path} = {written(value)}" for path, value in values.items())
+    return ", ".join(f"{path} = {decimal_text(value)}" for path, value in values.items())
 
 
 def draws(choices: Choices, seed: int) -> Iterator[Values]:
@@ -119,13 +119,13 @@ class Wording:
 
         def meant(tables: Tables) -> None:
             for path, value in values.items():
-                _put(tables, parts(path), value)
+                _put(tables, path_parts(path), value)
             tables.pop("vary", None)
             tables["title"] = title
             own = tomllib.loads("\n".join(f"{key} = {value}" for key, value in self.keys.items()), parse_float=decimal)
             tables["sheet"] = tables.get("sheet", {}) | own
 
-        return Variant(number, values, edited(self.text, edit, meant))
+        return Variant(number, values, edit_text(self.text, edit, meant))
 
 
 def _put(tables: Any, path: Sequence[str], value: Fraction) -> None:
@@ -152,7 +152,7 @@ def keys_of(scene: Scene, scales: Scales, paper: str, *, multiples: bool = True)
 
 
 def _plain(value: Fraction | float) -> str:
-    return written(Fraction(f"{float(value):.12g}"))
+    return decimal_text(Fraction(f"{float(value):.12g}"))
 
 
 @dataclass(frozen=True)
@@ -253,7 +253,8 @@ class Design:
         for values, wrong in zip(ends, self.shared_out(self._work, texts), strict=True):
             if wrong is not None:
                 (path, value), = values.items()
-                return Refused(f'{self.scene.name}: vary."{path}"', f"{few}; already at {written(value)} {wrong.told}",
+                return Refused(f'{self.scene.name}: vary."{path}"',
+                               f"{few}; already at {decimal_text(value)} {wrong.told}",
                                "a narrower range, or a larger --paper")
         kind = Counter(wrong.kind for _, _, wrong in drawn_anew).most_common(1)[0][0]
         return Refused(f"{self.scene.name}: vary", f"{few}; mostly {kind}", "narrower ranges, or a larger --paper")

@@ -26,7 +26,7 @@ from graphplan.marking.judge.verdict import (
 from graphplan.marking.traces import Number
 from graphplan.methods.kinds import WORDS
 from graphplan.methods.panels import reactions_named
-from graphplan.phrases import Said, arranged, coordinates, digits, joined, phrase, said, unit
+from graphplan.phrases import Said, arrange, coordinates, digits, join, phrase, said, unit
 from graphplan.sheet.lettering.lettering import HEADING, Runs, sentence_runs
 from graphplan.sheet.words.rows import Cell, TextRow, table_rows
 from graphplan.sheet.words.texts import SheetWords
@@ -39,10 +39,10 @@ KEY = 11.0  # mm: where the words of the legend begin
 
 def counted(judgement: Judgement) -> Said:
     """The same in words, with the marks that no step asks for."""
-    told = [arranged("{0} {1}", count, STATES[state]()) for state, count in judgement.counts.items() if count]
+    told = [arrange("{0} {1}", count, STATES[state]()) for state, count in judgement.counts.items() if count]
     if judgement.spare:
-        told.append(arranged("{0} {1}", len(judgement.spare), NOT_NEEDED()))
-    return joined(told)
+        told.append(arrange("{0} {1}", len(judgement.spare), NOT_NEEDED()))
+    return join(told)
 
 
 @dataclass(frozen=True, order=True)
@@ -65,7 +65,7 @@ class Called:
     @property
     def told(self) -> Said:
         """The same with the mark, as another construction may have another step of this number."""
-        return joined((self.named, self.mark)) if self.number else self.named
+        return join((self.named, self.mark)) if self.number else self.named
 
 
 def called(drawn: Program, index: int) -> Called:
@@ -101,22 +101,22 @@ def summary(judgement: Judgement) -> list[Said]:
     """How many steps there are of each verdict, by which pencil, where the drawing tells it, and what is there twice,
     or is not counted.
     """
-    told = [arranged("{0:capital}.", counted(judgement))]
+    told = [arrange("{0:capital}.", counted(judgement))]
     if judgement.pencil is not None:
         told.append(said("Pencil read off the drawing: {0}.", judgement.pencil.description))
     told += [twice(judgement, number) for number in judgement.numbers if number.again]
     if judgement.unasked:
-        told.append(said("Not asked for, and not counted: {0}.", joined(
+        told.append(said("Not asked for, and not counted: {0}.", join(
             [result_named(judgement, number.kind, number.of) for number in judgement.unasked])))
     if judgement.left_out:
-        told.append(said("Too small to be measured, and left out: {0}.", joined(judgement.left_out)))
+        told.append(said("Too small to be measured, and left out: {0}.", join(judgement.left_out)))
     return told
 
 
 def asked(judgement: Judgement) -> list[Said]:
     """What the first wrong step asks for, in its own words; nothing where there is none."""
     drawn, guilty = judgement.drawing.drawn, judgement.guilty
-    return [] if guilty is None else [arranged("{0:capital}: {1}", named(drawn, guilty), drawn.sentence(guilty))]
+    return [] if guilty is None else [arrange("{0:capital}: {1}", named(drawn, guilty), drawn.sentence(guilty))]
 
 
 def look_at(judgement: Judgement) -> list[Said]:
@@ -125,9 +125,9 @@ def look_at(judgement: Judgement) -> list[Said]:
     if unsure := lacking(judgement, UNSURE):
         told.append(said("Unclear steps, to be looked at: {0}.", unsure))
     if missing := lacking(judgement, MISSING):
-        told.append(arranged("{0:capital}: {1}.", STATES[MISSING](), missing))
+        told.append(arrange("{0:capital}: {1}.", STATES[MISSING](), missing))
     if absent := not_handed_in(judgement):
-        told.append(said("Results that are not handed in: {0}.", joined(absent)))
+        told.append(said("Results that are not handed in: {0}.", join(absent)))
     return told
 
 
@@ -144,7 +144,7 @@ def wrong_numbers(judgement: Judgement) -> list[NumberVerdict]:
 
 def complaint(judgement: Judgement, verdict: Verdict) -> Said:
     """What is wrong with a step: where, what was probably done, how far off it is, and how far it may be."""
-    return arranged("{0:capital}: {1}", named(judgement.drawing.drawn, verdict.at_fault), remark(judgement, verdict))
+    return arrange("{0:capital}: {1}", named(judgement.drawing.drawn, verdict.at_fault), remark(judgement, verdict))
 
 
 def remark(judgement: Judgement, verdict: Verdict) -> Said:
@@ -156,7 +156,7 @@ def remark(judgement: Judgement, verdict: Verdict) -> Said:
     if verdict.mistake is None:
         return sizes
     if verdict.at_fault == verdict.step:
-        return joined((verdict.mistake, sizes))
+        return join((verdict.mistake, sizes))
     return said("{0}, seen at {1}: {2}", verdict.mistake, named(judgement.drawing.drawn, verdict.step), sizes)
 
 
@@ -175,20 +175,20 @@ def lacking(judgement: Judgement, state: str = MISSING) -> str:
 
 def result_named(judgement: Judgement, kind: str, of: str) -> Said:
     """A result in words, such as velocity A."""
-    return joined((WORDS.get(kind, kind), reactions_named(judgement.drawing.scene).get(of, of)), " ")
+    return join((WORDS.get(kind, kind), reactions_named(judgement.drawing.scene).get(of, of)), " ")
 
 
 def miss(judgement: Judgement, verdict: NumberVerdict) -> Said:
     """What is wrong with a number: by how much, in the scene's units, and what was probably done."""
     sizes = digits(verdict.off, FIGURES), digits(verdict.tolerance, FIGURES)
     what = result_named(judgement, verdict.number.kind, verdict.number.of)
-    parts = [what, arranged("{0} {1}", OFF(), sizes[0]), arranged("{0} {1}", ALLOWED(), sizes[1])]
-    return said("Wrong result: {0}.", joined(parts if verdict.mistake is None else [*parts, verdict.mistake]))
+    parts = [what, arrange("{0} {1}", OFF(), sizes[0]), arrange("{0} {1}", ALLOWED(), sizes[1])]
+    return said("Wrong result: {0}.", join(parts if verdict.mistake is None else [*parts, verdict.mistake]))
 
 
 def twice(judgement: Judgement, verdict: NumberVerdict) -> Said:
     """That a result is written down more than once, and what counts."""
-    number, others = verdict.number, joined(map(written, verdict.again))
+    number, others = verdict.number, join(map(written, verdict.again))
     return said("{0} is written down twice: {1} counts, not {2}.", result_named(judgement, number.kind, number.of),
                 written(number), others)
 
@@ -326,7 +326,7 @@ class Remarks(SheetWords):
         if wrong:
             yield self._heading(said("Wrong steps"))
         for verdict in wrong:
-            sentence = arranged("{0} {1:capital}.", drawn.sentence(verdict.at_fault), remark(judgement, verdict))
+            sentence = arrange("{0} {1:capital}.", drawn.sentence(verdict.at_fault), remark(judgement, verdict))
             yield from self.paragraph(sentence, wide, verdict.step, called(drawn, verdict.at_fault).short)
         for told in look_at(judgement):
             yield from self.paragraph(told, wide)
@@ -337,7 +337,7 @@ class Remarks(SheetWords):
 
 def written(number: Number) -> Said:
     """A number as it was handed in, with its unit."""
-    return joined((figures(number.value), *map(unit, filter(None, [number.unit]))), " ")
+    return join((figures(number.value), *map(unit, filter(None, [number.unit]))), " ")
 
 
 def figures(numbers: Sequence[float]) -> Said:

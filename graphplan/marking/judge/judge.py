@@ -36,7 +36,7 @@ from graphplan.marking.traces import PlanFrame, Submission, Trace
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
-from graphplan.phrases import Said, digits, joined, said
+from graphplan.phrases import Said, digits, join, said
 from graphplan.phrases import unit as unit_of
 from graphplan.sheet.layout.composition import Composition
 
@@ -110,7 +110,7 @@ class Judge:
         return Judgement(
             self.submission.name, self.drawing, self.reading.composition,
             {panel: fit.frame for panel, fit in self.fits.items()}, tuple(found), tuple(spare), numbers,
-            joined(self._told()), self.hand if self.hand.marks else None, unasked, self.submission.left_out)
+            join(self._told()), self.hand if self.hand.marks else None, unasked, self.submission.left_out)
 
     @property
     def lacks(self) -> bool:

@@ -19,7 +19,7 @@ from graphplan.marking.judge.mistakes import MISTAKES
 from graphplan.marking.judge.verdict import IMPLIED, UNSEEN, UNSURE, WRONG, Judgement
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
-from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
+from graphplan.phrases import Phrase, Said, arrange, join, phrase, said
 
 POSE, FORCE, RESULTS = "pose", "force", "results"
 UNJUDGED = phrase("nothing to judge")
@@ -102,10 +102,10 @@ class Score:
     def told(self) -> Said:
         """In words, group by group, and what mistakes cost."""
         if self.total is None:
-            return arranged("{0:capital}.", UNJUDGED())
-        parts = [arranged("{0} {1}", GROUPS[group](), f"{share:.0f}") for group, share in self.groups.items()]
-        parts += [arranged("{0} −{1}", KINDS[kind](), f"{cost:.0f}") for kind, cost in self.costs.items()]
-        return said("Score: {0} of 100 ({1}).", f"{self.total:.0f}", joined(parts))
+            return arrange("{0:capital}.", UNJUDGED())
+        parts = [arrange("{0} {1}", GROUPS[group](), f"{share:.0f}") for group, share in self.groups.items()]
+        parts += [arrange("{0} −{1}", KINDS[kind](), f"{cost:.0f}") for kind, cost in self.costs.items()]
+        return said("Score: {0} of 100 ({1}).", f"{self.total:.0f}", join(parts))
 
     @property
     def groups(self) -> dict[str, float]:

@@ -9,7 +9,7 @@ from graphplan.accuracy.hand import SeenPencil
 from graphplan.kernel.kinds import Movement
 from graphplan.marking.traces import Frames, Number, Trace
 from graphplan.methods.construction import Construction
-from graphplan.phrases import Said, joined, phrase
+from graphplan.phrases import Said, join, phrase
 from graphplan.sheet.layout.composition import Composition
 
 RIGHT, FOLLOWS, IMPLIED, WRONG, MISSING, UNSURE, UNSEEN = (
@@ -25,7 +25,7 @@ STATES = {
 }
 EARNED = frozenset({RIGHT, FOLLOWS, IMPLIED})  # what was done as it should be
 NOT_NEEDED = phrase("not needed")
-AS_THE_TASK = joined(())  # nothing need be said of how a drawing was read
+AS_THE_TASK = join(())  # nothing need be said of how a drawing was read
 
 
 @dataclass(frozen=True)

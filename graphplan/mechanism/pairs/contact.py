@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
-from graphplan.mechanism.fields import Field, Kind, Names, Row, Rows, Table
-from graphplan.mechanism.items import Item, described
-from graphplan.mechanism.numbers import Pair, dot, exactly, less, plus, times, turned
+from graphplan.mechanism.fields import Field, Kind, Rows, SceneNames, Table, TableRow
+from graphplan.mechanism.items import Item, describe
+from graphplan.mechanism.numbers import Pair, dot, exactly, minus, plus, quarter_turn, times
 from graphplan.mechanism.pairs.pair import (
     ROLLING,
     TOUCHING,
@@ -68,7 +68,7 @@ class Contact(KinematicPair):
         return " ".join(self.sides) + ("" if self.alone else f" at {self.at}")
 
     @property
-    def curved(self) -> tuple[str, str, str]:
+    def curved_side(self) -> tuple[str, str, str]:
         """A link with a centre, the other link, and that centre."""
         first, second = self.centres
         return (*self.sides, first) if first else (*reversed(self.sides), second or "")  # type: ignore[return-value]
@@ -77,39 +77,39 @@ class Contact(KinematicPair):
         """A vector along the common normal: to the first centre from the second; of any length."""
         one, other = self.centres
         if self.direction is not None:
-            return turned(self.direction)
-        return less(points[one or ""], points[other or ""])
+            return quarter_turn(self.direction)
+        return minus(points[one or ""], points[other or ""])
 
     def foot(self, points: Mapping[str, Any]) -> Pair:
         """The point of the common normal abreast of the point of contact: that point, but for rounding."""
-        normal, centre = exactly(self.normal(points)), points[self.curved[2]]
-        part = dot(normal, less(exactly(points[self.at]), exactly(centre))) / dot(normal, normal)
+        normal, centre = exactly(self.normal(points)), points[self.curved_side[2]]
+        part = dot(normal, minus(exactly(points[self.at]), exactly(centre))) / dot(normal, normal)
         return plus(exactly(centre), times(part, normal))
 
     def states(self, scene: GivenPose) -> Iterator[Statement]:
         """The one profile does not leave the other, nor slips on it where they roll."""
-        (link, on, centre), points = self.curved, scene.points
-        normal, arm, straight = self.normal(points), less(points[centre], points[self.at]), self.direction is not None
+        (link, on, centre), points = self.curved_side, scene.points
+        normal, arm, straight = self.normal(points), minus(points[centre], points[self.at]), self.direction is not None
         yield Touching(link, on, centre, normal, TOUCHING, name=self.name, arm=arm, straight=straight)
         if self.rolling and self.direction is not None:
-            lever = -dot(self.direction, turned(arm))
+            lever = -dot(self.direction, quarter_turn(arm))
             yield Along(link, on, centre, self.direction, ROLLING, lever=lever, name=self.name)
         elif self.rolling:
             one, other = (centre or "" for centre in self.centres)
-            k1, k2 = (dot(less(points[end], points[self.at]), normal) for end in (one, other))
-            yield Rolling(link, on, one, other, less(points[other], points[one]), (k1, -k2), self.name)
+            k1, k2 = (dot(minus(points[end], points[self.at]), normal) for end in (one, other))
+            yield Rolling(link, on, one, other, minus(points[other], points[one]), (k1, -k2), self.name)
 
 
-def _profiles(item: Item, names: Names) -> tuple[Any, ...] | None:
+def _profiles(item: Item, names: SceneNames) -> tuple[Any, ...] | None:
     """Of each profile the centre, or in its place the direction of a straight one."""
     if not isinstance(item.value, list) or len(item.value) != 2:
-        return item.fault(f"{described(item.value)} where two centres are wanted",
+        return item.fault(f"{describe(item.value)} where two centres are wanted",
                           'two centres such as ["C2", "C3"], or a direction in the place of one')
-    found = [_centre(item.instead(one), names) for one in item.value]
+    found = [_centre(item.with_value(one), names) for one in item.value]
     return None if None in found else tuple(found)
 
 
-def _centre(item: Item, names: Names) -> Any:
+def _centre(item: Item, names: SceneNames) -> Any:
     """The name of a point, or a direction."""
     if isinstance(item.value, str) and len(item.value.split()) < 2:
         return item.name_of("point", names.points)
@@ -120,18 +120,18 @@ PROFILES = Kind("two centres, or a direction in the place of one", _profiles,
                 {"type": "array", "minItems": 2, "maxItems": 2, "items": {"anyOf": [POINT.schema, GUIDE.schema]}})
 
 
-def _read(row: Row) -> Contact | None:
+def _read(row: TableRow) -> Contact | None:
     """A contact whose parts fit each other, before the point and where it is told beyond."""
-    found = _touching(row, "centres")
+    found = _read_contact(row, "centres")
     if not found or row.values.get("next") is None:
         return found
-    beyond = _touching(row, "next")
+    beyond = _read_contact(row, "next")
     if beyond and beyond.centres == found.centres and beyond.direction == found.direction:
         return row.items["next"].fault("the arcs that follow are those before", "another centre, or no next")
     return beyond and replace(found, beyond=beyond)
 
 
-def _touching(row: Row, key: str) -> Contact | None:
+def _read_contact(row: TableRow, key: str) -> Contact | None:
     """The contact of the profiles that a key tells of."""
     links, given = row["links"], row[key]
     straight = [one for one in given if not isinstance(one, str)]
@@ -144,10 +144,10 @@ def _touching(row: Row, key: str) -> Contact | None:
     direction, through, written = straight[0] if straight else (None, None, None)
     one, other = (end if isinstance(end, str) else None for end in given)
     found = Contact(links, row["at"], (one, other), row["rolling"], direction, through, written)
-    return found if _fits(found, row, key) else None
+    return found if _check_normal(found, row, key) else None
 
 
-def _fits(contact: Contact, row: Row, key: str) -> bool:
+def _check_normal(contact: Contact, row: TableRow, key: str) -> bool:
     """Whether the point and the centres are on one normal, and the curvatures differ."""
     named = [point for point in contact.centres if point]
     if any(point not in row.names.placed for point in (*named, contact.at, *(contact.through or ()))):
@@ -161,12 +161,12 @@ def _fits(contact: Contact, row: Row, key: str) -> bool:
         item.fault(f"the centres {' and '.join(named)} coincide: {one}", "centres that lie apart")
         return False
     for point in named:
-        arm = less(points[point], points[contact.at])
+        arm = minus(points[point], points[contact.at])
         if contact.rolling and arm == (0, 0):
             item.fault(f"{point} is the centre and the point of contact: a corner does not roll", "rolling = false")
             return False
         square, long = dot(normal, normal), dot(arm, arm)
-        if dot(normal, turned(arm)) ** 2 > NORMAL_SINE_TOL**2 * square * long + 2 * rounding**2 * (square + long):
+        if dot(normal, quarter_turn(arm)) ** 2 > NORMAL_SINE_TOL**2 * square * long + 2 * rounding**2 * (square + long):
             what = "not square to the direction" if contact.direction is not None else "not in line with the centres"
             told = (f"{contact.at} and {point} are {what}" if contact.direction is not None
                     else f"{contact.at} is {what} {' and '.join(named)}")

@@ -8,7 +8,7 @@ from fractions import Fraction
 from math import pi
 from typing import Any, ClassVar
 
-from graphplan.mechanism.fields import Either, Field, Row, Rows, Table
+from graphplan.mechanism.fields import Either, Field, Rows, Table, TableRow
 from graphplan.mechanism.numbers import Number, Pair, X, Y, dot, exactly, is_exact, root
 from graphplan.mechanism.pairs.pair import FRAME, Along, GivenPose, KinematicPair, Statement, Turning
 from graphplan.mechanism.pairs.sliding import has_slide
@@ -95,7 +95,7 @@ class DrivenPoint(KinematicPair):
             yield Along(self.link, FRAME, self.at, axis, way, *rates)
 
 
-def _turning(row: Row) -> TurningDrive | None:
+def _read_turning(row: TableRow) -> TurningDrive | None:
     link, base, rpm = row["link"], row["relative_to"], row.values.get("rpm")
     if link == base:
         instead = "another link, or no relative_to for the frame"
@@ -106,7 +106,7 @@ def _turning(row: Row) -> TurningDrive | None:
     return TurningDrive(link, base, omega, row["alpha"], rpm)
 
 
-def _sliding(row: Row) -> SlidingDrive | None:
+def _read_sliding(row: TableRow) -> SlidingDrive | None:
     slide = has_slide(row, "[[slides]] with it", "one of ")
     if slide is None:
         return None
@@ -120,7 +120,7 @@ def _length_is_rational(direction: Pair) -> bool:
     return is_exact(direction) and root(x * x + y * y)[1]
 
 
-def _driven(drive: Drive) -> tuple[frozenset[str], str]:
+def _driven_links(drive: Drive) -> tuple[frozenset[str], str]:
     """The two links that a drive is between."""
     return frozenset(drive.links), "drive between links {} and {}".format(*drive.links)
 
@@ -131,9 +131,9 @@ FIELD = Field("drive", "what drives it: one entry for each degree of freedom", R
     Field("rpm", "its angular velocity in turns a minute, instead of omega", NUMBER),
     Field("alpha", "its angular acceleration in rad/s^2", NUMBER, default=0),
     Field("relative_to", "the link that it turns relative to", BODY, default=FRAME),
-), _turning, either=("omega", "rpm"), remedy="either omega in rad/s or rpm"), Table("a sliding actuator", (
+), _read_turning, either=("omega", "rpm"), remedy="either omega in rad/s or rpm"), Table("a sliding actuator", (
     Field("slide", "the sliding link and the link with the guide", TWO_LINKS,
           'the sliding link and the guide\'s, such as slide = ["3", "2"]'),
     Field("speed", "the speed along the direction, in length/s", NUMBER, "a length per second, such as speed = 0.5"),
     Field("acceleration", "the acceleration along the direction, in length/s^2", NUMBER, default=0),
-), _sliding))), remedy="one drive between two links", once=_driven))
+), _read_sliding))), remedy="one drive between two links", once=_driven_links))

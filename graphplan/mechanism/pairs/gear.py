@@ -8,22 +8,22 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, ClassVar
 
-from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
+from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
 from graphplan.mechanism.items import Item
 from graphplan.mechanism.numbers import (
-    TO_A_FLOAT,
+    FLOAT_RECKONING,
     Number,
     Pair,
+    distinct_texts,
     dot,
     exactly,
     is_exact,
-    less,
+    minus,
+    number_text,
     plus,
+    quarter_turn,
     root,
-    shown,
-    shown_apart,
     times,
-    turned,
 )
 from graphplan.mechanism.pairs.pair import ROLLING, GivenPose, KinematicPair, OnRack, Rolling, Statement
 from graphplan.mechanism.tolerances import LENGTH_TOL, PLACE_TOL
@@ -97,7 +97,7 @@ class Gear(KinematicPair):
 
     def line(self, points: Mapping[str, Any]) -> Any:
         """The vector from the first centre to the second."""
-        return less(points[self.centres[1]], points[self.centres[0]])
+        return minus(points[self.centres[1]], points[self.centres[0]])
 
     def pitch_radii(self, points: Mapping[str, Any]) -> tuple[float, ...] | None:
         """The radii of the pitch circles; None of sprockets of which only the teeth are told."""
@@ -120,20 +120,20 @@ class Gear(KinematicPair):
         if self.direction is not None:
             square = dot(self.direction, self.direction)
             share = self.radius / (root(square)[0] if isinstance(square, Fraction) else square**0.5)
-            return plus(centre, times(-share, turned(self.direction)))
+            return plus(centre, times(-share, quarter_turn(self.direction)))
         whole = self.factors[0] + self.factors[1]
         return plus(centre, times(self.factors[0] / whole, self.line(points))) if whole else None
 
-    def scaled(self, length: Callable[[Any], Any]) -> Gear:
+    def with_lengths(self, length: Callable[[Any], Any]) -> Gear:
         """The same in other numbers for its factors and its radius."""
         return replace(self, factors=tuple(map(length, self.factors)), radius=length(self.radius))
 
 
-def _wheels(row: Row) -> Gear | None:
+def _read_wheels(row: TableRow) -> Gear | None:
     """Two wheels that touch, or a ring with a wheel in it, or two pulleys."""
     row.values |= {key: row.values.get(key) for key in ("teeth", "radii")}
     belt, internal = row.values.get("belt", ""), row.values.get("internal", False)
-    if not (_of_links(row, 2) and _ratio(row) and _laid(row, belt, internal)):
+    if not (_check_centres(row, 2) and _check_ratio(row) and _check_fit(row, belt, internal)):
         return None
     one, other = row["teeth"] or row["radii"]
     factors = (one, -other if internal or belt == "open" else other)
@@ -141,9 +141,9 @@ def _wheels(row: Row) -> Gear | None:
                 tangent=row.values.get("pressure_angle", 0))
 
 
-def _rack(row: Row) -> Gear | None:
+def _read_rack(row: TableRow) -> Gear | None:
     """A gear on a rack; the direction's length stays as written."""
-    if not _of_links(row, 1):
+    if not _check_centres(row, 1):
         return None
     direction, through, written = row["direction"]
     x, y = exactly(direction)
@@ -153,7 +153,7 @@ def _rack(row: Row) -> Gear | None:
                 written=written, tangent=row["pressure_angle"])
 
 
-def _of_links(row: Row, count: int) -> bool:
+def _check_centres(row: TableRow, count: int) -> bool:
     """Whether the centres are points of two different links."""
     links, centres = row["links"], row["centres"]
     if links[0] == links[1]:
@@ -166,7 +166,7 @@ def _of_links(row: Row, count: int) -> bool:
     return False
 
 
-def _ratio(row: Row) -> bool:
+def _check_ratio(row: TableRow) -> bool:
     """Whether teeth and radii, where both are given, have one ratio."""
     teeth, radii = row["teeth"], row["radii"]
     if teeth is None and radii is None:
@@ -174,12 +174,12 @@ def _ratio(row: Row) -> bool:
         return False
     if teeth and radii and abs(teeth[0] * radii[1] - teeth[1] * radii[0]) > LENGTH_TOL * teeth[0] * radii[1]:
         row.items["radii"].fault("the radii {} and {} are not as the teeth {} and {}".format(
-            *map(shown, (*radii, *teeth))), "radii in the ratio of the teeth, or teeth alone")
+            *map(number_text, (*radii, *teeth))), "radii in the ratio of the teeth, or teeth alone")
         return False
     return True
 
 
-def _laid(row: Row, belt: str, internal: bool) -> bool:
+def _check_fit(row: TableRow, belt: str, internal: bool) -> bool:
     """Whether wheels of these sizes fit between their centres."""
     if any(point not in row.names.placed for point in row["centres"]):
         return True  # the point has its own fault
@@ -190,38 +190,38 @@ def _laid(row: Row, belt: str, internal: bool) -> bool:
     return misfit is None
 
 
-def _misfit(row: Row, belt: str, internal: bool) -> tuple[str, str, str] | None:
+def _misfit(row: TableRow, belt: str, internal: bool) -> tuple[str, str, str] | None:
     """What is wrong between the centres of two wheels, under which key, and what would be right; None where nothing."""
     (r1, r2), key = row["radii"] or row["teeth"], "radii" if row["radii"] else "teeth"
     ends, of = [row.names.placed[point] for point in row["centres"]], " and ".join(row["centres"])
-    apart = less(*map(exactly, ends))
+    apart = minus(*map(exactly, ends))
     distance, _ = root(Fraction(dot(apart, apart)))
-    told = f"the distance {shown(float(distance))} of the centres {of}"
+    told = f"the distance {number_text(float(distance))} of the centres {of}"
     if not distance:
         return "centres", f"the centres {of} coincide", "centres that lie apart"
     if internal and r1 >= r2:
-        what = f"the ring, which is the second, is no larger than the gear in it: {shown(r1)} and {shown(r2)}"
-        return key, what, "a ring that is larger"
+        sizes = f"{number_text(r1)} and {number_text(r2)}"
+        return key, f"the ring, which is the second, is no larger than the gear in it: {sizes}", "a ring that is larger"
     if belt:
         least, what = (r1 + r2, "r_1 + r_2") if belt == "crossed" else (abs(r1 - r2), "the difference of the radii")
-        what = f"{told} is no more than {what} = {shown(least)}: the belt cannot be laid"
+        what = f"{told} is no more than {what} = {number_text(least)}: the belt cannot be laid"
         return (key, what, "centres further apart") if key == "radii" and distance <= least else None
     whole, what = (r2 - r1, "difference") if internal else (r1 + r2, "sum")
     slack = LENGTH_TOL * max(r1 + r2, distance) + PLACE_TOL * max(abs(part) for end in ends for part in exactly(end))
     if key == "teeth" or abs(distance - whole) <= slack:
         return None
-    far, near = shown_apart(distance, whole)
+    far, near = distinct_texts(distance, whole)
     return (key, f"the distance {far} of the centres {of} is not the {what} {near} of the radii",
             f"radii whose {what} is the distance, or teeth")
 
 
-def _pressure(item: Item, names: Names) -> Number | None:
+def _pressure(item: Item, names: SceneNames) -> Number | None:
     """The tangent of an angle in degrees, which is irrational."""
     degrees = item.number()
     if degrees is None or not 0 <= degrees < 90:
-        return None if degrees is None else item.fault(f"the pressure angle {shown(degrees)}",
+        return None if degrees is None else item.fault(f"the pressure angle {number_text(degrees)}",
                                                        "an angle from 0 to less than 90 degrees")
-    cosine, sine, exact = TO_A_FLOAT.heading(degrees)
+    cosine, sine, exact = FLOAT_RECKONING.heading(degrees)
     if not exact and not names.tables.keys().isdisjoint(LOADS):
         names.irrational.append(f"{item.where}: pressure angle")
     return sine if exact else float(sine / cosine)
@@ -247,15 +247,15 @@ FIELD = Field("gears", "two links that roll on each other without slipping: gear
     *_WHEELS,
     Field("internal", "whether the second is a ring and the first runs inside it", FLAG, default=False),
     _PRESSURE,
-), _wheels), Table("a belt or chain", (
+), _read_wheels), Table("a belt or chain", (
     *_WHEELS,
     Field("belt", "open: the pulleys turn the same way; crossed: opposite ways", choice("open", "crossed")),
-), _wheels), Table("a gear on a rack", (
+), _read_wheels), Table("a gear on a rack", (
     Field("links", "the gear and the rack", TWO_LINKS, 'the gear and the rack, such as links = ["2", "4"]'),
     Field("centres", "the gear's centre, a point of it", CENTRES, 'the gear\'s centre, such as centres = ["B"]'),
     Field("radius", "the radius of the pitch circle", DISTANCE, "the gear's radius, such as radius = 30"),
     Field("direction", "the direction of the pitch line, with the gear on its left: a vector, an angle in degrees, or "
           "two points", GUIDE, "the direction of the pitch line, such as direction = [1, 0]"),
     _PRESSURE,
-), _rack))), remedy="one about two centres", once=lambda gear: (
+), _read_rack))), remedy="one about two centres", once=lambda gear: (
     (frozenset(gear.links), frozenset(gear.centres)), "gear between links {} and {}".format(*gear.links))))

@@ -21,7 +21,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple, Protocol
 
-from graphplan.mechanism.numbers import Number, Pair, dot, is_exact, less, plus, times, turned
+from graphplan.mechanism.numbers import Number, Pair, dot, is_exact, minus, plus, quarter_turn, times
 
 FRAME = "frame"
 """The name of the fixed link."""
@@ -64,13 +64,13 @@ class Attitude(NamedTuple):
     cos: Any
     sin: Any
 
-    def turned(self, vector: Any) -> Any:
+    def turn_vector(self, vector: Any) -> Any:
         """Where a vector fixed to the link points."""
         return self.cos * vector[0] - self.sin * vector[1], self.sin * vector[0] + self.cos * vector[1]
 
-    def at(self, arm: Any) -> Any:
+    def place_of(self, arm: Any) -> Any:
         """Where the link's point at `arm` from its origin is."""
-        return plus((self.x, self.y), self.turned(arm))
+        return plus((self.x, self.y), self.turn_vector(arm))
 
 
 class Rate(NamedTuple):
@@ -80,12 +80,12 @@ class Rate(NamedTuple):
     y: Number
     turn: Number
 
-    def at(self, arm: Pair) -> Pair:
+    def velocity_at(self, arm: Pair) -> Pair:
         """The part linear in the rates of the motion of the link's point at `arm` from its base."""
-        return plus((self.x, self.y), times(self.turn, turned(arm)))
+        return plus((self.x, self.y), times(self.turn, quarter_turn(arm)))
 
 
-class Side(NamedTuple):
+class LinkSide(NamedTuple):
     """One link as a statement sees it: the arm from the link's base to the statement's point, and the link's rates."""
 
     arm: Pair
@@ -94,7 +94,7 @@ class Side(NamedTuple):
     @property
     def velocity(self) -> Pair:
         """The velocity of the point, or what is linear in the rates of its acceleration."""
-        return self.rate.at(self.arm)
+        return self.rate.velocity_at(self.arm)
 
     @property
     def centripetal(self) -> Pair:
@@ -103,16 +103,16 @@ class Side(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Sides:
+class LinkSides:
     """The two links of a statement."""
 
-    link: Side
-    on: Side
+    link: LinkSide
+    on: LinkSide
 
     @cached_property
     def slip(self) -> Pair:
         """The velocity of a point of `link` relative to the coincident point of `on`, in length/s."""
-        return less(self.link.velocity, self.on.velocity)
+        return minus(self.link.velocity, self.on.velocity)
 
     @cached_property
     def surplus(self) -> Pair:
@@ -120,12 +120,12 @@ class Sides:
 
         a_rel = (a + alpha x r - omega^2 r) of `link` - the same of `on` - 2 omega_on x v_rel.
         """
-        return plus(self.inwards, times(2 * self.on.rate.turn, turned(self.slip)))
+        return plus(self.inwards, times(2 * self.on.rate.turn, quarter_turn(self.slip)))
 
     @property
     def inwards(self) -> Pair:
         """The difference of the centripetal terms."""
-        return less(self.link.centripetal, self.on.centripetal)
+        return minus(self.link.centripetal, self.on.centripetal)
 
 
 Arms = tuple[Pair, Pair]
@@ -172,7 +172,7 @@ class Turning:
         """How much each rate of the links counts."""
         return Rate(0, 0, 1), Rate(0, 0, -1)
 
-    def left_over(self, sides: Sides) -> Number:
+    def left_over(self, sides: LinkSides) -> Number:
         """Angular accelerations add up as angular velocities do."""
         return 0
 
@@ -209,20 +209,20 @@ class Along:
 
     def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
         """How far the point has gone from its place on the other link, of which `arms` are its places in the two."""
-        gone = dot(pose[self.to or self.on].turned(self.direction), self._apart(pose, arms))
+        gone = dot(pose[self.to or self.on].turn_vector(self.direction), self._displacement(pose, arms))
         return gone + self.lever * turning(pose[self.link], pose[self.on]) if self.lever else gone
 
-    def _apart(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
+    def _displacement(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
         """From the place on the other link to the point."""
-        return less(pose[self.link].at(arms[0]), pose[self.on].at(arms[1]))
+        return minus(pose[self.link].place_of(arms[0]), pose[self.on].place_of(arms[1]))
 
     def weights(self, arms: Arms, root: Root) -> tuple[Rate, Rate]:
         """How much each rate of the links counts."""
-        one, other = (dot(self.direction, turned(arm)) + self.lever for arm in arms)
+        one, other = (dot(self.direction, quarter_turn(arm)) + self.lever for arm in arms)
         (x, y) = self.direction
         return Rate(x, y, one), Rate(-x, -y, -other)
 
-    def left_over(self, sides: Sides) -> Number:
+    def left_over(self, sides: LinkSides) -> Number:
         """What the velocities add to `change` on the right-hand side of the accelerations, from the links' surplus."""
         return dot(self.direction, sides.surplus)
 
@@ -238,13 +238,13 @@ class OnRack(Along):
 
     def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
         """How far the wheel's centre has gone further than the wheel has rolled."""
-        return self.levered(lambda square: square ** type(square)(0.5)).residual(pose, arms)
+        return self.with_lever(lambda square: square ** type(square)(0.5)).residual(pose, arms)
 
     def weights(self, arms: Arms, root: Root) -> tuple[Rate, Rate]:
         """How much each rate of the links counts."""
-        return self.levered(root).weights(arms, root)
+        return self.with_lever(root).weights(arms, root)
 
-    def levered(self, root: Root) -> Along:
+    def with_lever(self, root: Root) -> Along:
         """The same with its lever: the radius, as the direction has any length."""
         return Along(self.link, self.on, self.at, self.direction, self.way,
                      lever=self.radius * root(dot(self.direction, self.direction)))
@@ -273,10 +273,10 @@ class Touching(Along):
     def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
         """How far the centre has left the curve parallel to the other profile: a line, or half of what the squared
         distance from its centre has grown by."""
-        gone, radius = self._apart(pose, arms), pose[self.on].turned(self.direction)
+        gone, radius = self._displacement(pose, arms), pose[self.on].turn_vector(self.direction)
         return dot(radius, gone) if self.straight else dot(radius, gone) + dot(gone, gone) / 2
 
-    def left_over(self, sides: Sides) -> Number:
+    def left_over(self, sides: LinkSides) -> Number:
         """From n (v_1 - v_2) = 0 where they touch, derived once more as that point runs along both profiles.
 
         With u_1 and u_2 its speeds along them: u_1 - u_2 is what slides, and both normals are one and turn alike,
@@ -284,9 +284,9 @@ class Touching(Along):
         """
         normal, to = self.direction, times(-self.share, self.direction)
         square = dot(normal, normal)
-        here = Sides(*(Side(plus(side.arm, to), side.rate) for side in (sides.link, sides.on)))
+        here = LinkSides(*(LinkSide(plus(side.arm, to), side.rate) for side in (sides.link, sides.on)))
         one, other = here.link.rate.turn, here.on.rate.turn
-        slides = dot(turned(normal), here.slip) / square
+        slides = dot(quarter_turn(normal), here.slip) / square
         turns = other if self.straight else slides + self.share * one + (1 - self.share) * other
         along = self.share * (turns - one)
         return dot(normal, here.inwards) + square * (other * (along - slides) - one * along - turns * slides)
@@ -325,22 +325,22 @@ class Rolling:
         """The angles by which the links have turned on the line of centres, times the factors and its squared length.
         """
         link, on, still = pose[self.link], pose[self.on], self.line
-        line = less(on.at(arms[1]), link.at(arms[0]))
-        whole = angle(dot(still, line), dot(turned(still), line))
+        line = minus(on.place_of(arms[1]), link.place_of(arms[0]))
+        whole = angle(dot(still, line), dot(quarter_turn(still), line))
         one, other = angle(link.cos, link.sin), angle(on.cos, on.sin)
         k1, k2 = self.factors
         return dot(still, still) * (k1 * (one - whole) + k2 * (other - whole))
 
     def weights(self, arms: Arms, root: Root) -> tuple[Rate, Rate]:
         """How much each rate of the links counts: omega_line is the centres' relative velocity across the line."""
-        square, across = dot(self.line, self.line), times(self.factors[0] + self.factors[1], turned(self.line))
-        one, other = (dot(across, turned(arm)) for arm in arms)
+        square, across = dot(self.line, self.line), times(self.factors[0] + self.factors[1], quarter_turn(self.line))
+        one, other = (dot(across, quarter_turn(arm)) for arm in arms)
         return (Rate(*across, self.factors[0] * square + one), Rate(-across[0], -across[1],
                                                                      self.factors[1] * square - other))
 
-    def left_over(self, sides: Sides) -> Number:
+    def left_over(self, sides: LinkSides) -> Number:
         """The centripetal terms of the centres across the line: its own is along it."""
-        return dot(times(self.factors[0] + self.factors[1], turned(self.line)), sides.inwards)
+        return dot(times(self.factors[0] + self.factors[1], quarter_turn(self.line)), sides.inwards)
 
 
 Statement = Turning | Along | Rolling

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from graphplan.mechanism.numbers import X, turned
+from graphplan.mechanism.numbers import X, quarter_turn
 from graphplan.mechanism.pairs.pair import FRAME, POINT, Along, GivenPose, KinematicPair
 
 
@@ -33,4 +33,4 @@ class Revolute(KinematicPair):
         for link in others:
             axis, to = self.axes.get(link, X), link if link in self.axes else FRAME
             yield Along(link, pin, self.at, axis, "x", to=to)
-            yield Along(link, pin, self.at, turned(axis), "y", to=to)
+            yield Along(link, pin, self.at, quarter_turn(axis), "y", to=to)

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from graphplan.mechanism.fields import Field, Row, Rows, Table, on_link
-from graphplan.mechanism.numbers import Pair, turned
+from graphplan.mechanism.fields import Field, Rows, Table, TableRow, on_link
+from graphplan.mechanism.numbers import Pair, quarter_turn
 from graphplan.mechanism.pairs.pair import LINE, TURNING, Along, GivenPose, KinematicPair, Statement, Turning
 from graphplan.mechanism.values import GUIDE, LINK, POINT, Written
 from graphplan.phrases import phrase
@@ -65,10 +65,10 @@ class Slide(KinematicPair):
         """A link that slides along another neither turns on it nor leaves the guide."""
         if self.turns_alike:
             yield Turning(self.link, self.along)
-        yield Along(self.link, self.along, self.at, turned(self.direction), "across")
+        yield Along(self.link, self.along, self.at, quarter_turn(self.direction), "across")
 
 
-def _read(row: Row) -> Slide | None:
+def _read(row: TableRow) -> Slide | None:
     """A sliding pair; the direction's length stays as written."""
     link, along = row["link"], row["along"]
     if link == along:
@@ -87,7 +87,7 @@ FIELD = Field("slides", "a sliding pair: one link slides along another", Rows(Ta
     frozenset(slide.links), "slide between links {} and {}".format(*slide.links))))
 
 
-def has_slide(row: Row, otherwise: str, few: str = "") -> Slide | None:
+def has_slide(row: TableRow, otherwise: str, few: str = "") -> Slide | None:
     """The slide that the key `slide` of a row names; a fault where there is none, unless slides have their own."""
     item, (link, along) = row.items["slide"], row["slide"]
     guides = {slide.links: slide for slide in row.names.pairs if isinstance(slide, Slide)}

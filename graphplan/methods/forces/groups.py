@@ -8,7 +8,7 @@ from functools import cached_property
 from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Contact, Gear, Scene, Slide
-from graphplan.mechanism.order import lower
+from graphplan.mechanism.order import without_higher_pairs
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods import kinds
 from graphplan.methods.forces import stages as told
@@ -55,7 +55,7 @@ class ForceTransfer:
         self._moves: dict[tuple[tuple[str, ...], Way], list[StaticMove] | Refused] = {}
         done: list[str] = []
         untold: set[str] = set()
-        own = lower(scene)
+        own = without_higher_pairs(scene)
         for links in groups(own):
             if _indeterminate(scene, links, untold):
                 untold.update(links)

@@ -18,9 +18,9 @@ from dataclasses import dataclass, field, replace
 from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Contact, Gear, Pair, Scene, Slide
-from graphplan.mechanism.numbers import dot, turned
+from graphplan.mechanism.numbers import dot, quarter_turn
 from graphplan.mechanism.pairs.pair import LINE
-from graphplan.mechanism.replaced import RollingGuide, replaced
+from graphplan.mechanism.replaced import RollingGuide, with_lower_pairs
 from graphplan.methods.forces import stages
 from graphplan.methods.forces.free_bodies import DrawnForces, Span, signed
 from graphplan.methods.forces.loading import Acting
@@ -41,7 +41,7 @@ class TouchingGuide(Slide):
 
 def bearing(scene: Scene) -> Scene:
     """The scene whose free bodies are drawn: guides at pitch points and at contacts, joints where contacts roll."""
-    lower = replaced(scene)
+    lower = with_lower_pairs(scene)
     if lower is scene:
         return scene
     points, links, written = dict(lower.points), dict(scene.links), [*scene.written]
@@ -74,7 +74,7 @@ def _touching(contact: Contact, scene: Scene) -> TouchingGuide:
     """The guide along the tangent of a contact; the frame is never what slides."""
     link, along = contact.links if contact.links[0] != FRAME else contact.links[::-1]
     through, written = contact.through, contact.written
-    direction = contact.direction or turned(contact.normal(scene.points))
+    direction = contact.direction or quarter_turn(contact.normal(scene.points))
     return TouchingGuide(link, along, contact.at, direction, through, written, contact)
 
 

@@ -15,7 +15,7 @@ from functools import partial
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Loads, Mass, Number, Scene
-from graphplan.mechanism.order import by_name, lower, named_forces, named_moments, turning_drives
+from graphplan.mechanism.order import by_name, named_forces, named_moments, turning_drives, without_higher_pairs
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.forces import stages
 from graphplan.methods.motion.network import Network
@@ -57,7 +57,7 @@ class Loading:
                  inertia: str = "couple"):
         self.board, self.net, self.pose, self.phi, self.unit, self.motion = board, net, pose, phi, unit, motion
         self.inertia, self.apart = inertia, frozenset[str]()
-        self.scene: Scene = lower(net.scene)
+        self.scene: Scene = without_higher_pairs(net.scene)
         assert self.scene.loads is not None
         self.loads: Loads = self.scene.loads
 

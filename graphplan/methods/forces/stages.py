@@ -12,7 +12,7 @@ from graphplan.mechanism.model import Slide
 from graphplan.methods.motion.moves import FalsePosition
 from graphplan.methods.motion.stages import LAWS
 from graphplan.methods.panels import LeverPlan, link_named, listed, slide_named
-from graphplan.phrases import Said, arranged, joined, said
+from graphplan.phrases import Said, arrange, join, said
 
 CHAIN = said("the known forces on a link are laid off one after the other, each from the head of the last")
 DIRECTED = said("the line on which the force acts is given by its point and direction")
@@ -44,7 +44,7 @@ def line_of_action(letter: str) -> Stage:
 def moments(letter: str, links: Sequence[str], about: str, forces: Iterable[Vector], couples: Iterable[str],
             forms: Collection[str] = ()) -> Stage:
     """A force from moments of some links about a point, those of forces and of couples."""
-    title = arranged("{0}: {1}", letter, said("moments of {0} about {1}", listed(links), about))
+    title = arrange("{0}: {1}", letter, said("moments of {0} about {1}", listed(links), about))
     return Stage(title, MOMENTS, (Equation.moments(forces, "Q" if isinstance(about, Said) else about, couples),))
 
 
@@ -69,7 +69,7 @@ def joint(point: str, forces: tuple[Vector, ...] = ()) -> Stage:
 
 def false_position(letter: str) -> Stage:
     """A force that is assumed, twice."""
-    return Stage(arranged("{0:capital}", said("false position of {0}", letter)), LAWS[FalsePosition])
+    return Stage(arrange("{0:capital}", said("false position of {0}", letter)), LAWS[FalsePosition])
 
 
 def inertia(link: str) -> Stage:
@@ -79,17 +79,17 @@ def inertia(link: str) -> Stage:
 
 def arm() -> Stage:
     """A point beside another, where couples need an arm."""
-    return Stage(arranged("{0:capital}", said("an arm for couples")), COUPLE)
+    return Stage(arrange("{0:capital}", said("an arm for couples")), COUPLE)
 
 
 def journal(why: Said) -> Stage:
     """Where the force of a journal that rubs acts."""
-    return Stage(arranged("{0:capital}", why), JOURNAL)
+    return Stage(arrange("{0:capital}", why), JOURNAL)
 
 
 def guide(why: Said) -> Stage:
     """How the force of a slide that rubs leans."""
-    return Stage(arranged("{0:capital}", why), GUIDE)
+    return Stage(arrange("{0:capital}", why), GUIDE)
 
 
 def pressure(guide: Slide) -> Stage:
@@ -105,4 +105,4 @@ def seat(slide: Slide) -> Stage:
 def lever(panel: LeverPlan, letter: str, loads: Iterable[str], forms: Collection[str] = ()) -> Stage:
     """A lever, which tells one force from its loads."""
     forces = [*map(Vector, dict.fromkeys(loads)), Vector(letter, Known.DIRECTION)]
-    return Stage(joined((panel.heading, letter), ": "), POWERS, (Equation.moments(forces, "o"),))
+    return Stage(join((panel.heading, letter), ": "), POWERS, (Equation.moments(forces, "o"),))

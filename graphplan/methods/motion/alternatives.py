@@ -23,7 +23,7 @@ from graphplan.methods.kinds import ACCELERATION, ORDER, VELOCITY
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.tolerances import PERTURBATION
-from graphplan.phrases import digits, joined, said
+from graphplan.phrases import digits, join, said
 
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
@@ -125,7 +125,7 @@ class _Alternative:
         if among > 1:
             self.construction.notes.append(
                 said("rings of links: {0}; errors of the steps grow {1}-fold, the best of {2} ways",
-                     joined(self.construction.ways or [said("joint by joint")]), digits(self.growth, 2), among))
+                     join(self.construction.ways or [said("joint by joint")]), digits(self.growth, 2), among))
         return self.construction, self.planner
 
     @staticmethod

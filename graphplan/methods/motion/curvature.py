@@ -27,7 +27,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, evaluate
 from graphplan.mechanism.model import FRAME, Scene, Slide
-from graphplan.mechanism.order import ordered
+from graphplan.mechanism.order import sort_scene
 from graphplan.mechanism.replaced import RollingGuide, rolling_guides
 from graphplan.methods import kinds
 from graphplan.methods.motion.acceleration import Normal
@@ -131,7 +131,7 @@ class Curves:
 
     def __init__(self, board: Board, pose: Pose, velocities: Callable[[], Velocity],
                  accelerations: Callable[[], Normal], method: str):
-        self.board, self.pose, self.scene = board, pose, ordered(pose.scene)
+        self.board, self.pose, self.scene = board, pose, sort_scene(pose.scene)
         self.velocities, self.accelerations, self.method = velocities, accelerations, method
         self.ways: dict[Said, None] = {}
         self.special: list[Said] = []
@@ -295,7 +295,7 @@ class Curves:
         """
         for link in self.scene.find.inflection:
             self._inflection(link, read, keep)
-        for name, (point, link) in self.scene.find.traced.items():
+        for name, (point, link) in self.scene.find.curvature_points.items():
             kind, marks = self._traced(point, link)
             self.special += [SPECIAL[kind](name)] if kind in SPECIAL else []
             read(kind, name, *marks, given=None if marks else (0, 0))

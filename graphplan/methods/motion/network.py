@@ -17,7 +17,7 @@ from typing import NamedTuple
 from graphplan.mechanism.model import FRAME, Drive, Number, Scene, Slide
 from graphplan.mechanism.order import ordered_drives, ordered_links, ordered_points, ordered_slides, turning_drives
 from graphplan.mechanism.pairs.pair import LINE
-from graphplan.mechanism.replaced import bars, replaced, rolling_guides
+from graphplan.mechanism.replaced import bars, rolling_guides, with_lower_pairs
 
 BodyPoint = tuple[str, str]
 POLE = "pole"  # the link of a place that is a relative pole
@@ -84,7 +84,7 @@ class Network:
     """Bodies, places, slides and classes of equal turning of a scene, lower pairs in the place of its higher ones."""
 
     def __init__(self, scene: Scene) -> None:
-        self.scene = scene = replaced(scene)
+        self.scene = scene = with_lower_pairs(scene)
         self.bars = bars(scene)
         self.wandering = {guide.at for guide in rolling_guides(scene)}
         self.welds: dict[str, DrivenPair] = {}

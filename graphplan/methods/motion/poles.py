@@ -23,7 +23,7 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Stage
 from graphplan.mechanism.model import FRAME, Pair, Scene
 from graphplan.mechanism.numbers import is_exact
-from graphplan.mechanism.order import ordered
+from graphplan.mechanism.order import sort_scene
 from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.gear import Gear
 from graphplan.mechanism.replaced import RollingGuide
@@ -40,7 +40,7 @@ from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, link_named, listed, pole_letter
 from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import MIN_SIZE, PENCIL, PLACE_TOL, SINE_TOL
-from graphplan.phrases import Said, joined, said
+from graphplan.phrases import Said, join, said
 
 MOST = 6  # points of a link whose velocities are looked at
 NEAR = 1.5  # sizes of the mechanism: a pole no further from its middle is marked
@@ -74,7 +74,7 @@ class Poles:
     """The poles of one scene on one board, each drawn as it is asked for."""
 
     def __init__(self, board: Board, scene: Scene, pose: Pose, velocity: Velocity | None = None):
-        self.board, self.scene, self.pose, self._velocity = board, ordered(scene), pose, velocity
+        self.board, self.scene, self.pose, self._velocity = board, sort_scene(scene), pose, velocity
         self.diagram = CircleDiagram(self.scene, (*self.scene.moving, FRAME))
         self.seen = _Seen(board, scene)
         self.drawn: dict[Sides, DrawnPole] = {}
@@ -261,7 +261,7 @@ class Poles:
         told = [said("of {0} and {1}", *(self._lettered(self.diagram.sides(link, line.by)) for link in sides))
                 if line.drawn is None else said("the common normal in {0}", line.by)
                 for line in self.diagram.found[sides].lines]
-        return said("{0}; here on the lines {1}", KENNEDY, joined(told, "; "))
+        return said("{0}; here on the lines {1}", KENNEDY, join(told, "; "))
 
     def _lettered(self, sides: Sides) -> str:
         """A pole by its letter, and that of the joint that it is."""

@@ -35,7 +35,7 @@ from graphplan.methods.motion.moves import (
 )
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.panels import both, link_named, listed, slide_named
-from graphplan.phrases import Phrase, Said, arranged, digits, joined, phrase, said
+from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
 
 ROLLING = said("links that roll on each other have the same velocity where they touch: it is their relative pole")
 LAWS: dict[type, Said] = {  # of the moves whose steps say nothing themselves
@@ -196,12 +196,12 @@ class MotionStages:
         place = self.place(moves[-1])
         end = self.end(self.letters.get(place[0], place[0]), place) + prime
         title = self._title(moves[-1], end, forms)
-        title = arranged("{0:capital}: {1}", self.purpose, title) if self.purpose else title
+        title = arrange("{0:capital}: {1}", self.purpose, title) if self.purpose else title
         laws = dict.fromkeys({**LAWS, **self.laws}[type(move)] for move in moves)
         equations = [(left, right) for move in moves for left, right in self._equations(move, forms) if right]
         found = self.vector(self.words.symbol, place, known=self._known_of(moves, located))
         sums = [Equation.sum(found if left.name == found.name else left, right) for left, right in equations]
-        return Stage(arranged("{0} ({1})", title, end) if prime else title, joined(laws, "; "), tuple(sums))
+        return Stage(arrange("{0} ({1})", title, end) if prime else title, join(laws, "; "), tuple(sums))
 
     def _known_of(self, moves: tuple[Move, ...], located: bool) -> Known:
         """What is known beforehand of the vector that moves give: its direction where a guide is at rest."""
@@ -230,7 +230,7 @@ class MotionStages:
             case Centre(body=body, place=place):
                 return said("Pole {0} of {1}", self.name(*place), self._links(body))
             case FalsePosition():
-                return arranged("{0:capital}", said("false position of {0}", end))
+                return arrange("{0:capital}", said("false position of {0}", end))
             case Common() | Settle() | Rest() | Seed() | Meet():
                 return self.words.point(self.name(*self.place(move)))
 

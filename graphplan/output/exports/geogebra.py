@@ -29,7 +29,7 @@ from graphplan.output.exports.ggb_commands import labels, letters, number, ruled
 from graphplan.output.exports.ggb_linkage import ROW, Linkage
 from graphplan.output.exports.ggb_xml import CURVES, LINKS, POINTS, VECTORS, Objects, empty, lettered, quoted, spot
 from graphplan.output.exports.walk import Elements, Letter, Riding, corners
-from graphplan.phrases import joined, said, unit
+from graphplan.phrases import join, said, unit
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Polygon, Spot
@@ -138,8 +138,8 @@ class _GeoGebraWriter(Elements):
         changing = dict.fromkeys(step.quantity.written for step in self.plates.plans.drawing.drawn.steps
                                  if step.quantity and step.quantity.changing)
         kept = said("Loads that change over the cycle have the values of the given pose here: {0}.",
-                    joined([*changing], ", "))
-        self._walked(joined((begun, kept), " ") if changing else begun, 0)
+                    join([*changing], ", "))
+        self._walked(join((begun, kept), " ") if changing else begun, 0)
         for drawn in self.plates.pose.values():
             self._due(drawn)
         for drawn in self.plates.all_marks:
@@ -362,4 +362,4 @@ class _GeoGebraWriter(Elements):
         self.objects.text("caption", quoted(plate.caption), spot(rect.left, rect.top), bold=True)
         told = scales(self.plates).scale_texts(plate.panel, self.plates.plans.kinds(plate.panel))
         if told:
-            self.objects.text("scale", quoted(self.say(joined(told, ",  "))), spot(rect.left, rect.top - 5))
+            self.objects.text("scale", quoted(self.say(join(told, ",  "))), spot(rect.left, rect.top - 5))

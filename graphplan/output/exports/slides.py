@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.output.exports.latex import SLIDE, equation, lettering
-from graphplan.phrases import arranged
+from graphplan.phrases import arrange
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import captions
 from graphplan.sheet.lettering.lettering import sentence_runs
@@ -64,7 +64,7 @@ class Slides:
         """The equations and the law of a stage, then the plan and its scales."""
         stage = passage.stage
         told = [equation(one) for one in stage.equations] if stage else []
-        told += [self._set(arranged("{0:capital}.", stage.law))] if stage else []
+        told += [self._set(arrange("{0:capital}.", stage.law))] if stage else []
         plan = (lettering(text.runs, words=True) for text in captioned(self.composition, passage.plan))
         return "\\par\\medskip ".join([*told, "\\scriptsize " + "\\par ".join(plan)])
 

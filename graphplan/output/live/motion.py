@@ -316,7 +316,7 @@ def _held(scene: Scene) -> Iterator[str]:
     for gear in scene.gears:
         if gear.radii and not gear.belt and {*gear.centres} <= fixed:
             yield from gear.centres
-    for pair in scene.guided:
+    for pair in scene.directed_pairs:
         yield from fixed & {*(pair.through or ())} if not isinstance(pair, Slide) else ()
 
 
@@ -325,7 +325,7 @@ def _touching(scene: Scene) -> Iterator[Data]:
     given pose is `at`; if it is on a link, the place has a name of its own in other poses, `else`."""
     given = {name: complex(*map(float, at)) for name, at in scene.points.items()}
     for contact in scene.contacts:
-        _, on, centre = contact.curved
+        _, on, centre = contact.curved_side
         other = f"{contact.at}'" if scene.links_of[contact.at] else ""
         found: Data = {"at": contact.at, "centre": centre, "else": other}
         if contact.direction is not None:

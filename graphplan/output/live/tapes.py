@@ -142,7 +142,7 @@ class PosedTapes:
         domain, program = told.domain, self.drawing.program
         results = self.drawing.told([told.values[index] for index in program.wanted], domain)
         at = {name: (domain.tape.input(f"{name}.x"), domain.tape.input(f"{name}.y")) for name in self.points}
-        scene = self.drawing.scene.posed({**self.drawing.scene.points, **at}, lambda one: one.direction)
+        scene = self.drawing.scene.with_pose({**self.drawing.scene.points, **at}, lambda one: one.direction)
         forces = _Forces(scene, results, cast(Any, None), rounds=self.drawing.rounds, bounded=True)
         found = as_solved(_Report(self.drawing, cast(Any, None), results, False, forces if scene.loads else None,
                                   posed=scene))

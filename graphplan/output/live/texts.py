@@ -18,7 +18,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import WORDS
 from graphplan.methods.recorded import Reading
 from graphplan.output.live.unknown import EITHER, PLACE, Later, Laters, unknown
-from graphplan.phrases import Said, arranged, in_any_case, joined
+from graphplan.phrases import Said, arrange, in_any_case, join
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import Runs, equation_runs, sentence_runs
 from graphplan.sheet.plates.plans import Plans
@@ -110,7 +110,7 @@ class Telling:
         for passage in Protocol(self.plans, self.scales).passages:
             if passage.plan != plan:
                 plan = passage.plan
-                yield f"<li><h3>{self.set(arranged('{0:capital}', passage.plan.words))}</h3></li>"
+                yield f"<li><h3>{self.set(arrange('{0:capital}', passage.plan.words))}</h3></li>"
             yield f'<li class="stage">{self._head(passage)}<ol>{"".join(self._entries(passage.entries))}</ol></li>'
 
     def _head(self, passage: Passage) -> str:
@@ -118,9 +118,9 @@ class Telling:
         if passage.stage is None or passage.title is None:
             return ""
         equations = () if passage.again else passage.stage.equations
-        told = [f"<h4>{self.set(arranged('{0:capital}', passage.title))}</h4>"]
+        told = [f"<h4>{self.set(arrange('{0:capital}', passage.title))}</h4>"]
         told += [f'<p class="equation">{_equation(equation)}</p>' for equation in equations]
-        told += [f"<p>{self.set(arranged('{0:capital}.', passage.law))}</p>"] if passage.law else []
+        told += [f"<p>{self.set(arrange('{0:capital}.', passage.law))}</p>"] if passage.law else []
         return "".join(told)
 
     def _entries(self, entries: Iterable[Entry]) -> Iterator[str]:
@@ -157,14 +157,14 @@ class Telling:
         """By which methods and in which forms it is drawn, and why, as items of a list."""
         drawing = self.plans.drawing
         for kind, ways in drawing.method.items():
-            yield f"<li>{self.set(arranged('{0:capital}: {1}.', WORDS[kind], joined(ways)))}</li>"
+            yield f"<li>{self.set(arrange('{0:capital}: {1}.', WORDS[kind], join(ways)))}</li>"
         yield from (f"<li>{self.set(form)}</li>" for form in drawing.brief_forms)
 
 
 def _reading(found: Readings, reading: Reading) -> Said:
     """A reading in a sentence, which is empty where there is nothing to read."""
     measured = found.measure(reading)
-    return measured.text if measured else arranged("")
+    return measured.text if measured else arrange("")
 
 
 def html(runs: Runs) -> str:

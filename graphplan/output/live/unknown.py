@@ -18,7 +18,7 @@ from typing import Any
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.tape.record import Symbol, Tape
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer
-from graphplan.phrases import Said, Undecided, Unknown, arranged, figures, in_any_case
+from graphplan.phrases import Said, Undecided, Unknown, arrange, figures, in_any_case
 from graphplan.sheet.words.sums import FORMS
 
 PLACE, EITHER, THEN, ELSE, END = map(chr, range(0xE000, 0xE005))
@@ -87,10 +87,10 @@ class Asked(Undecided):
     def __init__(self, later: Later, place: int):
         self.later, self.place = later, place
 
-    def either(self, tell: Callable[[], Said]) -> Said:
+    def say_both(self, tell: Callable[[], Said]) -> Said:
         output = self.later.output(Symbol(self.later.tape, self.place))
         one, other = (self.later.assuming(self.place, answer, tell) for answer in (True, False))
-        return one if one == other else arranged(f"{EITHER}{output}{THEN}{{0}}{ELSE}{{1}}{END}", one, other)
+        return one if one == other else arrange(f"{EITHER}{output}{THEN}{{0}}{ELSE}{{1}}{END}", one, other)
 
 
 def _recorded(operation: Callable[[Any, Any], Any]) -> Callable[[Number, Any], Number]:
@@ -162,7 +162,7 @@ class Number(Unknown):
         places = (tape.place(getattr(number, "symbol", number)) for number in numbers)
         return Number(self.later, tape.worded_operation(operation, *places))
 
-    def printed(self, number: Any, kind: str) -> Said:
+    def printed_number(self, number: Any, kind: str) -> Said:
         symbol = getattr(number, "symbol", number)
         return figures(f"{PLACE}{self.later.output(symbol)}:{kind}{self.later.output(self.symbol)}{END}")
 

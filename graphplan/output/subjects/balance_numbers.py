@@ -13,7 +13,7 @@ from graphplan.machine.linkages.counterweights import Counterweight
 from graphplan.machine.linkages.engine import Engine
 from graphplan.machine.linkages.spanning import as_multiple
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.numbers import less
+from graphplan.mechanism.numbers import minus
 from graphplan.mechanism.travel import printed_travels
 from graphplan.mechanism.units import KILOGRAMS, METRES
 
@@ -68,11 +68,11 @@ def links(motion: MassMotion) -> dict[str, Any]:
     scene, told = motion.centre.scene, {}
     for link, mass in motion.centre.masses.items():
         start, end = motion.centre.tree.line(link)
-        line = less(scene.points[end], scene.points[start])
+        line = minus(scene.points[end], scene.points[start])
         told[link] = {"mass": float(KILOGRAMS[scene.units.mass] * mass.mass), "centre": mass.centre}
         if start != end:
             long = abs(complex(*line))
-            s, k = as_multiple(less(scene.points[mass.centre], scene.points[start]), line)
+            s, k = as_multiple(minus(scene.points[mass.centre], scene.points[start]), line)
             told[link] |= {"line": [start, end], "length": long, "s": float(s) * long, "offset": float(k) * long}
     return told
 

@@ -27,7 +27,7 @@ from graphplan.output.graphs import CURVES, Figures, Graph, Polar, Span, scale_w
 from graphplan.output.panelled import Panelled, Words, divide_across, divide_down, pages
 from graphplan.output.step_ink import HEAD, StepInk
 from graphplan.output.subjects.balance_words import BalanceWords, cleaned
-from graphplan.phrases import Said, joined, said
+from graphplan.phrases import Said, join, said
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import place_letters
@@ -111,7 +111,7 @@ class BalanceSheet(Panelled):
         """What a panel shows, and its scale."""
         if panel == MECHANISM:
             scale = Scales(self.k_s, 1.0, self.scene.units.length, {}, convention=self.scene.sheet.convention)
-            return said("Mass centre by principal vectors"), joined(scale.scale_texts(MECHANISM, set()), ",  ")
+            return said("Mass centre by principal vectors"), join(scale.scale_texts(MECHANISM, set()), ",  ")
         if panel == FORCE:
             return panel.heading, scale_words("J", self.polar(self.room(panel)).k, "N", self.scene.sheet.convention)
         return panel.heading, None

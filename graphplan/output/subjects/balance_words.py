@@ -17,7 +17,7 @@ from graphplan.mechanism.units import KILOGRAMS, METRES
 from graphplan.output.panelled import Words
 from graphplan.output.subjects.balance_numbers import links, principal_vectors, variant, weight_told
 from graphplan.output.tolerances import ZERO_TOL
-from graphplan.phrases import Said, arranged, digits, joined, said, unit
+from graphplan.phrases import Said, arrange, digits, join, said, unit
 
 WAYS = {FULL: said("fully: the mass centre stands still"),
         GUIDED: said("partly: the mass centre moves along the guide"),
@@ -46,15 +46,15 @@ class BalanceWords:
         """The masses, and where their centres are."""
         length = self.scene.units.length
         told = links(self.before)
-        rows: list[list[Said | str]] = [[said("link"), arranged("m, {0}", unit("kg")), arranged("s, {0}", unit(length)),
-                                         arranged("k, {0}", unit(length))]]
+        rows: list[list[Said | str]] = [[said("link"), arrange("m, {0}", unit("kg")), arrange("s, {0}", unit(length)),
+                                         arrange("k, {0}", unit(length))]]
         for name, link in told.items():
             rows.append([name, digits(link["mass"]), *(digits(clean(link.get(key, 0.0), link.get("length", 1.0)))
                                                        for key in ("s", "offset"))])
         yield said("Masses of the links, and their centres: s along the link from its first joint, k to its left:")
         yield rows
         for drive in self.scene.drives:
-            rate = arranged("{0} {1}", digits(float(drive.rate)), unit(f"{length}/s" if drive.slides else "rad/s"))
+            rate = arrange("{0} {1}", digits(float(drive.rate)), unit(f"{length}/s" if drive.slides else "rad/s"))
             yield said("Drive of link {0}: {1}", drive.link, rate)
 
     def found(self) -> Iterator[Words]:
@@ -65,21 +65,21 @@ class BalanceWords:
         for letter, z, per in (("v", self.before.velocity, "/s"), ("a", self.before.acceleration, "/s²")):
             if self._posed is not None:
                 x, y = (digits(float(part), 5) for part in (z[self._posed].real, z[self._posed].imag))
-                yield arranged("{0}_S = ({1}, {2}) {3}", letter, x, y, unit(f"{scene.units.length}{per}"))
-        heads: list[Said | str] = [said("link"), arranged("h, {0}", length), arranged("ξ, {0}", length)]
+                yield arrange("{0}_S = ({1}, {2}) {3}", letter, x, y, unit(f"{scene.units.length}{per}"))
+        heads: list[Said | str] = [said("link"), arrange("h, {0}", length), arrange("ξ, {0}", length)]
         rows = [[name, digits(one["h"], 5), digits(clean(one["offset"], one["length"]), 4)]
                 for name, one in principal_vectors(self.before).items()]
         yield said("Principal vectors, along the links and square to them:")
         yield [heads, *rows]
-        yield arranged("{0}: {1}", said("Balanced"), WAYS[self.balancing.way])
+        yield arrange("{0}: {1}", said("Balanced"), WAYS[self.balancing.way])
         if self.balancing.note:
             yield self.balancing.note
         yield from self._weights_told()
         yield from self._largest()
         if self.balancing.engine:
             yield from _engine_told(self.balancing.engine)
-        parts = [joined((OPINIONS[name], digits(size, 2)), " ") for name, size in self.balancing.check.items()]
-        yield said("Second opinions differ by: {0}", joined(parts))
+        parts = [join((OPINIONS[name], digits(size, 2)), " ") for name, size in self.balancing.check.items()]
+        yield said("Second opinions differ by: {0}", join(parts))
 
     @cached_property
     def sizes(self) -> tuple[float, float]:
@@ -99,8 +99,8 @@ class BalanceWords:
         """The counterweights in a table, and which variant they make."""
         if not self.balancing.weights:
             return
-        rows: list[list[Said | str]] = [[said("link"), arranged("m r, {0}", unit("kg m")), "°", arranged(
-            "r, {0}", unit(self.scene.units.length)), arranged("m, {0}", unit("kg"))]]
+        rows: list[list[Said | str]] = [[said("link"), arrange("m r, {0}", unit("kg m")), "°", arrange(
+            "r, {0}", unit(self.scene.units.length)), arrange("m, {0}", unit("kg"))]]
         for weight in self.balancing.weights:
             one = weight_told(self.scene, weight)
             rows.append([one["link"], *(digits(one[key], 5) for key in ("mass_radius", "angle", "radius", "mass"))])
@@ -111,7 +111,7 @@ class BalanceWords:
 
     def _largest(self) -> Iterator[Words]:
         """The largest shaking force and moment."""
-        rows: list[list[Said | str]] = [["", arranged("J, {0}", unit("N")), arranged("M, {0}", unit("N m"))]]
+        rows: list[list[Said | str]] = [["", arrange("J, {0}", unit("N")), arrange("M, {0}", unit("N m"))]]
         for words, motion in ((said("before"), self.before), (said("balanced"), self.balancing.after)):
             if motion is not None:
                 found = zip((motion.shaking.force, motion.shaking.moment), self.sizes, strict=True)

@@ -20,7 +20,7 @@ from graphplan.cams.profile import Cam
 from graphplan.kernel.program import Panel
 from graphplan.output.graphs import AXIS, CURVES, DIVISION, Figures, Graph, scale_words
 from graphplan.output.tolerances import BASE_TOL, OFFSET_TOL, RANGE_TOL, STILL_RATE
-from graphplan.phrases import Said, arranged, digits, phrase, said, unit
+from graphplan.phrases import Said, arrange, digits, phrase, said, unit
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import CAPS, TextRun
 from graphplan.sheet.plates import pens
@@ -133,7 +133,7 @@ class Paper(Figures):
             yield from self._infinite(at, high)
         told = "{0} = 0" if still else "{0}, {1}   ({2})"
         scale = scale_words(one.letter, graph.k_y, one.measure)
-        yield self.headed(graph, arranged(told, one.letter, unit(one.measure), scale), (one.letter, f"k_{one.letter}"))
+        yield self.headed(graph, arrange(told, one.letter, unit(one.measure), scale), (one.letter, f"k_{one.letter}"))
         for angle, value in ((top, most), (foot, -depth)):
             if abs(value) > RANGE_TOL * (high - low):
                 x, y = at(angle, value)

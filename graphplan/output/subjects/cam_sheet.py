@@ -23,7 +23,7 @@ from graphplan.output.graphs import Figures
 from graphplan.output.panelled import Panelled, divide_across, divide_down, pages
 from graphplan.output.step_ink import StepInk
 from graphplan.output.subjects.cam_diagrams import CENTRE_PLAN, CURVATURE_PLAN, LAW_PLAN, Paper
-from graphplan.phrases import Said, arranged, digits, joined, said, unit
+from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.lettering import LetterSizes
 from graphplan.sheet.plates import pens
@@ -264,7 +264,7 @@ class CamSheet(Panelled):
         for words, value in ((said("radius of the roller"), task.follower.radius), (said("arm"), task.follower.arm),
                              (said("centre distance"), task.follower.distance)):
             if value:
-                yield arranged("{0:capital}: {1} {2}", words, digits(float(value)), length)
+                yield arrange("{0:capital}: {1} {2}", words, digits(float(value)), length)
         turns = said("counter-clockwise") if task.cam.sense > 0 else said("clockwise")
         yield said("The cam turns {0}, {1} {2}", turns, digits(task.cam.omega), unit("rad/s"))
 
@@ -287,6 +287,6 @@ class CamSheet(Panelled):
             low, high = cam.reach
             yield said("The contact wanders from {0} to {1} {2} along the face", digits(low), digits(high), length)
         for note in cam.notes:
-            yield arranged("{0:capital}", note)
-        parts = [joined((OPINIONS[name], digits(size, 2)), " ") for name, size in self.check.items()]
-        yield said("Second opinions differ by: {0}", joined(parts))
+            yield arrange("{0:capital}", note)
+        parts = [join((OPINIONS[name], digits(size, 2)), " ") for name, size in self.check.items()]
+        yield said("Second opinions differ by: {0}", join(parts))

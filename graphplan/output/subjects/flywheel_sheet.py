@@ -27,7 +27,7 @@ from graphplan.output.subjects.flywheel_figure import FlywheelFigure, room_in
 from graphplan.output.subjects.given_facts import masses_and_loads
 from graphplan.output.subjects.lever_figures import LEVERS, LeverFigures
 from graphplan.output.tolerances import RANGE_TOL
-from graphplan.phrases import Said, arranged, digits, joined, phrase, said, unit
+from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
 from graphplan.sheet.frames.title import TASK
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.display import Item, Rect, Sheet
@@ -156,18 +156,18 @@ class FlywheelSheet(Panelled):
     def given_words(self) -> Iterator[Words]:
         """The speed and how even it is to be, the masses and the loads."""
         result = self.result
-        yield arranged("omega = {0} {1}", digits(result.cycle.speed), unit(RATE))
+        yield arrange("omega = {0} {1}", digits(result.cycle.speed), unit(RATE))
         if result.given:
-            yield arranged("I_s = {0} {1}", digits(result.wheel.inertia), unit(INERTIA))
+            yield arrange("I_s = {0} {1}", digits(result.wheel.inertia), unit(INERTIA))
         else:
-            yield arranged("delta = {0}", digits(result.unevenness))
+            yield arrange("delta = {0}", digits(result.unevenness))
         yield from masses_and_loads(self.scene)
 
     def result_words(self) -> Iterator[Words]:
         """What closes the cycle, the flywheel, the speeds, and what other methods find; of a task boxes for these."""
         result = self.result
         if self.task:
-            yield Blank([["", ""], *([joined((name, unit(measure))), "?"] for name, measure in (
+            yield Blank([["", ""], *([join((name, unit(measure))), "?"] for name, measure in (
                 (said("Closing moment"), MOMENT), ("mn", "mm"), (said("Flywheel"), INERTIA), ("omega_max", RATE),
                 ("omega_min", RATE)))])
             return
@@ -175,26 +175,26 @@ class FlywheelSheet(Panelled):
         if cycle.closing:
             yield said("Closing moment: {0} {1}", digits(cycle.closing), unit(MOMENT))
         if result.given:
-            yield arranged("delta = {0}", digits(result.unevenness))
+            yield arrange("delta = {0}", digits(result.unevenness))
             if wheel.inertia + self.drawing.axis > 0:  # else m and n are one point
-                yield arranged("k_E·mn/((I_s + {0} {1})·ω²) = {2}", digits(self.drawing.axis), unit(INERTIA),
-                               digits(self.drawing.unevenness))
+                yield arrange("k_E·mn/((I_s + {0} {1})·ω²) = {2}", digits(self.drawing.axis), unit(INERTIA),
+                              digits(self.drawing.unevenness))
         else:
             yield said("Flywheel: {0} {1}; drawn {2} {1}", digits(wheel.inertia), unit(INERTIA),
                        digits(self.drawing.inertia))
-        yield arranged("mn = {0} {1}, {2} {3}", digits(self._intercept), unit("mm"),
-                       digits(wheel.intercept(self.drawing.axis)), unit("J"))
+        yield arrange("mn = {0} {1}, {2} {3}", digits(self._intercept), unit("mm"),
+                      digits(wheel.intercept(self.drawing.axis)), unit("J"))
         for name, speed, touch in (("omega_max", wheel.omega_max, wheel.upper), ("omega_min", wheel.omega_min,
                                                                                 wheel.lower)):
-            at = joined((digits(float(result.told(touch.travel))), unit("°")), "")
+            at = join((digits(float(result.told(touch.travel))), unit("°")), "")
             yield said("{0} = {1} {2} at {3}", name, digits(speed), unit(RATE), at)
         for note in result.notes:
-            yield arranged("{0:capital}", note)
+            yield arrange("{0:capital}", note)
         if result.reduction.friction:
             losses = result.reduction.losses
             yield said("Friction takes {0} {1} of the {2} {1} given in a cycle: mean efficiency {3}",
                        digits(losses.lost), unit("J"), digits(losses.given), digits(losses.efficiency))
-            yield joined(arranged("{0}: {1} {2}", name, digits(lost), unit("J")) for name, lost in losses.pairs.items())
+            yield join(arrange("{0}: {1} {2}", name, digits(lost), unit("J")) for name, lost in losses.pairs.items())
         yield from self._methods()
 
     @property
@@ -208,7 +208,7 @@ class FlywheelSheet(Panelled):
         rows = [(said("Wittenbauer"), self.result.wheel.inertia, NEGLECTS_NOTHING),
                 *((NAMES[one.name], one.inertia, one.neglects) for one in self.result.methods)]
         for name, inertia, neglects in rows if self.result.methods else ():
-            yield arranged("{0:capital}: {1} {2}; {3}", name, digits(inertia), unit(INERTIA), neglects)
+            yield arrange("{0:capital}: {1} {2}; {3}", name, digits(inertia), unit(INERTIA), neglects)
 
     def tables(self) -> Iterator[Words]:
         """A row for each plan."""
@@ -216,12 +216,12 @@ class FlywheelSheet(Panelled):
         columns = [result.told_travels, *(result.plans[name] for name in ("inertia", "moment", "energy", "omega"))]
         letters, units = ("phi", "I", "M", "E", "omega"), ("°", INERTIA, MOMENT, "J", RATE)
         size = [float(abs(column).max()) or 1.0 for column in columns]
-        head = ["", *(arranged("{0}, {1}", letter, unit(one)) for letter, one in zip(letters, units, strict=True))]
+        head = ["", *(arrange("{0}, {1}", letter, unit(one)) for letter, one in zip(letters, units, strict=True))]
         rows = [[str(k), *(digits(float(x) if abs(x) > RANGE_TOL * most else 0.0)
                            for x, most in zip(row, size, strict=True))]
                 for k, row in enumerate(zip(*columns, strict=True))]
         if self.task:  # the travels are given
-            yield Blank([joined(filter(None, (one, two)), ": "), *rest] for one, two, *rest in (head, *rows))
+            yield Blank([join(filter(None, (one, two)), ": "), *rest] for one, two, *rest in (head, *rows))
         else:
             yield [head, *rows]
 

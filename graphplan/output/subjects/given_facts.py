@@ -9,7 +9,7 @@ from typing import Any
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.order import named_forces, named_moments
 from graphplan.output.panelled import Words
-from graphplan.phrases import arranged, digits, joined, said, unit
+from graphplan.phrases import arrange, digits, join, said, unit
 
 ROWS = 40  # of a table at most that are told: more are a curve
 
@@ -20,21 +20,21 @@ def masses_and_loads(scene: Scene) -> Iterator[Words]:
     if loads is None:
         return
     for link, mass in loads.masses.items():
-        parts = [arranged("m_{0} = {1} {2}", link, digits(float(mass.mass)), unit(names.mass))] if mass.mass else []
+        parts = [arrange("m_{0} = {1} {2}", link, digits(float(mass.mass)), unit(names.mass))] if mass.mass else []
         if mass.inertia:
-            parts.append(arranged("I_{0} = {1} {2}", link, digits(float(mass.inertia)), unit(f"{names.mass} m²")))
+            parts.append(arrange("I_{0} = {1} {2}", link, digits(float(mass.inertia)), unit(f"{names.mass} m²")))
         if parts and link != FRAME:
-            yield joined(parts)
+            yield join(parts)
     if loads.masses and any(loads.gravity):
-        yield arranged("g = ({0}, {1}) {2}", *(digits(float(part)) for part in loads.gravity), unit("m/s²"))
+        yield arrange("g = ({0}, {1}) {2}", *(digits(float(part)) for part in loads.gravity), unit("m/s²"))
     for name, force in named_forces(loads).items():
         value = (digits(float(part)) for part in force.value)
-        yield _changing(name, force.table, names.force) or arranged("{0} = ({1}, {2}) {3}", name, *value,
-                                                                    unit(names.force))
+        yield _changing(name, force.table, names.force) or arrange("{0} = ({1}, {2}) {3}", name, *value,
+                                                                   unit(names.force))
     measure = f"{names.force} m"
     for name, moment in named_moments(loads).items():
-        yield _changing(name, moment.table, measure) or arranged("{0} = {1} {2}", name, digits(float(moment.value)),
-                                                                 unit(measure))
+        yield _changing(name, moment.table, measure) or arrange("{0} = {1} {2}", name, digits(float(moment.value)),
+                                                                unit(measure))
 
 
 def _changing(name: str, table: Any, measure: str) -> Words | None:
@@ -43,9 +43,9 @@ def _changing(name: str, table: Any, measure: str) -> Words | None:
         return None
     if table.powers:
         c = [digits(float(power)) for power in (*table.powers, 0, 0)][:3]
-        return arranged("{0} = {1} + {2} v + {3} v |v| {4}; v: {5}", name, *c, unit(measure), table.over)
-    told = arranged("{0}: {1}", name, said("A load over {0}, in {1} rows", table.over, len(table.rows)))
+        return arrange("{0} = {1} + {2} v + {3} v |v| {4}; v: {5}", name, *c, unit(measure), table.over)
+    told = arrange("{0}: {1}", name, said("A load over {0}, in {1} rows", table.over, len(table.rows)))
     if len(table.rows) > ROWS:
         return told
-    rows = joined([arranged("({0}; {1})", *(digits(float(number)) for number in row)) for row in table.rows])
-    return arranged("{0}: {1} {2}", told, rows, unit(measure))
+    rows = join([arrange("({0}; {1})", *(digits(float(number)) for number in row)) for row in table.rows])
+    return arrange("{0}: {1} {2}", told, rows, unit(measure))

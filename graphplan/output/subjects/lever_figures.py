@@ -19,7 +19,7 @@ from graphplan.machine.reduced.unit_motion import UnitMotion, moving_points
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.output.graphs import Figures
-from graphplan.phrases import Said, joined, said
+from graphplan.phrases import Said, join, said
 from graphplan.sheet.handout import starting_items
 from graphplan.sheet.layout.plan_scales import windows
 from graphplan.sheet.layout.scales import Scales
@@ -85,7 +85,7 @@ class LeverFigures:
     def heading(self, panel: Panel, scales: Scales) -> tuple[Said, Said]:
         """What a plan of the given pose shows, and its scales."""
         shown = self.plans.kinds(panel)
-        return panel.caption(shown), joined(scales.scale_texts(panel, shown), ",  ")
+        return panel.caption(shown), join(scales.scale_texts(panel, shown), ",  ")
 
     def picture(self, plates: Plates, panel: Panel) -> list[Item]:
         """A plan of the given pose with its letters."""

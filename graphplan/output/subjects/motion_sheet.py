@@ -30,7 +30,7 @@ from graphplan.output.panelled import Panelled, Words, pages
 from graphplan.output.step_ink import StepInk
 from graphplan.output.subjects.given_facts import masses_and_loads
 from graphplan.output.subjects.motion_numbers import units
-from graphplan.phrases import Said, arranged, digits, said, unit
+from graphplan.phrases import Said, arrange, digits, said, unit
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates import pens
@@ -271,8 +271,8 @@ class MotionSheet(Panelled):
                    true.time, drawing.read("time"), true.acceleration / machine.pace)
         slides = self.scene.drives[0].slides
         letters, names = ("s", "v", "a") if slides else ("phi", "omega", "epsilon"), ("travel", "omega", "acceleration")
-        travel, rate, change = (arranged("{0}, {1}", letter, self._unit(what))
+        travel, rate, change = (arrange("{0}, {1}", letter, self._unit(what))
                                 for letter, what in zip(letters, names, strict=True))
-        head = ["", travel, rate, said("drawn"), arranged("{0}, {1}", "t", unit("s")), said("drawn"), change]
+        head = ["", travel, rate, said("drawn"), arrange("{0}, {1}", "t", unit("s")), said("drawn"), change]
         return [head, *([str(k), *("" if math.isnan(x) else digits(float(x)) for x in row)]
                         for k, row in enumerate(zip(*columns, strict=True)))]

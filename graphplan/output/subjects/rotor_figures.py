@@ -15,7 +15,7 @@ from graphplan.machine.rotors.rotor_balance import Balanced
 from graphplan.machine.rotors.trial_runs import Effect, angle_of, harmonic
 from graphplan.output.graphs import CURVES, Figures, Graph, stacked
 from graphplan.output.tolerances import HARMONIC_TOL, MIN_WEIGHT, RANGE_TOL
-from graphplan.phrases import Said, arranged, digits, said, unit
+from graphplan.phrases import Said, arrange, digits, said, unit
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import place_letters
@@ -331,7 +331,7 @@ class RotorFigures(RotorViews):
         span, largest = (start, start + 360.0), 1.15 * max(*weights, *cosine, MIN_WEIGHT)
         rect = stacked(rect, span, [(0.0, largest)])[0].rect
         graph = Graph.fitted(rect, span, (0.0, largest), largest / rect.height)
-        yield from self.axes(graph, "°", arranged("p, {0}", unit(self.found.task.units.mass)), turns=True)
+        yield from self.axes(graph, "°", arrange("p, {0}", unit(self.found.task.units.mass)), turns=True)
         yield from graph.curve(turn, cosine, CURVES[1])
         yield from graph.points([*angles, start + 360.0], [*weights, weights[0]], radius=0.7)
         for size, name, over in ((mean + abs(first), "p_max", 1.0), (mean - abs(first), "p_min", -3.4)):

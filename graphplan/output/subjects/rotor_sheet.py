@@ -24,7 +24,7 @@ from graphplan.mechanism.units import NEWTONS
 from graphplan.output.panelled import Panelled, Words, divide_across, divide_down, pages
 from graphplan.output.subjects.rotor_figures import AROUND, MANY, RotorFigures
 from graphplan.output.tolerances import ZERO_TOL
-from graphplan.phrases import Said, arranged, digits, joined, phrase, said, unit
+from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.plates.display import Item, Rect, Sheet
 from graphplan.sheet.words.lengths import Lengths, PaperDistance
@@ -68,7 +68,7 @@ class RotorLengths(Lengths):
         if quantity.kind != AMPLITUDE:
             return super()._given_quantity(quantity, laid, where)
         per = self.scales.lengths_per_mm(self.plan(where))
-        return arranged("{0}: {1} : {2} = {3}", quantity.written, digits(laid.mm * per), digits(per), laid.text)
+        return arrange("{0}: {1} : {2} = {3}", quantity.written, digits(laid.mm * per), digits(per), laid.text)
 
 
 @dataclass(frozen=True)
@@ -213,8 +213,8 @@ class RotorSheet(Panelled):
             panel, ("p", mass) if CURVE in self.panels else ("A", ""))
         per = self._per_mm(panel)
         if self.scene.sheet.convention == "drawn":
-            return joined((f"mu_{letter} =", digits(1 / per), unit(f"mm/({measure})" if measure else "mm")), " ")
-        return joined((f"k_{letter} =", digits(per), unit(f"{measure or 1}/mm")), " ")
+            return join((f"mu_{letter} =", digits(1 / per), unit(f"mm/({measure})" if measure else "mm")), " ")
+        return join((f"k_{letter} =", digits(per), unit(f"{measure or 1}/mm")), " ")
 
     # ---- words -----------------------------------------------------------------------------------------------------
 
@@ -225,20 +225,20 @@ class RotorSheet(Panelled):
             yield from self._trial(effect, letter)
         if not self.balanced.effects:
             yield self._masses()
-        places = joined(digits(float(at), 6) for at in task.rotor.planes)
+        places = join(digits(float(at), 6) for at in task.rotor.planes)
         yield said("Correction planes at {0} {1}", places, unit(units.length)) if task.rotor.dynamic else said(
             "Correction plane at {0} {1}: static balancing", places, unit(units.length))
         if task.rotor.bearings:
-            yield said("Bearings at {0} {1}, ω = {2} rad/s", joined(digits(float(at), 6) for at in task.rotor.bearings),
+            yield said("Bearings at {0} {1}, ω = {2} rad/s", join(digits(float(at), 6) for at in task.rotor.bearings),
                        unit(units.length), digits(task.rotor.omega))
 
     def _masses(self) -> list[list[Said | str]]:
         """The masses with what polygons are drawn of."""
         rotor, units = self.balanced.task.rotor, self.balanced.task.units
         mr, mra = f"{units.mass}·{units.length}", f"{units.mass}·{units.length}²"
-        rows: list[list[Said | str]] = [["", *(joined((name, unit(measure))) for name, measure in (
+        rows: list[list[Said | str]] = [["", *(join((name, unit(measure))) for name, measure in (
             ("m", units.mass), ("r", units.length), ("α", "°"), ("a", units.length), ("m·r", mr)))]]
-        rows[0] += [joined(("m·a·r", unit(mra)))] if rotor.dynamic else []
+        rows[0] += [join(("m·a·r", unit(mra)))] if rotor.dynamic else []
         for number, mass in enumerate(self.balanced.masses, 1):
             arm = rotor.arm(mass.at) if mass.at is not None else 0
             name = f"{number}" if mass.name == str(number) else f"{number} {mass.name}"
@@ -254,18 +254,18 @@ class RotorSheet(Panelled):
         if isinstance(trial, TrialWeights):
             yield said("Trial weights at {0}, radius {1} {2}, the first at {3}°, counter-clockwise:", place,
                        digits(float(trial.mass_radius)), unit(units.length), digits(float(trial.angle)))
-            yield joined((joined(digits(float(weight)) for weight in trial.weights), unit(units.mass)), " ")
+            yield join((join(digits(float(weight)) for weight in trial.weights), unit(units.mass)), " ")
             return
         yield said("Trial {0} at {1}: m·r = {2} {3} at {4}°", letter, place, digits(float(trial.mass_radius)),
                    unit(f"{units.mass}·{units.length}"), digits(float(trial.angle)))
         if isinstance(trial, ThreeRuns):
-            yield arranged("A_1 = {0}, A_2 = {1}, A_3 = {2}", *(digits(float(one)) for one in trial.amplitudes))
+            yield arrange("A_1 = {0}, A_2 = {1}, A_3 = {2}", *(digits(float(one)) for one in trial.amplitudes))
             if trial.fourth:
                 yield said("fourth run with the trial mass at {0}°: {1}", digits(float(trial.fourth.angle)),
                            digits(float(trial.fourth.amplitude)))
         elif isinstance(trial, Marked):
-            yield joined(arranged("{0} = {1}, {2}°", name, digits(float(one.amplitude)), digits(float(one.angle)))
-                         for name, one in (("A_1", trial.first), ("A_2", trial.second)))
+            yield join(arrange("{0} = {1}, {2}°", name, digits(float(one.amplitude)), digits(float(one.angle)))
+                       for name, one in (("A_1", trial.first), ("A_2", trial.second)))
 
     def result_words(self) -> Iterator[Words]:
         """Corrections, disbalances, reactions, what is worth knowing, and the checks."""
@@ -280,9 +280,9 @@ class RotorSheet(Panelled):
             yield said("±: the standard deviation of what the pencil draws")
         yield from self._borne()
         for note in self.balanced.notes:
-            yield arranged("{0:capital}", note)
-        parts = [joined((OPINIONS[name], digits(size, 2)), " ") for name, size in self.check.items()]
-        yield said("Second opinions differ by: {0}", joined(parts))
+            yield arrange("{0:capital}", note)
+        parts = [join((OPINIONS[name], digits(size, 2)), " ") for name, size in self.check.items()]
+        yield said("Second opinions differ by: {0}", join(parts))
 
     def _effect(self, effect: Effect, letter: str) -> Iterator[Said]:
         """What a trial tells."""
@@ -290,7 +290,7 @@ class RotorSheet(Panelled):
             yield said("Half the difference of the largest and the smallest weight: p = {0} {1}", digits(effect.ratio),
                        unit(self.balanced.task.units.mass))
             return
-        turns = joined(digits(turn) for turn in effect.turns)
+        turns = join(digits(turn) for turn in effect.turns)
         yield said("Trial {0}: A = {1}, A_1/A = {2}, α = {3}°", letter, digits(effect.amplitude), digits(effect.ratio),
                    turns)
         if effect.fourth:
@@ -301,12 +301,12 @@ class RotorSheet(Panelled):
         measure = unit(f"{self.balanced.task.units.mass}·{self.balanced.task.units.length}")
         for one in answer:
             if not one.mass_radius:
-                yield arranged("m_{0}·r_{0} = 0", one.letter)
+                yield arrange("m_{0}·r_{0} = 0", one.letter)
                 continue
             size, angle = digits(one.mass_radius, 5), digits(one.angle, 5)
             if errors:
-                size = arranged("{0} ± {1}", size, digits(errors[one.index].mass_radius, 2))
-                angle = arranged("{0}° ± {1}", angle, digits(errors[one.index].angle, 2))
+                size = arrange("{0} ± {1}", size, digits(errors[one.index].mass_radius, 2))
+                angle = arrange("{0}° ± {1}", angle, digits(errors[one.index].angle, 2))
             yield said("m_{0}·r_{0} = {1} {2} at alpha_{0} = {3}°", one.letter, size, measure, angle)
             yield from self._chosen(one)
 
@@ -315,8 +315,8 @@ class RotorSheet(Panelled):
         mass, radius = self.balanced.chosen(one)
         if mass is not None and radius is not None:
             units = self.balanced.task.units
-            yield arranged("m_{0} = {1} {2}, r_{0} = {3} {4}", one.letter, digits(mass), unit(units.mass),
-                           digits(radius), unit(units.length))
+            yield arrange("m_{0} = {1} {2}, r_{0} = {3} {4}", one.letter, digits(mass), unit(units.mass),
+                          digits(radius), unit(units.length))
 
     def _disbalance(self) -> Iterator[Said]:
         """The static disbalance, and the moment about plane I."""
@@ -334,5 +334,5 @@ class RotorSheet(Panelled):
             sizes = [[abs(one) / float(NEWTONS[force]) for one in bearing_reactions(self.balanced, answer)]
                      for answer in ((), self.balanced.corrections)]
             nothing = ZERO_TOL * max(sizes[0])
-            before, after = (joined(digits(size if size > nothing else 0.0) for size in part) for part in sizes)
+            before, after = (join(digits(size if size > nothing else 0.0) for size in part) for part in sizes)
             yield said("Turning reactions of the bearings: {0} {1} before, {2} {1} after", before, unit(force), after)

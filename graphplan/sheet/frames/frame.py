@@ -22,7 +22,7 @@ from zlib import crc32
 
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import SIZES
-from graphplan.phrases import joined, said
+from graphplan.phrases import join, said
 from graphplan.sheet.frames.title import GostBlock, IsoBlock, TitleBlock
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, sentence_runs
 from graphplan.sheet.plates.display import Item, Outline, Polygon, Polyline, Rect, Spot, Text
@@ -119,7 +119,7 @@ def _name(name: str, middle: Spot) -> Item:
 
 def _format(paper: str, space: Rect, tongue: Tongue) -> Iterator[Item]:
     """The format, under the title block."""
-    text = tongue(joined((said("Format"), paper.partition(" ")[0]), " "))
+    text = tongue(join((said("Format"), paper.partition(" ")[0]), " "))
     at = space.right - 2.0, space.bottom - 3.6
     yield Text(LETTERS, BORDER, None, at, sentence_runs(text), SIZE, "end")
 

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
-from graphplan.phrases import Said, joined, said, unit
+from graphplan.phrases import Said, join, said, unit
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, SIZE, Runs, letter_sizes, sentence_runs, width, wrap
 from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot, Text, move_item
 from graphplan.sheet.plates.pens import BORDER, FAINT, FRAME, LETTERS
@@ -46,7 +46,7 @@ class Page:
     @property
     def brief(self) -> Said:
         """All of it on one line."""
-        return joined((self.document, self.scale, self.paper.partition(" ")[0], f"{self.number}/{self.of}"), " · ")
+        return join((self.document, self.scale, self.paper.partition(" ")[0], f"{self.number}/{self.of}"), " · ")
 
 
 @dataclass(frozen=True)
@@ -236,9 +236,9 @@ class IsoBlock:
 
     def _longest(self) -> dict[str, str]:
         """The longest that fields have, as a rule, where they are not the same on every page."""
-        ratio, per_length = LONGEST_RATIO, joined((LONGEST_PER_LENGTH, unit(f"mm/{self.scene.units.length}")), " ")
+        ratio, per_length = LONGEST_RATIO, join((LONGEST_PER_LENGTH, unit(f"mm/{self.scene.units.length}")), " ")
         if self.scene.sheet.convention == "drawn":
-            ratio = self.tongue(joined((LONGEST_RATIO, per_length), "; "))
+            ratio = self.tongue(join((LONGEST_RATIO, per_length), "; "))
         document = max(map(self.tongue, DOCUMENTS), key=_long)
         return {"document": document, "sheet.k_s": ratio, "format": "A0", "page": "00/00"}
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
-from graphplan.mechanism.sections import ASIDE, PROTOCOLS
+from graphplan.mechanism.sections import BESIDE_PLANS, PROTOCOLS
 from graphplan.methods.construction import Construction
 from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import SheetFrame, frame_of
@@ -172,7 +172,7 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
             wants = [panel_demands(plans, extents, scales, name)
                      for scales in ((scene_scales, NO_GIVEN_SCALES) if scene_scales[0] else (NO_GIVEN_SCALES,))]
             candidates = list(arrangements(name, partial(_divide_region, wants, plans), words, frame, title))
-            if words and protocol != ASIDE:
+            if words and protocol != BESIDE_PLANS:
                 candidates = [arrangement for arrangement in candidates if arrangement.share >= MIN_PLANS_SHARE]
             tried = [_windows(arrangement, extents, needs, plans, scene_scales) for arrangement in candidates] or tried
             fitting = [composition for composition in tried if not composition.oversize_factors]
@@ -197,7 +197,7 @@ def _divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: 
 
 def _word_choices(protocol: str, rows: Measure[Sequence[TextRow]]) -> Sequence[Measure[Sequence[TextRow]] | None]:
     """The words that an arrangement is to hold: all or none, and which is tried first."""
-    return {PROTOCOLS[0]: (rows, None), ASIDE: (rows,)}.get(protocol, (None,))
+    return {PROTOCOLS[0]: (rows, None), BESIDE_PLANS: (rows,)}.get(protocol, (None,))
 
 
 def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: SheetFrame,

@@ -12,7 +12,7 @@ from typing import Any
 from graphplan.errors import Refused
 from graphplan.kernel.program import Program
 from graphplan.methods.construction import Construction
-from graphplan.phrases import Said, joined, said
+from graphplan.phrases import Said, join, said
 from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
 from graphplan.sheet.layout.composition import Composition, compose
@@ -101,9 +101,9 @@ def back_to_front(items: Iterable[Item]) -> list[Item]:
 def _description(composition: Composition, plans: Plans) -> str:
     """What a reader who cannot see the sheet is told."""
     steps = len(plans.drawing.drawn) - plans.drawing.drawn.givens
-    scales = [joined((panel.words, joined(composition.scales.scale_texts(panel, plans.kinds(panel)))), ": ")
-            for panel in composition.plans.panels]
-    return plans.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, joined(scales, "; ")))
+    scales = [join((panel.words, join(composition.scales.scale_texts(panel, plans.kinds(panel)))), ": ")
+              for panel in composition.plans.panels]
+    return plans.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, join(scales, "; ")))
 
 
 CAPTION_MARGIN, LINE_GAP = 1.3, 1.2  # mm over a caption, and between its lines

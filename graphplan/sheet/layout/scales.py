@@ -17,7 +17,7 @@ from functools import lru_cache
 
 from graphplan.mechanism.model import Number
 from graphplan.mechanism.units import METRES
-from graphplan.phrases import Phrase, Said, arranged, digits, joined, phrase, unit
+from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, unit
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.tolerances import SCALE_TOL
 
@@ -96,8 +96,8 @@ class Scales:
     def _static(self, letter: str, scale: float, of: str) -> Said:
         """What a millimetre stands for, or how many stand for one."""
         if self.convention == "drawn":
-            return joined((f"mu_{letter} =", digits(1 / scale), unit(f"mm/{of}")), " ")
-        return joined((f"k_{letter} =", digits(scale), unit(f"{of}/mm")), " ")
+            return join((f"mu_{letter} =", digits(1 / scale), unit(f"mm/{of}")), " ")
+        return join((f"k_{letter} =", digits(scale), unit(f"{of}/mm")), " ")
 
     def _moving(self, words: tuple[Phrase, Phrase], scale: float, of: str) -> Said:
         """The same of a rate, by the words for the one and for the other."""
@@ -108,10 +108,10 @@ class Scales:
     def ratio(self) -> Said:
         """The scale of the mechanism plan as a title block has it, such as 1 : 5."""
         text = ratio(self.k_s, self.length)
-        return joined((text, *self.scale_texts("", set())), "; ") if self.convention == "drawn" else text
+        return join((text, *self.scale_texts("", set())), "; ") if self.convention == "drawn" else text
 
 
 def ratio(k_s: float, length: str) -> Said:
     """A drawing scale as a ratio of lengths on paper to those of the scene, such as 1 : 5."""
     reduction = k_s * 1000 * float(METRES[length])
-    return arranged("1 : {0}", digits(reduction)) if reduction >= 1 else arranged("{0} : 1", digits(1 / reduction))
+    return arrange("1 : {0}", digits(reduction)) if reduction >= 1 else arrange("{0} : 1", digits(1 / reduction))

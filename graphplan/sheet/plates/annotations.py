@@ -15,7 +15,7 @@ from typing import Any
 
 from graphplan.mechanism.model import FRAME, Drive, Loads, Pair, Scene
 from graphplan.mechanism.order import named_forces, named_moments
-from graphplan.phrases import digits, joined, unit
+from graphplan.phrases import digits, join, unit
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.plates import pens, symbols
@@ -182,7 +182,7 @@ class GivenArrows:
 
     def _value(self, letter: str, value: float, of: str) -> Runs:
         """A letter with its value."""
-        value_text = joined(("=", digits(float(value)), unit(of)), " ")
+        value_text = join(("=", digits(float(value)), unit(of)), " ")
         return (*name_runs(letter), *sentence_runs(f" {self.tongue(value_text)}"))
 
     def _arrow(self, name: str, value: Pair, pen: Pen, told: Runs) -> Marked:

@@ -223,7 +223,7 @@ class DrawnMechanism:
             elif seat is not None:
                 yield Figure(tuple(symbols.face(at, along, seat)), names, rides)
             else:
-                side = -1.0 if turn(at, offset(at, along, 1.0), self.spots[contact.curved[2]]) > 0 else 1.0
+                side = -1.0 if turn(at, offset(at, along, 1.0), self.spots[contact.curved_side[2]]) > 0 else 1.0
                 yield Figure(tuple(symbols.rail(at, along, side)), names or (contact.at,))
         if contact.beyond:
             yield from self._following_arcs(contact.beyond, set(contact.centres))

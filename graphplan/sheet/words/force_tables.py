@@ -12,7 +12,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.forces.free_bodies import pair_letter
 from graphplan.methods.forces.groups import pairs
 from graphplan.methods.panels import JointForce, slide_named
-from graphplan.phrases import Phrase, Said, arranged, coordinates, digits, joined, phrase, said, unit
+from graphplan.phrases import Phrase, Said, arrange, coordinates, digits, join, phrase, said, unit
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.words.lengths import magnitude
 from graphplan.sheet.words.rows import Deviations, Table, largest_size, number_runs, with_deviations
@@ -95,8 +95,8 @@ class ForceTables:
             slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
             at = [float(coordinate) for coordinate in self.drawing.scene.points[slide.at]]
             spot, off = coordinates((at[0] + x, at[1] + y)), self.pencil.of_kinds(kinds.SLIDE_ARM).get(name)
-            place = [spot, unit(self.drawing.scene.units.length), *([arranged("±{0}", off.text)] if off else [])]
-            yield said("The reaction of the slide {0} acts at {1}.", slide_named(slide), joined(place, " "))
+            place = [spot, unit(self.drawing.scene.units.length), *([arrange("±{0}", off.text)] if off else [])]
+            yield said("The reaction of the slide {0} acts at {1}.", slide_named(slide), join(place, " "))
 
     # ---- balance ---------------------------------------------------------------------------------------------------
 

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LAID, OPENING, Movement, Quantity, Sizing
 from graphplan.kernel.program import Panel, Program, Step
-from graphplan.phrases import Said, Unknown, arranged, digits, joined, said, tenths, unit
+from graphplan.phrases import Said, Unknown, arrange, digits, join, said, tenths, unit
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.tolerances import LENGTH_TOL, MIN_LENGTH
 from graphplan.sheet.words.sums import Sum
@@ -39,7 +39,7 @@ class PaperDistance(NamedTuple):
 
 def in_mm(written: Said) -> Said:
     """A number as a length on paper."""
-    return joined((written, unit("mm")), " ")
+    return join((written, unit("mm")), " ")
 
 
 class Length(NamedTuple):
@@ -85,8 +85,8 @@ class Lengths:
                     v = total[0]
                 else:
                     total = Sum("MFdm", (speed.mm, times, arm.mm, laid.mm))
-                    v = arranged("({0} · {1})", total[0], total[1])
-                text = arranged("v²/{0} = {1}² : {2} = {3}", self.side(K, A), v, total[-2], in_mm(total[-1]))
+                    v = arrange("({0} · {1})", total[0], total[1])
+                text = arrange("v²/{0} = {1}² : {2} = {3}", self.side(K, A), v, total[-2], in_mm(total[-1]))
                 return (Length(text, (speed, arm, laid)),)
             case Sizing.DOUBLE, (_, B, *_), {"K": K}:
                 half = self.distance(K, B)
@@ -166,8 +166,8 @@ class Lengths:
             return Length(laid.text, (laid,))
         factors = _factors(laid.mm / source.mm)
         product = Sum(f"m{'f' * len(factors)}m", (source.mm, *factors, laid.mm))
-        times = joined((product[k + 1] for k in range(len(factors))), " · ")
-        text = arranged("{0} · {1} = {2}", in_mm(product[0]), times, in_mm(product[-1]))
+        times = join((product[k + 1] for k in range(len(factors))), " · ")
+        text = arrange("{0} · {1} = {2}", in_mm(product[0]), times, in_mm(product[-1]))
         return Length(text, (source, laid))
 
     def _as_long(self, one: PaperDistance, other: PaperDistance) -> bool:
@@ -178,10 +178,10 @@ class Lengths:
         per, symbol = self.scale(quantity.kind, where)
         drawn_per_real = self.scales.convention == "drawn"
         quotient = Sum("ffm" if drawn_per_real else "fgm", (laid.mm * per, 1 / per if drawn_per_real else per, laid.mm))
-        value = joined((quotient[0], unit(symbol)), " ")
-        text = arranged("{0} · {1} = {2}" if drawn_per_real else "{0} : {1} = {2}", value, quotient[1],
-                        in_mm(quotient[-1]))
-        return arranged("{0}: {1}", quantity.written, text) if quantity.written else text
+        value = join((quotient[0], unit(symbol)), " ")
+        text = arrange("{0} · {1} = {2}" if drawn_per_real else "{0} : {1} = {2}", value, quotient[1],
+                       in_mm(quotient[-1]))
+        return arrange("{0}: {1}", quantity.written, text) if quantity.written else text
 
     def scale(self, kind: str, where: int) -> tuple[float, str]:
         """What a mm stands for where a step is drawn, of one kind of quantity, and its unit."""
@@ -193,7 +193,7 @@ class Lengths:
     def side(self, P: int, Q: int) -> Said:
         """The distance of two points by their letters."""
         names = [self.program.steps[index].name for index in (P, Q)]
-        return arranged("{0}{1}", *names) if all(names) else arranged("{0}", "r")
+        return arrange("{0}{1}", *names) if all(names) else arrange("{0}", "r")
 
     # ---- what is worked out -----------------------------------------------------------------------------------------
 
@@ -209,9 +209,9 @@ class Lengths:
             taken = total[0]
         else:
             total = Sum("mfmdm", (force.mm, times, lever.mm, arm.mm, laid.mm))
-            taken = arranged("{0} · {1}", total[0], total[1])
-        text = arranged("P·h/{0} = {1} · {2} : {3} = {4} ({5})", self.side(Y, X), taken, total[-3], total[-2],
-                        in_mm(total[-1]), joined((digits(laid.mm * per), unit(symbol)), " "))
+            taken = arrange("{0} · {1}", total[0], total[1])
+        text = arrange("P·h/{0} = {1} · {2} : {3} = {4} ({5})", self.side(Y, X), taken, total[-3], total[-2],
+                       in_mm(total[-1]), join((digits(laid.mm * per), unit(symbol)), " "))
         return Length(text, (force, lever, arm, laid))
 
     def _couple(self, step: Step) -> Length:
@@ -235,8 +235,8 @@ class Lengths:
         """The force of a couple's pair, by the distance of its points."""
         arm, laid, names = self.distance(P, R), self.distance(m, step.index), self.side(P, R)
         force = laid.text if step.quantity is None else self._given_quantity(
-            Quantity(arranged("{0}/{1}", step.quantity.written, names), "force"), laid, step.index)
-        return Length(arranged("{0} = {1}, {2}", names, arm.text, force), (arm, laid))
+            Quantity(arrange("{0}/{1}", step.quantity.written, names), "force"), laid, step.index)
+        return Length(arrange("{0} = {1}, {2}", names, arm.text, force), (arm, laid))
 
     def _friction(self, step: Step) -> Length:
         """The radius of a friction circle."""
@@ -253,8 +253,8 @@ class Lengths:
             taken = total[0]
         else:
             total = Sum("mfmdm", (measures[0].mm, times, *(measure.mm for measure in measures[1:])))
-            taken = arranged("{0} · {1}", total[0], total[1])
-        text = arranged("{0} · {1} : {2} = {3}", taken, total[-3], total[-2], in_mm(total[-1]))
+            taken = arrange("{0} · {1}", total[0], total[1])
+        text = arrange("{0} · {1} : {2} = {3}", taken, total[-3], total[-2], in_mm(total[-1]))
         return Length(text, measures)
 
     def _known_length(self, step: Step) -> Length:

@@ -26,7 +26,7 @@ from itertools import groupby
 from graphplan.kernel.drawing import Compound
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.kernel.stages import Stage
-from graphplan.phrases import Said, arranged, in_any_case, joined, said
+from graphplan.phrases import Said, arrange, in_any_case, join, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.lengths import Length, Lengths
@@ -171,7 +171,7 @@ class Protocol:
         """The controls of which this step draws the last mark."""
         for control in self.plans.drawing.controls:
             if step == max(map(max, control.marks)):
-                lines = (joined(map(self._program.text, line), " ") for line in control.marks)
+                lines = (join(map(self._program.text, line), " ") for line in control.marks)
                 yield said("Control: {0} and {1} meet in the pole of link {2}, through which {3} must pass.",
                            next(lines), next(lines), control.link, next(lines))
 
@@ -205,14 +205,14 @@ def lengths_of(plans: Plans, scales: Scales) -> Lengths:
 
 def with_reason(sentence: Said, why: str) -> Said:
     """A sentence with its reason where it has one."""
-    return arranged("{0} ({1:capital}.)", sentence, why) if why else sentence
+    return arrange("{0} ({1:capital}.)", sentence, why) if why else sentence
 
 
 def with_lengths(sentence: Said, measuring: Measuring) -> Said:
     """A sentence with its lengths behind it."""
     def told() -> Said:
         lengths = measuring()
-        return arranged("{0} {1}.", sentence, joined(length.text for length in lengths)) if lengths else sentence
+        return arrange("{0} {1}.", sentence, join(length.text for length in lengths)) if lengths else sentence
 
     return in_any_case(told)
 

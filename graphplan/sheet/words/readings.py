@@ -15,7 +15,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.methods.recorded import Reading
 from graphplan.methods.results import thing_named
-from graphplan.phrases import Said, arranged, digits, in_any_case, joined, phrase, said, unit
+from graphplan.phrases import Said, arrange, digits, in_any_case, join, phrase, said, unit
 from graphplan.sheet.tolerances import MIN_LENGTH
 from graphplan.sheet.words.lengths import Length, Lengths, PaperDistance, in_mm, magnitude
 from graphplan.sheet.words.sums import Sum
@@ -98,7 +98,7 @@ class Readings:
 
     def _read(self, reading: Reading, name: Said, read: ReadSum, symbol: Said, computed: float) -> Measured:
         """What is read, beside what is computed."""
-        text = said("{0}: {1} = {2}; computed {3}", name, read.text, joined((read.total[-1], symbol), " "),
+        text = said("{0}: {1} = {2}; computed {3}", name, read.text, join((read.total[-1], symbol), " "),
                     digits(computed))
         return Measured(reading.kind, reading.of, Length(text, read.measures), read.total.value, computed)
 
@@ -112,7 +112,7 @@ class Readings:
         """What a result is called: v_B, omega_3; of pairs and balances in words."""
         if kind.pair or kind.group == kinds.FORCES:
             return said("{0} of {1}", kind.words, thing_named(self.drawing.scene, kind, of))
-        return arranged("{0}_{1}", kind.dimension.letter, of)
+        return arrange("{0}_{1}", kind.dimension.letter, of)
 
     def _vector(self, dimension: Dimension, length: PaperDistance, group: str) -> ReadSum:
         """A vector, by the scale of its plan."""
@@ -121,7 +121,7 @@ class Readings:
         per, _ = self.lengths.scale(group, end)
         total, text = Sum("mff", (length.mm, per, length.mm * per)), self.lengths.program.text
         description = said("from {0} to {1}: {2}", text(start), text(end), in_mm(total[0]))
-        return ReadSum(arranged("{0} · {1}", description, total[1]), (length,), total)
+        return ReadSum(arrange("{0} · {1}", description, total[1]), (length,), total)
 
     def _turning(self, reading: Reading, marks: Sequence[int]) -> ReadSum:
         """How a link turns, by the difference of two points' vectors over their distance.
@@ -139,9 +139,9 @@ class Readings:
             sign = 1 if x * u[0] + y * u[1] >= 0 else -1
             rate = (1 - sign * image.mm / side.mm) * tempo + excess
             total = Sum(("-" if sign > 0 else "+") + "mdf" + tail, (image.mm, side.mm, tempo, *more, rate))
-            ratio = arranged("(1 − {0}/{1})" if sign > 0 else "(1 + {0}/{1})", total[0], total[1])
+            ratio = arrange("(1 − {0}/{1})" if sign > 0 else "(1 + {0}/{1})", total[0], total[1])
             text = said("from {0} to {1}: {2}, {3} = {4}: {5}", lengths.program.text(p1), lengths.program.text(r1),
-                        in_mm(total[0]), names, in_mm(total[1]), arranged("{0} · {1}", ratio, total[2]))
+                        in_mm(total[0]), names, in_mm(total[1]), arrange("{0} · {1}", ratio, total[2]))
             return ReadSum(_add_excess(text, excess, total), (image, side), total)
         first, second = lengths.vector(p0, p1), lengths.vector(r0, r1)
         w = second[0] - first[0], second[1] - first[1]
@@ -151,7 +151,7 @@ class Readings:
         tangential = PaperDistance(abs(mm), (P, R, p0, p1, r0, r1))
         (per, _), link = lengths.scale(reading.kind.group, r1), lengths.per_mm(R)
         total = Sum("mfdg" + tail, (mm, per, side.mm, link, *more, mm * per / (side.mm * link) + excess))
-        text = said("tangential part over {0}: {1}", names, arranged(
+        text = said("tangential part over {0}: {1}", names, arrange(
             "{0} · {1} : ({2} · {3})", in_mm(total[0]), total[1], in_mm(total[2]), total[3]))
         return ReadSum(_add_excess(text, excess, total), (tangential, side), total)
 
@@ -168,7 +168,7 @@ class Readings:
         whole = sum(numbers[k] * numbers[k + 1] for k in range(0, len(numbers), 2)) * per
         total = Sum("Σ" + "m" * len(numbers) + "ff", (*numbers, per, whole))
         terms = [in_any_case(partial(_term, total, k)) for k in range(0, len(numbers), 2)]
-        text = said("forces times arms ({0}) mm² · {1}", joined(terms, " "), total[-2])
+        text = said("forces times arms ({0}) mm² · {1}", join(terms, " "), total[-2])
         return ReadSum(text, tuple(measures), total)
 
 
@@ -183,9 +183,9 @@ class ReadSum(NamedTuple):
 def _term(total: Sum, place: int) -> Said:
     """A moment, in mm times mm, with its sign."""
     sign = "−" if total.numbers[place + 1] < 0 else "+" if place else ""
-    return arranged(f"{sign}{{0}} · {{1}}", total[place], total.unsigned_text(place + 1))
+    return arrange(f"{sign}{{0}} · {{1}}", total[place], total.unsigned_text(place + 1))
 
 
 def _add_excess(told: Said, excess: float, total: Sum) -> Said:
     """A turning and what a drive adds to it."""
-    return arranged("{0} + {1}", told, total[-2]) if excess else told
+    return arrange("{0} + {1}", told, total[-2]) if excess else told

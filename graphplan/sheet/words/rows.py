@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import reduce
 from typing import Any
 
-from graphplan.phrases import Said, Unknown, arranged, digits, figures, in_any_case, unit
+from graphplan.phrases import Said, Unknown, arrange, digits, figures, in_any_case, unit
 from graphplan.sheet.lettering.lettering import (
     ANCHORS,
     CAPS,
@@ -236,7 +236,7 @@ def with_deviations(say: Tongue, table: Table, names: Sequence[str], off: Off) -
     if not any(deviations):
         return table
     on_paper = any(deviation is not None and deviation.mm is not None for deviation in deviations)
-    head = say(arranged("± ({0})", unit("mm"))) if on_paper else "±"
+    head = say(arrange("± ({0})", unit("mm"))) if on_paper else "±"
     column = [head, *("" if deviation is None else say(deviation.text) for deviation in deviations)]
     return [[*row, sentence_runs(cell)] for row, cell in zip(table, column, strict=True)]
 

@@ -57,7 +57,7 @@ class Sum:
     def _number_text(self, place: int, number: float) -> Said:
         kind, result = self.kinds.lstrip(FORMS)[place], place % len(self.numbers) == len(self.numbers) - 1
         if isinstance(self.level, Unknown):
-            return self.level.printed(number, ("r" if kind in LENGTH_KINDS else "v") if result else kind)
+            return self.level.printed_number(number, ("r" if kind in LENGTH_KINDS else "v") if result else kind)
         _, of_result, _, figures = LEVELS[self.level]
         if kind in LENGTH_KINDS:
             return decimals(number, of_result if result else decimals_of(number, kind, self.level))

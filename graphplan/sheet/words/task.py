@@ -26,7 +26,7 @@ from graphplan.methods.kinds import (
     kind_of,
 )
 from graphplan.methods.panels import JointForce, both, link_named, listed, pole_letter, slide_named
-from graphplan.phrases import Said, arranged, coordinates, digits, joined, phrase, said, unit
+from graphplan.phrases import Said, arrange, coordinates, digits, join, phrase, said, unit
 from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.lettering.lettering import name_runs, sentence_runs
@@ -81,7 +81,7 @@ class TaskWords(SheetWords):
         loads, say, mass = self.drawing.scene.loads, self.plans.tongue, self.drawing.scene.units.mass
         if not loads or not loads.masses:
             return []
-        heads = (said("link"), arranged("m {0}", unit(mass)), arranged("J {0}", unit(f"{mass}·m²")),
+        heads = (said("link"), arrange("m {0}", unit(mass)), arrange("J {0}", unit(f"{mass}·m²")),
                  said("mass centre"))
         table = [[sentence_runs(say(head)) for head in heads]]
         for link, body in loads.masses.items():
@@ -95,7 +95,7 @@ class TaskWords(SheetWords):
         for plate in self.composition.plates:
             texts = self.composition.scales.scale_texts(plate.panel, self.plans.kinds(plate.panel))
             texts += [said("origin {0}", mark.name) for mark in plate.beginnings if mark.name]
-            yield from self.paragraph(arranged("{0:capital}: {1}.", plate.panel.words, joined(texts)), wide)
+            yield from self.paragraph(arrange("{0:capital}: {1}.", plate.panel.words, join(texts)), wide)
 
     def _row_with_number(self, row: TextRow) -> TextRow:
         """The row with a box to tick before its number."""
@@ -107,7 +107,7 @@ class TaskWords(SheetWords):
         steps = program.steps[program.givens:]
         used = {step.op.instrument for step in steps}
         yield self._heading(said("Hints"))
-        named = joined(name() for instrument, name in INSTRUMENTS.items() if instrument in used)
+        named = join(name() for instrument, name in INSTRUMENTS.items() if instrument in used)
         yield from self.paragraph(said("Instruments: {0}.", named), wide)
         yield from self.paragraph(said("Steps of the solution: {0}.", len(steps)), wide)
 
@@ -134,7 +134,7 @@ class TaskWords(SheetWords):
         say, slides = self.plans.tongue, {slide.name: slide_named(slide) for slide in self.drawing.scene.slides}
         arms = self.values.get("slide arm", {})
         heads = [sentence_runs(say(text)) for text in (said("line of action of"), "x",
-                                                       joined(("y", unit(self.drawing.scene.units.length)), " "))]
+                                                       join(("y", unit(self.drawing.scene.units.length)), " "))]
         box = sentence_runs("0")  # stands for a number
         return [heads, *([sentence_runs(say(slides[name])), box, box] for name in arms)] if arms else []
 
@@ -153,16 +153,16 @@ def data(scene: Scene) -> Iterator[Said]:
     """The mechanism in its pose, what drives it and what loads it, a sentence each."""
     start = scene if scene.assembly is None else scene.assembly.given
     yield said("Points, in {0}: {1}.", unit(scene.units.length),
-               joined(joined((name, _pair(at)), " ") for name, at in start.points.items()))
-    yield said("Links: {0}.", joined(joined((link_named(link), f"({' '.join(names)})"), " ")
-                                     for link, names in scene.links.items()))
+               join(join((name, _pair(at)), " ") for name, at in start.points.items()))
+    yield said("Links: {0}.", join(join((link_named(link), f"({' '.join(names)})"), " ")
+                                   for link, names in scene.links.items()))
     for kind in dict.fromkeys(type(slide) for slide in scene.slides):
-        yield kind.sentence(joined(joined((slide_named(slide), said("at {0}", slide.at)), " ")
-                                   for slide in scene.slides if type(slide) is kind))
+        yield kind.sentence(join(join((slide_named(slide), said("at {0}", slide.at)), " ")
+                                 for slide in scene.slides if type(slide) is kind))
     if scene.gears:
-        yield Gear.sentence(joined(map(_gear_text, scene.gears), "; "))
+        yield Gear.sentence(join(map(_gear_text, scene.gears), "; "))
     if scene.contacts:
-        yield Contact.sentence(joined(map(_touching, scene.contacts), "; "))
+        yield Contact.sentence(join(map(_touching, scene.contacts), "; "))
     yield from _motion(scene)
     if scene.assembly is not None and (extreme := scene.assembly.extreme):
         yield said("Construct the outer extreme position of {0}, with crank and coupler in one line."
@@ -184,9 +184,9 @@ def _gear_text(gear: Gear) -> Said:
     sizes = phrase("{0} : {1} teeth") if gear.teeth else phrase("radii {0} and {1}")
     form = {(False, "open"): [said("open belt")], (False, "crossed"): [said("crossed belt")],
             (True, ""): [said("the second a ring")]}.get((gear.internal, gear.belt), [])
-    return joined((said("{0} about {1} and {2} about {3}", link_named(gear.links[0]), gear.centres[0],
-                        link_named(gear.links[1]), gear.centres[1]),
-                   sizes(*map(_figure, gear.teeth or gear.radii or ())), *form))
+    return join((said("{0} about {1} and {2} about {3}", link_named(gear.links[0]), gear.centres[0],
+                      link_named(gear.links[1]), gear.centres[1]),
+                 sizes(*map(_figure, gear.teeth or gear.radii or ())), *form))
 
 
 def _touching(contact: Contact) -> Said:
@@ -194,12 +194,12 @@ def _touching(contact: Contact) -> Said:
     links = [said("{0} with the centre of curvature {1}", link_named(link), centre) if centre
             else said("{0} straight along {1}", link_named(link), _pair(contact.direction or (0, 0)))
             for link, centre in zip(contact.links, contact.centres, strict=True)]
-    return joined((said("at {0}", contact.at), *links, *([said("without slipping")] if contact.rolling else [])))
+    return join((said("at {0}", contact.at), *links, *([said("without slipping")] if contact.rolling else [])))
 
 
 def _moved_on(drive: Drive, travel: Fraction, length: str) -> Said:
     """How far a drive has gone in the pose that is to be constructed."""
-    distance = joined((_figure(travel), unit(length)), " ") if drive.slides else said("{0}°", _figure(travel))
+    distance = join((_figure(travel), unit(length)), " ") if drive.slides else said("{0}°", _figure(travel))
     return said("Construct the pose in which {0} has gone on by {1} relative to {2}.", link_named(drive.link), distance,
                 link_named(drive.on))
 
@@ -213,20 +213,20 @@ def _motion(scene: Scene) -> Iterator[Said]:
         turns = [] if drive.rpm is None else [_with_unit("n", drive.rpm, "1/min")]
         does = phrase("{0:capital} slides along {1}: {2}." if drive.slides
                       else "{0:capital} turns relative to {1}: {2}.")
-        yield does(*map(link_named, drive.links), joined((*turns, *rates)))
+        yield does(*map(link_named, drive.links), join((*turns, *rates)))
     for name, motion in scene.motions.items():
-        velocity = joined((f"v_{name} =", _pair(motion.velocity), unit(f"{length}/s")), " ")
-        acceleration = joined((f"a_{name} =", _pair(motion.acceleration), unit(f"{length}/s²")), " ")
-        yield said("Motion of {0}: {1}.", name, joined((velocity, acceleration)))
+        velocity = join((f"v_{name} =", _pair(motion.velocity), unit(f"{length}/s")), " ")
+        acceleration = join((f"a_{name} =", _pair(motion.acceleration), unit(f"{length}/s²")), " ")
+        yield said("Motion of {0}: {1}.", name, join((velocity, acceleration)))
 
 
 def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
     """Gravity, forces, moments and friction."""
     units = scene.units
     if any(loads.gravity):
-        yield said("Gravity: {0}.", joined(("g =", _pair(loads.gravity), unit("m/s²")), " "))
+        yield said("Gravity: {0}.", join(("g =", _pair(loads.gravity), unit("m/s²")), " "))
     for letter, force in named_forces(loads).items():
-        value = joined((f"{letter} =", _pair(force.value), unit(units.force), said("at {0}", force.at)), " ")
+        value = join((f"{letter} =", _pair(force.value), unit(units.force), said("at {0}", force.at)), " ")
         yield said("Force on {0}: {1}.", link_named(force.on), _value_text(value, force))
     for letter, moment in named_moments(loads).items():
         value = _with_unit(letter, moment.value, f"{units.force}·m")
@@ -236,7 +236,7 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
         place = (slide_named(slides[friction.slide]) if friction.slide
                  else both(friction.links) if friction.links else said("at {0}", friction.at))
         radius = [] if friction.links else [_with_unit("r", friction.radius, units.length)]
-        yield said("Friction {0}: {1}.", place, joined((arranged("mu = {0}", _figure(friction.coefficient)), *radius)))
+        yield said("Friction {0}: {1}.", place, join((arrange("mu = {0}", _figure(friction.coefficient)), *radius)))
 
 
 def _value_text(value: Said, load: Force | Moment) -> Said:
@@ -252,7 +252,7 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
     slides = {slide.name: slide_named(slide) for slide in scene.slides}
     if values.get("slide velocity") or values.get("slide acceleration"):
         moving = dict.fromkeys((*values.get("slide velocity", ()), *values.get("slide acceleration", ())))
-        yield said("Sliding velocities and accelerations: {0}.", joined(slides[name] for name in moving))
+        yield said("Sliding velocities and accelerations: {0}.", join(slides[name] for name in moving))
     if poles := [pole_letter(scene.link_pair(name)) for kind in (POLE, POLE_HEADING) for name in values.get(kind, ())]:
         yield said("Instant centres: {0}.", ", ".join(poles))
     if traced := [name for kind in (CENTRE, STRAIGHT, CUSP) for name in values.get(kind, ())]:
@@ -265,7 +265,7 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
     reactions += [both(pair.links) for kind, pairs in ((GEAR_REACTION, scene.gears), (CONTACT_REACTION, scene.contacts))
              for pair in pairs if pair.name in values.get(kind, {})]
     if reactions:
-        yield said("Reactions: {0}.", joined(reactions))
+        yield said("Reactions: {0}.", join(reactions))
     if scene.loads and any(kind_of(kind).way for kind in values):
         yield from map(_keeping, scene.loads.balances)
     if wish := scene.flywheel:
@@ -286,7 +286,7 @@ def _keeping(balance: Balance) -> Said:
 
 
 def _with_unit(letter: str, value: Any, symbol: str) -> Said:
-    return joined((letter, "=", _figure(value), unit(symbol)), " ")
+    return join((letter, "=", _figure(value), unit(symbol)), " ")
 
 
 def _pair(pair: Pair) -> Said:

@@ -14,7 +14,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import CENTRE, INFLECTION, MOTION_POLE, POLE, POLE_HEADING, WORDS
 from graphplan.methods.motion.circle_diagram import DrawnCircle
 from graphplan.methods.panels import pole_letter, slide_named
-from graphplan.phrases import Said, arranged, digits, joined, said, unit
+from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import (
     CAPS,
@@ -156,11 +156,11 @@ class SheetWords:
         """The title of a stage, its equations with what is known in them, and its law where it was not told before."""
         if passage.stage is None or passage.title is None:
             return
-        yield from self._title(arranged("{0:capital}", passage.title), wide, step)
+        yield from self._title(arrange("{0:capital}", passage.title), wide, step)
         for equation in () if passage.again else passage.stage.equations:
             yield from self.equation(equation, wide - self.indent, step)
         if passage.law:
-            law = self._hanging_rows(self._runs(arranged("{0:capital}.", passage.law)), wide, step)
+            law = self._hanging_rows(self._runs(arrange("{0:capital}.", passage.law)), wide, step)
             yield from (replace(row, keep=row.keep + 1) for row in law)
 
     def _title(self, text: Said, wide: float, step: int, size: float = SIZE, gap: float = 1.2) -> Iterator[TextRow]:
@@ -276,7 +276,7 @@ class SheetWords:
     def _check(self, wide: float) -> Iterator[TextRow]:
         if self.check:
             yield self._heading(said("Check"))
-            differences = joined(joined((WORDS[kind], _gap_text(float(gap))), " ") for kind, gap in self.check.items())
+            differences = join(join((WORDS[kind], _gap_text(float(gap))), " ") for kind, gap in self.check.items())
             yield from self.paragraph(said("Largest difference from the analytic solver, relative to the number's own "
                                        "size: {0}.", differences), wide)
 
@@ -285,7 +285,7 @@ class SheetWords:
             return
         yield self._heading(said("Method and forms"))
         for kind, methods in self.drawing.method.items():
-            yield from self.paragraph(arranged("{0:capital}: {1}.", WORDS[kind], joined(methods)), wide)
+            yield from self.paragraph(arrange("{0:capital}: {1}.", WORDS[kind], join(methods)), wide)
         for form in self.drawing.brief_forms:
             yield from self.paragraph(form, wide)
 

@@ -33,7 +33,7 @@ from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.replaced import guides
-from graphplan.mechanism.scene import packaged, parse
+from graphplan.mechanism.scene import packaged_names, parse
 from graphplan.methods.construction import Construction
 from graphplan.output.live.motion import motion, rolling, script
 
@@ -306,13 +306,13 @@ def test_limits() -> None:
     for name, case in cases().items():
         for ours, theirs in zip(case.found["limits"], case.limits, strict=True):
             assert (ours is None) == (theirs is None), name
-            near = 1e-7 if name in packaged() else 1e-5  # by chance a limit is one in several ways, and told worse
+            near = 1e-7 if name in packaged_names() else 1e-5  # by chance a limit is one in several ways, and is worse
             assert ours is None or abs(ours - theirs) <= near * max(1.0, abs(theirs)), (name, ours, theirs)
 
 
 def test_turns() -> None:
     """After any number of turns, either way, every point is back where it was; gears take their time to be."""
-    turning = [case for name, case in cases().items() if name in packaged() and case.limits == [None, None]
+    turning = [case for name, case in cases().items() if name in packaged_names() and case.limits == [None, None]
                and not case.scene.gears and not any(contact.rolling for contact in case.scene.contacts)]
     assert len(turning) > sample(1, 10)
     for case in turning:
@@ -366,7 +366,7 @@ def test_dragged_scenes() -> None:
     """What is copied as a scene gives, solved anew, the results that the page shows."""
     for name, case in cases().items():
         fair = [pose for pose in case.found["drags"] if pose["results"] and min(pose["determinants"], default=1) > FAIR
-                and (name in packaged() or max(pose["results"]["check"].values(), default=0) < 1e-5)]
+                and (name in packaged_names() or max(pose["results"]["check"].values(), default=0) < 1e-5)]
         for pose in fair[-SOLVED:]:
             truth = printed(report(parse(pose["toml"], name)))
             size = {key: max(least(case.scene).get(key, 0.0), largest(truth, key)) for key in KEYS}
@@ -397,12 +397,12 @@ def test_second_opinion() -> None:
     """The linkage's own rates and powers agree with the construction, wherever the solver does."""
     for name, case in cases().items():
         for drag, pose in zip(case.drags, case.found["drags"], strict=True):
-            check = pose["results"]["check"] if pose["results"] and name in packaged() else {}
+            check = pose["results"]["check"] if pose["results"] and name in packaged_names() else {}
             assert max(check.values(), default=0.0) <= 1e-5, (name, drag, check)
         checks = {pose["travel"]: pose["results"]["check"] for pose in case.found["poses"] if pose["results"]}
         told = sum("acceleration" in check for check in checks.values())
-        assert told >= 0.8 * len(checks) or name not in packaged(), name  # chance links hardly move, all near a limit
+        assert told >= 0.8 * len(checks) or name not in packaged_names(), name  # chance links hardly move
         doubted = [travel for travel, check in checks.items() if max(check.values()) > 1e-5]
-        assert name not in packaged() or not doubted, (name, doubted)
+        assert name not in packaged_names() or not doubted, (name, doubted)
         for travel in doubted[:1]:  # then the solver says so, too
             assert max(cycle(case.scene, 1, (travel, travel)).check.values()) > 1e-5, (name, travel)

@@ -19,7 +19,7 @@ from tiers import sample
 import graphplan as gp
 from graphplan.commands import main
 from graphplan.cycle import follow
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.words.protocol import Protocol
 from graphplan.sheet.words.texts import SheetWords
@@ -435,7 +435,7 @@ def test_results_and_words_are_python_s_in_other_poses(browser: Any) -> None:
             assert speed in unescape(told)
 
 
-@pytest.mark.parametrize("name", sample(["triad-loaded"], packaged()))
+@pytest.mark.parametrize("name", sample(["triad-loaded"], packaged_names()))
 def test_pages_of_packaged_scenes_move(browser: Any, name: str) -> None:
     """Between its limits a mechanism moves and its points are dragged, and nobody complains."""
     with opened(browser, page_of("live", name, "--choices", "none")) as page:

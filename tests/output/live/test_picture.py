@@ -18,7 +18,7 @@ from tiers import sample
 import graphplan as gp
 from graphplan.cycle import follow
 from graphplan.errors import GraphplanError
-from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construction import Construction
 from graphplan.output.live.picture import picture, scripts
 from graphplan.output.svg import inked, svg
@@ -33,7 +33,7 @@ from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.view import clip_segment
 
-SCENES = sample(["slider-crank", "double-butterfly"], packaged())
+SCENES = sample(["slider-crank", "double-butterfly"], packaged_names())
 POSES = 12  # of a turn
 FAR = 1e9  # mm
 NEAR = 0.0101  # mm: both pictures are rounded to hundredths

@@ -18,7 +18,7 @@ import graphplan as gp
 from graphplan.cycle import follow
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.output.live.texts import Telling, Texts
-from graphplan.phrases import Said, Unknown, arranged, digits, in_any_case, tenths
+from graphplan.phrases import Said, Unknown, arrange, digits, in_any_case, tenths
 from graphplan.sheet.cycle_frames import construction_in_pose
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.plates.plans import Plans
@@ -74,11 +74,11 @@ def test_what_hangs_on_a_number_is_told_of_both_cases() -> None:
 
     def told() -> Said:
         if x < 0:
-            return arranged("below")
-        return arranged("{0} of {1}", digits(x + y), "two" if y > 1 else "one")
+            return arrange("below")
+        return arrange("{0} of {1}", digits(x + y), "two" if y > 1 else "one")
 
     template = in_any_case(told)
-    assert in_any_case(lambda: arranged("same", x > 0)) == "same"
+    assert in_any_case(lambda: arrange("same", x > 0)) == "same"
     assert later.outputs
     poses = [[-1, 5], [2, 5], [2, 0.5]]
     found = run(f"const f = {later.javascript()}; const t = new Template(data.template, {{'.': ','}});"

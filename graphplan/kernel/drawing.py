@@ -4,9 +4,9 @@ A drawing is a program, the role of each mark and the scale of each plan. Values
 values. They may be those of the given pose, of another one, of n poses at once, fractions, numbers that a page will
 know later, or what was measured on paper: what reads them need not know which.
 
-    drawing = recorded(board, {"energies": energies, "tangent": [tangent]}, {FLYWHEEL: PlanScale(on_paper=True)})
+    drawing = record_drawing(board, {"energies": energies, "tangent": [tangent]}, {FLYWHEEL: PlanScale(on_paper=True)})
     values = drawing.mark_values()       # of the recorded pose, in floats
-    values.of("energies")                # the points of that role, in drawing order
+    values.values_of_role("energies")    # the points of that role, in drawing order
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import graphplan as gp
-from graphplan.kernel.drawing import Drawing, Values, recorded
+from graphplan.kernel.drawing import Drawing, Values, record_drawing
 from graphplan.kernel.panel import Panel
 from graphplan.kernel.program import Board
 from graphplan.kernel.stages import Stage
@@ -28,13 +28,13 @@ def centroid() -> Values:
         A, B, C = (board.given(x=x, y=y, name=name) for name, x, y in corners)
         D, E = board.midpoint(B, C, name="D"), board.midpoint(A, C, name="E")
         S = board.meet(board.line(A, D), board.line(B, E), name="S")
-    return recorded(board, {"centroid": [S]}).mark_values()
+    return record_drawing(board, {"centroid": [S]}).mark_values()
 
 
 def test_a_plate_s_centroid_is_drawn_lettered_and_told_on_a_sheet() -> None:
     """What was recorded of no mechanism has a sheet: its own plan, all its letters, and its steps in words."""
     values = centroid()
-    assert values.of("centroid") == [(40.0, 20.0)]
+    assert values.values_of_role("centroid") == [(40.0, 20.0)]
     composition = Composer(Plans.of_values(values, gp.load("four-bar")).drawing).compose()
     assert [*composition.views] == ["plate"]
     sheet = layout(composition.plans.drawing, composition=composition)

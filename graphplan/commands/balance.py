@@ -16,16 +16,22 @@ examples:
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
+from functools import cache, partial
+from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_language, add_paper, add_pencil, add_steps, count, refuse_steps, with_steps
-from graphplan.commands.output import DOTS, SHEETS, Messages, as_json, kind, write, write_sheets
+from graphplan.commands.choices import add_diagrams, add_language, add_pencil, count, pencil, with_presentation
+from graphplan.commands.output import SHEETS, Messages
+from graphplan.commands.subjects import PNG, SCENE, Subject, add_steps, run_subject
 from graphplan.errors import Refused
-from graphplan.mechanism.sections import FRAMES
 
-ENDINGS = (".json", ".csv", ".toml", *SHEETS)
+if TYPE_CHECKING:
+    from graphplan.output.subjects.balance_sheet import BalanceSheet
+    from graphplan.output.subjects.rotor_sheet import RotorSheet
+
 POSITIONS, SHARE = 72, 0.5
 WAYS = ("full", "partial", "share", "none")
+ENDINGS = (".json", ".csv", *SHEETS)
+PICTURES = {"dpi": PNG, "paper": SHEETS, "frame": SHEETS}
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -42,9 +48,7 @@ def options(command: argparse.ArgumentParser) -> None:
         "of a link stands; without it the length of the link")
     add("--keep", action="append", default=[], metavar="LINK", help="a link that gets no counterweight")
     add("--share", type=float, metavar="PART", help=f"of the reciprocating mass that is balanced ({SHARE:g})")
-    add("--dpi", type=count("--dpi", 20, 600), metavar="N", help=f"dots per inch of a .png ({DOTS})")
-    add_paper(command, "the sheet; without it the task's, or the smallest that will do")
-    add("--frame", choices=FRAMES, help="frame and title block; without it the task's, or iso")
+    add_diagrams(command, "task")
     add_language(command)
     add_pencil(command)
     add_steps(command)
@@ -55,64 +59,67 @@ def run(options: argparse.Namespace) -> int:
 
     text = source_text(options.scene, options.scene)
     if "rotor" in tables_of(text, options.scene):
-        from graphplan.commands import balance_rotor
+        return run_subject(options, "rotor", ENDINGS, partial(balance_rotor, text), **PICTURES)
+    return run_subject(options, "balance", (*ENDINGS[:2], *SCENE, *SHEETS), partial(balance_linkage, text), **PICTURES)
 
-        return balance_rotor.run(options, text)
-    from graphplan.check.balance import balancing
+
+def balance_linkage(text: str, options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
+    """The linkage of a scene's text, balanced as the options have it."""
+    from graphplan.check.balance import balancing, check_added_dyads
     from graphplan.mechanism.scene import parse
     from graphplan.output.subjects.balance_numbers import numbers, table
 
-    scene = parse(text, options.scene, by_drive=True)
-    said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
-    scene = replace(scene, sheet=replace(scene.sheet, **said))
-    ending, messages = kind(options.output, ENDINGS, "balance"), Messages(options.quiet)
-    drawn_alone(options, ending)
-    refuse_steps(options, ending)
+    scene = with_presentation(options, parse(text, options.scene, by_drive=True))
     if options.pencil:
         raise Refused("--pencil", "a linkage is computed, not drawn", "leave it out")
-    if ending == ".toml":
-        from graphplan.check.balance import check_added_dyads
-
-        write(check_added_dyads(scene)[0].text, options.output)
-        return 0
     if options.share is not None and (options.counterweights != "share" or not 0 <= options.share <= 1):
         raise Refused(f"--share {options.share:g}", "not a fraction of the reciprocating mass", "give 0 to 1, with "
                       "--counterweights share")
-    found = balancing(scene, options.positions or POSITIONS, options.counterweights, options.keep,
-                      _radii(options.radius), SHARE if options.share is None else options.share)
-    if found.note:
-        messages.remark(found.note)
-    if ending in SHEETS:
-        from graphplan.output.subjects.balance_sheet import sheets
+    result = cache(partial(balancing, scene, options.positions or POSITIONS, options.counterweights, options.keep,
+                           _radii(options.radius), SHARE if options.share is None else options.share))
 
-        write_sheets(sheets(found, scene.sheet.paper or None), options.output, ending.removeprefix("."), options.dpi)
-    else:
-        from graphplan.output.panelled import PAPERS
+    def sheet(paper: str) -> BalanceSheet:
         from graphplan.output.subjects.balance_sheet import BalanceSheet
 
-        paper = scene.sheet.paper or PAPERS[0]
-        data = with_steps(options, numbers(found), lambda: BalanceSheet(paper, found))
-        write(table(found.before) if ending == ".csv" else as_json(data, rows=True), options.output)
-    return 0
+        return BalanceSheet(paper, result())
+
+    balanced = ending not in SCENE  # the scene with dyads needs no counterweights
+    return Subject(sheet, lambda: numbers(result()), scene.sheet.paper, files={
+        ".csv": lambda: table(result().before), ".toml": lambda: check_added_dyads(scene)[0].text},
+        remarks=[str(result().note)] if balanced and result().note else ())
 
 
-def drawn_alone(options: argparse.Namespace, ending: str) -> None:
-    """Refuse options of sheets where none is drawn."""
-    for name, fits in (("dpi", ending == ".png"), ("paper", ending in SHEETS), ("frame", ending in SHEETS)):
-        if getattr(options, name) and not fits:
-            raise Refused(f"--{name} {getattr(options, name)}", f"it does not apply to a {ending}",
-                          "leave it out, or -o FILE.png")
+def balance_rotor(text: str, options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
+    """The rotor of a task's text, balanced."""
+    from graphplan.check.rotors import check_rotor
+    from graphplan.machine.rotors.rotor import parse
+    from graphplan.machine.rotors.rotor_balance import balanced
+    from graphplan.output.subjects.rotor_numbers import numbers, table
+    from graphplan.output.subjects.rotor_sheet import PAPERS, RotorSheet
+
+    for name in ("positions", "counterweights", "radius", "keep", "share"):
+        if getattr(options, name):
+            raise Refused(f"--{name}", "it does not apply to a rotor", "leave it out")
+    result = balanced(with_presentation(options, parse(text, options.scene)))
+    check, paper = check_rotor(result), result.task.sheet.paper
+
+    def sheet(paper: str) -> RotorSheet:
+        return RotorSheet(paper, result, check, pencil(options))
+
+    return Subject(sheet, lambda: numbers(sheet(paper or PAPERS[0])), paper, PAPERS, {".csv": partial(table, result)},
+                   [f"{options.scene}: {note}" for note in result.notes])
 
 
-def _radii(given: list[str]) -> dict[str, float]:
+def _radii(texts: list[str]) -> dict[str, float]:
     """The radii of an option, by link."""
-    found = {}
-    for text in given:
+    radii = {}
+    for text in texts:
         link, _, length = text.partition("=")
         try:
-            found[link.strip()] = float(length)
+            radius = float(length)
         except ValueError:
-            found[link.strip()] = -1.0
-        if not 0 < found[link.strip()] < float("inf"):
+            radius = -1.0
+        if not 0 < radius < float("inf"):
             raise Refused(f"--radius {text}", "not a link with a length above 0", "such as --radius 1=60")
-    return found
+        radii[link.strip()] = radius
+    return radii

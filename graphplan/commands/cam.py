@@ -42,19 +42,18 @@ from __future__ import annotations
 
 import argparse
 import os
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_language, add_paper, add_steps, count, refuse_steps, with_steps
-from graphplan.commands.output import DOTS, STANDARD, Messages, as_json, kind, write, write_sheets
+from graphplan.commands.choices import add_diagrams, add_language, count, with_presentation
+from graphplan.commands.output import STANDARD, Messages
+from graphplan.commands.subjects import JSON, PNG, SCENE, Subject, add_steps, run_subject
 from graphplan.errors import Refused
-from graphplan.mechanism.sections import FRAMES
 from graphplan.output import loaded
 
 if TYPE_CHECKING:
-    from graphplan.cams.construction import CamDrawing
+    from graphplan.output.subjects.cam_sheet import CamSheet
 
-DRAWN = ("svg", "pdf", "png", "tex")  # the sheet
+DRAWN = (".svg", ".pdf", ".png", ".tex")  # the sheet
 ENDINGS = (".svg", ".pdf", ".png", ".tex", ".dxf", ".json", ".toml")
 POSITIONS, TOLERANCE = 360, 0.001
 
@@ -64,9 +63,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("task", metavar="TASK", help="a task file, or - for standard input")
     add("-o", "--output", metavar="SHEET.svg", help="the file to write: .svg, .pdf, .png or .tex, the sheet; .dxf, the "
         "profile; .json, the numbers; .toml, a scene; without it SVG on standard output")
-    add("--dpi", type=count("--dpi", 20, 600), metavar="N", help=f"dots per inch of a .png ({DOTS})")
-    add_paper(command, "the sheet; without it the task's, or the smallest that will do")
-    add("--frame", choices=FRAMES, help="frame and title block; without it the task's, or iso")
+    add_diagrams(command, "task")
     add("--at", type=float, metavar="DEGREES", help="the pose of the scene (0)")
     add("--positions", type=count("--positions", 1), metavar="N", help=f"of the table in JSON ({POSITIONS})")
     add("--tolerance", type=float, metavar="LENGTH",
@@ -76,65 +73,43 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    return run_subject(options, "cam", ENDINGS, construct_cam, dpi=PNG, paper=DRAWN, frame=DRAWN, at=SCENE,
+                       positions=JSON, tolerance=(*JSON, ".dxf"))
+
+
+def construct_cam(options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
+    """The cam of the task that is named."""
     from graphplan.cams.construction import drawn
+    from graphplan.cams.exports import numbers, scene_text
     from graphplan.cams.profile import made
     from graphplan.cams.task import load
     from graphplan.check.cams import check_cam
 
-    ending = kind(options.output, ENDINGS, "cam").removeprefix(".")
-    _asked(options, ending)
-    refuse_steps(options, f".{ending}")
-    messages, task = Messages(options.quiet), load(options.task)
-    said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
-    task = replace(task, sheet=replace(task.sheet, **said))
+    _check_options(options)
+    task = with_presentation(options, load(options.task))
     messages.progress("base circle and profile")
     cam = made(task)
     messages.progress("inversion")
     drawing = drawn(cam)
     check = check_cam(drawing)
-    messages.progress("")
-    for note in cam.notes:
-        messages.remark(f"{task.name}: {note}")
     tolerance = TOLERANCE if options.tolerance is None else options.tolerance
-    if ending in DRAWN:
-        from graphplan.output.subjects.cam_sheet import sheets
 
-        write_sheets(sheets(drawing, check, task.sheet.paper or None), options.output, ending, options.dpi)
-    else:
-        write(_data(drawing, ending, options, tolerance, check), options.output)
-    return 0
+    def sheet(paper: str) -> CamSheet:
+        from graphplan.output.subjects.cam_sheet import CamSheet
+
+        return CamSheet(paper, drawing, check)
+
+    return Subject(sheet, lambda: numbers(drawing, options.positions or POSITIONS, tolerance, check), task.sheet.paper,
+                   files={".toml": lambda: scene_text(cam, options.at or 0.0),
+                          ".dxf": lambda: loaded("dxf", "cad.profile").profile_dxf(cam, tolerance)},
+                   remarks=[f"{task.name}: {note}" for note in cam.notes], rows=False)
 
 
-def _asked(options: argparse.Namespace, ending: str) -> None:
-    """Refuse options of another kind of output, and numbers that are none."""
-    only = {"dpi": ("png",), "paper": DRAWN, "frame": DRAWN, "at": ("toml",),
-            "positions": ("json",), "tolerance": ("json", "dxf")}
-    for name, endings in only.items():
-        if getattr(options, name) is not None and ending not in endings:
-            raise Refused(f"--{name} {getattr(options, name)}", f"it does not apply to a .{ending}",
-                          f"leave it out, or -o FILE.{endings[0]}")
+def _check_options(options: argparse.Namespace) -> None:
+    """Refuse to write over the task, and numbers out of range."""
     if options.output not in (None, STANDARD) and os.path.realpath(options.output) == os.path.realpath(options.task):
         raise Refused(f"-o {options.output}", "the task file would be overwritten", "another name")
     if options.tolerance is not None and not 1e-9 <= options.tolerance < float("inf"):
         raise Refused("--tolerance", f"{options.tolerance:g}", "give a length above 0, 1e-9 at least")
     if options.at is not None and not abs(options.at) < float("inf"):
         raise Refused("--at", f"{options.at:g}", "give an angle in degrees")
-
-
-def _data(drawing: CamDrawing, ending: str, options: argparse.Namespace, tolerance: float,
-          check: dict[str, float]) -> str | bytes:
-    """What is no sheet: the profile for CAD, the numbers, or a scene."""
-    if ending == "toml":
-        from graphplan.cams.exports import scene_text
-
-        return scene_text(drawing.cam, options.at or 0.0)
-    if ending == "json":
-        from graphplan.cams.exports import numbers
-        from graphplan.output.panelled import PAPERS
-        from graphplan.output.subjects.cam_sheet import CamSheet
-
-        data = numbers(drawing, options.positions or POSITIONS, tolerance, check)
-        paper = drawing.cam.task.sheet.paper or PAPERS[0]
-        return as_json(with_steps(options, data, lambda: CamSheet(paper, drawing, check)))
-    written: str | bytes = loaded("dxf", "cad.profile").profile_dxf(drawing.cam, tolerance)
-    return written

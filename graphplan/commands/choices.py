@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from itertools import permutations
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from graphplan.accuracy import PREFERENCES
 from graphplan.commands.output import DOTS, Messages
@@ -21,10 +21,12 @@ from graphplan.words import LANGUAGES
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
     from graphplan.accuracy.hand import Pencil
+    from graphplan.cams.task import Task
     from graphplan.check.report import Report
+    from graphplan.machine.rotors.rotor import RotorTask
     from graphplan.mechanism.model import Scene
-    from graphplan.output.panelled import Panelled
 
+Source = TypeVar("Source", "Scene", "Task", "RotorTask")
 MAX_ROUNDS = 50  # of friction that are drawn, each in force plans of its own
 
 
@@ -42,26 +44,6 @@ def count(option: str, least: int, most: int | None = None) -> Callable[[str], i
         return number
 
     return read
-
-
-def add_steps(command: argparse.ArgumentParser) -> None:
-    """The option that gives the steps of a drawing in JSON."""
-    command.add_argument("--steps", action="store_true", help="in JSON the steps of the drawing too, to be executed on "
-                         "paper as those of `graphplan steps --json`")
-
-
-def with_steps(options: argparse.Namespace, data: dict[str, Any],
-               sheet: Callable[[], Panelled]) -> dict[str, Any]:
-    """Numbers, with the steps of their sheet where these are asked for."""
-    from graphplan.output.panel_protocol import protocol
-
-    return {**data, "protocol": protocol(sheet())} if options.steps else data
-
-
-def refuse_steps(options: argparse.Namespace, ending: str) -> None:
-    """Refuse steps in what is no JSON."""
-    if options.steps and ending not in ("", ".json"):
-        raise Refused("--steps", f"it does not apply to a {ending}", "leave it out, or -o FILE.json")
 
 
 # --- declared ------------------------------------------------------------------------------------------------------
@@ -106,12 +88,13 @@ def add_paper(command: argparse.ArgumentParser, told: str) -> None:
     command.add_argument("--paper", choices=tuple(SIZES), help=told)
 
 
-def add_diagrams(command: argparse.ArgumentParser) -> None:
-    """The options that say what a sheet of diagrams looks like; without them the scene has a say in it."""
-    command.add_argument("--dpi", type=count("--dpi", 20, 600), metavar="N", help=f"dots per inch of a .png ({DOTS})")
-    add_paper(command, "the sheet; without it the scene's, or the smallest that will do")
-    command.add_argument("--frame", choices=FRAMES, help="frame and title block; without it the scene's, or iso")
-    add_language(command)
+def add_diagrams(command: argparse.ArgumentParser, source: str = "scene") -> None:
+    """The options that say what a sheet of diagrams looks like; without them the scene, or the task, has a say in it.
+    """
+    add = command.add_argument
+    add("--dpi", type=count("--dpi", 20, 600), metavar="N", help=f"dots per inch of a .png ({DOTS})")
+    add_paper(command, f"the sheet; without it the {source}'s, or the smallest that will do")
+    add("--frame", choices=FRAMES, help=f"frame and title block; without it the {source}'s, or iso")
 
 
 def add_sheet(command: argparse.ArgumentParser, *, positions: bool = True) -> None:
@@ -213,9 +196,14 @@ def on_sheet(options: argparse.Namespace, scene: Scene, **more: Any) -> Scene:
     """A scene with its sheet as the options and `more` have it, where they say; its title in the sheet's language."""
     from graphplan.words.tongue import tongue
 
-    said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
-    sheet = replace(scene.sheet, **said, **more)
-    return replace(scene, sheet=sheet, title=tongue(sheet.language).title(scene.title))
+    scene = with_presentation(options, scene, **more)
+    return replace(scene, title=tongue(scene.sheet.language).title(scene.title))
+
+
+def with_presentation(options: argparse.Namespace, source: Source, **more: Any) -> Source:
+    """A scene or a task with its sheet as the options and `more` have it, where they say."""
+    chosen = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
+    return replace(source, sheet=replace(source.sheet, **chosen, **more))
 
 
 def make_report(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:

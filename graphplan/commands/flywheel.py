@@ -17,20 +17,12 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import (
-    add_diagrams,
-    add_pencil,
-    add_steps,
-    count,
-    on_sheet,
-    pencil,
-    question,
-    refuse_steps,
-    with_steps,
-)
-from graphplan.commands.output import SHEETS, Messages, as_json, kind, write, write_sheets
+from graphplan.commands.choices import add_diagrams, add_language, add_pencil, count, pencil
+from graphplan.commands.output import SHEETS, Messages
+from graphplan.commands.subjects import Subject, add_steps, load_driven, run_subject
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
@@ -39,8 +31,7 @@ if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
     from graphplan.output.subjects.flywheel_sheet import FlywheelSheet
 
-ENDINGS = (".json", ".csv", *SHEETS)
-FEWEST, MOST = 12, 360
+MIN_POSITIONS, MAX_POSITIONS = 12, 360
 AMOUNTS = {"speed": "the mean speed of the first drive, in rad/s", "inertia": "of a flywheel that is "
            "given, in mass * m2", "unevenness": "(omega_max - omega_min) / mean"}
 
@@ -49,83 +40,69 @@ def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("-o", "--output", metavar="FILE", help="the numbers: .json or a table, .csv; the sheet: "
         f"{', '.join(SHEETS)}; without it JSON on standard output")
-    for name, told in AMOUNTS.items():
-        add(f"--{name}", metavar="X", help=f"{told}; without it the scene's")
+    for name, text in AMOUNTS.items():
+        add(f"--{name}", metavar="X", help=f"{text}; without it the scene's")
     add("--closes", choices=("drive", "load"), help="what closes the cycle; without it the scene has a say")
-    add("--positions", type=count("--positions", FEWEST, MOST), metavar="N",
+    add("--positions", type=count("--positions", MIN_POSITIONS, MAX_POSITIONS), metavar="N",
         help="in how many plans of the cycle it is drawn and tabled (24 of each turn)")
     add_pencil(command)
     add("--task", action="store_true", help="the sheet with what is given alone, and tables to fill in")
     add_diagrams(command)
+    add_language(command)
     add_steps(command)
 
 
 def run(options: argparse.Namespace) -> int:
+    return run_subject(options, "flywheel", (".json", ".csv", *SHEETS), find_flywheel)
+
+
+def find_flywheel(options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
+    """The flywheel of the scene that is named."""
     from graphplan.check.motion import check_flywheel
     from graphplan.machine.flywheel.result import flywheel
-    from graphplan.mechanism.scene import parse, source_text
     from graphplan.output.subjects.flywheel_numbers import numbers, table
 
-    ending, messages = kind(options.output, ENDINGS, "flywheel"), Messages(options.quiet)
-    refuse_steps(options, ending)
-    text = source_text(options.scene, options.scene)
-    scene = on_sheet(options, _asked(parse(text, options.scene, by_drive=True), options))
-    question(options, scene)
+    scene = load_driven(options, partial(_with_wish, options=options))
     messages.progress("reduction and energy")
-    found = flywheel(scene, options.positions)
+    result = flywheel(scene, options.positions)
     messages.progress("second opinion")
-    result = replace(found, check=check_flywheel(found))
-    messages.progress("")
-    for note in result.notes:
-        messages.remark(f"{scene.name}: {note}")
-    if ending in SHEETS:
-        from graphplan.output.subjects.flywheel_sheet import sheets
+    result = replace(result, check=check_flywheel(result))
 
-        pages = sheets(result, scene.sheet.paper or None, options.task)
-        write_sheets(pages, options.output, ending[1:], options.dpi)
-    else:
-        error, _ = pencil_errors(result, pencil(options))
-        if ending == ".csv":
-            write(table(result), options.output)
-        else:
-            write(as_json(with_steps(options, numbers(result, error), lambda: _sheet(result)), rows=True),
-                  options.output)
-    return 0
+    def sheet(paper: str) -> FlywheelSheet:
+        from graphplan.output.subjects.flywheel_sheet import FlywheelSheet
+
+        return FlywheelSheet(paper, result, options.task and ending in SHEETS)
+
+    return Subject(sheet, lambda: numbers(result, pencil_errors(result, pencil(options))[0]), scene.sheet.paper,
+                   ("A2", "A1"), {".csv": partial(table, result)}, [f"{scene.name}: {note}" for note in result.notes])
 
 
-def _sheet(result: FlywheelResult) -> FlywheelSheet:
-    """The sheet on the scene's paper, or on A2."""
-    from graphplan.output.subjects.flywheel_sheet import PAPERS, FlywheelSheet
-
-    return FlywheelSheet(result.scene.sheet.paper or PAPERS[0], result)
-
-
-def _asked(scene: Scene, options: argparse.Namespace) -> Scene:
+def _with_wish(scene: Scene, options: argparse.Namespace) -> Scene:
     """The scene with its table as the options have it."""
     from graphplan.mechanism.model import Flywheel
 
-    said = {name: _amount(name, text) for name in AMOUNTS if (text := getattr(options, name)) is not None}
-    if "inertia" in said and "unevenness" in said:
+    amounts = {name: _amount(name, text) for name in AMOUNTS if (text := getattr(options, name)) is not None}
+    if "inertia" in amounts and "unevenness" in amounts:
         raise Refused("--inertia and --unevenness", "each follows from the other", "one of them")
-    if scene.flywheel is None and not ("speed" in said and len(said) > 1):
+    if scene.flywheel is None and not ("speed" in amounts and len(amounts) > 1):
         return scene
-    wish = scene.flywheel or Flywheel(said["speed"])
-    if "inertia" in said or "unevenness" in said:
+    wish = scene.flywheel or Flywheel(amounts["speed"])
+    if "inertia" in amounts or "unevenness" in amounts:
         wish = replace(wish, inertia=None, unevenness=None)
-    wish = replace(wish, **said, closes=options.closes or wish.closes)
+    wish = replace(wish, **amounts, closes=options.closes or wish.closes)
     return replace(scene, flywheel=wish)
 
 
 def _amount(name: str, text: str) -> Fraction:
-    """The number of an option, above nothing."""
+    """The number of an option, above 0; of an inertia at least 0."""
     try:
-        found = Fraction(text)
+        amount = Fraction(text)
     except (ValueError, ZeroDivisionError):
         raise Refused(f"--{name} {text}", "not a number", "such as 0.02") from None
-    most = 2 if name == "unevenness" else None
-    if found < 0 or (found == 0 and name != "inertia") or (most and found >= most):
-        raise Refused(f"--{name} {text}", "out of range", "more than 0 and less than 2" if most else "more than 0")
-    return found
+    limit = 2 if name == "unevenness" else None
+    if amount < 0 or (amount == 0 and name != "inertia") or (limit and amount >= limit):
+        raise Refused(f"--{name} {text}", "out of range", "more than 0 and less than 2" if limit else "more than 0")
+    return amount
 
 
 def pencil_errors(result: FlywheelResult, pencil: Pencil) -> tuple[float, float]:
@@ -136,6 +113,6 @@ def pencil_errors(result: FlywheelResult, pencil: Pencil) -> tuple[float, float]
     drawing = result.drawing
     hand = program_hand(drawing.program, drawing.values, lambda step: 1.0, pencil)
     (m,), (n,), (mean,) = (drawing.marks[role] for role in ("m", "n", "mean"))
-    off = deviation(hand, lambda values: values[m][1] - values[n][1]) * drawing.frames["energy"].y.unit
-    return (off * drawing.change(result.given),
+    intercept = deviation(hand, lambda values: values[m][1] - values[n][1]) * drawing.frames["energy"].y.unit
+    return (intercept * drawing.change(result.given),
             deviation(hand, lambda values: values[mean][1]) * drawing.frames["moment"].y.unit)

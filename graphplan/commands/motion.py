@@ -16,13 +16,18 @@ from __future__ import annotations
 
 import argparse
 import math
+from functools import partial
+from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_diagrams, add_steps, count, on_sheet, question, refuse_steps, with_steps
-from graphplan.commands.output import SHEETS, Messages, as_json, kind, write, write_sheets
+from graphplan.commands.choices import add_diagrams, add_language, count
+from graphplan.commands.output import SHEETS, Messages
+from graphplan.commands.subjects import Subject, add_steps, load_driven, run_subject
 from graphplan.errors import Refused
 
-ENDINGS = (".json", ".csv", *SHEETS)
-POSITIONS, MOST = 24, 96  # without a word, and that can be drawn
+if TYPE_CHECKING:
+    from graphplan.output.subjects.motion_sheet import MotionSheet
+
+POSITIONS, MAX_DRAWN = 24, 96  # unless the option says how many, and those that can be drawn
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -37,43 +42,39 @@ def options(command: argparse.ArgumentParser) -> None:
         help=f"in how many equal parts of the travel ({POSITIONS})")
     add("--steady", action="store_true", help="the cycle that repeats itself")
     add_diagrams(command)
+    add_language(command)
     add_steps(command)
 
 
 def run(options: argparse.Namespace) -> int:
+    return run_subject(options, "motion", (".json", ".csv", *SHEETS), find_motion)
+
+
+def find_motion(options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
+    """The motion of the scene that is named."""
     from graphplan.check.motion import check_motion
     from graphplan.machine.motion.drawing import drawn
     from graphplan.machine.motion.runs import run as motion_of
-    from graphplan.mechanism.scene import parse, source_text
-    from graphplan.output.subjects import motion_numbers
+    from graphplan.output.subjects.motion_numbers import numbers, table
 
-    ending = kind(options.output, ENDINGS, "motion")
-    refuse_steps(options, ending)
     for name in ("speed", "travel"):
         if (value := getattr(options, name)) is not None and not math.isfinite(value):
             raise Refused(f"--{name}", f"{value:g}", "give a number")
-    messages, positions = Messages(options.quiet), options.positions or POSITIONS
-    scene = on_sheet(options, parse(source_text(options.scene, options.scene), options.scene, by_drive=True))
-    question(options, scene)
-    found = motion_of(scene, options.speed, options.travel, options.steady)
-    drawing = drawn(found.motion, min(positions, MOST))
-    check = check_motion(found, drawing)
-    if (stop := found.motion.stop) is not None:
+    positions = options.positions or POSITIONS
+    scene = load_driven(options)
+    result = motion_of(scene, options.speed, options.travel, options.steady)
+    drawing = drawn(result.motion, min(positions, MAX_DRAWN))
+    check, remarks = check_motion(result, drawing), list[str]()
+    if (stop := result.motion.stop) is not None:
         when = f"after {stop.time:.6g} s" if math.isfinite(stop.time) else "and nears it for ever"
-        messages.remark(f"{scene.name}: the machine stops at {found.machine.told(stop.travel)}, {when}")
-    if found.reduction.friction is not None:
-        messages.remark(f"{scene.name}: friction is taken as it is at the speed of the drive in the scene")
-    if ending in SHEETS:
-        from graphplan.output.subjects.motion_sheet import sheets
+        remarks.append(f"{scene.name}: the machine stops at {result.machine.told(stop.travel)}, {when}")
+    if result.reduction.friction is not None:
+        remarks.append(f"{scene.name}: friction is taken as it is at the speed of the drive in the scene")
 
-        pages = sheets(found, min(positions, MOST), scene.sheet.paper or None)
-        write_sheets(pages, options.output, ending[1:], options.dpi)
-    elif ending == ".csv":
-        write(motion_numbers.text(found, positions), options.output)
-    else:
-        from graphplan.output.subjects.motion_sheet import PAPERS, MotionSheet
+    def sheet(paper: str) -> MotionSheet:
+        from graphplan.output.subjects.motion_sheet import MotionSheet
 
-        data = with_steps(options, motion_numbers.numbers(found, drawing, check, positions), lambda: MotionSheet(
-            scene.sheet.paper or PAPERS[0], found, min(positions, MOST)))
-        write(as_json(data), options.output)
-    return 0
+        return MotionSheet(paper, result, min(positions, MAX_DRAWN))
+
+    return Subject(sheet, lambda: numbers(result, drawing, check, positions), scene.sheet.paper, ("A3", "A2"),
+                   {".csv": partial(table, result, positions)}, remarks, rows=False)

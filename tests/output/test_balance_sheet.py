@@ -11,7 +11,8 @@ from linkages_with_masses import four_bar
 from graphplan.check.balance import balancing
 from graphplan.commands import main
 from graphplan.mechanism.scene import load
-from graphplan.output.subjects.balance_sheet import BalanceSheet, sheets
+from graphplan.output.panelled import pages
+from graphplan.output.subjects.balance_sheet import BalanceSheet
 from graphplan.sheet.plates.display import Arrow, Sheet
 
 LINKAGE = four_bar([(2, 0.06, 0.02), (3, 0.2, -0.03), (4, 0.12, 0.01)])
@@ -20,7 +21,8 @@ LINKAGE = four_bar([(2, 0.06, 0.02), (3, 0.2, -0.03), (4, 0.12, 0.01)])
 @pytest.fixture(scope="module")
 def sheet() -> Sheet:
     """The sheet of a four-bar linkage."""
-    found = sheets(balancing(LINKAGE, 24))
+    result = balancing(LINKAGE, 24)
+    found = pages(lambda paper: BalanceSheet(paper, result))
     assert len(found) == 1
     return found[0]
 

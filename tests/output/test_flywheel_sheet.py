@@ -11,7 +11,8 @@ from graphplan.commands import main
 from graphplan.machine.flywheel.drawing import FLYWHEEL
 from graphplan.machine.flywheel.result import FlywheelResult, flywheel
 from graphplan.mechanism.scene import load, parse, source_text
-from graphplan.output.subjects.flywheel_sheet import FlywheelSheet, sheets
+from graphplan.output import panelled
+from graphplan.output.subjects.flywheel_sheet import FlywheelSheet
 from graphplan.output.subjects.lever_figures import LEVERS
 from graphplan.output.svg import svg
 from graphplan.phrases import digits
@@ -23,6 +24,11 @@ from graphplan.sheet.plates.display import EDGE_SLACK_MM, Item, Polyline, Sheet,
 def result() -> FlywheelResult:
     """The scotch yoke's flywheel."""
     return flywheel(load("ozols-13-6"))
+
+
+def sheets(result: FlywheelResult, paper: str = "", task: bool = False) -> list[Sheet]:
+    """The sheet on a paper, or on the smallest on which its words have room."""
+    return panelled.pages(lambda name: FlywheelSheet(name, result, task), paper, ("A2", "A1"))
 
 
 @pytest.fixture(scope="module")

@@ -24,7 +24,7 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.graphs import CURVES, Figures, Graph, Polar, Span, scale_words, smoothed, stacked, through
-from graphplan.output.panelled import Panelled, Words, divide_across, divide_down, pages
+from graphplan.output.panelled import Panelled, Words, divide_across, divide_down
 from graphplan.output.step_ink import HEAD, StepInk
 from graphplan.output.subjects.balance_words import BalanceWords, cleaned
 from graphplan.phrases import Said, join, said
@@ -33,7 +33,7 @@ from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import place_letters
 from graphplan.sheet.lettering.letters import mechanism_wishes
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Sheet, Spot
+from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
@@ -49,11 +49,6 @@ MANY_TIMES = 8.0  # the middle size of a force: between limits what is larger ma
 APART = 1.5  # mm: positions that lie nearer to each other have one number
 SHARES = 0.7, 0.85, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4  # of the height that forces may have, moments having 1
 MOST, LEAST = 12, 5  # numbered positions at most; mm that the radius of a drawn counterweight is at most
-
-
-def sheets(found: Balancing, paper: str | None = None) -> list[Sheet]:
-    """The sheet of a linkage on the paper named, or on the smallest on which its words have room; see :func:`pages`."""
-    return pages(lambda name: BalanceSheet(name, found), paper)
 
 
 @dataclass(frozen=True)

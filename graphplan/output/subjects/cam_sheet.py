@@ -20,14 +20,14 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 from graphplan.output.graphs import Figures
-from graphplan.output.panelled import Panelled, divide_across, divide_down, pages
+from graphplan.output.panelled import Panelled, divide_across, divide_down
 from graphplan.output.step_ink import StepInk
 from graphplan.output.subjects.cam_diagrams import CENTRE_PLAN, CURVATURE_PLAN, LAW_PLAN, Paper
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.lettering import LetterSizes
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.plates.view import View, fit_scale, view
@@ -188,11 +188,6 @@ CONTACTS = {"point": said("point"), "roller": said("roller"), "flat": said("flat
 OPINIONS = {"points": said("points"), "motion": said("motion"), "curvature": said("curvature"), "law": said("law")}
 OUTSIDE = 9.0  # mm about the plan
 PLAN_WIDE, PLAN_HIGH = 0.6, 0.64  # of the room beside the words: the plan; above the curve x(s)
-
-
-def sheets(drawing: CamDrawing, check: dict[str, float], paper: str | None = None) -> list[Sheet]:
-    """The sheet of a cam on the paper named, or on the smallest on which its words have room; see :func:`pages`."""
-    return pages(lambda name: CamSheet(name, drawing, check), paper)
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from graphplan.machine.flywheel.other_methods import NEGLECTS_NOTHING
 from graphplan.machine.flywheel.result import FlywheelResult
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import Figures
-from graphplan.output.panelled import Blank, Panelled, Words, divide_across, divide_down, pages
+from graphplan.output.panelled import Blank, Panelled, Words, divide_across, divide_down
 from graphplan.output.subjects.flywheel_figure import FlywheelFigure, room_in
 from graphplan.output.subjects.given_facts import masses_and_loads
 from graphplan.output.subjects.lever_figures import LEVERS, LeverFigures
@@ -30,24 +30,15 @@ from graphplan.output.tolerances import RANGE_TOL
 from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
 from graphplan.sheet.frames.title import TASK
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.plates.display import Item, Rect, Sheet
+from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.words.rows import TextRow
 
 DOCUMENT = said("Flywheel sheet")
-PAPERS = ("A2", "A1")
 MOMENT, INERTIA, RATE = "N m", "kg m²", "rad/s"  # units
 UPPER, SHARES = 0.36, (0.4, 0.3, 0.3)  # of the height: the plans; of the width: mechanism, lever, the other levers
 NAMES = {"gutjahr": said("Gutjahr"), "area vectors": said("area vectors"), "power": said("power"),
          "characteristic": said("characteristic")}
-
-
-def sheets(result: FlywheelResult, paper: str | None = None, task: bool = False) -> list[Sheet]:
-    """The sheet of a flywheel on the paper named, or on the smallest on which its words have room; see :func:`pages`.
-
-    As a `task` it has what is given alone: the mechanism in its positions, axes and scales, and tables to fill in.
-    """
-    return pages(lambda name: FlywheelSheet(name, result, task), paper, PAPERS)
 
 
 @dataclass(frozen=True)

@@ -18,9 +18,9 @@ def numbers(found: Run, drawing: MotionDrawing | None, check: dict[str, float], 
     """All of it, plain data for JSON: travel in degrees and rates in rad/s, of a drive that slides in scene lengths;
     moments in N m (forces in N), energies in J; null where the machine does not get."""
     motion, machine = found.motion, found.machine
-    columns = table(found, positions)
+    rows = columns(found, positions)
     data: dict[str, Any] = {"title": found.scene.title, "units": units(found)}
-    data |= {name: _listed(values) for name, values in columns.items()}
+    data |= {name: _listed(values) for name, values in rows.items()}
     data |= {"stop": None if motion.stop is None else _place(found, motion.stop), "speeds": _speeds(found)}
     data["steady"] = found.steady is motion
     if machine.wheel:
@@ -45,7 +45,7 @@ def units(found: Run) -> dict[str, str]:
             "moment": "N*m", "inertia": "kg*m^2"}
 
 
-def table(found: Run, positions: int) -> dict[str, Any]:
+def columns(found: Run, positions: int) -> dict[str, Any]:
     """Travel, speed, time, acceleration, energy, moment of all loads and inertia at the ends of so many parts."""
     motion, machine = found.motion, found.machine
     travel = np.linspace(motion.start, motion.end, positions + 1)
@@ -56,11 +56,11 @@ def table(found: Run, positions: int) -> dict[str, Any]:
             "moment": machine.moment(travel, state.omega) + lost, "inertia": machine.inertia(travel) + lost}
 
 
-def text(found: Run, positions: int) -> str:
+def table(found: Run, positions: int) -> str:
     """The same as comma-separated text: a heading, then a line for each position."""
-    columns, told = table(found, positions), units(found)
-    lines = [",".join(f"{name} [{told[name]}]" for name in columns)]
-    for row in np.stack([*columns.values()], 1).tolist():
+    rows, measures = columns(found, positions), units(found)
+    lines = [",".join(f"{name} [{measures[name]}]" for name in rows)]
+    for row in np.stack([*rows.values()], 1).tolist():
         lines.append(",".join("" if math.isnan(number) else repr(number + 0.0) for number in row))
     return "\n".join([*lines, ""])
 

@@ -26,7 +26,7 @@ from graphplan.machine.motion.drawing import MOTION, MotionDrawing, drawn
 from graphplan.machine.motion.runs import Run
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import AXIS, FOOT, HEADED, Figures, Graph
-from graphplan.output.panelled import Panelled, Words, pages
+from graphplan.output.panelled import Panelled, Words
 from graphplan.output.step_ink import StepInk
 from graphplan.output.subjects.given_facts import masses_and_loads
 from graphplan.output.subjects.motion_numbers import units
@@ -34,7 +34,7 @@ from graphplan.phrases import Said, arrange, digits, said, unit
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Item, Polyline, Rect, Sheet, Spot
+from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.view import View, clip_item
 
@@ -173,12 +173,6 @@ class MotionFigure:
 # ---- the sheet ------------------------------------------------------------------------------------------------------
 
 
-PAPERS = "A3", "A2"
-
-
-def sheets(found: Run, strips: int, paper: str | None = None) -> list[Sheet]:
-    """The sheet of a motion on the paper named, or on the smallest on which its words have room."""
-    return pages(lambda name: MotionSheet(name, found, strips), paper, PAPERS)
 
 
 @dataclass(frozen=True)

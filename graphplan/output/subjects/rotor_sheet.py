@@ -21,12 +21,12 @@ from graphplan.machine.rotors.rotor_balance import Answer, Balanced
 from graphplan.machine.rotors.trial_runs import AMPLITUDE, TRIAL_PLANS, Effect
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.units import NEWTONS
-from graphplan.output.panelled import Panelled, Words, divide_across, divide_down, pages
+from graphplan.output.panelled import Panelled, Words, divide_across, divide_down
 from graphplan.output.subjects.rotor_figures import AROUND, MANY, RotorFigures
 from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
-from graphplan.sheet.plates.display import Item, Rect, Sheet
+from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.words.lengths import Lengths, PaperDistance
 
 SIDE_VIEW = Panel("side view", said("side view"))
@@ -35,11 +35,6 @@ PAPERS = "A3", "A2"
 OPINIONS = {"corrections": said("corrections"), "residual_force": said("force left"),
             "residual_moment": said("moment left"), "trials": said("trials")}
 LESS = 1.3  # times as coarse as the scale along the axis may be to be that across it
-
-
-def sheets(found: Balanced, check: Mapping[str, float], pencil: Pencil) -> list[Sheet]:
-    """The sheet of a rotor on the task's paper, or on the smallest on which its words have room; see :func:`pages`."""
-    return pages(lambda name: RotorSheet(name, found, check, pencil), found.task.sheet.paper or None, PAPERS)
 
 
 def one_sheet(found: Balanced, check: Mapping[str, float], pencil: Pencil) -> RotorSheet:

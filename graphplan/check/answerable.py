@@ -17,12 +17,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from importlib.util import find_spec
 from typing import Any, Generic, TypeVar
 
 from graphplan.check.arithmetics import FLOATS, bounded_rates, enclose_scene, enclosures
-from graphplan.check.report import NOTHING_MOVES, Report
+from graphplan.check.report import NOTHING_MOVES, Reasons, Report
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.mechanism.equations import System, stages
 from graphplan.mechanism.model import FRAME, Condition, Find, Loads, Scene
@@ -34,7 +34,6 @@ from graphplan.solver.instant_centres import relative
 EXTRAS = "poles", "curvature", "inflection"
 
 Item = tuple[str, str]  # which of these, and of what
-Reasons = dict[str, dict[str, str]]
 Answer = TypeVar("Answer")
 
 
@@ -69,7 +68,7 @@ def extras(scene: Scene) -> list[Item]:
     return [(kind, name) for kind in EXTRAS for name in getattr(scene.find, kind)]
 
 
-def drop_extras(scene: Scene, reasons: Mapping[str, Mapping[str, str]]) -> Scene:
+def drop_extras(scene: Scene, reasons: Reasons) -> Scene:
     """The scene without the extras that these reasons are of."""
     return with_extras(scene, [(kind, name) for kind, name in extras(scene) if name not in reasons.get(kind, ())])
 
@@ -198,16 +197,6 @@ def _resting_pairs(scene: Scene) -> frozenset[str]:
 
 
 R = TypeVar("R", bound=Report)
-Missing = dict[str, dict[str, str]]
-
-
-@dataclass(frozen=True)
-class RegularPart:
-    """The links of a scene that are determined, as a scene; of all else that is asked why it is not, by printed key
-    and name."""
-
-    scene: Scene
-    missing: Missing
 
 
 def report_regular_part(scene: Scene, reported: Callable[[Scene], R]) -> R:
@@ -218,12 +207,14 @@ def report_regular_part(scene: Scene, reported: Callable[[Scene], R]) -> R:
         regular = regular_part(scene)
         if regular is None:
             raise
-        partial_report = reported(regular.scene)
-        return replace(partial_report, whole=scene, missing=join_reasons(regular.missing, partial_report.missing))
+        determined, missing = regular
+        partial_report = reported(determined)
+        return replace(partial_report, whole=scene, missing=join_reasons(missing, partial_report.missing))
 
 
-def regular_part(scene: Scene) -> RegularPart | None:
-    """The part of a scene that is regular; None where it tells nothing of what is asked."""
+def regular_part(scene: Scene) -> tuple[Scene, Reasons] | None:
+    """The links of a scene that are determined, as a scene, and why the rest of what is asked is not; None where it
+    tells nothing of what is asked."""
     if scene.assembly is not None:
         return None
     dead = _singular_links(scene)
@@ -233,8 +224,7 @@ def regular_part(scene: Scene) -> RegularPart | None:
     questions, missing = _regular_questions(scene, dead)
     regular_scene = replace(bare, find=questions, loads=loads)
     missing |= untold
-    return RegularPart(regular_scene, missing) if regular_links and _answers(scene, questions, regular_links,
-                                                                             loads) else None
+    return (regular_scene, missing) if regular_links and _answers(scene, questions, regular_links, loads) else None
 
 
 def _answers(scene: Scene, known: Find, kept: Collection[str], loads: Loads | None) -> bool:
@@ -289,7 +279,7 @@ def _links_text(links: Collection[str]) -> str:
 # ---- what is asked ---------------------------------------------------------------------------------------------------
 
 
-def _regular_questions(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Missing]:
+def _regular_questions(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Reasons]:
     """What is asked of the links that are known, and why nothing is told of the others."""
     find = asked_by_name(scene)
     at = {point: next((dead[link] for link in links if link in dead), "") for point, links in scene.links_of.items()
@@ -335,7 +325,7 @@ def asked_by_name(scene: Scene) -> Find:
 # ---- forces ----------------------------------------------------------------------------------------------------------
 
 
-def _regular_loads(scene: Scene, kept: Collection[str], dead: Mapping[str, str]) -> tuple[Loads | None, Missing]:
+def _regular_loads(scene: Scene, kept: Collection[str], dead: Mapping[str, str]) -> tuple[Loads | None, Reasons]:
     """The loads of the links that are known, where their forces can be had, and why others cannot."""
     loads = scene.loads
     if loads is None:

@@ -13,13 +13,13 @@ from dataclasses import dataclass, field, replace
 from decimal import ROUND_DOWN, Context, Decimal
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
-from graphplan.check.answerable import Reasons, answer_what_exists, decide_friction, drop_extras, extras, join_reasons
+from graphplan.check.answerable import answer_what_exists, decide_friction, drop_extras, extras, join_reasons
 from graphplan.check.arithmetics import enclosures
-from graphplan.check.compared import components, drawn_sizes, weight
+from graphplan.check.compared import Readings, components, drawn_sizes, weight
 from graphplan.check.json_results import result_data
-from graphplan.check.report import ReferenceSolution, Report, reference_solution
+from graphplan.check.report import Reasons, ReferenceSolution, Report, reference_solution
 from graphplan.check.trusted import first_sound, report, solver_results
 from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, GraphplanError, Refused, SingularPose
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, precision
@@ -48,7 +48,7 @@ class Certified(Report):
 
     digits: int
     bits: int
-    truths: dict[str, dict[str, Any]] = field(repr=False)
+    truths: Readings = field(repr=False)
 
     @cached_property
     def check(self) -> dict[str, Enclosure]:
@@ -190,8 +190,8 @@ def _to_digits(scene: Scene, digits: int, how: dict[str, str], locks: str) -> Ce
     while bits <= max(MAX_BITS, 2 * least):
         with precision(bits):
             try:
-                solved = reference_solution(scene, enclosures(bits))
-                certified = _attempt(solved, digits, bits, how, locks, patient=bits < PATIENT_FACTOR * least)
+                attempt = _Attempt(reference_solution(scene, enclosures(bits)), digits, bits, locks)
+                certified = attempt.certify(how, patient=bits < PATIENT_FACTOR * least)
                 if certified.has_digits:
                     return certified
             except Undecided as undecided:
@@ -227,8 +227,7 @@ def _of_fractions(scene: Scene, digits: int, bits: int, how: dict[str, str]) -> 
         truths = _enclose({kind: exact.truth(kind) for kind in exact.results})
         forces = exact.forces and replace(exact.forces, results=results, exact=False, bounded=True)
         certified = Certified(exact.drawing, exact.rates, results, False, forces, digits=digits, bits=bits,
-                              truths=truths,
-                              fault=exact.fault)
+                              truths=truths, fault=exact.fault)
         return certified if certified.has_digits else None
 
 
@@ -239,48 +238,48 @@ def _enclose(value: Any) -> Any:
     return tuple(map(Enclosure, value)) if isinstance(value, tuple) else Enclosure(value)
 
 
-def _attempt(solved: ReferenceSolution, digits: int, bits: int, how: dict[str, str], locks: str,
-             patient: bool) -> Certified:
-    """Both opinions at one precision, by the first way on which they agree, else the solver's alone.
+class _Attempt(NamedTuple):
+    """The scene `solved` at a precision of so many bits, and how many digits are wanted of it."""
 
-    `Undecided` where the precision is too low for a way, as long as we are `patient`.
-    """
-    doubts: list[ConstructionError] = []
-    first = first_sound(solved.scene, how, lambda drawing: _certify_drawing(drawing, solved, digits, bits, locks,
-                                                                            doubts))
-    if isinstance(first, Certified) and (first.agrees or not doubts):
-        return first
-    if doubts and patient:
-        raise Undecided(doubts[0].why) from doubts[0]
-    return first if isinstance(first, Certified) else _certify_solver(solved, digits, bits, locks, *first)
+    solved: ReferenceSolution
+    digits: int
+    bits: int
+    locks: str
 
+    def certify(self, how: dict[str, str], patient: bool) -> Certified:
+        """The first way on which construction and solver agree, else the solver alone.
 
-def _certify_drawing(drawing: Construction, solved: ReferenceSolution, digits: int, bits: int, locks: str,
-                     doubts: list[ConstructionError]) -> Certified:
-    """One construction beside the solver; why it has no numbers joins the `doubts` where more bits may give some."""
-    domain = Enclosures()
-    try:
-        results = drawing.read(domain)
-    except ConstructionError as error:
-        doubts += [error] if domain.undecided else []
-        raise
-    return _certify_results(drawing, solved, results, digits, bits, locks)
+        `Undecided` where the precision is too low for a way, as long as we are `patient`.
+        """
+        doubts: list[ConstructionError] = []
+        first = first_sound(self.solved.scene, how, lambda drawing: self.of_drawing(drawing, doubts))
+        if isinstance(first, Certified) and (first.agrees or not doubts):
+            return first
+        if doubts and patient:
+            raise Undecided(doubts[0].why) from doubts[0]
+        if isinstance(first, Certified):
+            return first
+        drawing, fault = first  # it has no numbers in this pose: what the solver says of all that it would give
+        return replace(self.of_results(drawing, solver_results(drawing, self.solved)), fault=fault)
 
+    def of_drawing(self, drawing: Construction, doubts: list[ConstructionError]) -> Certified:
+        """One construction and the solver; why it has no numbers joins the `doubts` where more bits may give some."""
+        domain = Enclosures()
+        try:
+            results = drawing.read(domain)
+        except ConstructionError as error:
+            doubts += [error] if domain.undecided else []
+            raise
+        return self.of_results(drawing, results)
 
-def _certify_solver(solved: ReferenceSolution, digits: int, bits: int, locks: str, drawing: Construction,
-                    fault: ConstructionError) -> Certified:
-    """What the solver says of all that a construction would give, which has no numbers in this pose."""
-    return replace(_certify_results(drawing, solved, solver_results(drawing, solved), digits, bits, locks), fault=fault)
-
-
-def _certify_results(drawing: Construction, solved: ReferenceSolution, results: dict[str, dict[str, Any]], digits: int,
-                     bits: int, locks: str) -> Certified:
-    """Results at a precision beside the solver's, and the solver's of what is not drawn."""
-    truths = solved.truth(results, drawing.rounds)
-    for kind, named in solved.undrawn_forces(drawing, results, truths).items():
-        results = results | {kind: results.get(kind, {}) | named}
-    forces = solved.drawn_forces(drawing, results, locks, bounded=True)
-    return Certified(drawing, solved.rates, results, False, forces, digits=digits, bits=bits, truths=truths)
+    def of_results(self, drawing: Construction, results: Readings) -> Certified:
+        """Results and the solver's, and the solver's of what is not drawn."""
+        truths = self.solved.truth(results, drawing.rounds)
+        for kind, named in self.solved.undrawn_forces(drawing, results, truths).items():
+            results = results | {kind: results.get(kind, {}) | named}
+        forces = self.solved.drawn_forces(drawing, results, self.locks, bounded=True)
+        return Certified(drawing, self.solved.rates, results, False, forces, digits=self.digits, bits=self.bits,
+                         truths=truths)
 
 
 def _explain_failure(scene: Scene, fault: BaseException, far: str, how: dict[str, str]) -> GraphplanError:

@@ -21,6 +21,7 @@ from graphplan.solver.bounds import Bounded
 from graphplan.solver.tolerances import MARGIN
 
 Results = Mapping[str, Mapping[str, Any]]
+Readings = dict[str, dict[str, Any]]  # the same, as it is put together: values by kind and name
 # Of these nothing is proven: they count beside the largest of their group.
 UNBOUNDED = (kinds.SLIDE_ARM, kinds.POWER, kinds.POWER_MOMENT)
 
@@ -171,7 +172,7 @@ def round_fractions(numbers: Numbers) -> Numbers:
             for kind, named in numbers.items()}
 
 
-def printed_results(results: Results, numbers: Numbers, plain: Callable[[Any], Any]) -> dict[str, dict[str, Any]]:
+def printed_results(results: Results, numbers: Numbers, plain: Callable[[Any], Any]) -> Readings:
     """The results as they are printed: numbers that are compared as they were, others made `plain`."""
     def value(kind: str, name: str, result: Any) -> Any:
         if kind not in numbers:

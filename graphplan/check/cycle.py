@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.check.compared import Readings, Results
 from graphplan.check.poses import PoseBatch, compared_groups, pose_gaps, sound_poses
 from graphplan.check.trusted import construct
 from graphplan.cycle.curves import KinematicCurve, curve_over_travel
@@ -46,7 +47,7 @@ class Cycle:
     scene: Scene
     drawing: Construction
     turn: Turn
-    results: dict[str, dict[str, Any]]
+    results: Readings
     faults: dict[int, str]
     gaps: dict[str, Any]
     otherwise: dict[int, str] = field(default_factory=dict)
@@ -144,7 +145,7 @@ def _construct_or_none(scene: Scene, method: str, plan: str, inertia: str) -> Co
         return None
 
 
-def _enter_results(found: Cycle, part: PoseBatch, results: Mapping[str, Mapping[str, Any]], apart: Mapping[str, Any],
+def _enter_results(found: Cycle, part: PoseBatch, results: Results, apart: Mapping[str, Any],
                    kept: Any) -> None:
     """Enter the results of some poses among all."""
     places = part.places[kept]

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.check.arithmetics import Bounds, independent_facts
-from graphplan.check.compared import Results, plain_number
+from graphplan.check.compared import Readings, Results, plain_number
 from graphplan.mechanism.equations import transpose
 from graphplan.mechanism.model import FRAME, Contact, Force, Gear, Number, Pair, Scene, Slide
 from graphplan.mechanism.numbers import dot
@@ -109,7 +109,7 @@ def _sense(number: Any, by: Bounds) -> int:
 
 
 def force_truth(scene: Scene, results: Results, found: Reactions,
-                rough: Reactions | None = None) -> dict[str, dict[str, Any]]:
+                rough: Reactions | None = None) -> Readings:
     """What the solver says of the forces that a construction gives, with friction among them, and of the power balance.
     """
     arms = {s.name: _arm(s, scene, found) for s in scene.slides if s.name in results.get(kinds.SLIDE_ARM, {})}
@@ -134,7 +134,7 @@ def smooth_forces(found: Reactions) -> dict[str, Any]:
     return {name: sides[0] for name, sides in found.slides.items()} | higher
 
 
-def _reactions(found: Reactions, borne: dict[str, Any]) -> dict[str, dict[str, Any]]:
+def _reactions(found: Reactions, borne: dict[str, Any]) -> Readings:
     """The reactions by kind and name, those of slides, gears and contacts as they are `borne`."""
     scene = found.equations.scene
     pairs: dict[str, tuple[Slide | Gear | Contact, ...]] = {
@@ -145,9 +145,9 @@ def _reactions(found: Reactions, borne: dict[str, Any]) -> dict[str, dict[str, A
                for kind, pairs_of_kind in pairs.items()}}
 
 
-def powers(found: Iterable[Any]) -> dict[str, dict[str, Any]]:
+def powers(found: Iterable[Any]) -> Readings:
     """Balances in their order as readings of the power balance."""
-    readings: dict[str, dict[str, Any]] = {kinds.POWER: {}, kinds.POWER_MOMENT: {}}
+    readings: Readings = {kinds.POWER: {}, kinds.POWER_MOMENT: {}}
     for number, value in enumerate(found, 1):
         readings[kinds.POWER if isinstance(value, tuple) else kinds.POWER_MOMENT][str(number)] = value
     return readings
@@ -160,9 +160,9 @@ def _arm(slide: Slide, scene: Scene, found: Reactions) -> Any:
     return y * reach, -x * reach
 
 
-def undrawn_forces(scene: Scene, results: Results, truth: Results) -> dict[str, dict[str, Any]]:
+def undrawn_forces(scene: Scene, results: Results, truth: Results) -> Readings:
     """What is asked for and not among the results of a construction, as the solver says it, by kind and name."""
-    asked_for, missing = scene.find.reactions, dict[str, dict[str, Any]]()
+    asked_for, missing = scene.find.reactions, Readings()
     pair_of = {JointForce(point, link).name: point for point in scene.joints for link in scene.links_of[point]}
     for kind in (*kinds.WITH_FRICTION, *kinds.WITH_FRICTION.values()):
         for name, value in truth.get(kind, {}).items():
@@ -187,7 +187,7 @@ class Forces:
     """
 
     scene: Scene
-    results: dict[str, dict[str, Any]]
+    results: Readings
     reactions: Reactions
     power: tuple[Any, ...] = ()
     rounds: int = 0

@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from graphplan.check.compared import ComparedNumber, Results
-from graphplan.check.report import Report
+from graphplan.check.report import Reasons, Report
 from graphplan.errors import ConstructionError
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.numbers import root as exact_root
@@ -186,7 +186,6 @@ def json_number(value: Any) -> Any:
 # What is asked for and not drawn is the solver's; what nobody can tell is null, with the reason.
 
 
-Reasons = dict[str, dict[str, str]]
 INDETERMINATE = "statically indeterminate: more holds these links than their equilibrium can tell"
 
 

@@ -194,11 +194,7 @@ class ReferenceMotion:
         newton = float(NEWTONS[self.reduction.scene.units.force])
         if not isinstance(load, Force):
             return opinion.rates.omega[load.on].value * newton / opinion.unit
-        x, y = load.direction or (0, 0)
-        if load.through:
-            (ax, ay), (bx, by) = (opinion.posed.points[name] for name in load.through)
-            x, y = bx - ax, by - ay
-        length = np.hypot(np.asarray(x, float), np.asarray(y, float))
+        x, y, length = opinion.line_of_action(load)
         vx, vy = (component.value for component in opinion.rates.velocity[load.at])
         return (vx * x + vy * y) / length * newton * opinion.metres / opinion.unit
 
@@ -206,9 +202,7 @@ class ReferenceMotion:
         """The speed that a table is over, at a unit rate."""
         if table.over == SPEED:
             return 1.0 / opinion.unit
-        slide = next(slide for slide in opinion.posed.slides if slide.name == table.slide)
-        (vx, vy), (x, y) = opinion.rates.slide_velocity[slide.name], slide.direction
-        return (vx.value * x + vy.value * y) / np.hypot(np.asarray(x, float), np.asarray(y, float)) / opinion.unit
+        return opinion.slide_component(opinion.slide_of(table), opinion.rates.slide_velocity) / opinion.unit
 
     def _piece(self, k: int) -> _Piece:
         """The values between two edges, at as many points as it takes."""

@@ -10,7 +10,16 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.arithmetics import FLOATS
-from graphplan.check.compared import compare, components, drawn_sizes, plain_number, scales, sliding_size, weight
+from graphplan.check.compared import (
+    Readings,
+    compare,
+    components,
+    drawn_sizes,
+    plain_number,
+    scales,
+    sliding_size,
+    weight,
+)
 from graphplan.check.report import rates_by_kind, reference_solution
 from graphplan.check.tolerances import EPSILON, PROVEN_ZERO, ROUNDING_TOL
 from graphplan.errors import GraphplanError
@@ -34,7 +43,6 @@ from graphplan.solver.bounds import Unproven
 
 BLOCK_POSES = 4096  # poses whose systems are solved at once
 SAFETY_FACTOR = 100  # times the solver's own bound, or its condition's roundings, that a difference may be
-Results = dict[str, dict[str, Any]]
 
 
 @dataclass(frozen=True)
@@ -75,7 +83,7 @@ def points_where_sound(drawing: Construction, points: Mapping[str, Any], guides:
     return {name: np.where(is_sound, z, np.nan) for name, z in points.items()}
 
 
-def pose_gaps(batch: PoseBatch, drawing: Construction, results: Results,
+def pose_gaps(batch: PoseBatch, drawing: Construction, results: Readings,
               progress: Callable[[int, int], None] = lambda done, of: None) -> dict[str, Any]:
     """For each kind of result the largest difference from the solver beside the number's own size, in each pose."""
     n, blocks = batch.places.size, list[dict[str, Any]]()
@@ -93,7 +101,7 @@ def compared_groups(drawing: Construction) -> list[str]:
     return [*motion_groups, *([FORCES] if drawing.scene.loads else [])]
 
 
-def _block_gaps(batch: PoseBatch, drawing: Construction, ours: Results) -> dict[str, Any]:
+def _block_gaps(batch: PoseBatch, drawing: Construction, ours: Readings) -> dict[str, Any]:
     """The differences in one block of poses."""
     n, scene = batch.places.size, batch.posed_scene
     motion = poses.solve(scene, n, sizes=True)
@@ -119,7 +127,7 @@ def _block_gaps(batch: PoseBatch, drawing: Construction, ours: Results) -> dict[
     return apart
 
 
-def _relative_vectors_size(scene: Scene, truth: Results, kind: str, name: str) -> Any:
+def _relative_vectors_size(scene: Scene, truth: Readings, kind: str, name: str) -> Any:
     """The size of the vectors that a link's rate is read from, beside its longest side; of any other result nothing."""
     if not kind_of(kind).turning:
         return 0.0
@@ -150,7 +158,7 @@ def _rolling_size(scene: Scene, motion: Any, kind: str) -> Any:
     return np.max(np.broadcast_arrays(*sizes), axis=0)
 
 
-def _contact_size(scene: Scene, truth: Results, kind: str, name: str) -> Any:
+def _contact_size(scene: Scene, truth: Readings, kind: str, name: str) -> Any:
     """The size of the moments that contacts' forces have about a slide's point, which cancel where they pass it, or of
     the slide's arm by them; of other results nothing."""
     sizes: list[Any] = [0.0]
@@ -166,7 +174,7 @@ def _contact_size(scene: Scene, truth: Results, kind: str, name: str) -> Any:
     return np.max(np.broadcast_arrays(*sizes), axis=0)
 
 
-def sound_poses(batch: PoseBatch, drawing: Construction, results: Results, apart: Mapping[str, Any]) -> Any:
+def sound_poses(batch: PoseBatch, drawing: Construction, results: Readings, apart: Mapping[str, Any]) -> Any:
     """In which poses the results are there, and differ from the solver's by no more than rounding.
 
     Where that is proven of a pose, `apart` has the differences beside what is proven to cancel there.
@@ -183,7 +191,7 @@ def sound_poses(batch: PoseBatch, drawing: Construction, results: Results, apart
     return is_sound
 
 
-def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Results, worst: float) -> dict[str, float]:
+def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Readings, worst: float) -> dict[str, float]:
     """The differences of one pose that is sound, by group: beside the bounds that are proven there, or where none are,
     beside the condition; nothing of one that is not.
 

@@ -23,7 +23,7 @@ from graphplan.machine.reduced.unit_motion import at_unit_rate
 from graphplan.machine.tolerances import MACHINE_SHARE
 from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.loads import LoadTable
-from graphplan.mechanism.model import FRAME, Force, Loads
+from graphplan.mechanism.model import FRAME, Force, Loads, Slide
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.methods.construction import Construction
 from graphplan.solver import poses, solve, with_friction
@@ -230,30 +230,40 @@ class ReferenceReduction:
         """A force in every pose."""
         if force.table is None:
             return float(force.value[0]), float(force.value[1])
+        x, y, length = self.line_of_action(force)
+        value = self._table_values(force.table) / length
+        return x * value, y * value
+
+    def line_of_action(self, force: Force) -> tuple[Any, Any, Any]:
+        """The direction in which a force acts, and its length."""
+        direction: Any = force.direction or (0, 0)
         if force.through:
             (ax, ay), (bx, by) = (self.posed.points[point] for point in force.through)
-            x, y = np.asarray(bx - ax, float), np.asarray(by - ay, float)
-        else:
-            assert force.direction is not None
-            x, y = np.asarray(force.direction, float)
-        value = self._table_values(force.table) / np.hypot(x, y)
-        return x * value, y * value
+            direction = bx - ax, by - ay
+        x, y = (np.asarray(component, float) for component in direction)
+        return x, y, np.hypot(x, y)
+
+    def slide_component(self, slide: Slide, vectors: Any) -> Any:
+        """The component of a slide's vector along its guide."""
+        (x, y), (dx, dy) = vectors[slide.name], slide.direction
+        return (x.value * dx + y.value * dy) / np.hypot(np.asarray(dx, float), np.asarray(dy, float))
+
+    def slide_of(self, table: LoadTable) -> Slide:
+        """The slide that a table is over, as it lies in these poses."""
+        return next(slide for slide in self.posed.slides if slide.name == table.slide)
 
     def _table_values(self, table: LoadTable) -> Any:
         """What a table says in every pose."""
         if not table.slide:
             return table.values_at(self.motion.told(self.travel), 1, self.side > 0)
-        slide = next(slide for slide in self.posed.slides if slide.name == table.slide)
+        slide = self.slide_of(table)
         (x, y), (dx, dy) = self.posed.points[slide.at], slide.direction
         if origin := guide_origin(self.scene, slide):
             x, y = x - self.posed.points[origin][0], y - self.posed.points[origin][1]
         length = np.hypot(np.asarray(dx, float), np.asarray(dy, float))
-
-        def component(vectors: Any) -> Any:
-            return (vectors[slide.name][0].value * dx + vectors[slide.name][1].value * dy) / length
-
-        speed, reach = component(self.rates.slide_velocity), self.scene.extent if self.motion.turns else 1.0
+        reach = self.scene.extent if self.motion.turns else 1.0
+        speed = self.slide_component(slide, self.rates.slide_velocity)
         moves = np.abs(speed) > DEAD_POINT_TOL * reach
-        speed = np.where(moves, speed, self.side * component(self.rates.slide_acceleration))
+        speed = np.where(moves, speed, self.side * self.slide_component(slide, self.rates.slide_acceleration))
         zero = np.zeros(self.travel.shape)
         return table.values_at((x * dx + y * dy) / length + zero, np.where(speed < 0, -1.0, 1.0) + zero, self.side > 0)

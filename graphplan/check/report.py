@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, bounded_rates, enclose_scene, placing_error
-from graphplan.check.compared import ComparedNumber, Numbers, Results
+from graphplan.check.compared import ComparedNumber, Numbers, Readings, Results
 from graphplan.check.tolerances import ROUNDING_TOL, UNPROVEN_TOL
 from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, SingularPose
 from graphplan.mechanism.model import FRAME, Scene
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from graphplan.check.forces import Forces
     from graphplan.solver.statics import Reactions
 
+Reasons = dict[str, dict[str, str]]  # why something is not told, by printed key and name
 SAFETY_FACTOR = 100  # times the bound of a constructed place that the cycle may have it elsewhere
 STANDING_ROUNDS = 20  # of friction: where none is drawn, the forces stand after so many
 
@@ -44,7 +45,7 @@ class ReferenceSolution:
     rounds: Callable[[int], Reactions] | None = None
     power: tuple[Any, ...] = ()
 
-    def truth(self, results: Results, rounds: int = 0) -> dict[str, dict[str, Any]]:
+    def truth(self, results: Results, rounds: int = 0) -> Readings:
         """What a construction's results should be that draws so many rounds of friction."""
         if self.reactions is None or self.rounds is None:
             return rates_by_kind(self.rates, results)
@@ -54,7 +55,7 @@ class ReferenceSolution:
                                                                 self.with_friction(rounds))
 
     @property
-    def power_readings(self) -> dict[str, dict[str, Any]]:
+    def power_readings(self) -> Readings:
         """The power balance, which is compared as what is drawn is."""
         if not self.power:
             return {}
@@ -62,7 +63,7 @@ class ReferenceSolution:
 
         return powers(self.power)
 
-    def drawn_forces(self, drawing: Construction, results: dict[str, dict[str, Any]], locks: str = "",
+    def drawn_forces(self, drawing: Construction, results: Readings, locks: str = "",
                      exact: bool = False,
                      bounded: bool = False) -> Forces | None:
         """The forces among the results, of which some are drawn, beside this; none where there are no loads."""
@@ -76,7 +77,7 @@ class ReferenceSolution:
         return Forces(drawing.scene, results, self.reactions, self.power, drawing.rounds, exact, bounded,
                       self.with_friction(drawing.rounds), locks, tuple(alone))
 
-    def undrawn_forces(self, drawing: Construction, results: Results, truth: Results) -> dict[str, dict[str, Any]]:
+    def undrawn_forces(self, drawing: Construction, results: Results, truth: Results) -> Readings:
         """The forces that are asked for and not drawn, as this has them."""
         if self.reactions is None or drawing.scene.loads is None:
             return {}
@@ -147,14 +148,14 @@ class Report:
 
     drawing: Construction
     rates: Rates
-    results: dict[str, dict[str, Any]]
+    results: Readings
     exact: bool
     forces: Forces | None = None
     arithmetic: str = "floats"
     numbers: Numbers = field(default_factory=dict, repr=False)
     fault: ConstructionError | None = None
     whole: Scene | None = None
-    missing: dict[str, dict[str, str]] = field(default_factory=dict)
+    missing: Reasons = field(default_factory=dict)
 
     @property
     def given_scene(self) -> Scene:
@@ -297,10 +298,10 @@ OF_LINKS: dict[str, Callable[[Rates, str], Any]] = {
 }
 
 
-def path_truth(rates: Rates, results: Mapping[str, Iterable[str]]) -> dict[str, dict[str, Any]]:
+def path_truth(rates: Rates, results: Mapping[str, Iterable[str]]) -> Readings:
     """The solver's values by the kinds and names of results; fails with `SingularPose` where there is none."""
     traced = rates.equations.scene.find.curvature_points
-    truths: dict[str, dict[str, Any]] = {}
+    truths: Readings = {}
     for kind, names in results.items():
         for name in names if kind in OF_POINTS or kind in OF_LINKS else ():
             point, link = traced.get(name, ("", name))

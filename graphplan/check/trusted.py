@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 
 from graphplan.check.answerable import answer_what_exists, decide_friction
 from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, enclosures
-from graphplan.check.compared import compare, printed_results, round_fractions
+from graphplan.check.compared import Readings, compare, printed_results, round_fractions
 from graphplan.check.report import ReferenceSolution, Report, reference_solution
 from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
 from graphplan.kernel.kinds import Movement, Primitive
@@ -163,7 +163,7 @@ class Bench:
         candidates = islice(constructions(known, **self.how), MAX_CONSTRUCTIONS)
         return next((construction for construction in candidates if steps(construction) == steps(drawing)), None)
 
-    def _report(self, drawing: Construction, by: Arithmetic, ours: dict[str, dict[str, Any]]) -> Report:
+    def _report(self, drawing: Construction, by: Arithmetic, ours: Readings) -> Report:
         """The comparison in one arithmetic; fractions that are not asked for are printed as floats."""
         reference = self._opinions[by.name]
         truth = reference.truth(ours, drawing.rounds)
@@ -178,7 +178,7 @@ class Bench:
         return Report(drawing, reference.rates, results, self.exact, forces, by.name, numbers)
 
 
-def solver_results(drawing: Construction, solved: ReferenceSolution) -> dict[str, dict[str, Any]]:
+def solver_results(drawing: Construction, solved: ReferenceSolution) -> Readings:
     """What the solver says of all that a construction would give, by kind and name."""
     paths: dict[str, Any] = {kind: {r.of: None for r in drawing.readings if r.kind == kind}
                              for kind in (*PATHS, TRANSLATION)}

@@ -100,16 +100,16 @@ def _place_driven(linkage: Linkage, group: ClosureGroup, travel: Array,
                   placed: Mapping[str, PlacedLink]) -> Iterator[tuple[str, PlacedLink]]:
     """The links of a group that has no unknowns."""
     frame = linkage.origins[FRAME]
-    carriers = [LinkPose(_pair((placed[link].point(linkage.origins[link]) - frame) / linkage.reach),
-                         _pair(placed[link].turn))
-                for link in (FRAME, *group.carriers)]
+    carriers = [closure_pose(linkage, link, placed[link]) for link in (FRAME, *group.carriers)]
     for link, body in zip(group.links, group.link_poses(carriers, travel, ()), strict=True):
         (x, y), (cos, sin) = body.base, body.turn or (1.0, 0.0)
         yield link, PlacedLink(linkage.origins[link], frame + linkage.reach * (x + 1j * y), cos + 1j * sin)
 
 
-def _pair(z: Array) -> tuple[Array, Array]:
-    return z.real, z.imag
+def closure_pose(linkage: Linkage, link: str, placed: PlacedLink) -> LinkPose:
+    """A placed link as closures read it: its base from that of the frame, in reaches, and its turn."""
+    base = (placed.point(linkage.origins[link]) - linkage.origins[FRAME]) / linkage.reach
+    return LinkPose((base.real, base.imag), (placed.turn.real, placed.turn.imag))
 
 
 def assemble_dyad(linkage: Linkage, group: ClosureGroup,

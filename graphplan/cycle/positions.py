@@ -15,7 +15,7 @@ import numpy as np
 from graphplan.cycle import closure, newton
 from graphplan.cycle.closure import TRAVEL, DriveState, GroupLayout, LinkPose, Vector
 from graphplan.cycle.continuation import Path
-from graphplan.cycle.dyads import Failure, assemble
+from graphplan.cycle.dyads import Failure, PlacedLink, assemble, closure_pose
 from graphplan.cycle.groups import MAX_CORRECTION_RATIO, MAX_FIRST_CORRECTION, ClosureGroup
 from graphplan.cycle.linkage import Array, Linkage
 from graphplan.cycle.tolerances import CORRECTION_TOL, RESIDUE_TOL
@@ -206,9 +206,8 @@ def link_rates(linkage: Linkage, groups: Sequence[ClosureGroup], travel: Array, 
     bodies = {FRAME: LinkPose()}
     turns = {**turns, **dict(_turned_arms(linkage, points))}
     for link in linkage.links[1:]:
-        origin, pin = linkage.origins[link], next(iter(linkage.points(link)), "")
-        at = points[pin] + turns[link] * (origin - linkage.places[pin]) if pin else points[linkage.lines.arms[link].at]
-        bodies[link] = LinkPose(_pair((at - frame) / reach), _pair(turns[link]))
+        pin = next(iter(linkage.points(link)), "") or linkage.lines.arms[link].at
+        bodies[link] = closure_pose(linkage, link, PlacedLink(linkage.places[pin], points[pin], turns[link]))
     for group in groups:
         _enter_rates(group, bodies, travel)
     links = {FRAME: MovingLink(frame, still + frame, still + 1.0, still + 0j, still)}
@@ -249,7 +248,7 @@ def _unknowns_of(layout: GroupLayout, links: Sequence[LinkPose], arms: Sequence[
         base = _complex(links[seat.link].base)
         if seat.on is None:
             away = base - (complex(*arms[seat.arm]) if seat.arm is not None else 0.0)
-            unknowns += _pair(away)
+            unknowns += away.real, away.imag
         elif seat.way is not None and seat.guide is not None and seat.drive is None:
             on, guide = links[seat.on], links[seat.guide]
             arm = _rotated_complex(on, arms[seat.arm]) if seat.arm is not None else 0.0
@@ -264,7 +263,3 @@ def _rotated_complex(body: LinkPose, vector: Vector) -> Any:
 
 def _complex(vector: Any) -> Any:
     return vector[0] + 1j * vector[1]
-
-
-def _pair(z: Any) -> tuple[Any, Any]:
-    return z.real, z.imag

@@ -232,7 +232,7 @@ def test_a_preference_is_told_in_the_language(code: str) -> None:
     refused = [ConstructionError("lines-parallel", 3, "q", "why", "do"),
                Refused(said("point {0}", "A"), said("no known construction determines it"), "do")]
     told = choose_form([Form(("", "auxiliary", "poles"), draft(drawing_of("four-bar"), Pencil())),
-                        *(Form(("trial",), None, refusal) for refusal in refused)], "balanced").told
+                        *(Form(("trial",), None, refusal) for refusal in refused)], "balanced").remarks
     english = {"pose", "own", "auxiliary", "trial", "poles", "preferred", "drawn", "step", "lines", "point", "balanced"}
     assert english.isdisjoint(re.findall(r"\w+", " ".join(map(tongue(code), told)).lower()))
 

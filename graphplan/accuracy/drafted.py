@@ -169,7 +169,7 @@ class Drafted(Errors):
         """Cost and errors in words, a line each."""
         off: dict[ResultKind, list[Said]] = {}
         for result in self.results:
-            off.setdefault(result.kind, []).append(join((result.thing, arrange("±{0}", result.deviation.text)), " "))
+            off.setdefault(result.kind, []).append(join((result.subject, arrange("±{0}", result.deviation.text)), " "))
         lines = [join((kind.words, join(deviations)), ": ") for kind, deviations in off.items()]
         controls = control_errors(self.drawing, self.hand, self.composition.scales)
         lines += [said("control of link {0}: ±{1} mm", control.link, Deviation(mm).text) for control, mm in controls]

@@ -51,7 +51,7 @@ class Result:
 
     kind: ResultKind
     of: str
-    thing: str
+    subject: str
     deviation: Deviation
     relative: float | None
     shares: tuple[float, ...]
@@ -62,7 +62,7 @@ class Result:
         if self.kind.turning:
             return said("{0} of link {1}", self.kind.words, self.of)
         numbered = self.of.isdigit()
-        return join((self.kind.words, self.of), " ") if numbered else said("{0} of {1}", self.kind.words, self.thing)
+        return join((self.kind.words, self.of), " ") if numbered else said("{0} of {1}", self.kind.words, self.subject)
 
     def unit(self, scene: Scene) -> str:
         """The unit of its error."""

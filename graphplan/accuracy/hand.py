@@ -213,7 +213,7 @@ class SeenPencil:
     scale: float
     reading: float
     marks: int = 0
-    part: float = 1.0
+    share_shown: float = 1.0
 
     @property
     def pencil(self) -> Pencil:

@@ -81,7 +81,7 @@ class Preference:
     """The form preferred, by the name of its method, and what is told of the choice: a line each."""
 
     method: str
-    told: tuple[Said, ...] = ()
+    remarks: tuple[Said, ...] = ()
 
 
 def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False, inertia: str = "couple",

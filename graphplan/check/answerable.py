@@ -335,8 +335,8 @@ def _regular_loads(scene: Scene, kept: Collection[str], dead: Mapping[str, str])
     regular_loads = replace(loads, masses={link: mass for link, mass in loads.masses.items() if link in own_links},
                             forces=tuple(force for force in loads.forces if force.on in own_links),
                             moments=tuple(moment for moment in loads.moments if moment.on in own_links),
-                            frictions=tuple(one for one in loads.frictions if own_links.issuperset(
-                        one.links or scene.links_of[one.at])))
+                            frictions=tuple(item for item in loads.frictions if own_links.issuperset(
+                        item.links or scene.links_of[item.at])))
     why = next(iter(dead.values()), "")
     partial_scene = replace(_scene_of_links(scene, kept), loads=regular_loads)
     try:
@@ -349,7 +349,7 @@ def _regular_loads(scene: Scene, kept: Collection[str], dead: Mapping[str, str])
         reason = why or singular.why
         return None, {"balance": dict.fromkeys(loads.named_balances, reason),
                       "reactions": {name: reason for name, _ in _reactions(scene)}}
-    untold = {"balance": {name: why for name, one in loads.named_balances.items() if one.link in loaded},
+    untold = {"balance": {name: why for name, item in loads.named_balances.items() if item.link in loaded},
               "reactions": {name: why for name, links in _reactions(scene)
                             if not loaded.isdisjoint(links) and _bears_lost_load(links, loaded, dead)}}
     return regular_loads, {key: named for key, named in untold.items() if named}

@@ -93,7 +93,7 @@ class Balancing:
     """
 
     before: MassMotion
-    way: str
+    method: str
     weights: tuple[Counterweight, ...]
     after: MassMotion | None
     engine: Engine | None
@@ -296,7 +296,7 @@ class LinkMotion:
     points: Mapping[str, Any]
     guides: Mapping[str, Any]
     faults: Mapping[int, str]
-    moved: Mapping[str, MovingLink]
+    links: Mapping[str, MovingLink]
     at: Mapping[str, str]
     velocity: Mapping[str, Any]
     acceleration: Mapping[str, Any]
@@ -314,7 +314,7 @@ class LinkMotion:
             if link == FRAME:
                 places[name], velocities[name], accelerations[name] = still + place, still, still
                 continue
-            link_moved, pin = self.moved[link], self.at[link]
+            link_moved, pin = self.links[link], self.at[link]
             places[name] = link_moved.base + link_moved.turn * (place - link_moved.origin)
             arm = places[name] - (link_moved.base + link_moved.turn * (complex(*map(float, scene.points[pin]))
                                                                        - link_moved.origin))

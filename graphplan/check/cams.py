@@ -51,9 +51,9 @@ def _motion_gap(cam: Cam, angle: float) -> float:
     return max(gap / radius for gap, radius in zip(gaps, sizes, strict=True))
 
 
-def _stencil_angles(stretch: Stretch) -> tuple[Any, float]:
+def _stencil_angles(piece: Stretch) -> tuple[Any, float]:
     """Angles inside a piece of the law in rows of five neighbours, in degrees, and their distance in radians."""
-    low, high = float(stretch.start), float(stretch.end)
+    low, high = float(piece.start), float(piece.end)
     step = min(CAM_STEP, np.radians(high - low) / MIN_PIECE_STEPS)
     edge = 3 * np.degrees(step)
     return np.linspace(low + edge, high - edge, 7)[:, None] + np.degrees(step) * np.arange(-2, 3), step

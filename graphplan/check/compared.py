@@ -36,7 +36,7 @@ class ComparedNumber(NamedTuple):
     truth: Any
     gap: Any
     bound: Any
-    size: Any
+    scale: Any
     apart: bool = False
     close: bool = True
     near: bool = False
@@ -44,12 +44,12 @@ class ComparedNumber(NamedTuple):
     @property
     def holds(self) -> bool:
         """Whether nine digits are proven, and the difference is rounding."""
-        return self.close and bool(self.bound <= PROVEN_TOL * self.size)
+        return self.close and bool(self.bound <= PROVEN_TOL * self.scale)
 
     def relative(self, part: str) -> Any:
         """The gap or the bound beside the number's size."""
         number = getattr(self, part)
-        return number / self.size if number else 0
+        return number / self.scale if number else 0
 
 
 Numbers = dict[str, dict[str, tuple[ComparedNumber, ...]]]
@@ -123,10 +123,10 @@ def _compare_vector(ours: tuple[Any, ...], theirs: tuple[Any, ...], least: float
                     scale: float) -> Iterator[ComparedNumber]:
     """The components of a vector beside the size of the whole."""
     numbers = [_compare_number(*pair, scale) for pair in zip(ours, theirs, strict=True)]
-    largest = max([least, *(number.size for number in numbers)])
+    largest = max([least, *(number.scale for number in numbers)])
     for number in numbers:
         close = number.close or number.gap <= ROUNDING_TOL * largest
-        yield number._replace(size=largest, close=close, near=bool(number.gap <= ROUNDING_TOL * scale))
+        yield number._replace(scale=largest, close=close, near=bool(number.gap <= ROUNDING_TOL * scale))
 
 
 def _compare_number(ours: Any, theirs: Any, scale: float) -> ComparedNumber:
@@ -165,7 +165,7 @@ def round_fractions(numbers: Numbers) -> Numbers:
     def round_number(number: ComparedNumber) -> ComparedNumber:
         value = float(number.value)
         bound = upper_float(number.gap + abs(number.value - Fraction(value)))
-        return ComparedNumber(value, float(number.truth), upper_float(number.gap), bound, float(number.size),
+        return ComparedNumber(value, float(number.truth), upper_float(number.gap), bound, float(number.scale),
                               number.apart)
 
     return {kind: {name: tuple(map(round_number, vector)) for name, vector in named.items()}

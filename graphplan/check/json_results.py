@@ -222,7 +222,7 @@ def solver_only_notes(found: Report) -> list[str]:
 class _ForceTable:
     """The forces of a report with friction or without it."""
 
-    found: Report
+    report: Report
     forces: Forces | None
     rubs: bool
 
@@ -248,7 +248,7 @@ class _ForceTable:
     @property
     def _balances(self) -> list[str]:
         """The names of the balances."""
-        loads = self.found.given_scene.loads
+        loads = self.report.given_scene.loads
         return [*loads.named_balances] if loads else []
 
     @cached_property
@@ -258,12 +258,12 @@ class _ForceTable:
 
     def _value(self, name: str, key: str = "reactions", of: str = "") -> Any:
         """A number; none where it is missing."""
-        return None if (of or name) in self.found.missing.get(key, {}) else self._values.get(name)
+        return None if (of or name) in self.report.missing.get(key, {}) else self._values.get(name)
 
     def balance(self, name: str, value: Any) -> dict[str, Any]:
         """A balance: a moment on a link, or a force at a point of it."""
-        assert self.found.given_scene.loads is not None
-        balance = self.found.given_scene.loads.named_balances[name]
+        assert self.report.given_scene.loads is not None
+        balance = self.report.given_scene.loads.named_balances[name]
         key = "force" if balance.at else "moment"
         return {key: json_number(value), "link": balance.link, **({"at": balance.at} if balance.at else {})}
 
@@ -274,12 +274,12 @@ class _ForceTable:
     @cached_property
     def _requested_reactions(self) -> list[tuple[str, dict[str, str]]]:
         """The reactions that are asked for: their names, and between which links they act."""
-        scene, requested = self.found.given_scene, self.found.given_scene.find.reactions
+        scene, requested = self.report.given_scene, self.report.given_scene.find.reactions
         return [(name, entry) for pair, name, entry in _entries(scene) if requested is None or pair in requested]
 
     def _slide_details(self, name: str) -> dict[str, Any]:
         """Of a slide's reaction its moment, and a point of its line where that lies near."""
-        slide = next((slide for slide in self.found.given_scene.slides if slide.name == name), None)
+        slide = next((slide for slide in self.report.given_scene.slides if slide.name == name), None)
         if slide is None:
             return {}
         moment = None if self._value(name) is None else self._value(f"moment {name}")
@@ -287,14 +287,14 @@ class _ForceTable:
 
     def _acts_at(self, slide: Slide, force: Any, moment: Any) -> dict[str, Any]:
         """Where a slide's reaction crosses its guide."""
-        arm = self.found.results.get(kinds.SLIDE_ARM, {}).get(slide.name)
+        arm = self.report.results.get(kinds.SLIDE_ARM, {}).get(slide.name)
         if arm is None or force is None or self.forces is None:
             return {}
         if self.rubs and self.forces.reactions is None:  # of symbols
             return {}
         if self.rubs:
             arm = self.forces.arm(slide, force, moment)
-        x, y = self.found.scene.points[slide.at]
+        x, y = self.report.scene.points[slide.at]
         return {"acts_at": json_number((x + arm[0], y + arm[1]))} if arm is not None else {}
 
 

@@ -167,10 +167,10 @@ class ReferenceMotion:
                   if x - before > least and self.last - x > least]
         self.edges = [float(x) for a, b in pairwise([self.first, *breaks, self.last])
                       for x in np.linspace(a, b, max(1, math.ceil((b - a) / wide)), endpoint=False)] + [self.last]
-        self.laws = [_Law(table, 3 + 2 * k) for k, (_, table) in enumerate(self._over_speeds())]
+        self.laws = [_Law(table, 3 + 2 * k) for k, (_, table) in enumerate(self._loads_over_speeds())]
         self.pieces: dict[int, _Piece] = {}
 
-    def _over_speeds(self) -> list[tuple[Any, LoadTable]]:
+    def _loads_over_speeds(self) -> list[tuple[Any, LoadTable]]:
         """The loads over speeds."""
         loads = self.reduction.scene.loads
         assert loads is not None
@@ -185,7 +185,7 @@ class ReferenceMotion:
         truth = opinion.truth
         rows = [truth[quantity].value + 0 * travel for quantity in ("inertia", "slope", "moment")]
         rows[2] += opinion.friction
-        for load, table in self._over_speeds():
+        for load, table in self._loads_over_speeds():
             rows += [self._arm(opinion, load) + 0 * travel, self._speed(opinion, table) + 0 * travel]
         return np.array(rows)
 

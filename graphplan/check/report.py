@@ -248,7 +248,7 @@ class Report:
     def numbers_agree(self) -> bool:
         """Whether the numbers of construction and solver are the same, as far as can be told."""
         return not self.wrong and self._in_place and all(
-            number.gap <= UNPROVEN_TOL * number.size or number.holds or number.near
+            number.gap <= UNPROVEN_TOL * number.scale or number.holds or number.near
                                                          for _, _, number in self._all_numbers)
 
     @property

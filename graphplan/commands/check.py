@@ -99,7 +99,7 @@ def _row(name: str, *cells: str) -> str:
 def _sizes(report: Report, kind: str, name: str) -> tuple[Any, ...]:
     """The largest difference of a quantity's numbers, and its own size; nothing where it is not compared."""
     numbers = report.numbers.get(kind, {}).get(name, ())
-    return (max(number.gap for number in numbers), numbers[0].size) if numbers else ()
+    return (max(number.gap for number in numbers), numbers[0].scale) if numbers else ()
 
 
 def _text(value: Any) -> str:

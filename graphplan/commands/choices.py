@@ -251,7 +251,7 @@ def drawn_by(options: argparse.Namespace, scene: Scene) -> tuple[dict[str, Any],
         if options.method:
             raise
         return how, (reason(fault),)
-    return {**how, "method": found.method}, found.told
+    return {**how, "method": found.method}, found.remarks
 
 
 def on_paper(options: argparse.Namespace, found: Report | None = None) -> Drafted:

@@ -45,7 +45,7 @@ class Seat(NamedTuple):
     on: int | None = None
     arm: int | None = None
     guide: int | None = None
-    way: int | None = None
+    direction: int | None = None
     drive: int | None = None
 
 
@@ -60,9 +60,9 @@ class Closing(NamedTuple):
     link: int
     arm: int | None
     on: int
-    rest: int | None
+    on_arm: int | None
     guide: int | None = None
-    way: int | None = None
+    direction: int | None = None
     drive: int | None = None
     far: int | None = None
     lever: int | None = None
@@ -71,8 +71,8 @@ class Closing(NamedTuple):
 class Mesh(NamedTuple):
     """Two links turn on a third so that by their `factors`, a pair among the arms, the sum of the angles is nothing."""
 
-    one: int
-    other: int
+    first: int
+    second: int
     carrier: int
     factors: int
 
@@ -84,7 +84,7 @@ class GroupLayout(NamedTuple):
     `turnings` are spins that close a loop. Where the angles are `counted`, links know how far they have turned in all.
     """
 
-    known: int
+    carriers: int
     arms: int
     drives: tuple[bool, ...]
     spins: tuple[Spin, ...]
@@ -102,7 +102,7 @@ class GroupLayout(NamedTuple):
     @property
     def unknowns(self) -> int:
         """How many unknowns there are."""
-        return self.angles + sum(2 if seat.on is None else seat.way is not None and seat.drive is None
+        return self.angles + sum(2 if seat.on is None else seat.direction is not None and seat.drive is None
                                  for seat in self.seats)
 
 
@@ -178,10 +178,10 @@ def _place_on_seat(links: Sequence[LinkPose], seat: Seat, arms: Sequence[Vector]
         link.base, link.moves = plus(_arm(arms, seat.arm) or (0.0, 0.0), (x, y)), {i: (1.0, 0.0), j: (0.0, 1.0)}
         return
     link.base, link.moves = links[seat.on].point(_arm(arms, seat.arm))
-    if seat.way is None or seat.guide is None:
+    if seat.direction is None or seat.guide is None:
         return
     guide = links[seat.guide]
-    ray = rotate(guide.turn, arms[seat.way])
+    ray = rotate(guide.turn, arms[seat.direction])
     if seat.drive is None:
         i, far = next(unknown)
         moves = {i: ray}
@@ -220,19 +220,19 @@ def _closing_rows(links: Sequence[LinkPose], closing: Closing, arms: Sequence[Ve
                   drives: Sequence[DriveState]) -> Iterator[Row]:
     """What a pair leaves open."""
     place, moves = links[closing.link].point(_arm(arms, closing.arm))
-    far_end, far_moves = links[closing.on].point(_arm(arms, closing.rest))
+    far_end, far_moves = links[closing.on].point(_arm(arms, closing.on_arm))
     gap, moves = minus(place, far_end), _subtract_rates(moves, far_moves)
     if closing.far is not None:
         far, _ = arms[closing.far]
         yield {RESIDUE: (dot(gap, gap) - far * far) / (far + far),
                **{k: dot(gap, move) / far for k, move in moves.items()}}
         return
-    if closing.guide is None or closing.way is None:
+    if closing.guide is None or closing.direction is None:
         for i in range(2):
             yield {RESIDUE: gap[i], **{k: move[i] for k, move in moves.items()}}
         return
     guide = links[closing.guide]
-    ray = rotate(guide.turn, arms[closing.way])
+    ray = rotate(guide.turn, arms[closing.direction])
     swing = dot(quarter_turn(ray), gap)
     row = _add_rates({k: dot(ray, move) for k, move in moves.items()},
                      {k: swing if w is None else w * swing for k, w in guide.spin.items()})
@@ -250,7 +250,7 @@ def _closing_rows(links: Sequence[LinkPose], closing: Closing, arms: Sequence[Ve
 def _mesh_row(links: Sequence[LinkPose], mesh: Mesh, arms: Sequence[Vector]) -> Row:
     """What a pair of gears leaves open: an angle, as linear in those of the links as it is."""
     (k1, k2), row, residual = arms[mesh.factors], Row(), 0.0
-    for weight, place in ((k1, mesh.one), (k2, mesh.other), (-(k1 + k2), mesh.carrier)):
+    for weight, place in ((k1, mesh.first), (k2, mesh.second), (-(k1 + k2), mesh.carrier)):
         residual = residual + weight * links[place].angle
         row = _add_rates(row, _scaled_rates(weight, links[place].spin))
     return {RESIDUE: residual, **row}

@@ -66,7 +66,7 @@ class Limit(NamedTuple):
 
     travel: float
     slack: float
-    part: tuple[str, ...]
+    links: tuple[str, ...]
     change: bool
 
     @property

@@ -258,7 +258,7 @@ class Error:
     ordinate of the plans at the same abscissas, and the order in the width of the strips; none where rounding is all or
     strips cannot be halved."""
 
-    found: FoundCurve
+    curve: FoundCurve
     largest: float
     rms: float
     order: float | None

@@ -26,7 +26,7 @@ from graphplan.mechanism.model import FRAME, Contact, Gear, Slide
 class Failure(NamedTuple):
     """A part that could not be placed, and why."""
 
-    part: tuple[str, ...]
+    links: tuple[str, ...]
     why: str
 
 
@@ -127,12 +127,12 @@ def assemble_dyad(linkage: Linkage, group: ClosureGroup,
              if (hinge.letter, hinge.name) not in {(hinge.letter, hinge.name) for hinge in outer[0]}]
     if [len(hinges) for hinges in (*outer, inner)] != [1, 1, 1]:
         return None
-    (one,), (two,), (middle,) = *outer, inner
-    swapped = one.letter + two.letter == "PR"
-    rule = _RULES.get(one.letter + middle.letter + two.letter if not swapped else "R" + middle.letter + "P")
+    (start,), (end,), (middle,) = *outer, inner
+    swapped = start.letter + end.letter == "PR"
+    rule = _RULES.get(start.letter + middle.letter + end.letter if not swapped else "R" + middle.letter + "P")
     if rule is None:
         return None
-    first, second, why = rule(two, middle, one) if swapped else rule(one, middle, two)
+    first, second, why = rule(end, middle, start) if swapped else rule(start, middle, end)
     return (second, first) if swapped else (first, second), why
 
 

@@ -35,7 +35,7 @@ class End(NamedTuple):
 
     link: str
     at: str
-    way: bool
+    is_direction: bool
 
 
 class ClosureGroup:
@@ -237,7 +237,7 @@ class _LayoutBuilder:
         direction = unit_direction(bond) if len(joint) == 2 else -1j * unit_direction(bond)
         rate = float(bond.rate) * (1 if link == bond.link else -1)
         drive = self._enter_drive(False, rate / self.linkage.reach) if len(joint) == 2 else None
-        return seat._replace(guide=self.place[bond.to or bond.on], way=self._guide_direction(bond, direction),
+        return seat._replace(guide=self.place[bond.to or bond.on], direction=self._guide_direction(bond, direction),
                              drive=drive)
 
     def _closings(self, joint: Sequence[Along]) -> Iterator[Closing]:
@@ -252,19 +252,19 @@ class _LayoutBuilder:
         for bond in joint:
             drive = self._enter_drive(False, float(bond.rate) / self.linkage.reach)
             yield closing._replace(guide=self.place[bond.to or bond.on],
-                                   way=self._guide_direction(bond, unit_direction(bond)),
+                                   direction=self._guide_direction(bond, unit_direction(bond)),
                                    drive=drive)
 
     def _rolling_closing(self, bond: CentreDistance | RackBond) -> Closing:
         """What closes a loop by a length: the distance of two centres, or the radius by which a wheel rolls."""
         places, reach = self.linkage.places, self.linkage.reach
-        far_point = bond.other if isinstance(bond, CentreDistance) else bond.at
+        far_point = bond.far_centre if isinstance(bond, CentreDistance) else bond.at
         closing = Closing(self.place[bond.link], self._arm(bond.link, places[bond.at], bond.at),
                           self.place[bond.on], self._arm(bond.on, places[far_point], far_point))
         if isinstance(bond, CentreDistance):
             return closing._replace(far=self._number(abs(places[bond.at] - places[far_point]) / reach))
         direction = self._enter_arm(unit_direction(bond), End(bond.on, bond.at, True))
-        return closing._replace(guide=self.place[bond.on], way=direction, lever=self._number(bond.lever / reach))
+        return closing._replace(guide=self.place[bond.on], direction=direction, lever=self._number(bond.lever / reach))
 
     def _gear_mesh(self, bond: GearBond) -> Mesh:
         """What a pair of gears closes; of its factors, and their sum, the largest is 1."""

@@ -166,7 +166,7 @@ class CentreDistance(HigherBond):
     """The point and the point `other` of the other link keep their distance."""
 
     way = TOUCHING
-    other: str
+    far_centre: str
 
 
 @dataclass(frozen=True)
@@ -182,13 +182,13 @@ class GearBond(HigherBond):
     """Two links turn on the line of the centres, the point and `other`, so that the sum of the angles, by `factors`, is
     nothing."""
 
-    other: str
+    far_centre: str
     factors: tuple[float, float]
 
     @property
     def arm(self) -> str:
         """The name of the line of centres; no link has one with a blank."""
-        return f"{self.link} {self.on} {self.at} {self.other}"
+        return f"{self.link} {self.on} {self.at} {self.far_centre}"
 
 
 Bond = Statement | HigherBond
@@ -258,7 +258,7 @@ class LinesOfCentres:
         for bond in bonds:
             if isinstance(bond, GearBond) and bond.condition not in scene.redundant:
                 last = max(part[bond.link], part[bond.on])
-                holders = [link for link in scene.links_of[bond.at] if link in scene.links_of[bond.other]
+                holders = [link for link in scene.links_of[bond.at] if link in scene.links_of[bond.far_centre]
                            and part[link] <= last]
                 self.carriers[bond.arm] = min(holders, key=order.__getitem__, default=bond.arm)
                 if not holders:
@@ -267,8 +267,8 @@ class LinesOfCentres:
     def bonds(self, name: str, places: Mapping[str, complex]) -> Iterator[Along]:
         """What holds an arm: the pin in one centre, and the other on its line."""
         gear = self.arms[name]
-        line = places[gear.other] - places[gear.at]
+        line = places[gear.far_centre] - places[gear.at]
         across = quarter_turn(times(1 / abs(line), (line.real, line.imag)))
         yield Along(name, gear.link, gear.at, X, "x", to=FRAME)
         yield Along(name, gear.link, gear.at, quarter_turn(X), "y", to=FRAME)
-        yield Along(gear.on, name, gear.other, across, "across")
+        yield Along(gear.on, name, gear.far_centre, across, "across")

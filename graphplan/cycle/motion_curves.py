@@ -62,8 +62,8 @@ def traced_motion(scene: Scene) -> TracedMotion | None:
     paths = [path for name in curves for path in _point_paths(name, turn.points[name][: fine.size], stops)]
     reached = np.flatnonzero(np.all([np.isfinite(z[fine.size :]) for z in turn.points.values()], axis=0)) + fine.size
     positions = tuple({name: _spot(z[k]) for name, z in turn.points.items()} for k in reached)
-    centrodes = tuple(one for links in rolling for one in _centrodes(motion, links, fine))
-    cubics = (one for link in scene.sheet.cubics for one in _cubics(motion, link))
+    centrodes = tuple(curve for links in rolling for curve in _centrodes(motion, links, fine))
+    cubics = (curve for link in scene.sheet.cubics for curve in _cubics(motion, link))
     return TracedMotion(tuple(paths), positions, (*centrodes, *cubics))
 
 

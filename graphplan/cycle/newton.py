@@ -47,8 +47,8 @@ def step(rows: Sequence[Row], width: int, sqrt: Callable[[Any], Any]) -> NewtonS
         pivot, *lower_rows = sorted((row for row in open_rows if column in row),
                                     key=lambda row: sum(j >= 0 for j in row))
         open_rows = [row for row in open_rows if column not in row]
-        for other in lower_rows:
-            pivot, cleared = _rotate_rows(pivot, other, column, sqrt)
+        for lower_row in lower_rows:
+            pivot, cleared = _rotate_rows(pivot, lower_row, column, sqrt)
             open_rows.append(cleared)
         free.remove(column)
         pivots.append((column, pivot))
@@ -157,7 +157,7 @@ class _Record:
         known_links = [LinkPose(), *(LinkPose(self._pair(), self._pair(), {TRAVEL: self._pair()} if rates else {},
                                               {TRAVEL: self._new()} if rates else {}, self._new() if layout.counted
                                               else 0.0)
-                                     for _ in range(layout.known - 1))]
+                                     for _ in range(layout.carriers - 1))]
         arms = [self._pair() for _ in range(layout.arms)]
         drives = [DriveState(self._angle() if turns else self._new(), self._new() if rates else None)
                   for turns in layout.drives]
@@ -166,7 +166,7 @@ class _Record:
         self.step = step(residual_rows(layout, links, arms, drives), layout.unknowns, Symbol.root)
         closed = pose_links(layout, known_links, arms, drives, apply_corrections(layout, state, self.step.corrections),
                             moving=False)
-        self.links, self.closed = links[layout.known:], closed[layout.known:]
+        self.links, self.closed = links[layout.carriers:], closed[layout.carriers:]
 
     def _new(self) -> Symbol:
         symbol = self.tape.input(f"n{len(self.inputs)}")

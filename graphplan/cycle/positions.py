@@ -222,7 +222,7 @@ def link_rates(linkage: Linkage, groups: Sequence[ClosureGroup], travel: Array, 
 def _turned_arms(linkage: Linkage, points: Mapping[str, Array]) -> Iterator[tuple[str, Array]]:
     """How the arms turn that are thought in."""
     for name, gear in linkage.lines.arms.items():
-        line, given_line = points[gear.other] - points[gear.at], linkage.places[gear.other] - linkage.places[gear.at]
+        line, given_line = (places[gear.far_centre] - places[gear.at] for places in (points, linkage.places))
         yield name, line / np.abs(line) / (given_line / abs(given_line))
 
 
@@ -249,10 +249,10 @@ def _unknowns_of(layout: GroupLayout, links: Sequence[LinkPose], arms: Sequence[
         if seat.on is None:
             away = base - (complex(*arms[seat.arm]) if seat.arm is not None else 0.0)
             unknowns += away.real, away.imag
-        elif seat.way is not None and seat.guide is not None and seat.drive is None:
+        elif seat.direction is not None and seat.guide is not None and seat.drive is None:
             on, guide = links[seat.on], links[seat.guide]
             arm = _rotated_complex(on, arms[seat.arm]) if seat.arm is not None else 0.0
-            ray = _rotated_complex(guide, arms[seat.way])
+            ray = _rotated_complex(guide, arms[seat.direction])
             unknowns.append(((base - _complex(on.base) - arm) * np.conj(ray)).real)
     return unknowns
 

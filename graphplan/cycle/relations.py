@@ -149,7 +149,7 @@ class Relations:
         """The arms of a group: those of the frame end in pins."""
         arms, frame = list[Spot](group.arms), self._on_paper.origins[FRAME]
         for k, end in enumerate(group.ends):
-            if end.link == FRAME and not end.way:
+            if end.link == FRAME and not end.is_direction:
                 spot = self._ground.point(complex(*group.arms[k]) + frame) - frame
                 arms[k] = spot.re, spot.im
         return arms

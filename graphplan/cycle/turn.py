@@ -208,12 +208,12 @@ class Reachability:
             which[poses] = len(reasons) - 1
 
         for limit, poses in self.stops:
-            because(limit_reason(limit.part, limit.change), poses)
+            because(limit_reason(limit.links, limit.change), poses)
         for failure, poses in reversed(failures):
-            because(f"{_links_text(failure.part)} cannot be assembled: {failure.why}", poses)
+            because(f"{_links_text(failure.links)} cannot be assembled: {failure.why}", poses)
         for limit, beyond in self._unreached_by_limit():
             for k in np.unique(which[beyond]):
-                reason = reasons[k] or f"{_links_text(limit.part)} cannot come there from the given pose"
+                reason = reasons[k] or f"{_links_text(limit.links)} cannot come there from the given pose"
                 because(f"{reason} ({limit.kind} near {travel_text(self.scene, self._travel_round(limit), 4)})",
                         beyond & (which == k))
         unit, name = travel_unit(self.scene)

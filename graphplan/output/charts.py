@@ -38,7 +38,7 @@ FRAME, DIVISION, EDGE = Pen(0.18), Pen(0.13, "#c4c4c4"), Pen(0.18, GREY)
 
 def drawn(chart: Chart) -> str:
     """The chart as SVG text: title and remarks at the top, the key at the foot, and the pictures between them."""
-    canvas, (wide, high), columns = Canvas(), chart.size, min(chart.columns, len(chart.panels) or 1)
+    canvas, (wide, high), columns = Canvas(), chart.panel_mm, min(chart.columns, len(chart.panels) or 1)
     rows, breadth = math.ceil(len(chart.panels) / columns), 2 * MARGIN + columns * (LEFT + wide + RIGHT)
     remarks = wrap(_set(chart.remarks), SIZE, breadth - 2 * MARGIN)
     head = MARGIN + TITLE + 3 + LINE * len(remarks)
@@ -96,7 +96,7 @@ def _filling(look: Look) -> Pen:
 
 def _mark(canvas: Canvas, spot: Spot, look: Look) -> None:
     if look.marker:
-        canvas.mark(look.marker, spot, look.size, _filling(look))
+        canvas.mark(look.marker, spot, look.marker_mm, _filling(look))
 
 
 class _Scale:
@@ -207,7 +207,7 @@ def _labels(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) -
         if not series.label or not series.spots or series.look.area:
             continue
         words, spot = _set(series.label), (x(series.spots[-1][0]), y(series.spots[-1][1]))
-        wide, off = width(words, LABEL), series.look.size / 2 + 1.0
+        wide, off = width(words, LABEL), series.look.marker_mm / 2 + 1.0
         boxes = {_box((spot[0] + h * (off + wide / 2), spot[1] + v * (off + LABEL / 2)), wide, LABEL): abs(v)
                  for h, v in SIDES}
         best = min([box for box in boxes if all(map(rect.holds, box.corners))] or boxes, key=lambda box: (
@@ -223,7 +223,7 @@ def _covered(series: ChartSeries, x: _Scale, y: _Scale) -> Iterable[tuple[Rect, 
     """What a series covers, and how bad words are there: its marks, its line, and the spreads of its spots."""
     spots = [(x(a), y(b)) for a, b in series.spots]
     if series.look.marker:
-        yield from ((_box(spot, series.look.size, series.look.size), ON_A_MARK) for spot in spots)
+        yield from ((_box(spot, series.look.marker_mm, series.look.marker_mm), ON_A_MARK) for spot in spots)
     lines = list(pairwise(spots)) if series.look.width else []
     for (across, up), corners in zip(spots, series.spreads, strict=False):
         (left, low), (right, high) = ((x(a), y(b)) for a, b in corners)

@@ -232,7 +232,7 @@ class _Column:
         """How far what was found is from the plans, in parts of the largest ordinate."""
         table = [[self.say(head) for head in (said("errors in %"), said("largest"), said("rms"), said("order"))]]
         for error in self.diagram.errors:
-            letter, way = self.diagram.curve.letters[error.found.quantity], METHODS[error.found.method][0]
+            letter, way = self.diagram.curve.letters[error.curve.quantity], METHODS[error.curve.method][0]
             order = "–" if error.order is None else self.say(digits(round(error.order, 2)))
             sizes = [self.say(digits(100 * size, 2)) for size in (error.largest, error.rms)]
             table.append([f"{letter} {self.say(way())}", *sizes, order])

@@ -67,7 +67,7 @@ def test_balanced_has_the_smallest_product(found: list[Form], drawn: dict[str, D
 
 def test_what_was_weighed_is_told(found: list[Form], drawn: dict[str, Drafted]) -> None:
     """The choice is told with every alternative, its operations and its error, a line each."""
-    head, *others = choose_form(found, "quick").told
+    head, *others = choose_form(found, "quick").remarks
     assert head == "quick form preferred: auxiliary; compared on A2:"
     assert {line.partition(":")[0] for line in others} == {"pose's own, poles", "auxiliary", "trial"}
     assert any(line.startswith("trial") and f"{drawn['trial'].operations} operations" in line for line in others)

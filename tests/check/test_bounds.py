@@ -128,7 +128,7 @@ def test_no_bound_of_a_packaged_scene_lies(name: str) -> None:
 
 
 @pytest.mark.parametrize(("degeneracy", "way", "first"),
-                         [(one, way, k) for one in DEGENERACIES for k, way in enumerate(("", *one.ways))],
+                         [(one, way, k) for one in DEGENERACIES for k, way in enumerate(("", *one.compared_ways))],
                          ids=lambda case: getattr(case, "name", case) or "chosen")
 def test_near_a_special_pose_every_number_is_right_to_its_bound(degeneracy: Degeneracy, way: str, first: int) -> None:
     """Towards each special pose every way gives nine digits that are right, or is told that it cannot be drawn; ways

@@ -118,7 +118,7 @@ def test_the_scales_agree() -> None:
 
 def error(drawn: KinematicDiagram, found: FoundCurve) -> Any:
     """The error of one curve found."""
-    return next(error for error in drawn.errors if error.found == found)
+    return next(error for error in drawn.errors if error.curve == found)
 
 
 def test_a_parabola_is_differentiated_without_error() -> None:
@@ -169,7 +169,7 @@ def test_a_followed_turn_is_closed(rate: float) -> None:
     assert curve.closed
     assert len(curve.time) == 49
     assert curve.s[-1] - curve.s[0] == pytest.approx(np.copysign(2 * np.pi, rate))
-    assert {of.found.quantity for of in diagram(curve).errors} == {"s", "v", "a"}
+    assert {of.curve.quantity for of in diagram(curve).errors} == {"s", "v", "a"}
     assert all(of.largest < 0.03 for of in diagram(curve).errors)
 
 

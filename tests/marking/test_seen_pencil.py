@@ -78,7 +78,7 @@ def test_who_states_the_bounds_of_his_reading_is_judged_by_less() -> None:
             found = judged("ozols-5-3", replace(submission, traces=traces))
             assert found.first is None
             assert found.pencil is not None
-            parts.append(found.pencil.part)
+            parts.append(found.pencil.share_shown)
         told.append(np.mean(parts))
     assert told[0] > 0.8
     assert told[1] < 0.7

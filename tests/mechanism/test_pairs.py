@@ -186,7 +186,7 @@ def _stated(linkage: Linkage, group: ClosureGroup, bodies: dict[str, closure.Lin
             continue
         arms: Any = None, None
         if isinstance(bond, CentreDistance):
-            z = (linkage.places[bond.at] - linkage.places[bond.other]) / linkage.reach
+            z = (linkage.places[bond.at] - linkage.places[bond.far_centre]) / linkage.reach
             radius, bond = abs(z), Touching(bond.link, bond.on, bond.at, (z.real, z.imag), bond.condition.way)
         elif not isinstance(bond, Turning):
             z, lever = unit_direction(bond), bond.lever / linkage.reach if isinstance(bond, RackBond) else 0

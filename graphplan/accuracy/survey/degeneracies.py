@@ -35,10 +35,10 @@ class Degeneracy:
     """
 
     name: str
-    what: str
+    description: str
     scene: str
     singular: bool
-    ways: tuple[str, str]
+    compared_ways: tuple[str, str]
     move: Callable[[Points, Fraction], Points]
 
     def scene_at(self, d: float) -> Scene:

@@ -103,7 +103,7 @@ def picture(rows: Sequence[Draft], pencil: str) -> Chart:
     for combination, places in spots_by_way.items():
         ways_by_spot.setdefault(median(places), []).append(combination)
     middles = [middle for middle, *_ in ways_by_spot]
-    series = [ChartSeries(_look(*alike[0]), (place[0],), ((place[1], place[2]),), label=_ways_text(alike))
+    series = [ChartSeries(form_look(*alike[0]), (place[0],), ((place[1], place[2]),), label=_ways_text(alike))
               for place, alike in ways_by_spot.items()]
     panel = SubChart("", TIMES_OPERATIONS, TIMES_ERROR, (
         ChartSeries(FRONT, tuple(stairs(front(middles), _ends(middles)))), *series))
@@ -159,16 +159,16 @@ def _spot(row: Draft) -> Place:
 
 def look(row: Draft) -> Look:
     """A form's look: the method by the marker, the plan by the colour, strict forms hollow."""
-    return _look(row.form.split(", ")[0], row.plan, row.tools)
+    return form_look(row.form.split(", ")[0], row.plan, row.tools)
 
 
-def _look(method: str, plan: str, tools: str) -> Look:
-    return Look(COLOURS[plan], MARKERS[method], hollow=tools == STRICT, size=2.0)
+def form_look(method: str, plan: str, tools: str) -> Look:
+    return Look(COLOURS[plan], MARKERS[method], hollow=tools == STRICT, marker_mm=2.0)
 
 
 def _key() -> Iterable[tuple[str, Look]]:
-    yield from ((name, Look(GREY, marker, size=2.0)) for name, marker in MARKERS.items())
+    yield from ((name, Look(GREY, marker, marker_mm=2.0)) for name, marker in MARKERS.items())
     yield from ((f"{plan} plans", Look(colour, area=True)) for plan, colour in COLOURS.items())
-    yield "filled: with set squares", Look(GREY, "circle", size=2.0)
-    yield "hollow: strictly, with compasses and straightedge", Look(GREY, "circle", hollow=True, size=2.0)
+    yield "filled: with set squares", Look(GREY, "circle", marker_mm=2.0)
+    yield "hollow: strictly, with compasses and straightedge", Look(GREY, "circle", hollow=True, marker_mm=2.0)
     yield "front", FRONT

@@ -127,7 +127,7 @@ def exponent(rows: Sequence[StageTime], stage: str) -> float | None:
 
 _STROKES = ((INK, "circle", ()), (BLUE, "square", (2.4, 0.8)), (RED, "up", (0.6, 0.8)),
             (GREEN, "diamond", (2.4, 0.6, 0.4, 0.6)), (BROWN, "down", (3.2, 1.2)), (VIOLET, "plus", (1.2, 0.5)))
-LOOKS = {stage: Look(colour, marker, size=2.2, width=0.3, dash=dash)
+LOOKS = {stage: Look(colour, marker, marker_mm=2.2, width=0.3, dash=dash)
          for stage, (colour, marker, dash) in zip(STAGES, _STROKES, strict=True)}
 SIZE = Axis("links", shows=(LINKS[0], 20 * LINKS[-1]))  # words stand behind the lines
 TIME = Axis("time; 1 is one pose of four links solved")

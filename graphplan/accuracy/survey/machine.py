@@ -114,8 +114,8 @@ def _run_of_form(arithmetic: Callable[[Construction], TimedRun], drawn: Drawn, l
 def forms(scene: Scene) -> Iterator[tuple[str, str, Drawn]]:
     """The programs to which all methods lead, on both kinds of plan, by the methods' names; or why there is none."""
     for plan in motion_plans(scene):
-        for names, one in led_to(partial(construct, scene, plan=plan), lambda drawing: drawing.program):
-            yield form_name(names), plan, one
+        for names, result in led_to(partial(construct, scene, plan=plan), lambda drawing: drawing.program):
+            yield form_name(names), plan, result
 
 
 # ---- the pictures -----------------------------------------------------------------------------------------------
@@ -128,8 +128,8 @@ EXACT = FRACTIONS
 TIME = Axis("time for a pose; LAPACK's is 1")
 ERROR = Axis("largest error, relative", before=tuple((name, name) for name in (EXACT, FORTY, TWENTY)), pitch=8.0,
              shows=(1e-16, 1e-12))
-OWN, SOLVERS_OWN = Look(INK, "circle", size=2.6), Look(GREY, "square", size=2.6)
-RIVAL, FRONT = Look(RED, "diamond", hollow=True, size=3.0), Look(GREY, width=0.35)
+OWN, SOLVERS_OWN = Look(INK, "circle", marker_mm=2.6), Look(GREY, "square", marker_mm=2.6)
+RIVAL, FRONT = Look(RED, "diamond", hollow=True, marker_mm=3.0), Look(GREY, width=0.35)
 BY_RULES = ("rules, one pose", "rules, many poses")  # which the replay has replaced: in the details alone
 REMARKS = (
     "Further left is faster, lower is more accurate; nothing lies left of and below the line. Each mark is a median "
@@ -198,12 +198,13 @@ def look(row: MachineMeasure) -> Look:
     """A measure's look: its arithmetic by the marker, its method by the colour, polar plans hollow."""
     if row.arithmetic not in MARKERS:
         return RIVAL
-    return Look(COLOURS[row.form.split(", ")[0]], MARKERS[row.arithmetic], hollow=row.plan == "polar", size=2.2)
+    return Look(COLOURS[row.form.split(", ")[0]], MARKERS[row.arithmetic], hollow=row.plan == "polar", marker_mm=2.2)
 
 
 def _key() -> Iterable[tuple[str, Look]]:
-    yield from ((name, Look(GREY if name in SOLVERS else INK, marker, size=2.2)) for name, marker in MARKERS.items())
+    yield from ((name, Look(GREY if name in SOLVERS else INK, marker, marker_mm=2.2))
+                for name, marker in MARKERS.items())
     yield "other programs", RIVAL
     yield "form of the pose or of every method", Look(INK, area=True)
     yield from ((name, Look(COLOURS[name], area=True)) for name in ("auxiliary", "trial", "poles"))
-    yield "hollow: polar plans", Look(INK, "circle", hollow=True, size=2.2)
+    yield "hollow: polar plans", Look(INK, "circle", hollow=True, marker_mm=2.2)

@@ -31,7 +31,7 @@ class Look:
     colour: str
     marker: str = ""
     hollow: bool = False
-    size: float = 1.6
+    marker_mm: float = 1.6
     width: float = 0.0
     dash: tuple[float, ...] = ()
     area: bool = False
@@ -83,7 +83,7 @@ class Chart:
     remarks: str
     panels: tuple[SubChart, ...]
     columns: int
-    size: tuple[float, float]
+    panel_mm: tuple[float, float]
     key: tuple[tuple[str, Look], ...]
 
 

@@ -71,7 +71,7 @@ def samples(*degeneracies: Degeneracy, distances: Sequence[float] = DISTANCES,
     for degeneracy in degeneracies:
         for d in distances:
             pose = TestedPose(degeneracy.scene_at(d), pencil or Pencil())
-            choices = {SHEET: {}, **{name: WAYS[name] for name in degeneracy.ways}}
+            choices = {SHEET: {}, **{name: WAYS[name] for name in degeneracy.compared_ways}}
             for name, how, error, remark in pose.measure(choices):
                 yield Sample(degeneracy.name, name, how, d, pose.condition, error, remark)
 
@@ -239,9 +239,10 @@ REMARKS = (
 
 def picture(rows: Sequence[Sample], pencil: str = "") -> Chart:
     """The atlas of these samples, drawn by this pencil."""
-    sweeps = {way.name: way for way in DEGENERACIES}
+    sweeps = {look_of.name: look_of for look_of in DEGENERACIES}
     panels = tuple(_panel(sweeps[name], of) for name, of in group_rows(rows, "degeneracy").items())
-    key = (*((f"{way}, in floats" if way != SOLVE else "answer of solve", look) for way, look in LOOKS.items()),
+    key = (*((f"{look_of}, in floats" if look_of != SOLVE else "answer of solve", look)
+             for look_of, look in LOOKS.items()),
            ("form chosen for the pose, by pencil", OWN), ("condition", CONDITION))
     return Chart("Where methods fail, and which works there", REMARKS.format(pencil=pencil or Pencil().description),
                  panels, 4,
@@ -264,22 +265,23 @@ def _panel(sweep: Degeneracy, rows: Sequence[Sample]) -> SubChart:
 
     condition = {row.distance: EPSILON * row.condition for row in rows if row.distance and row.condition < math.inf}
     series = [ChartSeries(CONDITION, tuple(condition.items())), *lines(SHEET, PENCIL, OWN)]
-    for place, (way, (colour, marker, dash)) in enumerate(zip(sweep.ways, PAIR, strict=True)):
+    for place, (way, (colour, marker, dash)) in enumerate(zip(sweep.compared_ways, PAIR, strict=True)):
         look = Look(colour, marker, bool(place), 1.3, 0.3, dash)
         missing = tuple((d or BEYOND, str(place)) for d in distances if d not in errors[way, DRAWN])
         series += [*lines(way, PENCIL, Look(colour, width=0.3, dash=DOTS)), *lines(way, DRAWN, look),
-                   ChartSeries(replace(look, width=0.0), missing), *_way_label(way, colour, place, errors, sweep.ways)]
+                   ChartSeries(replace(look, width=0.0), missing), *_way_label(way, colour, place, errors,
+                                                                               sweep.compared_ways)]
     series += [series_of_way for way, look in LOOKS.items() for series_of_way in lines(way, COMPUTED, look)]
     strips = (_stretches(SOLVE, distances, {d: _arithmetic(rows_by_key[SOLVE, COMPUTED, d]) for d in distances}),
               _stretches(SHEET, distances, {d: "" if (row := rows_by_key[SHEET, DRAWN, d]).error is None else row.told
                                             for d in distances}))
-    return SubChart(sweep.name, DISTANCE, replace(ERROR, label=sweep.what), (*chain(*strips), *series))
+    return SubChart(sweep.name, DISTANCE, replace(ERROR, label=sweep.description), (*chain(*strips), *series))
 
 
 def _way_label(way: str, colour: str, place: int, errors: Mapping[tuple[str, str], Mapping[float, float]],
                ways: Sequence[str]) -> Iterator[ChartSeries]:
     """The name of a way: halfway where it is worse than the other, or else where it ends, or a third before."""
-    mine, rival = (errors[one, DRAWN] for one in (way, ways[1 - place]))
+    mine, rival = (errors[name, DRAWN] for name in (way, ways[1 - place]))
     apart = [d for d in mine if d and mine[d] > NOTABLE_RATIO * rival.get(d, math.inf)]
     distances = apart or [d for d in mine if d]
     if distances:

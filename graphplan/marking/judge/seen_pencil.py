@@ -45,7 +45,7 @@ def seen_pencil(matching: Matching, now: SeenPencil, submission: Submission) -> 
     read, shown, parts = np.zeros(1), np.ones(1), np.ones(1)
     odds = -np.log(SCALES)[:, None] ** 2 / (2 * measures.HAND_SCALE_SIGMA**2)
     if submission.measured and submission.stated:
-        shown, parts = PARTS, (PARTS / now.part) ** 2
+        shown, parts = PARTS, (PARTS / now.share_shown) ** 2
         odds = odds - np.log(PARTS)[None, :] ** 2 / (2 * measures.STATED_SHARE_SIGMA**2)
     if now.reading:
         read, parts = READ, (READ**2 + rounding) / (now.reading**2 + rounding)
@@ -110,7 +110,7 @@ def as_measured(pencil: Pencil, submission: Submission) -> Pencil:
 
 def blurred(submission: Submission, hand: SeenPencil) -> Submission:
     """The marks of a drawing as finely as they were read, beside how they were rounded."""
-    if not hand.reading and hand.part == 1.0:
+    if not hand.reading and hand.share_shown == 1.0:
         return submission
     return replace(submission, traces=tuple(
-        replace(trace, blur=math.hypot(hand.part * trace.blur, hand.reading)) for trace in submission.traces))
+        replace(trace, blur=math.hypot(hand.share_shown * trace.blur, hand.reading)) for trace in submission.traces))

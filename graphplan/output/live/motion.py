@@ -348,16 +348,16 @@ def _anchors(linkage: Linkage, parts: Iterable[ClosureGroup]) -> Iterator[tuple[
                 continue
             guides = (slide.through for slide in scene.slides if slide.along == FRAME and slide.at == end.at)
             pins = [name for name in next(guides, None) or () if name in fixed]
-            if not end.way and end.at in fixed and not pins:
-                yield g, k, end.way, end.at, "", 0.0, 0.0
+            if not end.is_direction and end.at in fixed and not pins:
+                yield g, k, end.is_direction, end.at, "", 0.0, 0.0
             elif len(pins) == 2:
                 P, Q = pins
                 along = (places[Q] - places[P]) / abs(places[Q] - places[P])
-                c = (complex(*arm) if end.way else places[end.at] - places[P]) / along
-                yield g, k, end.way, P, Q, c.real, c.imag
-            elif pins and not end.way:
+                c = (complex(*arm) if end.is_direction else places[end.at] - places[P]) / along
+                yield g, k, end.is_direction, P, Q, c.real, c.imag
+            elif pins and not end.is_direction:
                 c = places[end.at] - places[pins[0]]
-                yield g, k, end.way, pins[0], "", c.real, c.imag
+                yield g, k, end.is_direction, pins[0], "", c.real, c.imag
 
 
 def _step(layout: GroupLayout) -> str:

@@ -39,7 +39,7 @@ def numbers(found: Balancing) -> dict[str, Any]:
         "mass": mass, **over_cycle(motion),
         "moment_about": [about.real, about.imag],
         "principal_vectors": principal_vectors(motion), "links": links(motion),
-        "balancing": found.way, "counterweights": [weight_told(scene, weight) for weight in found.weights],
+        "balancing": found.method, "counterweights": [weight_told(scene, weight) for weight in found.weights],
     }
     if found.note:
         told["note"] = str(found.note)

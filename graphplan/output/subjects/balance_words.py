@@ -71,7 +71,7 @@ class BalanceWords:
                 for name, one in principal_vectors(self.before).items()]
         yield said("Principal vectors, along the links and square to them:")
         yield [heads, *rows]
-        yield arrange("{0}: {1}", said("Balanced"), WAYS[self.balancing.way])
+        yield arrange("{0}: {1}", said("Balanced"), WAYS[self.balancing.method])
         if self.balancing.note:
             yield self.balancing.note
         yield from self._weights_told()

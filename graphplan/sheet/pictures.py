@@ -137,8 +137,8 @@ def excerpt(plans: Plans, own: Collection[int], wide: float, high: float) -> Exc
 def _box(plans: Plans, panel: Panel, own: Collection[int], before: Collection[int]) -> Rect:
     """What of a plan a picture shows, in units of the plan."""
     halves = [spot for index, spot in plans.apexes(panel).items() if index in own]
-    core = bounding_box([*_spots(plans, panel, {*own, *before}), *halves] or [plans.extent(panel).core.centre])
-    whole = plans.extent(panel).core
+    core = bounding_box([*_spots(plans, panel, {*own, *before}), *halves] or [plans.extents[panel].core.centre])
+    whole = plans.extents[panel].core
     size = max(whole.width, whole.height)
     box = _at_least(core, MIN_WINDOW * size or 1.0)
     most = max(MAX_ENLARGEMENT * box.width, MAX_ENLARGEMENT * box.height, USUAL_WINDOW * size)

@@ -31,8 +31,7 @@ def protocol(scene: Scene, **how: Any) -> dict[str, Any]:
     plans lie over each other, each in a room of its own."""
     plans = Plans(gp.construct(scene, **how))
     rooms = {panel: room(Rect(0.0, 0.0, *USUAL_PANEL)) for panel in plans.panels}
-    extents = {panel: plans.extent(panel) for panel in plans.panels}
-    scales, views = windows(rooms, extents, plans, given_scales(plans))
+    scales, views = windows(rooms, plans, given_scales(plans))
     composition: Any = SimpleNamespace(plans=plans, scales=scales, plates=Plates(plans, views),
                                        arrangement=SimpleNamespace(height=USUAL_PANEL[1]))
     return {**steps(composition), "pencil": {"paper": PAPER}}

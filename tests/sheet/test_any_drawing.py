@@ -50,8 +50,7 @@ def test_the_drawing_of_a_motion_is_lettered_as_any_other() -> None:
     motion = drawn(run(scene, None, None, False).motion, 24)
     values = motion.values if isinstance(motion.values, Values) else Values(Drawing(motion.program), motion.values)
     plans = Plans.of_values(values, scene)
-    _, views = windows({panel: Rect(0.0, 0.0, 380.0, 270.0) for panel in plans.panels},
-                       {panel: plans.extent(panel) for panel in plans.panels}, plans)
+    _, views = windows({panel: Rect(0.0, 0.0, 380.0, 270.0) for panel in plans.panels}, plans)
     for plate in letter_plates(Plates(plans, views)).values():
         names = {mark.name for mark in plate.plate.steps if mark.name and plate.plate.is_on_panel(mark)}
         letters = {name for item in plate.letters.items if isinstance(item, Text) for name in item.label.split(",")}

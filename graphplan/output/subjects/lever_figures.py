@@ -28,7 +28,7 @@ from graphplan.sheet.lettering.letters import letter_plate
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import Extent, Plans, bounding_box
+from graphplan.sheet.plates.plans import Plans, bounding_box
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import PointPath, TracedMotion
 from graphplan.sheet.plates.view import View, fit_scale, view
@@ -78,8 +78,7 @@ class LeverFigures:
 
     def plates(self, rooms: Mapping[str, Rect]) -> tuple[Scales, Plates]:
         """The scales and the plans of the given pose in these rooms."""
-        extents: dict[str, Extent] = {panel: self.plans.extent(panel) for panel in self.plans.panels}
-        scales, views = windows(rooms, extents, self.plans)
+        scales, views = windows(rooms, self.plans)
         return scales, Plates(self.plans, views, self.letters)
 
     def heading(self, panel: Panel, scales: Scales) -> tuple[Said, Said]:

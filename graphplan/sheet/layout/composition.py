@@ -40,7 +40,7 @@ from graphplan.sheet.layout.plan_scales import (
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.letters import LetteredPlate, letter_plates
 from graphplan.sheet.plates.display import Rect
-from graphplan.sheet.plates.plans import Extent, Plans, bounding_box
+from graphplan.sheet.plates.plans import Plans, bounding_box
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.plates.view import (
@@ -74,8 +74,6 @@ class Composition:
     arrangement: Arrangement
     scales: Scales
     views: dict[str, View]
-    needs: Mapping[str, float]
-    extents: Mapping[str, Extent]
     plans: Plans
     protocol: tuple[Protocol, ...] = ()
     further: int = 0  # pages that follow
@@ -113,11 +111,12 @@ class Composition:
         plan without marks, as where nothing is asked, needs nothing. What cannot be measured counts against it.
         """
         first = self.plans.panels[0]
-        marks = {panel: need**2 for panel, need in self.needs.items() if panel != first}
+        marks = {panel: count for panel, count in self.plans.point_counts.items() if panel != first}
         weights = {panel: count / sum(marks.values()) if len(marks) > 2 else 0.5 for panel, count in marks.items()}
         weights[first] = 1.0
         large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())
-        fractions_of_need = (self._size_mm(panel) / need for panel, need in self.needs.items() if need)
+        fractions_of_need = (self._size_mm(panel) / math.sqrt(count) for panel, count in self.plans.point_counts.items()
+                             if count)
         return round(large - SHORT_VECTOR_PRICE * len(self.short), 9), min(fractions_of_need, default=0.0)
 
     @property
@@ -136,19 +135,19 @@ class Composition:
     @property
     def oversize_factors(self) -> dict[str, float]:
         """The plans that do not fit their panels at a given scale, and by how much they are too large."""
-        much = {panel: fit_scale(self.extents[panel].core, room_for_marks(window.rect)) * window.scale
+        much = {panel: fit_scale(self.plans.extents[panel].core, room_for_marks(window.rect)) * window.scale
                 for panel, window in self.views.items()}
         return {panel: times for panel, times in much.items() if times > 1 + SCALE_TOL}
 
     def _scale(self, panel: str) -> float:
         """How large a plan is; one of which marks are cut off counts no larger than all of it would be."""
         view = self.views[panel]
-        whole = whole_plan_scale(self.extents[panel], room_for_marks(view.rect))
+        whole = whole_plan_scale(self.plans.extents[panel], room_for_marks(view.rect))
         return view.scale if panel == self.plans.panels[0] else min(view.scale, whole)
 
     def _size_mm(self, panel: str) -> float:
         """The larger side of a plan on paper."""
-        core = self.extents[panel].core
+        core = self.plans.extents[panel].core
         return max(core.width, core.height) * self.views[panel].scale
 
 
@@ -163,18 +162,16 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
     plans where these keep most of the page, else on pages of its own; or as is asked.
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
-    extents: dict[str, Extent] = {panel: plans.extent(panel) for panel in plans.panels}
-    needs: dict[str, float] = {panel: math.sqrt(len(plans.points(panel))) for panel in plans.panels}
     frame, scene_scales = frame_of(plans.drawing.scene), given_scales(plans)
     tried: list[Composition] = []
     for name in [frame.paper(paper)] if paper else frame.papers:
         for words in (choices := _word_choices(protocol, rows)):
-            wants = [panel_demands(plans, extents, scales, name)
+            wants = [panel_demands(plans, scales, name)
                      for scales in ((scene_scales, NO_GIVEN_SCALES) if scene_scales[0] else (NO_GIVEN_SCALES,))]
             candidates = list(arrangements(name, partial(_divide_region, wants, plans), words, frame, title))
             if words and protocol != BESIDE_PLANS:
                 candidates = [arrangement for arrangement in candidates if arrangement.share >= MIN_PLANS_SHARE]
-            tried = [_windows(arrangement, extents, needs, plans, scene_scales) for arrangement in candidates] or tried
+            tried = [_windows(arrangement, plans, scene_scales) for arrangement in candidates] or tried
             fitting = [composition for composition in tried if not composition.oversize_factors]
             if not (candidates and fitting):
                 continue
@@ -228,12 +225,11 @@ def _too_large(tried: Sequence[Composition]) -> Refused:
                    f"{most}, or a larger sheet")  # fmt: skip
 
 
-def _windows(arrangement: Arrangement, extents: Mapping[str, Extent], needs: Mapping[str, float], plans: Plans,
-             given: GivenScales) -> Composition:
+def _windows(arrangement: Arrangement, plans: Plans, given: GivenScales) -> Composition:
     """The scales, round if they are not given, and the windows for one arrangement."""
     rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
-    scales, views = windows(rooms, extents, plans, given)
-    return Composition(arrangement, scales, views, needs, extents, plans)
+    scales, views = windows(rooms, plans, given)
+    return Composition(arrangement, scales, views, plans)
 
 
 def _legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:
@@ -289,8 +285,7 @@ class Composer:
     def usual(self) -> Scales:
         """The scales on panels of a usual size."""
         rooms: dict[str, Rect] = dict.fromkeys(self.plans.panels, room_for_marks(room(Rect(0.0, 0.0, *USUAL_PANEL))))
-        extents: dict[str, Extent] = {panel: self.plans.extent(panel) for panel in self.plans.panels}
-        return choose_scales(rooms, extents, self.plans, given_scales(self.plans))
+        return choose_scales(rooms, self.plans, given_scales(self.plans))
 
     def compose(self, pencil: Deviations | None = None, worded: bool = True) -> Composition:
         """The composition with these drawing errors told on it, or without any words where these are not `worded` yet;

@@ -19,7 +19,7 @@ from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, len
 from graphplan.sheet.lettering.lettering import letter_sizes, sentence_runs, two_line_width
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.pens import FORCES
-from graphplan.sheet.plates.plans import Extent, Plans, bounding_box
+from graphplan.sheet.plates.plans import Plans, bounding_box
 from graphplan.sheet.plates.view import COARSER, MUCH_COARSER, View, plan_box, plan_scale, view, wanted_box
 from graphplan.sheet.tolerances import SCALE_TOL
 from graphplan.sheet.words.lengths import MAX_ENLARGEMENT
@@ -82,29 +82,29 @@ def _check_force_plans(plans: Plans) -> None:
 # ---- scales and windows for the room that there is -------------------------------------------------------------------
 
 
-def windows(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans,
+def windows(rooms: Mapping[str, Rect], plans: Plans,
             given: GivenScales = NO_GIVEN_SCALES) -> tuple[Scales, dict[str, View]]:
     """The scales, round if they are not given, and the windows of plans in their rooms."""
-    scales = choose_scales({panel: room_for_marks(rect) for panel, rect in rooms.items()}, extents, plans, given)
-    boxes = {panel: plan_box(extent, room_for_marks(rooms[panel]), scales.lengths_per_mm(panel)) for panel,
-             extent in extents.items()}
+    scales = choose_scales({panel: room_for_marks(rect) for panel, rect in rooms.items()}, plans, given)
+    boxes = {panel: plan_box(extent, room_for_marks(rooms[panel]), scales.lengths_per_mm(panel))
+             for panel, extent in plans.extents.items()}
     return scales, {panel: view(box, rooms[panel], scales.lengths_per_mm(panel)) for panel, box in boxes.items()}
 
 
-def choose_scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans, given: GivenScales) -> Scales:
+def choose_scales(rooms: Mapping[str, Rect], plans: Plans, given: GivenScales) -> Scales:
     """The scales, round if they are not given, for so much room for the marks of each plan; twins have one."""
     drawing, names, (k_s, given_multiples) = plans.drawing, plans.drawing.scene.units, given
     box = bounding_box([corner for rect in rooms.values() for corner in rect.corners])
     side, first = max(box.width, box.height), plans.panels[0]
     lengths = unit_lengths(plans, first)
-    mechanism_scale = Fraction(k_s or plan_scale(extents[first], rooms[first], COARSER, lengths))
-    if not k_s and (times := extents[first].longest / side / float(mechanism_scale)) <= MAX_REDUCTION_FOR_ARCS:
+    mechanism_scale = Fraction(k_s or plan_scale(plans.extents[first], rooms[first], COARSER, lengths))
+    if not k_s and (times := plans.extents[first].longest / side / float(mechanism_scale)) <= MAX_REDUCTION_FOR_ARCS:
         mechanism_scale = max(mechanism_scale, round_up(times * float(mechanism_scale), lengths))
     most: dict[str, Fraction] = {}
     for panel in plans.panels[1:]:
         twin, lengths = plans.twins[panel], unit_lengths(plans, panel)
-        scale = max(plan_scale(extents[panel], rooms[panel], MUCH_COARSER, lengths),
-                    round_up(extents[panel].longest / side, lengths))
+        scale = max(plan_scale(plans.extents[panel], rooms[panel], MUCH_COARSER, lengths),
+                    round_up(plans.extents[panel].longest / side, lengths))
         most[twin] = max(scale, most.get(twin, scale))
     for source, panel in plans.carry_overs:
         if panel != first:
@@ -121,14 +121,14 @@ def unit_lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
     return (*([1] if panel == plans.panels[0] else []), *lengths_of(kinds, drawing.tempo.kappa, drawing.phi)) or (1,)
 
 
-def panel_demands(plans: Plans, extents: Mapping[str, Extent], given: GivenScales, paper: str) -> dict[str, Demand]:
+def panel_demands(plans: Plans, given: GivenScales, paper: str) -> dict[str, Demand]:
     """What each plan wants of its panel on a paper."""
     demands, (k_s, multiples), size = dict[str, Demand](), given, letter_sizes(paper).text
     first = plans.panels[0]
     for panel in plans.panels:
         head = sentence_runs(plans.tongue(panel.caption(plans.kinds(panel))))
-        box = wanted_box(extents[panel], COARSER if panel == first else MUCH_COARSER)
+        box = wanted_box(plans.extents[panel], COARSER if panel == first else MUCH_COARSER)
         scale = k_s if panel == first else k_s / float(multiples[panel]) if k_s and panel in multiples else None
-        demands[panel] = Demand(box.width, box.height, max(1, len(plans.points(panel))), unit_lengths(plans, panel),
+        demands[panel] = Demand(box.width, box.height, max(1, plans.point_counts[panel]), unit_lengths(plans, panel),
                                 two_line_width(head, size) + 2 * CAPTION_SIDE, scale)
     return demands

@@ -174,6 +174,16 @@ class Plans:
                     apexes[step.index] = _apex(self.spot(step.args[0]), self.spot(end), self.spot(crossings[0]))
         return apexes
 
+    @cached_property
+    def point_counts(self) -> dict[str, int]:
+        """How many points each plan has."""
+        return {panel: len(self.points(panel)) for panel in self.panels}
+
+    @cached_property
+    def extents(self) -> dict[str, Extent]:
+        """How large each plan is."""
+        return {panel: self.extent(panel) for panel in self.panels}
+
     def extent(self, panel: str) -> Extent:
         """How large a plan is: the mechanism and the vectors are its core, auxiliary marks come if they may."""
         ends = [self.spot(i) for i in self.ends(panel)]

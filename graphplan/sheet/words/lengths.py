@@ -79,13 +79,8 @@ class Lengths:
         match compound.step.op.sizing, compound.step.args, dict(compound.inner):
             case Sizing.SQUARE, (K, A, m, w, _), {"E": E}:
                 speed, arm, laid = self.distance(m, w), self.distance(K, A), self.distance(E, A)
-                times = self.times(w, A)
-                if times is None:
-                    total = Sum("Mdm", (speed.mm, arm.mm, laid.mm))
-                    v = total[0]
-                else:
-                    total = Sum("MFdm", (speed.mm, times, arm.mm, laid.mm))
-                    v = arrange("({0} · {1})", total[0], total[1])
+                total, v = self._product("Mdm", w, A, speed.mm, arm.mm, laid.mm)
+                v = arrange("({0})", v) if len(total.numbers) > 3 else v
                 text = arrange("v²/{0} = {1}² : {2} = {3}", self.side(K, A), v, total[-2], in_mm(total[-1]))
                 return (Length(text, (speed, arm, laid)),)
             case Sizing.DOUBLE, (_, B, *_), {"K": K}:
@@ -203,15 +198,9 @@ class Lengths:
         force, lever, arm = self.distance(p, q), self.arm(Y, C, p, q), self.distance(Y, X)
         laid = self.distance(m, step.index)
         per, symbol = self.scale("force", step.index)
-        times = self.times(q, m)
-        if times is None:
-            total = Sum("mmdm", (force.mm, lever.mm, arm.mm, laid.mm))
-            taken = total[0]
-        else:
-            total = Sum("mfmdm", (force.mm, times, lever.mm, arm.mm, laid.mm))
-            taken = arrange("{0} · {1}", total[0], total[1])
+        total, taken = self._product("mmdm", q, m, force.mm, lever.mm, arm.mm, laid.mm)
         text = arrange("P·h/{0} = {1} · {2} : {3} = {4} ({5})", self.side(Y, X), taken, total[-3], total[-2],
-                       in_mm(total[-1]), join((digits(laid.mm * per), unit(symbol)), " "))
+                        in_mm(total[-1]), join((digits(laid.mm * per), unit(symbol)), " "))
         return Length(text, (force, lever, arm, laid))
 
     def _couple(self, step: Step) -> Length:
@@ -247,15 +236,20 @@ class Lengths:
         """How far a couple shifts a force."""
         C, p, q, P, R, a, b = step.args
         measures = self.distance(a, b), self.arm(P, R, a, b), self.distance(p, q), self.distance(C, step.index)
-        times = self.times(b, q)
-        if times is None:
-            total = Sum("mmdm", tuple(measure.mm for measure in measures))
-            taken = total[0]
-        else:
-            total = Sum("mfmdm", (measures[0].mm, times, *(measure.mm for measure in measures[1:])))
-            taken = arrange("{0} · {1}", total[0], total[1])
+        total, taken = self._product("mmdm", b, q, *(measure.mm for measure in measures))
         text = arrange("{0} · {1} : {2} = {3}", taken, total[-3], total[-2], in_mm(total[-1]))
         return Length(text, measures)
+
+    def _product(self, kinds: str, source: int, own: int, first: float, *others: float) -> tuple[Sum, Said]:
+        """A sum whose first length is taken where one mark is drawn and serves where another is, and how that length is
+        told: as it is, or times how much larger it is there."""
+        times = self.times(source, own)
+        if times is None:
+            total = Sum(kinds, (first, *others))
+            return total, total[0]
+        factor = "F" if kinds[0] == "M" else "f"
+        total = Sum(kinds[0] + factor + kinds[1:], (first, times, *others))
+        return total, arrange("{0} · {1}", total[0], total[1])
 
     def _known_length(self, step: Step) -> Length:
         """What was found beforehand, as it is laid off here."""

@@ -52,7 +52,7 @@ def options(command: argparse.ArgumentParser) -> None:
                        help="a film strip: a picture for every lettered mark, or for every step")
     shown.add_argument("--by", choices=("sheet", STAGED),
                        help="the sheet alone, or after it its stages on pages of their own, enlarged, with "
-                            "equation and law; --strict draws by stages unless the sheet is asked for")
+                       "equation and law; --strict draws by stages unless the sheet is asked for")
     command.add_argument("--numbers", action="store_true",
                          help="the number of its step at every mark, at those with letters too")
     add_choices(command, strict=True)

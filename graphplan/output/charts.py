@@ -150,7 +150,7 @@ class _Scale:
 def _draw(canvas: Canvas, panel: SubChart, rect: Rect) -> None:
     """One picture: frame and divisions, areas and lines, then marks over them."""
     spots = [spot for series in panel.series for spot in (*series.spots, *(end for pair in series.spreads
-                                                                          for end in pair))]
+                                                                           for end in pair))]
     x = _Scale(panel.x, [a for a, _ in spots], rect.left, rect.right, READINGS[0])
     y = _Scale(panel.y, [b for _, b in spots], rect.bottom, rect.top, READINGS[1])
     _frame(canvas, panel, rect, x, y)

@@ -51,7 +51,7 @@ def _laid_out(drawing: Construction, paper: str | None, check: Mapping[str, Any]
 
 
 def _compose(drawing: Construction, paper: str | None, check: Mapping[str, Any] | None,
-              language: str | None) -> Composition:
+             language: str | None) -> Composition:
     """Where all of it lies, in a language by its code."""
     from graphplan.cycle.motion_curves import traced_motion
     from graphplan.sheet.layout.composition import compose

@@ -44,7 +44,7 @@ def solution(composition: Composition) -> list[Sheet]:
 def code(composition: Composition) -> int:
     """What tells a handout's sheet from any other: its scene, and where its plans lie."""
     windows = (f"{panel}: {view.scale:.6g} mm, {view.origin[0]:.2f} {view.origin[1]:.2f}"
-             for panel, view in composition.views.items())
+               for panel, view in composition.views.items())
     return sheet_code("\n".join((composition.plans.drawing.scene.text, composition.arrangement.paper, *windows)))
 
 

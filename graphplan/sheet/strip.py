@@ -120,7 +120,7 @@ class Strip:
     def pictures(self) -> list[Picture]:
         tallest = max(column.height for column in self.columns)
         cut_pictures = pictures(self.protocol, self.cut, (self.wide, MAX_HEIGHT[self.cut] * self.wide),
-                         lambda one: self._height(one) <= tallest)
+                                lambda one: self._height(one) <= tallest)
         if max(map(self._height, cut_pictures), default=0.0) > tallest:
             raise Refused("film strip", "a picture with its words is larger than the sheet", "a larger --paper")
         return cut_pictures
@@ -174,7 +174,7 @@ class Strip:
         items = [*style.items(self.paper, self.frame, say), *title]
         items += [move_item(item, 0.0, 0.0, self.times) for place, corner in page for item in self._cell(place, corner)]
         description = said("Film strip of a graphical construction: {0} steps in {1} pictures.",
-                    len(drawing.drawn) - drawing.drawn.givens, len(self.pictures))
+                           len(drawing.drawn) - drawing.drawn.givens, len(self.pictures))
         return Sheet(*self.paper_size, self.frame, {}, tuple(items), scene.title, say(description),
                      tuple(self.plans.sentences),
                      Scales(1.0, drawing.kappa, scene.units.length, {}), say.code, scene.text, drawing.drawn.givens)

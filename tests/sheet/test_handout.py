@@ -119,7 +119,7 @@ def test_every_page_bears_its_marks() -> None:
 def test_every_sheet_has_a_code_of_its_own() -> None:
     """Another scene, other plans or another paper make another code."""
     sheets = [composition_of(name, paper) for name, paper in (("four-bar", None), ("four-bar", "A2"),
-                                                                   ("slider-crank", None))]
+                                                              ("slider-crank", None))]
     assert len({code(sheet) for sheet in sheets}) == 3
 
 

@@ -21,7 +21,7 @@ def cells(*boxes: tuple[float, float, float, float], spot: Spot = (0.0, 0.0)) ->
     count = len(boxes)
     return LabelCandidates(np.arange(count), np.array(boxes) - AIR * OUTWARDS, np.full((count, 2), spot),
                            np.zeros(count),
-                  np.zeros(count, dtype=bool))  # fmt: skip
+                           np.zeros(count, dtype=bool))  # fmt: skip
 
 
 def covered(spots: tuple[Spot, ...], *boxes: tuple[float, float, float, float]) -> Array:

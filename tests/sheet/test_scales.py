@@ -102,7 +102,7 @@ def test_drawn_per_real_is_one_over_real_per_drawn() -> None:
             assert values[0] * values[1] == pytest.approx(1, rel=1e-3)
             assert other.startswith(one.replace("k_", "mu_", 1)[:5])
     assert drawn.scale_texts("mechanism", kinds)[:2] == [f"mu_s = {1 / real.k_s:g} mm/mm",
-                                                  f"mu_v = {1 / real.speed('mechanism'):g} mm per mm/s"]
+                                                         f"mu_v = {1 / real.speed('mechanism'):g} mm per mm/s"]
 
 
 def test_captions_title_block_and_description_follow_the_convention() -> None:

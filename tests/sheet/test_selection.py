@@ -25,7 +25,7 @@ def test_a_step_shows_what_is_drawn_by_then(name: str) -> None:
     last = drawn.givens + (len(drawn) - drawn.givens) // 2
     shown = sheet_at_step(sheet, last)
     assert {item.step for item in shown.items} - {None} == {item.step for item in sheet.items
-                                                           if item.step is not None and item.step <= last}
+                                                            if item.step is not None and item.step <= last}
     assert not [item for item in shown.items if item.layer == RESULTS]
 
 

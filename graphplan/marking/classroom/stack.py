@@ -243,7 +243,7 @@ def instead(found: Sequence[Placed], failed: Collection[str]) -> Iterator[Placed
     for one in found:
         if counts.get(_key(one)) is one:
             yield replace(one, fate=COUNTS, notes=(*one.notes[:-1], said("page {0} cannot be judged",
-                                                                          gone[_key(one)].seen.page.name)))
+                                                                         gone[_key(one)].seen.page.name)))
         elif one.fate == COUNTS and _key(one) in counts:
             yield replace(one, fate=AGAIN)
         else:

@@ -81,7 +81,7 @@ def stroke(start: Spot, end: Spot, wide: bool = False) -> Polyline:
 
 
 def fit_text(rect: Rect, text: str, sizes: Sequence[float] = (SIZE,), *, what: str, bold: bool = False,
-           middle: bool = True) -> Iterator[Text]:
+             middle: bool = True) -> Iterator[Text]:
     """Lettering that fills a rectangle, half-way up, in the first of some sizes in which all its lines have room.
 
     Fails with `Refused` where they have not.

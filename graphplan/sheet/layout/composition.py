@@ -155,7 +155,7 @@ Protocol = tuple[Arrangement, list[Placed]]  # a page of words, and what stands 
 
 
 def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, paper: str | None,
-             protocol: str = PROTOCOLS[0], lettered: bool = True) -> Composition:
+                     protocol: str = PROTOCOLS[0], lettered: bool = True) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
     Where it is not to be `lettered`, nobody asks whether its letters can be read. Its `protocol` stands beside the
@@ -186,7 +186,7 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
 
 
 def _divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: Rect,
-             block: Rect | None) -> dict[str, Rect] | None:
+                   block: Rect | None) -> dict[str, Rect] | None:
     """The panels in a region by the first demands for which there is room."""
     divisions = (divide_among_plans(region, block, demands, plans.twins) for demands in wants)
     return next(filter(None, divisions), None)

@@ -120,7 +120,7 @@ def captions(composition: Composition) -> Iterator[Text]:
         large = HEADING if len(fitting[HEADING]) == len(heads) else letters.mark
         size, room = large if panel in fitting[large] else letters.text, panels[panel].width - 2 * CAPTION_SIDE
         scales = [sentence_runs(plans.tongue(scale))
-                for scale in composition.scales.scale_texts(panel, plans.kinds(panel))]
+                  for scale in composition.scales.scale_texts(panel, plans.kinds(panel))]
         lines = [(line, size, True) for line in wrap(head, size, room, bold=True)[:2]]
         fine = letters.mark if len(lines) == 1 else letters.text
         lines += [(line, fine, False) for line in _scales(scales, fine, room)]

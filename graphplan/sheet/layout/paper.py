@@ -86,7 +86,7 @@ class Shape(NamedTuple):
 
 
 def divide_among_plans(region: Rect, block: Rect | None, demands: Mapping[str, Demand],
-            twins: Mapping[str, str]) -> dict[str, Rect] | None:
+                       twins: Mapping[str, str]) -> dict[str, Rect] | None:
     """The panels of plans in a region, with the title block in its lower right corner where one is given; none where
     they have no room however small they are drawn. Twins have one scale."""
     corner = (Shape(min(block.width + EDGE_TOL, region.width), block.height + EDGE_TOL),) if block else ()
@@ -125,8 +125,9 @@ def _best(region: Rect, demands: Mapping[str, Demand], twins: Mapping[str, str],
         for start in range(len(leaves) - count + 1):
             end = start + count
             shapes = [shape for middle in range(start + 1, end)
-                     for one, two in product(runs[start, middle], runs[middle, end]) for shape in _join_shapes(one, two)
-                     if shape.wide <= region.width and shape.high <= region.height]
+                      for one, two in product(runs[start, middle], runs[middle, end])
+                      for shape in _join_shapes(one, two)
+                      if shape.wide <= region.width and shape.high <= region.height]
             runs[start, end] = _minimal_shapes(shapes)
     whole = [shape for shape in runs[0, len(leaves)] if shape.wide <= region.width and shape.high <= region.height]
     return max(whole, key=lambda shape: min(region.width / shape.wide, region.height / shape.high), default=None)
@@ -246,7 +247,7 @@ def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | 
     space, title, times = frame.space(wide, high), title.on_paper(paper), letter_sizes(paper).times
     words = rows and enlarge_words(rows, times)
     divisions = (*_words_beside(space, words, title, times * COLUMN),
-             *_words_below(space, words, title, times * COLUMN)) if words \
+                 *_words_below(space, words, title, times * COLUMN)) if words \
         else _plans_alone(space, title, times * COLUMN)
     for plans, columns, block in divisions:
         if panels := divide(plans, None if columns else block):

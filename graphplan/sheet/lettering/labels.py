@@ -125,7 +125,7 @@ POOR_PRICE = 2.0  # the price of what a letter covers, from which on it can hard
 
 
 def place_letters(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,
-           letters: LetterSizes = SMALL_SHEET) -> list[Item]:
+                  letters: LetterSizes = SMALL_SHEET) -> list[Item]:
     """The letters in their places and sizes, with leaders where they had to go far."""
     return lettering(wishes, items, marks, rect, letters).items
 

@@ -50,7 +50,7 @@ def dimensions(scene: Scene, spots: Mapping[str, Spot], obstacles: Iterable[Item
 
     bodies = [[spots[name] for name in names] for names in scene.links.values()]
     obstacle_shapes = [*filter(None, map(_figure, obstacles)),
-             *(shapely.LineString(ends) for body in bodies for ends in _sides(body))]
+                       *(shapely.LineString(ends) for body in bodies for ends in _sides(body))]
     placed: list[LinkDimension] = []
     for p, q in sorted(_measured_pairs(scene, spots),
                        key=lambda pair: (math.dist(spots[pair[0]], spots[pair[1]]), pair)):

@@ -20,7 +20,7 @@ from graphplan.words.tongue import ENGLISH, Tongue
 
 Pair = tuple[float, float]
 BALANCE_METHODS = {phrase("by force plans"): kinds.BY_PLANS, phrase("with friction"): kinds.RUBBED,
-        phrase("by the lever"): kinds.BY_LEVER}
+                   phrase("by the lever"): kinds.BY_LEVER}
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ class ForceTables:
     def _force(self, balance: Balance, ways: Mapping[Phrase, Pair], off: list[Runs]) -> Table:
         largest, letter, units = largest_size(ways), f"F_{balance.link}", sentence_runs(f" {self.unit}")
         rows = [[(*name_runs(f"{letter}{axis}"), *units), *(self._figure(v[i], largest) for v in ways.values())]
-                 for i, axis in enumerate("xy")]  # fmt: skip
+                for i, axis in enumerate("xy")]  # fmt: skip
         values = zip(ways.values(), off, strict=True)
         sizes = [(*self._figure(magnitude(*v), largest), *within) for v, within in values]
         return [*rows, [(*sentence_runs(f"|{letter}|"), *units), *sizes]]

@@ -200,7 +200,7 @@ class Lengths:
         per, symbol = self.scale("force", step.index)
         total, taken = self._product("mmdm", q, m, force.mm, lever.mm, arm.mm, laid.mm)
         text = arrange("P·h/{0} = {1} · {2} : {3} = {4} ({5})", self.side(Y, X), taken, total[-3], total[-2],
-                        in_mm(total[-1]), join((digits(laid.mm * per), unit(symbol)), " "))
+                       in_mm(total[-1]), join((digits(laid.mm * per), unit(symbol)), " "))
         return Length(text, (force, lever, arm, laid))
 
     def _couple(self, step: Step) -> Length:
@@ -209,7 +209,7 @@ class Lengths:
         length = self._couple_force(step, P, R, m)
         clockwise = step.params["moment"] < 0
         return length._replace(text=said("{0}, clockwise", length.text) if clockwise else
-                              said("{0}, counter-clockwise", length.text))
+                               said("{0}, counter-clockwise", length.text))
 
     def _inertia(self, step: Step) -> Length:
         """A force whose pair is the couple of inertia."""

@@ -22,7 +22,7 @@ from graphplan.sheet.words.sums import Sum
 
 # Places that are told by how far they are from another mark, and what that length is called.
 DISTANCE_NAMES = {kinds.CENTRE: phrase("radius of curvature, {0}"),
-        kinds.INFLECTION: phrase("diameter of the inflection circle, {0}")}
+                  kinds.INFLECTION: phrase("diameter of the inflection circle, {0}")}
 VECTORS = units.SPEED, units.ACCELERATING, units.FORCE, units.LENGTH
 
 

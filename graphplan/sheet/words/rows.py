@@ -184,7 +184,7 @@ Off = Mapping[str, Deviation]  # how far off results are drawn, by name; empty w
 
 def vector_table(say: Tongue, what: str, letter: str, unit: str, values: Mapping[str, Any], order: Iterable[str],
                  off: Off,
-            beside: Mapping[str, Any], spoken: Callable[[str], str] = str) -> Table:
+                 beside: Mapping[str, Any], spoken: Callable[[str], str] = str) -> Table:
     """Components, magnitudes and deviations, each row with its name first; nothing if there are none.
 
     The head tells what has them, their letter and their unit; names may be `spoken` in another way.
@@ -195,13 +195,13 @@ def vector_table(say: Tongue, what: str, letter: str, unit: str, values: Mapping
 
 
 def coordinate_table(say: Tongue, head: Sequence[str], values: Mapping[str, Any], off: Off,
-           spoken: Callable[[str], str]) -> Table:
+                     spoken: Callable[[str], str]) -> Table:
     """Coordinates with their deviations, or components of headings; nothing if there are none."""
     return _table(say, [*map(sentence_runs, head)], values, largest_size(values), off, spoken)
 
 
 def scalar_table(say: Tongue, what: str, name: str, unit: str, values: Mapping[str, Any], order: Iterable[str],
-            off: Off) -> Table:
+                 off: Off) -> Table:
     """Single numbers with their deviations, each row with its name first; nothing if there are none."""
     head = [sentence_runs(what), (*name_runs(name), *sentence_runs(f" {unit}"))]
     numbers = {name: (values[name],) for name in order if name in values}
@@ -218,7 +218,7 @@ def zero_rounding(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict
     for turning, kind, scale in (("omega", "velocity", fastest), ("alpha", "acceleration", fastest * fastest)):
         least = ZERO_TOL * _larger(largest_size(values.get(kind, {})) / reach, scale)
         results |= {turning: {name: rate if isinstance(least, Unknown) or isinstance(rate, Unknown) or abs(rate) > least
-                            else 0.0 for name, rate in values[turning].items()}} if turning in values else {}
+                              else 0.0 for name, rate in values[turning].items()}} if turning in values else {}
     return results
 
 

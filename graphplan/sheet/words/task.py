@@ -192,8 +192,8 @@ def _gear_text(gear: Gear) -> Said:
 def _touching(contact: Contact) -> Said:
     """Two links that touch: where, and how each is curved there."""
     links = [said("{0} with the centre of curvature {1}", link_named(link), centre) if centre
-            else said("{0} straight along {1}", link_named(link), _pair(contact.direction or (0, 0)))
-            for link, centre in zip(contact.links, contact.centres, strict=True)]
+             else said("{0} straight along {1}", link_named(link), _pair(contact.direction or (0, 0)))
+             for link, centre in zip(contact.links, contact.centres, strict=True)]
     return join((said("at {0}", contact.at), *links, *([said("without slipping")] if contact.rolling else [])))
 
 
@@ -263,7 +263,7 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
     joints = [p for p in scene.joints if any(JointForce(p, link).name in forces for link in scene.links_of[p])]
     reactions = [*joints, *(slides[name] for name in values.get(SLIDE_REACTION, ()))]
     reactions += [both(pair.links) for kind, pairs in ((GEAR_REACTION, scene.gears), (CONTACT_REACTION, scene.contacts))
-             for pair in pairs if pair.name in values.get(kind, {})]
+                  for pair in pairs if pair.name in values.get(kind, {})]
     if reactions:
         yield said("Reactions: {0}.", join(reactions))
     if scene.loads and any(kind_of(kind).way for kind in values):

@@ -239,8 +239,8 @@ class SheetWords:
         heads = {CENTRE: say(said("centre of curvature")), MOTION_POLE: say(said("pole of link")),
                  INFLECTION: say(said("inflection pole of link"))}
         centres, poles, inflection = (coordinate_table(say, (head, "x", f"y {long}"), self.values.get(kind, {}),
-                                              pencil.of_kinds(kind), str)
-                             for kind, head in heads.items())
+                                                       pencil.of_kinds(kind), str)
+                                      for kind, head in heads.items())
         yield centres, []
         yield poles, inflection
 
@@ -251,9 +251,9 @@ class SheetWords:
         speed = self.plans.tongue(unit(f"{self.drawing.scene.units.length}/s"))
         heads = ("v", speed, "velocity"), ("a", f"{speed}²", "acceleration")
         first, second = (vector_table(self.plans.tongue, what, letter, symbol, self.values.get(kind, {}), order,
-                                 pencil.of_kinds(kind),
-                            self.values.get(beside, {}), spoken)
-                    for kind, (letter, symbol, beside) in zip(kinds, heads, strict=True))
+                                      pencil.of_kinds(kind),
+                                      self.values.get(beside, {}), spoken)
+                         for kind, (letter, symbol, beside) in zip(kinds, heads, strict=True))
         return first, second
 
     def _forces(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
@@ -278,7 +278,7 @@ class SheetWords:
             yield self._heading(said("Check"))
             differences = join(join((WORDS[kind], _gap_text(float(gap))), " ") for kind, gap in self.check.items())
             yield from self.paragraph(said("Largest difference from the analytic solver, relative to the number's own "
-                                       "size: {0}.", differences), wide)
+                                           "size: {0}.", differences), wide)
 
     def _forms(self, wide: float) -> Iterator[TextRow]:
         if not self.drawing.scene.points:

@@ -155,7 +155,7 @@ def fresh(request: pytest.FixtureRequest) -> None:
 def shown_steps(page: Page) -> set[int]:
     """The drawn steps whose groups can be seen."""
     return set(page.eval_on_selector_all("g.step", "all => all.filter(g => getComputedStyle(g).display != 'none')"
-                                                   ".map(g => Number(g.dataset.step))")) - {0}
+                                         ".map(g => Number(g.dataset.step))")) - {0}
 
 
 def count_of(name: str) -> int:

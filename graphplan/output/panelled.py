@@ -6,7 +6,7 @@ A kind of sheet says what it shows; paper, frame, captions, title block, and whe
         document = said("Balancing sheet")
         ...
         def divided(self, room): return dict(zip((FORCES, MOMENTS), beside(room, 1, 1)))
-        def figure(self, panel, rect): return self.ink.lettered(panel)
+        def figure(self, panel, rect): return items_with_names(self.plate(panel, rect))
 
     svg(pages(Balance, paper)[0])
 """

@@ -17,13 +17,15 @@ from graphplan.kernel.program import Board, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
+from graphplan.methods.construction import ForceArrow
 from graphplan.output.exports.ink_tikz import sheet_tikz
 from graphplan.output.panelled import Panelled, Words, pages
-from graphplan.output.step_ink import StepInk
 from graphplan.output.svg import svg
 from graphplan.phrases import Said, said
-from graphplan.sheet.plates import pens
+from graphplan.sheet.lettering.letters import items_with_names
 from graphplan.sheet.plates.display import Arrow, Item, Rect, Sheet, Text
+from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.plates.styled_plate import StyledPlates
 from graphplan.sheet.plates.view import View
 
 POLYGON = Panel("polygon", said("polygon"), said("Polygon of forces"))
@@ -34,11 +36,11 @@ def polygon() -> Program:
     """Forces laid off one after the other, and the line that closes them, in mm."""
     board = Board()
     with board.on(POLYGON, stage=Stage(said("Polygon of forces"), said("the forces one after the other"))):
-        mark = first = board.begin(plan=POLYGON, name="A")
+        corners = [board.begin(plan=POLYGON, name="A")]
         for k, (dx, dy) in enumerate(FORCES, 1):
-            mark = board.lay_off(mark, dx=dx, dy=dy, name=f"P_{k}")
-        closing = board.line(first, mark)
-    return freeze(board, [closing])
+            corners.append(board.lay_off(corners[-1], dx=dx, dy=dy, name=f"P_{k}"))
+        closing = board.line(corners[0], corners[-1])
+    return freeze(board, [*corners, closing])
 
 
 @dataclass(frozen=True)
@@ -61,10 +63,9 @@ class PolygonSheet(Panelled):
         return {POLYGON: room}
 
     def figure(self, panel: Panel, rect: Rect) -> list[Item]:
-        steps = self.values.drawing.program.steps
-        vectors = {step.index: pens.VECTORS["load"] for step in steps if step.root is not None}
-        window = View(rect, 2.0, rect.centre)
-        return StepInk(self.values, {panel: window}, self.letters, vectors=vectors).items_with_letters(panel)
+        forces = [ForceArrow("load", f"P_{k}", (k - 1, k)) for k in range(1, 5)]
+        plans = Plans.of_values(self.values, self.scene, forces)
+        return items_with_names(StyledPlates(plans, {panel: View(rect, 2.0, rect.centre)}, self.letters)[panel])
 
     def given_words(self) -> Iterator[Words]:
         yield said("Forces")
@@ -84,7 +85,7 @@ def sheet() -> Sheet:
 def test_steps_are_ink_and_words(sheet: Sheet) -> None:
     """Each step has its ink with its number, its vector and its sentence with the length on paper."""
     arrows = [item for item in sheet.items if isinstance(item, Arrow)]
-    assert [arrow.label for arrow in arrows] == ["P_1", "P_2", "P_3", "P_4"]
+    assert [arrow.label for arrow in arrows] == [f"load P_{k}" for k in range(1, 5)]
     text = svg(sheet)
     assert all(f'data-step="{k}"' in text for k in range(1, 7))
     words = "".join(run.text for item in sheet.items if isinstance(item, Text) for run in item.runs)

@@ -19,24 +19,24 @@ import numpy as np
 
 from graphplan.check.balance import Balancing, MassMotion
 from graphplan.kernel.drawing import Drawing, Values
-from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.graphs import CURVES, Figures, Graph, Polar, Span, scale_words, smoothed, stacked, through
 from graphplan.output.panelled import Panelled, Words, divide_across, divide_down
-from graphplan.output.step_ink import HEAD, StepInk
 from graphplan.output.subjects.balance_words import BalanceWords, cleaned
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import place_letters
-from graphplan.sheet.lettering.letters import mechanism_wishes
+from graphplan.sheet.lettering.letters import items_with_names, mechanism_wishes
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
+from graphplan.sheet.plates.plate import Plate
+from graphplan.sheet.plates.styled_plate import plate_of_values
 from graphplan.sheet.plates.view import View, clip_item, fit_scale, view
 
 FORCE = Panel("shaking force", said("shaking force"), said("Shaking force: its polar diagram"))
@@ -45,6 +45,7 @@ VECTOR, PATH = Pen(0.5, pens.BLUE, fill=pens.BLUE), Pen(0.35)
 BEFORE, AFTER, FIRST, SECOND = CURVES[0], CURVES[2], CURVES[1], CURVES[4]
 WEIGHT, ARM = Pen(0.35, pens.RED, fill="#e8c4c6"), Pen(0.35, pens.RED, (2.4, 1.0))
 OUTSIDE = 6.0  # mm about the mechanism
+HEAD_MM = 3.0  # of a principal vector
 MANY_TIMES = 8.0  # the middle size of a force: between limits what is larger may lie off its diagram
 APART = 1.5  # mm: positions that lie nearer to each other have one number
 SHARES = 0.7, 0.85, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4  # of the height that forces may have, moments having 1
@@ -144,20 +145,19 @@ class BalanceSheet(Panelled):
         """The links with their counterweights, the paths of the mass centre, and the steps."""
         window = view(self._box, rect, self.k_s)
         drawn = DrawnMechanism(self.scene, window)
-        ink = StepInk(self.values, {MECHANISM: window}, self.letters)
+        ink = plate_of_values(self.values, MECHANISM, window, self.scene, self.letters)
         others = [*self._weights(window), *self._paths(window), *drawn.items(), *self._vectors(ink)]
         path = [window((float(z.real), float(z.imag))) for z in self.before.path[self.places]]
         wishes = [*mechanism_wishes(drawn), *self._numbers(path, window.rect)]
-        yield from ink.items_with_letters(MECHANISM, others, wishes,
-                                          lambda step: step.op.movement is not Movement.GIVEN)
+        yield from items_with_names(ink, others, wishes, lambda mark: bool(mark.number))
 
-    def _vectors(self, ink: StepInk) -> Iterator[Item]:
+    def _vectors(self, ink: Plate) -> Iterator[Item]:
         """The principal vectors head to tail."""
         program, base = self.values.drawing.program, self.before.centre.base
         first = next(step.index for step in program.steps if step.name == base)
         for start, end in pairwise([first, *program.wanted[2::2]]):
-            head = min(HEAD, 0.6 * math.dist(ink.spot_of_mark[start], ink.spot_of_mark[end]))
-            yield Arrow(VECTOR, "plates", end, ink.spot_of_mark[start], ink.spot_of_mark[end], head)
+            tail, tip = (ink.plates.steps[mark].spot for mark in (start, end))
+            yield Arrow(VECTOR, "plates", end, tail, tip, min(HEAD_MM, 0.6 * math.dist(tail, tip)))
 
     def _paths(self, window: View) -> Iterator[Item]:
         """The paths of the mass centre; one that stands still is a spot."""

@@ -21,7 +21,6 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 from graphplan.output.graphs import Figures
 from graphplan.output.panelled import Panelled, divide_across, divide_down
-from graphplan.output.step_ink import StepInk
 from graphplan.output.subjects.cam_diagrams import CENTRE_PLAN, CURVATURE_PLAN, LAW_PLAN, Paper
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
@@ -30,6 +29,8 @@ from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
+from graphplan.sheet.plates.plate import Plate
+from graphplan.sheet.plates.styled_plate import plate_of_values
 from graphplan.sheet.plates.view import View, fit_scale, view
 from graphplan.words.tongue import ENGLISH
 
@@ -51,20 +52,21 @@ class CamPlan:
 
     drawing: CamDrawing
     view: View
+    scene: Scene
     letters: LetterSizes
 
     @cached_property
-    def ink(self) -> StepInk:
+    def ink(self) -> Plate:
         """What the steps draw: the circles that are rolled on are drawn whole, faces go beyond their marks."""
         rollers = [one.marks["roller"] for one in self.drawing.divisions if "roller" in one.marks]
         whole = {**dict.fromkeys(self.drawing.common.values(), BASE), **dict.fromkeys(rollers, ROLLER)}
         faces = {one.marks["face"]: FACE for one in self.drawing.divisions if "face" in one.marks}
         values = Values(Drawing(self.drawing.program), self.drawing.values)
-        return StepInk(values, {CAM_PLAN: self.view}, self.letters, whole=whole, beyond=faces)
+        return plate_of_values(values, CAM_PLAN, self.view, self.scene, self.letters, whole=whole, beyond=faces)
 
     def items(self) -> Iterator[Item]:
         """All of it."""
-        yield from self.ink.items(CAM_PLAN)
+        yield from self.ink.items()
         yield from self._finished()
         yield from self._follower()
         yield from self._names()
@@ -151,7 +153,7 @@ class CamPlan:
                                "B": (2.0, 1.4), "S": (2.0, 0.0)}.items():
             step = next((step for step in drawing.program.steps if step.name == f"{name}_{shown}"), None)
             if step is not None:
-                x, y = self.ink.spot_of_mark[step.index]
+                x, y = self.ink.plates.steps[step.index].spot
                 if math.dist((x, y), O) > NEAR:
                     yield from paper.backed((x + dx, y + dy), step.name, self.letters.mark)
 
@@ -239,7 +241,7 @@ class CamSheet(Panelled):
     def figure(self, panel: Panel, rect: Rect) -> Iterator[Item]:
         """The plan, the diagrams over the turn, or the curve."""
         if panel == CAM_PLAN:
-            return CamPlan(self.drawing, view(extent(self.drawing), rect, self.k_s), self.letters).items()
+            return CamPlan(self.drawing, view(extent(self.drawing), rect, self.k_s), self.scene, self.letters).items()
         figures = Paper(self.letters, self.tongue, self.drawing.cam)
         return figures.law(rect) if panel == LAW_PLAN else figures.centre(rect)
 

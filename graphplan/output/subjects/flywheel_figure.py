@@ -17,21 +17,23 @@ import numpy as np
 
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import LINE
-from graphplan.kernel.program import Step
 from graphplan.machine.flywheel.diagram_layout import HEAD, Room, laid_out, plans_of
 from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing
 from graphplan.machine.flywheel.result import FlywheelResult
 from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Piecewise
 from graphplan.output.graphs import AXIS, HEADED, Figures, Graph
-from graphplan.output.step_ink import StepInk
 from graphplan.output.tolerances import TRAVEL_TOL
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import CAPS, name_runs, sentence_runs
+from graphplan.sheet.lettering.letters import items_with_names
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Spot
+from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
+from graphplan.sheet.plates.plate import Plate
+from graphplan.sheet.plates.styled_plate import plate_of_values
 from graphplan.sheet.plates.view import View, clip_item, view
 
 FINE, CHORD, LEVEL = Pen(0.13, "#8a8a8a"), Pen(0.25, pens.VIOLET), Pen(0.25, pens.GREEN, (5.0, 1.0))
@@ -126,7 +128,7 @@ class FlywheelFigure:
     def items(self) -> list[Item]:
         """All of it, its letters off its lines."""
         drawn = [*self._areas(), *self._curves(), *self._level(), *self._tangents(), *self._origin(), *self._axes()]
-        return self.ink.items_with_letters(FLYWHEEL, drawn, self._wishes(), self._named)
+        return items_with_names(self.ink, drawn, self._wishes(), self._is_named)
 
     # ---- steps -----------------------------------------------------------------------------------------------------
 
@@ -135,15 +137,15 @@ class FlywheelFigure:
         return [self.places[index] for index in self.drawing.marks[role]]
 
     @cached_property
-    def ink(self) -> StepInk:
+    def ink(self) -> Plate:
         """What the steps draw: fine lines, chords by themselves; tangents are drawn as far as they touch."""
         steps = self.values.drawing.program.steps
         lines = {place: FINE for place in self.places if steps[place].op.gives == LINE}
         chords = {steps[Q].args[1]: CHORD for Q in self._steps("energies")[1:]}
         axis = dict.fromkeys(self._steps("axis"), AXIS)
         hidden = {*self._steps("upper"), *self._steps("lower"), *self._steps("closed")}
-        return StepInk(self.values, {FLYWHEEL: self.window}, self.paper.letters, pens={**lines, **chords, **axis},
-                       beyond=dict.fromkeys(chords, 0.0), hidden=hidden)
+        return plate_of_values(self.values, FLYWHEEL, self.window, self.result.scene, self.paper.letters,
+                               {**lines, **chords, **axis}, beyond=dict.fromkeys(chords, 0.0), hidden=hidden)
 
     def _level(self) -> Iterator[Item]:
         """The level from which the closed moment counts, from the pole through the whole diagram."""
@@ -230,9 +232,9 @@ class FlywheelFigure:
         low = energy.rect.bottom - (2.4 + CAPS) * paper.letters.text
         yield self._told("phi", energy.k_x, (energy.rect.right, low), "end")
 
-    def _named(self, step: Step) -> bool:
-        """Whether a step's letter stands on the sheet: those of the divisions stand as numbers at the curve alone."""
-        return not step.name.rpartition("_")[2].isdigit()
+    def _is_named(self, mark: DrawnStep) -> bool:
+        """Whether the name of a mark stands on the sheet: divisions have their numbers at the curve alone."""
+        return not mark.name.rpartition("_")[2].isdigit()
 
     def _wishes(self) -> Iterator[Wish]:
         """The numbers of the plans along the energy-mass curve and over the abscissa, and the letters of angles."""

@@ -217,6 +217,6 @@ class FlywheelSheet(Panelled):
             yield [head, *rows]
 
     @cached_property
-    def steps(self) -> list[TextRow]:
+    def step_rows(self) -> list[TextRow]:
         """The construction in words; a task has none."""
         return [] if self.task else super().step_rows

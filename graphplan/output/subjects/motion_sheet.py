@@ -20,22 +20,25 @@ import numpy as np
 from graphplan.errors import Refused
 from graphplan.kernel.drawing import Drawing, PlanScale, Values
 from graphplan.kernel.kinds import CIRCLE, LINE
-from graphplan.kernel.program import Panel, Step
+from graphplan.kernel.program import Panel
 from graphplan.machine.motion.diagram_layout import POLE, Room
 from graphplan.machine.motion.drawing import MOTION, MotionDrawing, drawn
 from graphplan.machine.motion.runs import Run
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import AXIS, FOOT, HEADED, Figures, Graph
 from graphplan.output.panelled import Panelled, Words
-from graphplan.output.step_ink import StepInk
 from graphplan.output.subjects.given_facts import masses_and_loads
 from graphplan.output.subjects.motion_numbers import units
 from graphplan.phrases import Said, arrange, digits, said, unit
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import sentence_runs
+from graphplan.sheet.lettering.letters import items_with_names
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot
+from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.plate import Plate
+from graphplan.sheet.plates.styled_plate import plate_of_values
 from graphplan.sheet.plates.view import View, clip_item
 
 # ---- the diagrams ---------------------------------------------------------------------------------------------------
@@ -82,17 +85,17 @@ class MotionFigure:
 
     def items(self) -> list[Item]:
         """All of it, its letters off its lines."""
-        return self.ink.items_with_letters(MOTION, [*self._curves(), *self._axes()], self._wishes(), self._named)
+        return items_with_names(self.ink, [*self._curves(), *self._axes()], self._wishes(), self._is_named)
 
     @cached_property
-    def ink(self) -> StepInk:
+    def ink(self) -> Plate:
         """What the steps draw: fine lines, chords by themselves."""
         drawing, steps = self.drawing, self.drawing.program.steps
         fine = {step.index: FINE for step in steps if step.op.gives in (LINE, CIRCLE)}
         chords = {steps[Q].args[1]: CHORD for name in ("energy", "time") for Q in drawing.marks[name]
                   if len(steps[Q].args) == 2}
-        return StepInk(Values(Drawing(drawing.program), drawing.values), {MOTION: self.window}, self.paper.letters,
-                       pens={**fine, **chords}, beyond=dict.fromkeys(chords, 0.0))
+        return plate_of_values(Values(Drawing(drawing.program), drawing.values), MOTION, self.window, self.found.scene,
+                               self.paper.letters, pens={**fine, **chords}, beyond=dict.fromkeys(chords, 0.0))
 
     def _curves(self) -> Iterator[Item]:
         """The true curves."""
@@ -154,9 +157,9 @@ class MotionFigure:
             yield Polyline(AXIS, "ruling", None, (corner, end))
         yield self._told("inertia", inertia.k_x, (inertia.rect.left, inertia.rect.top + HEADED / 2))
 
-    def _named(self, step: Step) -> bool:
-        """Whether a step's letter stands on the sheet: those of the divisions stand as numbers at the curve alone."""
-        return "_" not in step.name
+    def _is_named(self, mark: DrawnStep) -> bool:
+        """Whether the name of a mark stands on the sheet: divisions have their numbers at the curve alone."""
+        return "_" not in mark.name
 
     def _wishes(self) -> Iterator[Wish]:
         """The numbers of some divisions along the energy-mass curve and the curve of speeds."""

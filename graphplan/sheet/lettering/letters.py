@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -12,10 +12,10 @@ from graphplan.kernel.program import Panel, Program
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.labels import PlacedLetters, lettering
+from graphplan.sheet.lettering.labels import PlacedLetters, lettering, place_letters
 from graphplan.sheet.lettering.lettering import list_runs, name_runs, sentence_runs
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Item, Rect, Spot
+from graphplan.sheet.plates.display import Item, Polygon, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.plans import bounding_box, corner
@@ -110,6 +110,25 @@ def _path_letters(plate: Plate) -> Iterator[Wish]:
         yield Wish(runs, candidate_spots, 0.6, True, pens.FAINT, label=label, free=True, layer=MOTION)
 
 
+def items_with_names(plate: Plate, others: Sequence[Item] = (), wishes: Iterable[Wish] = (),
+                     is_named: Callable[[DrawnStep], bool] = lambda mark: True) -> list[Item]:
+    """The ink of a plan and what else is drawn there, with the names of its marks, which avoid both and each other.
+
+    Other letters may be wished for; of the marks those have letters that are to be named. Letters may stand on tints.
+    """
+    ink, rect = [*plate.items(), *others], plate.view.rect
+    texts = [Polygon(item.pen, item.layer, None, item.box.corners) for item in others if isinstance(item, Text)]
+    marks = [mark for mark in plate.steps if plate.is_on_panel(mark)]
+    names = [Wish(name_runs(mark.name), (mark.spot,), plate.dot_radius(mark) + 0.3, step=mark.index, label=mark.name)
+             for mark in marks if mark.name and is_named(mark)]
+    names += [wish for mark in plate.steps if mark.name and mark.index in plate.stretches and is_named(mark)
+              for wish in PlateLetters(plate).line_letters(mark, plate.stretches[mark.index])]
+    obstacles = [item for item in ink if item.layer != "paper"]
+    letters = place_letters([*names, *wishes], [*obstacles, *texts], [mark.spot for mark in marks], rect,
+                            plate.plates.letters)
+    return [*ink, *letters]
+
+
 @dataclass(frozen=True)
 class PlateLetters:
     """What stands beside the strokes of one plan."""
@@ -125,7 +144,7 @@ class PlateLetters:
         yield from self._point_letters()
         for mark in self.plate.steps:
             if mark.index in self.plate.stretches:
-                yield from self._line_letters(mark, self.plate.stretches[mark.index])
+                yield from self.line_letters(mark, self.plate.stretches[mark.index])
             elif mark.kind == CIRCLE and self.plate.numbers(mark):
                 yield from self._arc_number(mark)
         spans = self._spans()
@@ -180,7 +199,7 @@ class PlateLetters:
         return {arg for step in program.steps for arg in step.args
                 if program.text(arg).endswith(f" {program.number(arg)}")}  # fmt: skip
 
-    def _line_letters(self, line: DrawnStep, stretch: Stroke) -> Iterator[Wish]:
+    def line_letters(self, line: DrawnStep, stretch: Stroke) -> Iterator[Wish]:
         """A locus' letter or a line's number, near an end; and where a line that breaks off goes."""
         spots = tuple(interpolate(*stretch.ends, t) for t in self._label_fractions(line, stretch))
         if line.name:

@@ -7,7 +7,7 @@ the panel breaks off at its edge and says where it goes.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -360,6 +360,10 @@ class Plate:
             half = StruckArc(drawn, self.plates.steps[end], *((0.0, 180.0) if left else (180.0, 0.0)))
             if all(map(self.view.rect.holds, half.item.spots())):
                 return [half]
+        return self.arcs_about(drawn, marks)
+
+    def arcs_about(self, drawn: DrawnStep, marks: Sequence[DrawnStep]) -> list[StruckArc]:
+        """The arcs that are struck about marks on a circle."""
         wide = min(WIDEST, max(FLATTEST, math.degrees(STRIKE / drawn.radius))) if marks else 0.0
         return [StruckArc(drawn, mark, wide, wide) for mark in marks]
 

@@ -222,8 +222,8 @@ def test_results_are_named_in_the_language(kind: str, of: str, told: str) -> Non
 
 def test_levers_are_named_in_the_language() -> None:
     """A lever is spoken of by what it serves: a balance by number, or a reaction at a joint."""
-    assert tongue("de")(LeverPlan.of(2).words) == "Hebelplan 2"
-    assert tongue("de")(LeverPlan.of(JointForce("B", "frame"), "x").words) == "Hebelplan Gestell in B, x"
+    assert tongue("de")(LeverPlan.of_part(2).words) == "Hebelplan 2"
+    assert tongue("de")(LeverPlan.of_part(JointForce("B", "frame"), "x").words) == "Hebelplan Gestell in B, x"
 
 
 @pytest.mark.parametrize("code", OTHERS)

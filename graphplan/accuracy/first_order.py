@@ -138,7 +138,7 @@ def control_errors(drawing: Construction, hand: Hand, scales: Scales) -> list[tu
     domain, values = _draw_with_slips(hand) if drawing.controls else (Gradients(0), [])
     misses = []
     for control in drawing.controls:
-        off = math.sqrt(float(np.sum(_variances(domain, control.off(values)))))
+        off = math.sqrt(float(np.sum(_variances(domain, control.drawn_deviation(values)))))
         start, end = (hand.values[mark] for mark in control.marks[-1])
         misses.append((control, off / math.dist(start, end) / scales.lengths_per_mm(MECHANISM)))
     return misses

@@ -242,7 +242,7 @@ class Report:
 
     def _fails(self, control: Control) -> bool:
         """Whether a control does not hold in fractions; beside rounding nobody can tell."""
-        return self.exact and control.apart(self.scene.points, self.results["velocity"]) != 0
+        return self.exact and control.true_deviation(self.scene.points, self.results["velocity"]) != 0
 
     @property
     def numbers_agree(self) -> bool:

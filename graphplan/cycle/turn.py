@@ -166,7 +166,7 @@ def points_under_slides(scene: Scene) -> dict[str, str]:
         own_points |= {*(mass.centre for mass in loads.masses.values()), *(force.at for force in loads.forces),
                        *(balance.at for balance in loads.balances)}
     net = Network(scene)
-    pairs = {name: at for name, at in net.shared.items() if name not in net.names}
+    pairs = {name: at for name, at in net.shared_marks.items() if name not in net.names}
     return {name: at for name, at in pairs.items() if name not in own_points and len(scene.links_of[name]) == 1
             and all(slide.at == at for slide in scene.slides if slide.through and name in slide.through)}
 

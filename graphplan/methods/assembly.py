@@ -25,8 +25,8 @@ from graphplan.mechanism.pairs.pair import Attitude
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.structure import structure
 from graphplan.mechanism.travel import undone
-from graphplan.methods.figures import alike, figure
-from graphplan.methods.panels import MECHANISM, listed
+from graphplan.methods.figures import figure, runs_along
+from graphplan.methods.panels import MECHANISM, list_links
 from graphplan.methods.placing import Body, Placing
 from graphplan.phrases import digits, said
 
@@ -44,7 +44,7 @@ class Assembler(Placing):
             self._in_line(assembly.extreme)
         waiting = [body for body in self.bodies.values() if not any(body is placed for placed in self.placed)]
         while waiting:
-            found = self._next(waiting)
+            found = self._place_next(waiting)
             waiting = [body for body in waiting if body not in found]
         for name in ordered_points(scene):
             if name in self.given.points and name not in self.assembly.riding:
@@ -52,12 +52,12 @@ class Assembler(Placing):
 
     # ---- groups ------------------------------------------------------------------------------------------------------
 
-    def _next(self, waiting: list[Body]) -> list[Body]:
+    def _place_next(self, waiting: list[Body]) -> list[Body]:
         """Place the next bodies that arcs and lines can place."""
         held = [(body, [*self._hinges(body, self.placed)]) for body in waiting]
         for body, hinges in held:
             if len(hinges) > 1:
-                self._held(body, hinges)
+                self._place_overheld(body, hinges)
                 return self._put([body])
         single = [(body, hinges[0]) for body, hinges in held if len(hinges) == 1]
         for k, (one, outer) in enumerate(single):
@@ -89,14 +89,14 @@ class Assembler(Placing):
         with self.board.on(MECHANISM, links, self._stage(law, links)):
             read = [self.mark(joint) for joint in joints]
             freed = next((joint for joint in sorted(group.joints, key=lambda joint: (not sides(group, joint), joint))
-                          if self._enough({*joints, joint}, bodies)), None)
+                          if self._arcs_suffice({*joints, joint}, bodies)), None)
             for joint in group.joints if freed is None else (freed,):
                 close = getattr(self.board, CLOSING[len(joints)])
                 self.marks[joint] = close(*read, group=group, joint=joint, name=joint)
         self.located |= {freed} if freed else set()
         return [] if freed else bodies
 
-    def _enough(self, known: set[str], bodies: list[Body]) -> bool:
+    def _arcs_suffice(self, known: set[str], bodies: list[Body]) -> bool:
         """Whether arcs place some bodies, linked by joints alone, from these joints."""
         left = [{joint.at for joint in self.given.revolutes if {*joint.links} & body.lies.keys()} for body in bodies]
         while left:
@@ -130,10 +130,10 @@ class Assembler(Placing):
                     elif pair not in outer:
                         pairs.append(Joined(i, at := self._figure(one, pair), place[id(two)], self._figure(two, pair)))
                         inner.setdefault(pair, (i, at))
-        return Closure(str(listed([link for body in bodies for link in body.lies])), pairs,
-                       [self._followed(body) for body in bodies], inner)
+        return Closure(str(list_links([link for body in bodies for link in body.lies])), pairs,
+                       [self._lies_now(body) for body in bodies], inner)
 
-    def _followed(self, body: Body) -> Lies:
+    def _lies_now(self, body: Body) -> Lies:
         """How a body lies in this pose, by two of its points that lie furthest apart."""
         own = [name for link in body.lies for name in self.given.links[link] if name not in self.assembly.riding]
         names = {name: complex(*map(float, self._figure(body, name))) for name in own}
@@ -159,7 +159,7 @@ class Assembler(Placing):
             elif self.placed is others and pair.at in self.located and {*pair.links} & {*body.lies}:
                 yield pair.at
 
-    def _held(self, body: Body, hinges: list[Hinge]) -> None:
+    def _place_overheld(self, body: Body, hinges: list[Hinge]) -> None:
         """A body that more pairs hold than place it: two joints do, or a joint and a guide."""
         joints, guides = [h for h in hinges if isinstance(h, str)], [h for h in hinges if isinstance(h, Slide)]
         for joint in joints:
@@ -191,17 +191,17 @@ class Assembler(Placing):
                     side = "left" if self._turns(A, B, C) > 0 else "right"
                     self.marks[B] = self.board.circles_meet(*arcs, side=side, name=B)
                 case str(A), str(B), Slide():
-                    self._slid(two, other, B)
-                    arc, ahead = self._arc(one, A, B), self._ahead(A, B, other.direction)
+                    self._draw_slide_line(two, other, B)
+                    arc, ahead = self._arc(one, A, B), self._sense_along(A, B, other.direction)
                     self.marks[B] = self.board.line_meets_circle(self.lines[other.name], arc, way=ahead, name=B)
                 case str(A), Slide(), str(C):
-                    self._sighted(one, A, inner, two, C)
+                    self._draw_shared_guide(one, A, inner, two, C)
                 case Slide(), str(B), Slide():
-                    self._slid(one, outer, B)
-                    self._slid(two, other, B)
+                    self._draw_slide_line(one, outer, B)
+                    self._draw_slide_line(two, other, B)
                     self.marks[B] = self.board.meet(self.lines[outer.name], self.lines[other.name], name=B)
                 case str(A), Slide(), Slide():
-                    self._alike(one, A, inner, two, other)
+                    self._place_equal_turning(one, A, inner, two, other)
 
     def _in_line(self, extreme: Extreme) -> None:
         """Place the crank, the coupler in one line with it, and the link that turns back there."""
@@ -217,14 +217,14 @@ class Assembler(Placing):
             law = said("{0}; the time ratio is {1}", law, digits(extreme.time_ratio, 5))
         with self.board.on(MECHANISM, links, self._stage(law, links)):
             if isinstance(hold, Slide):
-                self._slid(swung, hold, B)
+                self._draw_slide_line(swung, hold, B)
                 base = self.board.parallel(self.lines[hold.name], self.mark(O))
             else:
                 base = self.board.line(self.mark(O), self.mark(hold))
             turns = self._arc(self.ground, O, A)
             reach = self._reach(base, turns, coupler, extreme)
             if isinstance(hold, Slide):
-                way = self._ahead(O, B, hold.direction, self.scene)
+                way = self._sense_along(O, B, hold.direction, self.scene)
                 self.marks[B] = self.board.line_meets_circle(self.lines[hold.name], reach, way=way, name=B)
             else:
                 side = "left" if self._turns(O, B, hold) > 0 else "right"
@@ -250,18 +250,18 @@ class Assembler(Placing):
         length = Quantity(f"{centre}{point}", "length")
         return self.board.circle(self.mark(centre), self.board.link_length(dx=dx, dy=dy, quantity=length))
 
-    def _slid(self, body: Body, slide: Slide, point: str) -> None:
+    def _draw_slide_line(self, body: Body, slide: Slide, point: str) -> None:
         """Draw the line along which a point of a body slides, which turns with that."""
         line = self._path(slide, body, self._figure(body, point))
         self.lines[slide.name], body.heading = line, (self._heads(slide, body), line)
 
-    def _sighted(self, one: Body, A: str, slide: Slide, two: Body, C: str) -> None:
+    def _draw_shared_guide(self, one: Body, A: str, slide: Slide, two: Body, C: str) -> None:
         """Draw the guide of two bodies that turn about known points."""
         places = [undone(next(lies for link, lies in body.lies.items() if link in slide.links),
                          self._figure(body, point)) for body, point in ((one, A), (two, C))]
         v, u = minus(places[1], places[0]), slide.direction
         way = "on" if float(dot(u, minus(self.given.points[C], self.given.points[A]))) >= 0 else "back"
-        if alike(v, u):
+        if runs_along(v, u):
             ends = (A, C) if way == "on" else (C, A)
             line = self.board.line(*map(self.mark, ends))
         else:
@@ -269,7 +269,7 @@ class Assembler(Placing):
         self.lines[slide.name] = line
         one.heading, two.heading = (self._heads(slide, one), line), (self._heads(slide, two), line)
 
-    def _alike(self, one: Body, A: str, inner: Slide, two: Body, outer: Slide) -> None:
+    def _place_equal_turning(self, one: Body, A: str, inner: Slide, two: Body, outer: Slide) -> None:
         """Place two bodies that turn as what is placed does: a point of the second lies on two lines."""
         own = [name for link in two.lies for name in self.given.links[link] if name not in self.assembly.riding]
         at = self._figure(two, inner.at if inner.at in own else own[0])
@@ -289,7 +289,7 @@ class Assembler(Placing):
         a, b, c = (self.scene.points[name] for name in (A, B, C))
         return float(cross(minus(c, a), minus(b, a)))
 
-    def _ahead(self, A: str, B: str, u: Pair, scene: Scene | None = None) -> str:
+    def _sense_along(self, A: str, B: str, u: Pair, scene: Scene | None = None) -> str:
         """How B lies from A along a direction, in the given pose or another."""
         a, b = ((scene or self.given).points[name] for name in (A, B))
         return "on" if float(dot(u, minus(b, a))) > 0 else "back"

@@ -10,7 +10,7 @@ from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
 from graphplan.methods.draughtsman import Draughtsman
-from graphplan.methods.motion.alternatives import growth_of_rates, ways
+from graphplan.methods.motion.alternatives import alternatives, growth_of_rates
 from graphplan.methods.motion.network import Network
 from graphplan.methods.styles import METHODS, OF_PATHS, Style, style
 from graphplan.phrases import digits, said
@@ -94,7 +94,7 @@ def _uneven(scene: Scene) -> bool:
 def _by_ways(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:
     """The constructions by all ways; what forces need is not even imported where there are no loads."""
     if scene.loads is None:
-        found = ways(Network(scene), method, lambda planner: Draughtsman(scene, planner, chosen).draw())
+        found = alternatives(Network(scene), method, lambda planner: Draughtsman(scene, planner, chosen).draw())
         return (construction for construction, _ in found)
     from graphplan.methods.forces.loaded import loaded_constructions
 

@@ -32,15 +32,15 @@ class Control(NamedTuple):
     points: tuple[str, ...]
     marks: tuple[tuple[int, int], ...]
 
-    def off(self, values: Sequence[Any]) -> Any:
+    def drawn_deviation(self, values: Sequence[Any]) -> Any:
         """How far the pole is drawn off the third line, times the length of its drawn velocity."""
-        return _off(*(_through(values[start], values[end]) for start, end in self.marks))
+        return _crossing_deviation(*(_line_through(values[start], values[end]) for start, end in self.marks))
 
-    def apart(self, points: Mapping[str, Any], velocities: Mapping[str, Any]) -> Any:
+    def true_deviation(self, points: Mapping[str, Any], velocities: Mapping[str, Any]) -> Any:
         """The same of true velocities, each square to the line through its point."""
         lines = [(v[0], v[1], -v[0] * x - v[1] * y) for name in self.points
                  for v, (x, y) in [(velocities[name], points[name])]]
-        return _off(*lines)
+        return _crossing_deviation(*lines)
 
 
 def controls(scene: Scene, program: Program, values: Sequence[Any], ends: Mapping[str, tuple[int, int]],
@@ -53,7 +53,7 @@ def controls(scene: Scene, program: Program, values: Sequence[Any], ends: Mappin
     marks = [values[step.index] for step in program.steps if step.op.gives == POINT and step.panel == MECHANISM]
     for link in scene.moving:
         drawn = {ends[name]: name for name in scene.links[link] if name in ends}
-        lines = {(start, end): _through(values[start], values[end]) for start, end in drawn
+        lines = {(start, end): _line_through(values[start], values[end]) for start, end in drawn
                  if math.dist(values[start], values[end]) > CONTROL_TOL * size}
         pair = max(combinations(lines, 2), key=lambda two: _sine(*map(lines.__getitem__, two)), default=None)
         if pair is None or _sine(*(lines[one] for one in pair)) < SHARP:
@@ -66,7 +66,7 @@ def controls(scene: Scene, program: Program, values: Sequence[Any], ends: Mappin
                     yield Control(link, tuple(drawn[one] for one in three), three)
 
 
-def _through(P: Any, Q: Any) -> Line:
+def _line_through(P: Any, Q: Any) -> Line:
     """The line through two points."""
     return P[1] - Q[1], Q[0] - P[0], P[0] * Q[1] - Q[0] * P[1]
 
@@ -81,7 +81,7 @@ def _sine(one: Line, two: Line) -> float:
     return float(abs(a * e - b * d) / math.hypot(a, b) / math.hypot(d, e))
 
 
-def _off(one: Line, two: Line, three: Line) -> Any:
+def _crossing_deviation(one: Line, two: Line, three: Line) -> Any:
     """How far the crossing of two lines is off a third, times the length of its normal; nothing in three that meet."""
     (a, b, c), (d, e, f), (g, h, i) = one, two, three
     return (g * (b * f - e * c) + h * (d * c - a * f)) / (a * e - b * d) + i

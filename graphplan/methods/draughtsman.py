@@ -26,9 +26,9 @@ from graphplan.methods.motion.moves import Auxiliary, Centre, FalsePosition, Mov
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.poles import Poles, Unseen
-from graphplan.methods.motion.time_scale import apart, tempo
+from graphplan.methods.motion.time_scale import point_distance, tempo
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Triangles, Velocity
-from graphplan.methods.panels import link_named, listed, redundancies, replacements
+from graphplan.methods.panels import link_named, list_links, redundancies, replacements
 from graphplan.methods.poses import Pose
 from graphplan.methods.recorded import Reading
 from graphplan.methods.styles import Style
@@ -55,7 +55,7 @@ class Draughtsman:
         self.velocities = Polar if style.polar else Triangles if style.triangles else Orthogonal
         self.board = Board()
         self.net.relied.clear()
-        self.pose = Pose(self.board, self.net.scene, self.net.shared, self.velocities.mechanism)
+        self.pose = Pose(self.board, self.net.scene, self.net.shared_marks, self.velocities.mechanism)
         self.tempo = tempo(scene)
         self.moves, self.method = planner.moves, planner.method
         self.marks: list[Mark] = []
@@ -79,11 +79,11 @@ class Draughtsman:
         self._points(velocity, kinds.VELOCITY, self.scene.find.velocity)
         self._links(velocity, kinds.OMEGA, self.scene.find.velocity)
         self._slides(velocity, kinds.SLIDE_VELOCITY, self.scene.find.velocity)
-        plan = self.accelerations(velocity) if self._accelerated else None
+        plan = self.accelerations(velocity) if self._needs_acceleration else None
         if poles:
             self._poles(poles)
             self.circle = poles.circle
-        return self.finished(velocity, plan)
+        return self.finish(velocity, plan)
 
     def _poles(self, poles: Poles) -> None:
         """The instant centres that are asked for, but for links that do not move relative to each other."""
@@ -92,13 +92,13 @@ class Draughtsman:
             try:
                 if poles.at_rest(one, two):
                     self.at_rest.append(said("{0}: they do not move relative to each other here, so any point is a "
-                                             "pole of theirs", listed((one, two))))
+                                             "pole of theirs", list_links((one, two))))
                     continue
                 marks = poles.find(one, two).marks
             except Unseen as unseen:
                 marks = (unseen.mark,)  # whoever reads the numbers is told
             self.read(kinds.POLE_HEADING if poles.at_infinity(one, two) else kinds.POLE, name, *marks)
-        self.poles_by = tuple(poles.ways) if self.scene.find.poles else ()
+        self.poles_by = tuple(poles.methods) if self.scene.find.poles else ()
 
     @cached_property
     def velocity_moves(self) -> list[Move]:
@@ -122,10 +122,10 @@ class Draughtsman:
                                                                 for move in _flat(self.moves)):
             return {}
         board = Board()
-        near = Poles(board, self.scene, Pose(board, self.net.scene, self.net.shared)).near()
+        near = Poles(board, self.scene, Pose(board, self.net.scene, self.net.shared_marks)).frame_poles()
         return {link: spot for link, spot in near if self.net.members.get(link) == [link]}
 
-    def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
+    def finish(self, velocity: Velocity, plan: Normal | None) -> Construction:
         """What is drawn so far, as a construction; the rates that are still asked for come last, as by now it is known
         which marks are drawn anyway."""
         plan = self._curves(velocity, plan)
@@ -134,17 +134,17 @@ class Draughtsman:
         self.readings.sort(key=lambda reading: kinds.ORDER.get(reading.kind, len(kinds.ORDER)))
         program = freeze(self.board, self.marks)
         return Construction(program, self.scene, self.tempo, tuple(self.readings), self.velocities.turned,
-                            relied=tuple(self.net.relied), ways=tuple(_ways(self.moves)),
+                            relied=tuple(self.net.relied), ways=tuple(_ring_methods(self.moves)),
                             by_poles=_by_poles(self.velocity_moves), poles_by=self.poles_by,
                             circle=self.circle, paths_by=self.paths_by,
                             notes=[*replacements(self.net.bars), *redundancies(self.scene), *self.at_rest,
                                    *self.special])
 
     @property
-    def _accelerated(self) -> bool:
+    def _needs_acceleration(self) -> bool:
         """Whether an acceleration is asked for that the drives do not prescribe."""
         find = self.scene.find
-        free = any(self.net.turnings.given(link) is None for link in find.links or ())
+        free = any(self.net.turnings.prescribed_rates(link) is None for link in find.links or ())
         return bool(find.acceleration or find.slides or free)
 
     def accelerations(self, velocity: Velocity) -> Normal:
@@ -187,9 +187,9 @@ class Draughtsman:
         self.marks.extend(marks)
         self.readings.append(Reading(kind, of, tuple(range(start, len(self.marks))), excess, given))
 
-    def _given(self, kind: kinds.ResultKind, link: str) -> Number | None:
+    def _given_rate(self, kind: kinds.ResultKind, link: str) -> Number | None:
         """The rate that the drives prescribe for a link."""
-        rates = self.net.turnings.given(link)
+        rates = self.net.turnings.prescribed_rates(link)
         return rates and getattr(rates, kind)
 
     def _points(self, plan: MotionPlan, kind: kinds.ResultKind, names: tuple[str, ...]) -> None:
@@ -201,7 +201,7 @@ class Draughtsman:
                 raise Refused(said("point {0}", name), why, "ask for other points")
             motion = self.scene.motions.get(name)
             given = getattr(motion, kind) if motion else None
-            self.read(kind, name, plan.home(place), plan.ends[place], given=given)
+            self.read(kind, name, plan.plan_origin(place), plan.ends[place], given=given)
 
     def _links(self, plan: MotionPlan, kind: kinds.ResultKind, asked: tuple[str, ...]) -> None:
         """The turning of each link of which two points are asked for, or one and another's motion is given."""
@@ -211,11 +211,11 @@ class Draughtsman:
             known = sought | {*map(self.net.name, self.scene.motions)}
             names = [p for p in self.net.links[link] if p in known or FRAME in self.net.links_of[p]]
             names = [p for p in names if (p, "") in plan.ends]
-            P, R = max(combinations(names, 2), key=lambda pair: apart(self.scene, *pair), default=("", ""))
+            P, R = max(combinations(names, 2), key=lambda pair: point_distance(self.scene, *pair), default=("", ""))
             if P and sought & {*names}:
-                vectors = [mark for p in (P, R) for mark in (plan.home((p, "")), plan.ends[p, ""])]
+                vectors = [mark for p in (P, R) for mark in (plan.plan_origin((p, "")), plan.ends[p, ""])]
                 points = self.pose.points[P], self.pose.points[R]
-                self.read(kind, link, *points, *vectors, given=self._given(kind, link))
+                self.read(kind, link, *points, *vectors, given=self._given_rate(kind, link))
 
     def _rates(self, plan: MotionPlan | None, kind: kinds.ResultKind) -> None:
         """The turning of the other links that are asked for: what is given, else it is read off the cheapest side."""
@@ -224,8 +224,8 @@ class Draughtsman:
         needed = needed_steps(self.board, self.marks)
         cheapest: dict[frozenset[str], LinkSide] = {}
         for link in links:
-            alike = self.net.turnings.alike(link)
-            if (given := self._given(kind, link)) is not None or plan is None:
+            alike = self.net.turnings.links_turning_with(link)
+            if (given := self._given_rate(kind, link)) is not None or plan is None:
                 self.read(kind, link, given=given)
                 continue
             if (group := frozenset(alike)) not in cheapest:
@@ -238,7 +238,7 @@ class Draughtsman:
     def _cheapest(self, plan: MotionPlan, link: str, needed: set[int]) -> LinkSide:
         """The side, of a link or of one that turns alike, that costs the fewest steps beside those needed anyway; then
         one of its own points, then the longest."""
-        found = _sides(plan, self.net.turnings.alike(link))
+        found = _sides(plan, self.net.turnings.links_turning_with(link))
         if not found:
             why = said("no known construction determines it")
             raise Refused(link_named(link), why, "ask for other links")
@@ -252,11 +252,11 @@ class Draughtsman:
         for slide in self.net.all_slides:
             if slide not in self.scene.slides or not (slide.at in asked if names is None else slide.name in names):
                 continue
-            with self.board.on(stage=partial(plan.stages.slid, slide)):
+            with self.board.on(stage=partial(plan.stages.sliding_stage, slide)):
                 begin = plan.end_in(slide.along, slide.at)
                 end = plan.end_in(slide.link, slide.at)
                 seat = plan.seat(slide, slide.along, slide.link, slide.at)
-                vector = plan.moved(begin, seat, plan.figure(slide.link, slide.at)), end
+                vector = plan.shift_by(begin, seat, plan.figure(slide.link, slide.at)), end
                 drive = prescribed.get(slide.links)
                 given = None if drive is None else drive.rate if kind == kinds.SLIDE_VELOCITY else drive.change
                 guide = [self.pose.guide(slide, run=True)] if given else []
@@ -273,37 +273,37 @@ def _flat(moves: Iterable[Move]) -> Iterator[Move]:
 def _by_poles(moves: Iterable[Move]) -> tuple[Said, ...]:
     """By which poles velocities are drawn, if by any."""
     links = sorted((move.body for move in moves if isinstance(move, Centre)), key=by_name)
-    return (said("poles of {0}", listed(links)),) if links else ()
+    return (said("poles of {0}", list_links(links)),) if links else ()
 
 
-def _ways(moves: Iterable[Move]) -> Iterator[Said]:
+def _ring_methods(moves: Iterable[Move]) -> Iterator[Said]:
     """How the rings of links are broken, if there are any."""
     for move in moves:
         if isinstance(move, Pole):
             yield said("relative pole of links {0} and {1}", *move.bodies)
         elif isinstance(move, FalsePosition):
             yield said("false position of {0}", move.at[0][0])
-            yield from _ways(move.moves)
+            yield from _ring_methods(move.moves)
 
 
 def _sides(plan: MotionPlan, links: Iterable[str]) -> list[LinkSide]:
     """The sides of these links from which their turning can be read: those between points whose ends are drawn, if
     there are any, else those whose ends follow from all that is known of the link."""
-    for places in (_drawn, _known):
+    for places in (_points_with_ends, _determining_points):
         found = [_side(plan, link, P, R) for link in links for P, R in combinations(places(plan, link), 2)
-                 if apart(plan.net.scene, P, R)]
+                 if point_distance(plan.net.scene, P, R)]
         if found:
             return found
     return []
 
 
-def _drawn(plan: MotionPlan, link: str) -> list[str]:
+def _points_with_ends(plan: MotionPlan, link: str) -> list[str]:
     """The points of a link's plane whose ends are drawn."""
     own = [p for p in plan.net.links[link] if (p, "") in plan.ends]
     return own + [p for p, seen in plan.ends if seen == link and p in plan.net.scene.points]
 
 
-def _known(plan: MotionPlan, link: str) -> list[str]:
+def _determining_points(plan: MotionPlan, link: str) -> list[str]:
     """The points whose ends tell all of the motion of a link's body."""
     return [p for p, _ in plan.known[plan.net.body[link]] if p in plan.net.scene.points]
 
@@ -311,7 +311,7 @@ def _known(plan: MotionPlan, link: str) -> list[str]:
 def _side(plan: MotionPlan, link: str, P: str, R: str) -> LinkSide:
     points, own = plan.pose.points, {P, R} <= {*plan.net.links[link]}
     marks = points[P], points[R], *_vector(plan, link, P), *_vector(plan, link, R)
-    return LinkSide(link, marks, apart(plan.net.scene, P, R), own)
+    return LinkSide(link, marks, point_distance(plan.net.scene, P, R), own)
 
 
 def _vector(plan: MotionPlan, link: str, point: str) -> tuple[Mark, Mark]:
@@ -319,5 +319,5 @@ def _vector(plan: MotionPlan, link: str, point: str) -> tuple[Mark, Mark]:
     with plan.board.on(plan.panel, (link,)):
         for place in ((point, ""), (point, link)):
             if place in plan.ends and (place[1] or point in plan.net.links[link]):
-                return plan.home(place), plan.ends[place]
+                return plan.plan_origin(place), plan.ends[place]
         return plan.figure(link, point), plan.end_in(link, point)

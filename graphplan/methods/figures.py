@@ -23,7 +23,7 @@ def angle(v: Pair) -> Angle:
     return Angle(digits(round(math.degrees(math.atan2(y, x)), 6), 6), *v)
 
 
-def alike(v: Pair, u: Pair) -> bool:
+def runs_along(v: Pair, u: Pair) -> bool:
     """Whether a vector runs along another, or has no length."""
     (x, y), (a, b) = map(float, v), map(float, u)
     return abs(a * y - b * x) <= PARALLEL_TOL * (abs(a) + abs(b)) * (abs(x) + abs(y))

@@ -53,8 +53,8 @@ class ForcePlan(Panel):
     number: int
 
     @classmethod
-    def of(cls, links: tuple[str, ...], number: int = 0) -> ForcePlan:
-        named, who = "force plan " + ", ".join(links), listed(links)
+    def of_links(cls, links: tuple[str, ...], number: int = 0) -> ForcePlan:
+        named, who = "force plan " + ", ".join(links), list_links(links)
         if number > 1:
             plan = cls(f"{named} with friction, round {number}",
                        said("force plan with friction of {0}, round {1}", who, number),
@@ -75,7 +75,7 @@ class ForcePlan(Panel):
     @property
     def twin(self) -> Panel:
         """The plan of these links without friction: the two are compared."""
-        return ForcePlan.of(self.links)
+        return ForcePlan.of_links(self.links)
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class LeverPlan(Panel):
     """A lever of Zhukovsky's: the only one, or that of a balance by its number, or of one part of a reaction."""
 
     @classmethod
-    def of(cls, what: JointForce | Slide | int | None = None, part: str = "") -> LeverPlan:
+    def of_part(cls, what: JointForce | Slide | int | None = None, part: str = "") -> LeverPlan:
         if what is None:
             return cls("lever", said("lever"), arrange("{0:capital}", said("Zhukovsky's lever")))
         if isinstance(what, int):
@@ -113,7 +113,7 @@ class LeverPlan(Panel):
         return cls(name, said("lever {0}", join((what.words, part))), force)
 
 
-def listed(links: Sequence[str]) -> Said:
+def list_links(links: Sequence[str]) -> Said:
     """Links by name: link 1; links 2 and 3; links 2, 3 and 5; links 4 to 9."""
     if len(links) == 1:
         return link_named(links[0])
@@ -124,10 +124,10 @@ def listed(links: Sequence[str]) -> Said:
     return said("links {0} and {1}", ", ".join(links[:-1]), links[-1])
 
 
-def both(links: Sequence[str]) -> Said:
+def pair_text(links: Sequence[str]) -> Said:
     """The two links of a pair, by name and the frame last: links 2 and 3; link 2 and the frame."""
     moving = sorted((link for link in links if link != FRAME), key=by_name)
-    return listed(moving) if len(moving) == len(links) else said("link {0} and the frame", moving[0])
+    return list_links(moving) if len(moving) == len(links) else said("link {0} and the frame", moving[0])
 
 
 def link_named(link: str) -> Said:
@@ -155,14 +155,14 @@ def slide_named(slide: Slide) -> Said:
 def reactions_named(scene: Scene) -> dict[str, Said]:
     """In words, by their names in results, the force on every link of every joint, every slide, gear and contact."""
     forces = (JointForce(point, link) for point in scene.joints for link in scene.links_of[point])
-    higher = {pair.name: both(pair.links) for pairs in (scene.gears, scene.contacts) for pair in pairs}
+    higher = {pair.name: pair_text(pair.links) for pairs in (scene.gears, scene.contacts) for pair in pairs}
     return {force.name: force.words for force in forces} | higher | {s.name: slide_named(s) for s in scene.slides}
 
 
 def replacements(bars: Mapping[str, Contact]) -> Iterator[Said]:
     """What is said of the bars and blocks that stand for contacts."""
     for bar, contact in bars.items():
-        links, profile = both(contact.links), straight(contact)
+        links, profile = pair_text(contact.links), straight(contact)
         if profile:
             yield said("the block {0} replaces the contact of {1} at {2}: with it {3} slides along the straight "
                        "profile of {4}", bar, links, contact.at, profile.at, link_named(profile.along))

@@ -18,9 +18,9 @@ from graphplan.mechanism.numbers import minus, plus, times
 from graphplan.mechanism.order import ordered_points
 from graphplan.mechanism.pairs.pair import Attitude
 from graphplan.mechanism.travel import STILL, following, turned_about, undone
-from graphplan.methods.figures import alike, angle, figure, same_place, widest
+from graphplan.methods.figures import angle, figure, runs_along, same_place, widest
 from graphplan.methods.motion.network import Network
-from graphplan.methods.panels import MECHANISM, listed
+from graphplan.methods.panels import MECHANISM, list_links
 from graphplan.phrases import Said, said
 
 
@@ -50,7 +50,7 @@ class Placing:
                        for top, members in self.net.members.items()}
         self.ground = self.bodies.setdefault(self.net.ground or FRAME, Body(FRAME, {FRAME: STILL}))
         self.placed = [self.ground]
-        self._fixed()
+        self._mark_fixed_points()
 
     # ---- figures of bodies ------------------------------------------------------------------------------------------
 
@@ -64,7 +64,7 @@ class Placing:
                 else Attitude(weld.sign * x, weld.sign * y, 1, 0))
         return following(here, self._lies(weld.to))
 
-    def _home(self, point: str) -> Body:
+    def _first_body_with(self, point: str) -> Body:
         """The first body placed of those that have a point; `Refused` of one that a lever thinks in."""
         if point not in self.given.links_of:
             why = said("no known construction determines it")
@@ -78,7 +78,7 @@ class Placing:
         at: Pair = body.lies.get(link, STILL).place_of(self.given.points[point])
         return at
 
-    def _drawn(self, body: Body, links: tuple[str, ...] = ()) -> list[tuple[Pair, Mark]]:
+    def _drawn_marks(self, body: Body, links: tuple[str, ...] = ()) -> list[tuple[Pair, Mark]]:
         """The marks of a body, or of some links of it, by their places in its figure."""
         names = dict.fromkeys(point for link in links or body.lies for point in self.given.links.get(link, ())
                               if point in self.marks and point not in self.assembly.riding)
@@ -90,16 +90,16 @@ class Placing:
         """The mark of a point of the scene."""
         point = self.assembly.riding.get(point, point)
         if point not in self.marks:
-            body = self._home(point)
-            self.marks[point] = self._laid(body, self._figure(body, point), self.given.links_of[point], point)
+            body = self._first_body_with(point)
+            self.marks[point] = self._mark_at(body, self._figure(body, point), self.given.links_of[point], point)
         return self.marks[point]
 
-    def _laid(self, body: Body, at: Pair, links: tuple[str, ...] = (), name: str = "") -> Mark:
+    def _mark_at(self, body: Body, at: Pair, links: tuple[str, ...] = (), name: str = "") -> Mark:
         """The mark at a place of a body's figure: one that is there, else one that is drawn from two of the same link,
         or from two of the body."""
         links = tuple(link for link in links if link in body.lies and link != FRAME)
         for own in (links, ()):
-            drawn = self._drawn(body, own) if own or not links or body is not self.ground else []
+            drawn = self._drawn_marks(body, own) if own or not links or body is not self.ground else []
             same = next((mark for place, mark in drawn if same_place(place, at)), None)
             if same is not None:
                 return self.board.give_name(same, name)
@@ -108,8 +108,8 @@ class Placing:
                 return self._corner(P, Q, minus(at, p), minus(q, p), name)
         if links and body is self.ground:
             link = next((link for link in links if not self._at_root(body, link, at)), links[0])
-            return self._driven(body, link, at, name)
-        drawn = self._drawn(body)
+            return self._driven_mark(body, link, at, name)
+        drawn = self._drawn_marks(body)
         if drawn and body is self.ground:
             dx, dy = minus(at, drawn[0][0])
             return self.board.lay_off(drawn[0][1], dx=dx, dy=dy, name=name)
@@ -127,12 +127,12 @@ class Placing:
     def _unknown(self, *links: str) -> Refused:
         """The error where no way is known to find where links are."""
         why = said("no steps are known that find where they are at this travel")
-        return Refused(str(listed(sorted(links, key=by_name))), why, "the pose as it is given")
+        return Refused(str(list_links(sorted(links, key=by_name))), why, "the pose as it is given")
 
     def _corner(self, P: Mark, Q: Mark, v: Pair, u: Pair, name: str) -> Mark:
         return self.board.corner(P, Q, **figure(v, u), name=name)
 
-    def _driven(self, body: Body, link: str, at: Pair, name: str) -> Mark:
+    def _driven_mark(self, body: Body, link: str, at: Pair, name: str) -> Mark:
         """The first mark of a link that is driven from the frame: a crank laid off, or a slider moved along."""
         weld = self.net.welds[link]
         law = (said("{0} lies at the angle that the drive gives its link, as far off as the link is long", name or link)
@@ -146,7 +146,7 @@ class Placing:
             before = undone(Attitude(weld.sign * self._move(weld)[0], weld.sign * self._move(weld)[1], 1, 0), at)
             line = self._line(body, before, weld.slide.direction)
             shift = self.assembly.shifts[self.given.drives.index(weld.drive)]
-            start = self._laid(body, before)
+            start = self._mark_at(body, before)
             return self.board.lay_along(line, start, length=weld.sign * shift, name=name)
 
     def _move(self, weld: Any) -> Pair:
@@ -154,20 +154,20 @@ class Placing:
 
     def _line(self, body: Body, p: Pair, u: Pair) -> Mark:
         """The line through a place of a body's figure that runs as a vector of it does."""
-        drawn = self._drawn(body)
-        on = [(place, mark) for place, mark in drawn if alike(minus(place, p), u)]
+        drawn = self._drawn_marks(body)
+        on = [(place, mark) for place, mark in drawn if runs_along(minus(place, p), u)]
         if ends := widest(on):
             (one, P), (two, Q) = ends
             return self.board.line(P, Q) if float(dot(u, minus(two, one))) > 0 else self.board.line(Q, P)
-        P = on[0][1] if on else self._laid(body, p)
-        if body.heading and alike(body.heading[0], u):
+        P = on[0][1] if on else self._mark_at(body, p)
+        if body.heading and runs_along(body.heading[0], u):
             along, line = body.heading
             return self.board.parallel(line if float(dot(along, u)) > 0 else line.reversed, P)
         if body is self.ground:
             return self.board.guide(P, dx=u[0], dy=u[1])
         far = 2.0 ** round(math.log2(self.scene.extent / 4 / math.hypot(*map(float, u))))
         far = int(far) if far >= 1 else far
-        return self.board.line(P, self._laid(body, plus(p, times(far, u))))
+        return self.board.line(P, self._mark_at(body, plus(p, times(far, u))))
 
     def _path(self, slide: Slide, body: Body, at: Pair) -> Mark:
         """The line on what is placed along which a place of a body's figure slides."""
@@ -193,7 +193,7 @@ class Placing:
 
     # ---- the ground --------------------------------------------------------------------------------------------------
 
-    def _fixed(self) -> None:
+    def _mark_fixed_points(self) -> None:
         """Mark the points that stand still, and where a guide of the frame passes none of them, one of it."""
         with self.board.on(MECHANISM):
             fixed = [name for name in ordered_points(self.given) if name not in self.assembly.riding
@@ -204,8 +204,8 @@ class Placing:
             for slide in self.net.all_slides:
                 at = self.given.points[slide.at]
                 if FRAME in slide.links and (slide not in self.net.slides or not any(
-                        alike(minus(place, at), slide.direction) for place, _ in self._drawn(self.ground))):
+                        runs_along(minus(place, at), slide.direction) for place, _ in self._drawn_marks(self.ground))):
                     self.ground.spots.append((at, self.board.given(x=at[0], y=at[1], name=f"{slide.at}_0")))
 
     def _stage(self, law: Said, links: tuple[str, ...]) -> Stage:
-        return Stage(said("Position of {0}", listed(links)), law)
+        return Stage(said("Position of {0}", list_links(links)), law)

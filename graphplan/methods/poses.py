@@ -11,7 +11,7 @@ from graphplan.mechanism.order import by_name, ordered_points
 from graphplan.mechanism.replaced import RollingGuide, rolling_guides
 from graphplan.methods.assembly import Assembler
 from graphplan.methods.motion.network import BodyPoint
-from graphplan.methods.motion.stages import divided, pitch_point
+from graphplan.methods.motion.stages import pitch_point, pitch_point_text
 from graphplan.methods.panels import MECHANISM
 
 
@@ -79,7 +79,7 @@ class Pose:
             B = self.standing[guide.base]
             if guide.through is None:
                 return self.board.lay_along(self._line_of_centres(guide), B, length=guide.length, name=guide.at)
-            C, why = self.standing[guide.other_centre], divided(guide)
+            C, why = self.standing[guide.other_centre], pitch_point_text(guide)
             return self.board.step_off(B, C, B, ratio=guide.ratio, name=guide.at, why=why)
 
     def letter_of_point(self, point: str) -> str:

@@ -55,7 +55,7 @@ class ReadableDrawing(Drawing):
     @cached_property
     def shared(self) -> dict[str, str]:
         """The points that lie where another one does, each with that one."""
-        return Network(self.scene).shared
+        return Network(self.scene).shared_marks
 
     def read(self, domain: Domain, given: Mapping[Any, Mapping[str, Any]] | None = None,
              after: Callable[[Step], None] | None = None) -> dict[str, dict[str, Any]]:

@@ -121,12 +121,12 @@ FAULTS = {
     "the guide is drawn the wrong way": (velocity.Orthogonal, "across", False),
     "figures are drawn with the wrong turn": (acceleration.Normal, "turn", "parallel"),
     "no semicircle: normal accelerations are left out": (
-        acceleration.Normal, "_scaled", lambda self, link, K, X: self.figure(link, K)),
+        acceleration.Normal, "_figure_side", lambda self, link, K, X: self.figure(link, K)),
     "no Coriolis vector": (acceleration.Normal, "_less_coriolis",
                            lambda self, slide, known, new, B: self.figure(known, B)),
     "relative poles without their shift": (acceleration.Normal, "pole_shift", lambda self, move: None),
     "shifts between home and figure left out": (
-        MotionPlan, "moved", lambda self, mark, one, two: two if mark is one else mark),
+        MotionPlan, "shift_by", lambda self, mark, one, two: two if mark is one else mark),
     "drives turn the wrong way": (Tempo, "rate", lambda self, omega: -omega / self.unit),
 }
 

@@ -24,10 +24,10 @@ def test_poles_lie_on_every_line(name: str) -> None:
     found = report(gp.load(name), exact=True)
     assert {control.link for control in found.drawing.controls} == CONTROLLED[name]
     for control in found.drawing.controls:
-        off = control.apart(found.scene.points, found.results["velocity"])
+        off = control.true_deviation(found.scene.points, found.results["velocity"])
         assert isinstance(off, Fraction)
         assert off == 0
-        assert control.off(found.drawing.values) == pytest.approx(0, abs=1e-9 * found.scene.extent**2)
+        assert control.drawn_deviation(found.drawing.values) == pytest.approx(0, abs=1e-9 * found.scene.extent**2)
 
 
 def test_a_control_that_fails_is_a_broken_claim() -> None:

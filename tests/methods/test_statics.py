@@ -19,7 +19,7 @@ from graphplan.methods.forces.statics import (
     ForceFact,
     LineFact,
 )
-from graphplan.methods.forces.unknown_forces import ForceGroup, groups, in_general, posed
+from graphplan.methods.forces.unknown_forces import ForceGroup, groups, in_general, scene_position
 from graphplan.methods.panels import JointForce
 
 
@@ -33,7 +33,8 @@ def planned(scene: Scene, order: str = "polygons") -> list[tuple[ForceGroup, lis
     found, done = [], list[str]()
     for links in groups(scene):
         group = ForceGroup(scene, links, done)
-        found.append((group, list[object](Equilibrium(group, (in_general(scene), posed(scene)), order).plan())))
+        found.append((group,
+                      list[object](Equilibrium(group, (in_general(scene), scene_position(scene)), order).plan())))
         done += links
     return found
 
@@ -67,7 +68,7 @@ def test_tangential_parts_come_from_moments_about_the_inner_joint() -> None:
     """In a dyad of revolutes both outer reactions have their tangential parts from moments about the inner joint."""
     scene = balanced("rrr")
     group, moves = planned(scene)[0]
-    inner = next(point for point in group.points if not group.rest(point))
+    inner = next(point for point in group.points if not group.remaining_links(point))
     facts = [move for move in moves if isinstance(move, LineFact)]
     assert [fact.about for fact in facts] == [AtPoint(inner)] * 2
     assert all(len(fact.part) == 1 for fact in facts)
@@ -96,7 +97,7 @@ def test_the_common_joint_of_rosenauers_links_is_found_by_both_auxiliary_points(
     assert len(at) == 2
     (site,) = {move.site for move in at}
     assert isinstance(site, JointForce)
-    assert not group.rest(site.point)
+    assert not group.remaining_links(site.point)
 
 
 def test_moments_may_be_preferred_to_polygons() -> None:
@@ -116,6 +117,6 @@ def test_every_site_is_found_once(group: str, order: str) -> None:
                 found.append(move.site)
             elif isinstance(move, ClosePolygon):
                 found += [move.one, move.two]
-        sites = {site for part in one.parts for site, _ in one.boundary(part)}
+        sites = {site for part in one.connected_parts for site, _ in one.boundary(part)}
         assert len(found) == len(set(found))
         assert set(found) == sites

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Slide
-from graphplan.methods.panels import MECHANISM, N_PLAN, VELOCITY_PLAN, ForcePlan, JointForce, LeverPlan, listed
+from graphplan.methods.panels import MECHANISM, N_PLAN, VELOCITY_PLAN, ForcePlan, JointForce, LeverPlan, list_links
 from graphplan.phrases import digits
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish, candidates
@@ -103,13 +103,14 @@ def test_names_run_together_are_told_apart() -> None:
     (MECHANISM, {"load"}, "Mechanism plan with loads"),
     (MECHANISM, {"load", "velocity"}, "Mechanism plan with orthogonal velocities and loads"),
     (VELOCITY_PLAN, {"velocity"}, "Velocity plan"),
-    (ForcePlan.of(("1",)), {"balance"}, "Force plan: link 1"),
-    (ForcePlan.of(("2", "3")), {"load"}, "Force plan: links 2 and 3"),
-    (ForcePlan.of(("2", "3"), 1), {"load"}, "Force plan with friction: links 2 and 3"),
-    (LeverPlan.of(), {"load"}, "Zhukovsky's lever"),
-    (LeverPlan.of(2), {"load"}, "Zhukovsky's lever 2"),
-    (LeverPlan.of(JointForce("B", "2"), "x"), {"load"}, "Zhukovsky's lever: the force on link 2 at B, along x"),
-    (LeverPlan.of(JointForce("O", "frame"), "y"), {"load"}, "Zhukovsky's lever: the force on the frame at O, along y"),
+    (ForcePlan.of_links(("1",)), {"balance"}, "Force plan: link 1"),
+    (ForcePlan.of_links(("2", "3")), {"load"}, "Force plan: links 2 and 3"),
+    (ForcePlan.of_links(("2", "3"), 1), {"load"}, "Force plan with friction: links 2 and 3"),
+    (LeverPlan.of_part(), {"load"}, "Zhukovsky's lever"),
+    (LeverPlan.of_part(2), {"load"}, "Zhukovsky's lever 2"),
+    (LeverPlan.of_part(JointForce("B", "2"), "x"), {"load"}, "Zhukovsky's lever: the force on link 2 at B, along x"),
+    (LeverPlan.of_part(JointForce("O", "frame"), "y"), {"load"},
+     "Zhukovsky's lever: the force on the frame at O, along y"),
 ])  # fmt: skip
 def test_a_caption_says_what_its_plan_is(panel: Panel, kinds: set[str], text: str) -> None:
     """Each plan is named as a textbook would, with its links, and the mechanism's with what is drawn on it."""
@@ -117,11 +118,11 @@ def test_a_caption_says_what_its_plan_is(panel: Panel, kinds: set[str], text: st
 
 
 @pytest.mark.parametrize(("panel", "name"), [
-    (MECHANISM, "mechanism"), (N_PLAN.part(2), "N-plan, part 2"), (ForcePlan.of(("2", "3")), "force plan 2, 3"),
-    (ForcePlan.of(("2", "3"), 1), "force plan 2, 3 with friction"),
-    (ForcePlan.of(("2", "3"), 2), "force plan 2, 3 with friction, round 2"), (LeverPlan.of(), "lever"),
-    (LeverPlan.of(2), "lever 2"), (LeverPlan.of(JointForce("O", "frame"), "y"), "lever frame at O, y"),
-    (LeverPlan.of(Slide("3", "frame", "B", (1, 0)), "M"), "lever 3 along frame, M"),
+    (MECHANISM, "mechanism"), (N_PLAN.part(2), "N-plan, part 2"), (ForcePlan.of_links(("2", "3")), "force plan 2, 3"),
+    (ForcePlan.of_links(("2", "3"), 1), "force plan 2, 3 with friction"),
+    (ForcePlan.of_links(("2", "3"), 2), "force plan 2, 3 with friction, round 2"), (LeverPlan.of_part(), "lever"),
+    (LeverPlan.of_part(2), "lever 2"), (LeverPlan.of_part(JointForce("O", "frame"), "y"), "lever frame at O, y"),
+    (LeverPlan.of_part(Slide("3", "frame", "B", (1, 0)), "M"), "lever 3 along frame, M"),
 ])  # fmt: skip
 def test_a_plan_has_one_public_name(panel: Panel, name: str) -> None:
     """A plan is named in files and options as ever, and stays what it is on its way to another process."""
@@ -134,17 +135,17 @@ def test_a_plan_has_one_public_name(panel: Panel, name: str) -> None:
 def test_links_with_the_words_of_names_are_no_riddle() -> None:
     """What a link is called changes nothing of what its plans are: nothing is read out of a name."""
     odd = "2 with friction, round 3"
-    assert ForcePlan.of((odd,)).words == f"force plan of link {odd}"
-    assert ForcePlan.of((odd,), 1).twin == ForcePlan.of((odd,))
-    assert LeverPlan.of(JointForce("B", "4 along 3"), "x").words == "lever 4 along 3 at B, x"
+    assert ForcePlan.of_links((odd,)).words == f"force plan of link {odd}"
+    assert ForcePlan.of_links((odd,), 1).twin == ForcePlan.of_links((odd,))
+    assert LeverPlan.of_part(JointForce("B", "4 along 3"), "x").words == "lever 4 along 3 at B, x"
 
 
 def test_links_are_listed_shortly() -> None:
     """Links that follow each other are given by the first and the last, also where a plan is spoken of in a step."""
-    assert listed(["4", "5", "6", "7"]) == "links 4 to 7"
-    assert listed(["2", "3", "5"]) == "links 2, 3 and 5"
-    assert listed(["rod", "piston"]) == "links rod and piston"
-    assert ForcePlan.of(("4", "5", "6")).words == "force plan of links 4 to 6"
+    assert list_links(["4", "5", "6", "7"]) == "links 4 to 7"
+    assert list_links(["2", "3", "5"]) == "links 2, 3 and 5"
+    assert list_links(["rod", "piston"]) == "links rod and piston"
+    assert ForcePlan.of_links(("4", "5", "6")).words == "force plan of links 4 to 6"
     assert (MECHANISM.words, N_PLAN.words) == ("mechanism plan", "N-plan")
 
 

@@ -26,7 +26,7 @@ from graphplan.methods.forces.lever import Lever
 from graphplan.methods.forces.loaded import Loaded, force_arrows
 from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.motion.acceleration import Normal
-from graphplan.methods.motion.alternatives import ways
+from graphplan.methods.motion.alternatives import alternatives
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import JointForce, LeverPlan
@@ -36,16 +36,16 @@ from graphplan.methods.styles import Style
 class LeverDraughtsman(Draughtsman):
     """Draws the velocities of one scene, and one lever with all its loads."""
 
-    def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
+    def finish(self, velocity: Velocity, plan: Normal | None) -> Construction:
         """The velocities with the lever, and what it tells: the balance on the first drive."""
         phi = force_scale(self.scene)
         loading = Loading(self.board, self.net, self.pose, phi, self.tempo.unit, None)
         (name, balance), = loading.loads.named_balances.items()
-        lever = Lever(velocity, loading, LeverPlan.of(), {}, balance_letter(balance))
+        lever = Lever(velocity, loading, LeverPlan.of_part(), {}, balance_letter(balance))
         marks = self._balanced(lever)
         self.read(kinds.balance_kind(kinds.BY_LEVER, balance), name, *marks)
         shown = force_arrows(self.board, self.marks, [*lever.shown, Shown("balance", lever.letter, *marks[-2:])])
-        return replace(super().finished(velocity, plan), phi=phi, shown=shown)
+        return replace(super().finish(velocity, plan), phi=phi, shown=shown)
 
     def _balanced(self, lever: Lever) -> tuple[Mark, ...]:
         """The moment on the link that turns, or the force on the one that slides, which balances all loads."""
@@ -53,7 +53,7 @@ class LeverDraughtsman(Draughtsman):
         if not drive.slides:
             return lever.turning(*drive.links)
         slide = self.scene.driven_slide(drive)
-        return lever.across(slide.at, *drive.links)
+        return lever.force_across(slide.at, *drive.links)
 
 
 def lever_drawing(scene: Scene, loads: Loads) -> Construction:
@@ -67,7 +67,7 @@ def lever_drawing(scene: Scene, loads: Loads) -> Construction:
     acting = (*(force.at for force in loads.forces), *(mass.centre for mass in loads.masses.values()))
     find = Find(moving_points(scene, acting), (), (), (), ())
     given = replace(scene, loads=replace(loads, balances=(balance,), frictions=()), find=find)
-    found = ways(Network(given), "", lambda planner: LeverDraughtsman(given, planner, Style()).draw())
+    found = alternatives(Network(given), "", lambda planner: LeverDraughtsman(given, planner, Style()).draw())
     return next(found)[0]
 
 
@@ -77,7 +77,7 @@ def lever_drawing(scene: Scene, loads: Loads) -> Construction:
 def rubbed_drawing(scene: Scene, method: str = "") -> Construction:
     """The polygons of a scene with friction, drawn by the best way of its motion, by a method if one is named."""
     plans = ForceTransfer(scene)
-    return next(ways(Network(scene), method, lambda planner: Loaded(
+    return next(alternatives(Network(scene), method, lambda planner: Loaded(
         scene, planner, Style(lever=False), plans).draw()))[0]
 
 

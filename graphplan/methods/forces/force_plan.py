@@ -16,10 +16,10 @@ from graphplan.kernel.stages import Known as Told
 from graphplan.kernel.stages import Teller, Vector
 from graphplan.mechanism.model import Balance, Slide
 from graphplan.methods.forces import stages, statics
-from graphplan.methods.forces.free_bodies import FreeBodies, Known, Pair, Shown, Span, reaction_letter, signed
+from graphplan.methods.forces.free_bodies import FreeBodies, Known, Pair, Shown, Span, reaction_letter, with_sign
 from graphplan.methods.forces.loading import Acting
 from graphplan.methods.forces.unknown_forces import Part, UnknownForce
-from graphplan.methods.panels import MECHANISM, JointForce, listed
+from graphplan.methods.panels import MECHANISM, JointForce, list_links
 from graphplan.phrases import said
 
 TRIAL_RATIOS = Fraction(3, 10), Fraction(-2, 5)  # how large a force is assumed, in lengths of the mechanism
@@ -43,9 +43,9 @@ class ForcePolygon(FreeBodies):
                 line = isinstance(move, statics.LineFact) and isinstance(site, JointForce)
                 letter = self.letter(site, part="T" if line else "")
                 if isinstance(about, statics.AcrossSlide | statics.AcrossLine):
-                    return partial(stages.across, letter, self._in_order(part))
+                    return partial(stages.component_stage, letter, self._in_order(part))
                 told = Vector(letter, Told.DIRECTION) if line else self.unknown(part, site)
-                return self._moments_of(part, letter, self._where(about), told)
+                return self._moments_of(part, letter, self._moment_centre_text(about), told)
             case statics.Close(part, Balance(at="") as site):
                 at = self.loading.arm_points(site.link)[0]
                 return self._moments_of(part, self.letter(site), at, self.unknown(part, site))
@@ -69,7 +69,7 @@ class ForcePolygon(FreeBodies):
     def _closing(self, part: Part, *sites: UnknownForce) -> Teller:
         """The polygon that forces close."""
         forces = *self.vectors(part), *(self.unknown(part, site) for site in sites)
-        return partial(stages.closed, ", ".join(map(self.letter, sites)), self._in_order(part), forces)
+        return partial(stages.polygon_stage, ", ".join(map(self.letter, sites)), self._in_order(part), forces)
 
     def _in_order(self, part: Collection[str]) -> list[str]:
         return [link for link in self.group.links if link in part]
@@ -77,9 +77,9 @@ class ForcePolygon(FreeBodies):
     def _draw(self, move: statics.StaticMove) -> None:
         match move:
             case statics.LineFact(part, site, about):
-                self.known[site] = self._told(part, site, about)
+                self.known[site] = self._moment_component(part, site, about)
             case statics.ForceFact(part, site, about):
-                self._found(part, site, about)
+                self._draw_force_of_known_line(part, site, about)
             case statics.ClosePolygon(part, one, two):
                 self._close_two(part, one, two)
             case statics.Close(part, site):
@@ -89,11 +89,11 @@ class ForcePolygon(FreeBodies):
             case statics.Assume():
                 self._trial(move)
 
-    def _told(self, part: Part, site: UnknownForce, about: statics.About) -> Known:
+    def _moment_component(self, part: Part, site: UnknownForce, about: statics.About) -> Known:
         """What a part's equilibrium about a point tells of a force."""
         sign = self.sign(part, site)
         if isinstance(about, statics.AcrossSlide | statics.AcrossLine):
-            return self._across(part, site, about, sign)
+            return self._component_across(part, site, about, sign)
         if isinstance(site, Slide):
             return self._slide_line(part, site, about, sign)
         X = self.seat(site)
@@ -121,14 +121,15 @@ class ForcePolygon(FreeBodies):
 
         Where the part begins the group's chain it is laid off backwards, so that it ends where the chain starts.
         """
-        backwards = base is None and self.group.links[0] in part and self.group.outer(site) and sign > 0
+        backwards = base is None and self.group.links[0] in part and self.group.is_outer(site) and sign > 0
         start, end = self.polygon(part) if base is None else (base, base)
         mark = first = start if backwards else end
         pole, weigh = self._weighing(about, X)
-        why = said("moments of {0} about {1}", listed(self._in_order(part)), self._where(about))
-        for force in self.acting(part, self.others(part, site), site):
+        why = said("moments of {0} about {1}", list_links(self._in_order(part)), self._moment_centre_text(about))
+        for force in self.acting(part, self.other_forces(part, site), site):
             if force.at is not pole:
-                mark = weigh(force.at, *signed((force.tail, force.head), -sign if backwards else sign), mark, why=why)
+                mark = weigh(force.at, *with_sign((force.tail, force.head), -sign if backwards else sign), mark,
+                             why=why)
         if mark is first:
             return None
         return (mark, first) if backwards else (first, mark)
@@ -141,7 +142,7 @@ class ForcePolygon(FreeBodies):
         assert isinstance(about, statics.AtCrossing)
         return None, partial(self.board.weigh, *self._lines(about), X, names=self._letters(about))
 
-    def _where(self, about: statics.About) -> str:
+    def _moment_centre_text(self, about: statics.About) -> str:
         """The point that moments are taken about, in words."""
         if isinstance(about, statics.AtPoint):
             return self.pose.letter_of_point(about.point)
@@ -167,9 +168,9 @@ class ForcePolygon(FreeBodies):
         assert isinstance(site, Slide | Balance)
         R = self._arm_beside(site, Y)
         mark = first = self.polygon(part)[1]
-        for force in self.acting(part, self.others(part, site), site):
+        for force in self.acting(part, self.other_forces(part, site), site):
             if force.at is not Y:
-                mark = self.board.balance(Y, R, force.at, *signed((force.tail, force.head), sign), mark)
+                mark = self.board.balance(Y, R, force.at, *with_sign((force.tail, force.head), sign), mark)
         return None if mark is first else (Acting(R, first, mark), Acting(Y, mark, first))
 
     def _arm_beside(self, site: Slide | Balance, Y: Mark) -> Mark:
@@ -177,10 +178,10 @@ class ForcePolygon(FreeBodies):
         one, two = self.loading.arm(site.link)
         return one if two is Y or two.step.params == Y.step.params else two  # two given points may coincide
 
-    def _across(self, part: Part, site: UnknownForce, about: statics.AcrossSlide | statics.AcrossLine,
+    def _component_across(self, part: Part, site: UnknownForce, about: statics.AcrossSlide | statics.AcrossLine,
                 sign: int) -> Known:
         """No moments: what the forces along a direction leave unknown is told by those across it."""
-        start, end = self.polygon(part, self.parts_of(self.others(part, site)), (site,))
+        start, end = self.polygon(part, self.parts_of(self.other_forces(part, site)), (site,))
         with self.board.on(MECHANISM):
             if isinstance(about, statics.AcrossSlide):
                 guide = self.pose.guide(about.slide)
@@ -192,16 +193,16 @@ class ForcePolygon(FreeBodies):
         X = self.seat(site)
         with self.board.on(MECHANISM):
             through = self.board.parallel(line, X)
-        return Known(None if start is end else signed((end, start), sign), through, X)
+        return Known(None if start is end else with_sign((end, start), sign), through, X)
 
     def _slide_size(self, slide: Slide, line: Mark, start: Mark, end: Mark, sign: int) -> Known:
         """A slide's reaction closes the polygon with a force of known direction; where it acts is not told."""
         with self.board.on(MECHANISM):
             normal = self.board.perpendicular(self.pose.guide(slide), self.pose.points[slide.at])
         corner = self.board.meet(self.board.parallel(normal, end), self.board.parallel(line, start))
-        return Known(signed((end, corner), sign), None, None)
+        return Known(with_sign((end, corner), sign), None, None)
 
-    def _found(self, part: Part, site: UnknownForce, about: statics.About) -> None:
+    def _draw_force_of_known_line(self, part: Part, site: UnknownForce, about: statics.About) -> None:
         """A force of known line, from moments about a point that its line does not pass; or a couple."""
         sign = self.sign(part, site)
         known = self.known.get(site)
@@ -213,7 +214,7 @@ class ForcePolygon(FreeBodies):
             self._couple_found(part, site, known, self._mark_of(about))
             return
         if isinstance(about, statics.AcrossSlide | statics.AcrossLine):
-            told = self._across(part, site, about, sign)
+            told = self._component_across(part, site, about, sign)
             if told.line is None:
                 assert told.part is not None
                 self._enter(site, told.part)
@@ -242,7 +243,7 @@ class ForcePolygon(FreeBodies):
         """A force is found; a slide's acts where its line says, with the pair known besides."""
         self.ends[site] = span
         for mark in span:
-            self.numbered(mark)
+            self.number_corner(mark)
         known = self.known.get(site)
         if isinstance(site, Slide):
             if known is not None and known.at is not None:
@@ -256,11 +257,11 @@ class ForcePolygon(FreeBodies):
         start, end = self.polygon(part)
         first, last = self.known[one], self.known[two]
         signs = self.sign(part, one), self.sign(part, two)
-        tails = first.part and signed(first.part, signs[0])
-        heads = last.part and signed(last.part, signs[1])
+        tails = first.part and with_sign(first.part, signs[0])
+        heads = last.part and with_sign(last.part, signs[1])
         corner = self.board.meet(self._tail_locus(first.acting, tails, start), self._locus(last.acting, heads, end))
-        self._enter(one, signed((corner, start), signs[0]))
-        self._enter(two, signed((end, corner), signs[1]))
+        self._enter(one, with_sign((corner, start), signs[0]))
+        self._enter(two, with_sign((end, corner), signs[1]))
 
     def _close(self, part: Part, site: UnknownForce) -> None:
         """The last force of a part closes its polygon; of a slide, and of a couple, the moment too."""
@@ -274,8 +275,8 @@ class ForcePolygon(FreeBodies):
             assert isinstance(site, Slide)
             self._couple_found(part, site, known, self.pose.points[site.at])
             return
-        start, end = self.polygon(part, self.parts_of(self.others(part, site)), (site,))
-        self._enter(site, signed((end, start), sign))
+        start, end = self.polygon(part, self.parts_of(self.other_forces(part, site)), (site,))
+        self._enter(site, with_sign((end, start), sign))
         if isinstance(site, Slide) and site not in self.pairs:
             Y = self.pose.points[site.at]
             self.pairs[site] = self._pair(part, site, Y, sign)
@@ -312,24 +313,24 @@ class ForcePolygon(FreeBodies):
             start = self.board.pick(locus, base, size, ratio=ratio)
             self._enter(move.site, (base, start))
             self.draw(move.moves)
-            trials += [start, *self._missed(move)]
+            trials += [start, *self._trial_error(move)]
             self.known, self.ends = dict(before[0]), dict(before[1])
             self.pairs, self.seats = dict(before[2]), dict(before[3])
         A1, Z1, l1, A2, Z2, l2 = trials
         self._enter(move.site, (base, self.board.false_position(A1, A2, Z1, l1, Z2, l2)))
         self.draw(move.moves)
 
-    def _missed(self, move: statics.Assume) -> Span:
+    def _trial_error(self, move: statics.Assume) -> Span:
         """The head of a force found by a trial, and the line on which it should lie."""
-        told = self._told(move.part, move.end, move.about)
+        told = self._moment_component(move.part, move.end, move.about)
         tail, head = self.ends[move.end]
         return head, self._locus(told.acting, told.part, tail)
 
     # ---- what is found -----------------------------------------------------------------------------------------
 
-    def rest(self) -> None:
+    def zero_reactions(self) -> None:
         """All reactions are nothing."""
-        for part in self.group.parts:
+        for part in self.group.connected_parts:
             for site, _ in self.group.boundary(part):
                 self._enter(site, (self.origin, self.origin))
                 self.pairs[site] = None

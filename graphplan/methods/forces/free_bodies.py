@@ -15,7 +15,7 @@ from graphplan.mechanism.model import FRAME, Balance, Gear, Scene, Slide
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.forces.stages import joint, known_forces, line_of_action
 from graphplan.methods.forces.unknown_forces import ForceGroup, Part, UnknownForce, has_line
-from graphplan.methods.motion.stages import begun
+from graphplan.methods.motion.stages import beginning_stage
 from graphplan.methods.panels import MECHANISM, ForcePlan, JointForce
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
@@ -34,14 +34,14 @@ def roman(number: int) -> str:
     return numeral
 
 
-def signed(span: Span, sign: int) -> Span:
+def with_sign(span: Span, sign: int) -> Span:
     """A force as (tail, head), or its answer."""
     return span if sign > 0 else (span[1], span[0])
 
 
 def signed_pair(pair: Pair, sign: int) -> Pair:
     """A couple as a pair of forces, or its answer."""
-    return pair if sign > 0 else (pair[0].reversed, pair[1].reversed)
+    return pair if sign > 0 else (pair[0].answer, pair[1].answer)
 
 
 class Known(NamedTuple):
@@ -73,7 +73,7 @@ class Shown(NamedTuple):
     of: Mark | None = None
 
 
-def applied(board: Board, force: Acting) -> Shown:
+def draw_load(board: Board, force: Acting) -> Shown:
     """A load drawn where it acts, on the mechanism plan."""
     with board.on(MECHANISM):
         why = said("{0}, where it acts", force.name)
@@ -100,13 +100,13 @@ class DrawnForces:
         self.balances: dict[Balance, Span] = {}
         self.moments: dict[Balance, Pair | None] = {}
 
-    def enlarged(self, span: Span, whole: Span) -> None:
+    def replace_by_whole(self, span: Span, whole: Span) -> None:
         """A reaction that is part of a larger one is drawn as such, and the whole in its place."""
         for place, one in enumerate(self.shown):
             ahead = one.tail is span[0] and one.head is span[1]
             if one.kind == "reaction" and (ahead or (one.tail is span[1] and one.head is span[0])):
                 self.shown[place] = one._replace(kind="part", label="T" + one.label[1:])
-                self.shown.append(Shown("reaction", one.label, *signed(whole, 1 if ahead else -1)))
+                self.shown.append(Shown("reaction", one.label, *with_sign(whole, 1 if ahead else -1)))
                 return
 
 
@@ -144,15 +144,15 @@ class FreeBodies:
 
     def __init__(self, board: Board, pose: Pose, group: ForceGroup, loading: Loading, forces: DrawnForces):
         self.board, self.pose, self.group, self.loading, self.forces = board, pose, group, loading, forces
-        self.panel = ForcePlan.of(group.links, forces.number)
+        self.panel = ForcePlan.of_links(group.links, forces.number)
         self.known: dict[UnknownForce, Known] = {}
         self.ends: dict[UnknownForce, Span] = {}
         self.pairs: dict[UnknownForce, Pair | None] = {}
         self.seats: dict[UnknownForce, Mark] = {}
         self.chains: dict[str, list[Acting]] = {}
         self.couples: dict[str, list[Pair]] = {}
-        with board.on(self.panel, group.links, begun(roman(forces.corners + 1), self.panel.words)):
-            self.origin = self.numbered(board.begin(plan=self.panel))
+        with board.on(self.panel, group.links, beginning_stage(roman(forces.corners + 1), self.panel.words)):
+            self.origin = self.number_corner(board.begin(plan=self.panel))
             self._chain()
         for site in (balance for balance in loading.loads.balances if balance.at):
             if {*site.links} & {*group.links} and not group.done.intersection(site.links):
@@ -174,7 +174,7 @@ class FreeBodies:
         assert balance.direction is not None
         return self.board.guide(at, dx=balance.direction[0], dy=balance.direction[1])
 
-    def numbered(self, mark: Mark) -> Mark:
+    def number_corner(self, mark: Mark) -> Mark:
         """A corner of the polygon, with the next numeral if it has none."""
         if not mark.step.name:
             self.forces.corners += 1
@@ -197,7 +197,7 @@ class FreeBodies:
     def _apply(self, loads: Iterable[Acting]) -> None:
         """Draw loads where they act; once, not again with friction."""
         if not self.forces.number:
-            self.forces.shown += [applied(self.board, force) for force in loads]
+            self.forces.shown += [draw_load(self.board, force) for force in loads]
 
     def _in_chain(self, link: str, corner: Mark) -> list[Acting]:
         """The forces on one link: its loads, and what solved groups pass on to it."""
@@ -209,21 +209,21 @@ class FreeBodies:
             own.append(Acting(force.at, tail, self.board.transfer(force.tail, force.head, tail), force.name))
             self.forces.shown.append(Shown("reaction", force.name, tail, own[-1].head))
         for force in own:
-            self.numbered(force.head)
+            self.number_corner(force.head)
         return own
 
     def _passed_to(self, link: str) -> Iterator[Acting]:
         """The reactions of solved groups on one link alone."""
         for point in self.group.points:
-            if not self.group.rest(point) and self.group.members(point) == (link,):
+            if not self.group.remaining_links(point) and self.group.members(point) == (link,):
                 yield from self.from_done(point)
         for slide in self._solved_slides(link):
             one, other = (slide.along, slide.link) if slide.link == link else (slide.link, slide.along)
-            span = signed(self.forces.slides[slide], 1 if slide.link == link else -1)
+            span = with_sign(self.forces.slides[slide], 1 if slide.link == link else -1)
             yield Acting(self.forces.seats[slide], *span, pair_letter(one, other))
         for balance, sign in self._solved_balances(link):
             if balance.at:
-                yield Acting(self.pose.points[balance.at], *signed(self.forces.balances[balance], sign),
+                yield Acting(self.pose.points[balance.at], *with_sign(self.forces.balances[balance], sign),
                              balance_letter(balance))
 
     def _couples_of_slides(self, link: str) -> Iterator[Pair]:
@@ -257,7 +257,7 @@ class FreeBodies:
 
     # ---- a part of the group -----------------------------------------------------------------------------------
 
-    def _solved(self, part: Part) -> Iterator[tuple[UnknownForce, int]]:
+    def _solved_forces(self, part: Part) -> Iterator[tuple[UnknownForce, int]]:
         """The sites of a part's boundary whose forces are found, with their signs."""
         yield from ((site, sign) for site, sign in self.group.boundary(part) if site in self.ends or site in self.pairs)
 
@@ -266,9 +266,9 @@ class FreeBodies:
         for point in self.group.passed_on(part):
             if len(self.group.members(point)) > 1:
                 yield from self.from_done(point)
-        for site, sign in self._solved(part):
+        for site, sign in self._solved_forces(part):
             if site in self.ends and site not in but:
-                yield Acting(self.seat(site), *signed(self.ends[site], sign))
+                yield Acting(self.seat(site), *with_sign(self.ends[site], sign))
 
     def seat(self, site: UnknownForce) -> Mark:
         """Where a site's force acts."""
@@ -320,7 +320,7 @@ class FreeBodies:
                 for pair in self.couples[link]:
                     yield from pair
         yield from self._vectors(part, (but,))
-        for site, sign in self._solved(part):
+        for site, sign in self._solved_forces(part):
             pair_of = self.pairs.get(site)
             if pair_of is not None and site != but:
                 yield from signed_pair(pair_of, sign)
@@ -336,12 +336,12 @@ class FreeBodies:
         chains = [force.name for link in self.group.links if link in part for force in self.chains[link]]
         passed = [force.name for point in self.group.passed_on(part) if len(self.group.members(point)) > 1
                   for force in self.from_done(point)]
-        solved = [self.letter(site, sign) for site, sign in self._solved(part) if site in self.ends]
+        solved = [self.letter(site, sign) for site, sign in self._solved_forces(part) if site in self.ends]
         parts = [self.letter(site, sign, "T") for site, sign in self.group.boundary(part) if site not in self.ends
-                 and self._parted(site)]
+                 and self._is_parted(site)]
         return [Vector(name) for name in (*chains, *passed, *solved, *parts) if name]
 
-    def _parted(self, site: UnknownForce) -> bool:
+    def _is_parted(self, site: UnknownForce) -> bool:
         """Whether the part of a force across its line is known apart."""
         known = self.known.get(site)
         return known is not None and known.part is not None and known.line is not None
@@ -351,7 +351,7 @@ class FreeBodies:
         known = self.known.get(site)
         free = isinstance(site, JointForce) and (known is None or known.line is None)
         told = Told.NOTHING if free else Told.DIRECTION
-        return Vector(self.letter(site, self.sign(part, site), "N" if self._parted(site) else ""), told)
+        return Vector(self.letter(site, self.sign(part, site), "N" if self._is_parted(site) else ""), told)
 
     def acts_at(self, site: UnknownForce, known: Known) -> Mark:
         return known.at if known.at is not None else self.seat(site)
@@ -359,7 +359,7 @@ class FreeBodies:
     def sign(self, part: Part, site: UnknownForce) -> int:
         return next(sign for other, sign in self.group.boundary(part) if other == site)
 
-    def others(self, part: Part, site: UnknownForce) -> list[tuple[UnknownForce, int]]:
+    def other_forces(self, part: Part, site: UnknownForce) -> list[tuple[UnknownForce, int]]:
         return [(other, sign) for other, sign in self.group.boundary(part) if other != site]
 
     def parts_of(self, sites: Iterable[tuple[UnknownForce, int]]) -> Iterator[Acting]:
@@ -367,15 +367,15 @@ class FreeBodies:
         for site, sign in sites:
             known = self.known.get(site)
             if known is not None and known.part is not None and site not in self.ends:
-                yield Acting(self.acts_at(site, known), *signed(known.part, sign))
+                yield Acting(self.acts_at(site, known), *with_sign(known.part, sign))
 
     def idle(self) -> bool:
         """Whether nothing acts on the group, so that all its reactions are nothing."""
         return not any(self.chains[link] or self.couples[link] for link in self.group.links) and not any(
             {*balance.links} & {*self.group.links} for balance in self.loading.loads.balances) and not any(
-            self._passed(point) for point in self.group.points)
+            self._passes_load_on(point) for point in self.group.points)
 
-    def _passed(self, point: str) -> bool:
+    def _passes_load_on(self, point: str) -> bool:
         """Whether solved groups pass anything on at a joint between links of this one."""
-        return not self.group.rest(point) and len(self.group.members(point)) > 1 and any(
+        return not self.group.remaining_links(point) and len(self.group.members(point)) > 1 and any(
             force.tail is not force.head for force in self.from_done(point))

@@ -21,10 +21,10 @@ from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.forces import stages
 from graphplan.methods.forces.free_bodies import DrawnForces, Span, reaction_on
-from graphplan.methods.forces.higher_pairs import TouchingGuide, line_of_pressure, on_first, posed_for, toothed
+from graphplan.methods.forces.higher_pairs import TouchingGuide, inclined_guides, line_of_pressure, on_first, posed_for
 from graphplan.methods.forces.loading import Loading
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import MECHANISM, JointForce, both, link_named, slide_named
+from graphplan.methods.panels import MECHANISM, JointForce, link_named, pair_text, slide_named
 from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import FRICTION_TOL, SHORT_FORCE
 from graphplan.phrases import said
@@ -94,7 +94,7 @@ class Rubbed:
         self.posed = posed_for(loading.pose, forces.scene)
         self.touching = {journal: self._touching(journal) for journal in rubbing(loading.net.scene, forces)}
         self.leaning = {slide: self._leaning(slide, coefficient) for slide, coefficient in sliding(loading, forces)}
-        self.leaning |= {guide: self._pressing(guide) for guide in toothed(forces.scene)}
+        self.leaning |= {guide: self._pressing(guide) for guide in inclined_guides(forces.scene)}
 
     @property
     def pose(self) -> Pose:
@@ -136,7 +136,7 @@ class Rubbed:
     def _leaning(self, slide: Slide, coefficient: Number) -> Mark:
         """The guide of a slide, or the tangent of a contact, turned by the friction angle."""
         pose = self.posed
-        why = (said("the friction of the contact {0}", both(slide.links)) if isinstance(slide, TouchingGuide)
+        why = (said("the friction of the contact {0}", pair_text(slide.links)) if isinstance(slide, TouchingGuide)
                else said("the friction of the slide {0}", slide_named(slide)))
         with self.board.on(MECHANISM, (slide.link, slide.along), stages.guide(why)):
             slip = self.velocity.slip(slide.along, slide.link, slide.at)

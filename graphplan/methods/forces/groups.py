@@ -26,7 +26,7 @@ from graphplan.methods.forces.higher_pairs import (
 )
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.forces.statics import Equilibrium, StaticMove
-from graphplan.methods.forces.unknown_forces import ForceGroup, Position, groups, in_general, posed
+from graphplan.methods.forces.unknown_forces import ForceGroup, Position, groups, in_general, scene_position
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.panels import MECHANISM, JointForce, slide_named
 from graphplan.methods.poses import Pose
@@ -70,14 +70,14 @@ class ForceTransfer:
         return self if changed.links == self.given.links else ForceTransfer(changed)
 
     @cached_property
-    def _posed(self) -> Position:
-        return posed(self.scene)
+    def _position(self) -> Position:
+        return scene_position(self.scene)
 
     def moves(self, group: ForceGroup, way: Way) -> list[StaticMove]:
         """The moves of a group; where the pose refuses them it may be singular, which the numbers will show."""
         key = group.links, way
         if key not in self._moves:
-            for positions in ((self._general, self._posed), (self._general,)):
+            for positions in ((self._general, self._position), (self._general,)):
                 equilibrium = Equilibrium(group, positions, *way)
                 try:
                     self._moves[key] = equilibrium.plan()
@@ -108,7 +108,7 @@ def reactions(board: Board, pose: Pose, loading: Loading, plans: ForceTransfer, 
     for group in plans.groups:
         plan = ForcePolygon(board, pose, group, loading, forces)
         if plan.idle():
-            plan.rest()
+            plan.zero_reactions()
         else:
             plan.draw(plans.moves(group, way))
         plan.enter()
@@ -132,7 +132,7 @@ def balances(loading: Loading, forces: DrawnForces, way: str) -> Iterator[Result
             yield kinds.balance_kind(way, balance), name, forces.balances[balance]
         elif balance in forces.moments:
             pair = forces.moments[balance]
-            yield kinds.balance_kind(way, balance), name, _about(loading.arm(balance.link)[0], pair or ())
+            yield kinds.balance_kind(way, balance), name, _moment_marks(loading.arm(balance.link)[0], pair or ())
 
 
 def results(scene: Scene, loading: Loading, forces: DrawnForces, board: Board) -> Iterator[Result]:
@@ -151,23 +151,23 @@ def results_with_friction(scene: Scene, loading: Loading, forces: DrawnForces, b
 def bearing_forces(scene: Scene, loading: Loading, forces: DrawnForces, board: Board) -> Iterator[Result]:
     """The reactions that are asked for, as far as they are told: in a round of friction each journal has its own joint.
     """
-    def asked(name: str) -> bool:
+    def is_requested(name: str) -> bool:
         return scene.find.reactions is None or name in scene.find.reactions
 
     for point, link, _ in pairs(scene):
         own = journal_point(point, link)
         joint = own if own in forces.scene.points else point
-        if asked(point) and _told(forces.scene, forces, joint, link):
+        if is_requested(point) and _is_force_known(forces.scene, forces, joint, link):
             yield kinds.REACTION, JointForce(point, link).name, reaction_on(forces, board, joint, link)
     for slide in scene.slides:
-        if asked(slide.name) and slide in forces.slides:
+        if is_requested(slide.name) and slide in forces.slides:
             yield kinds.SLIDE_REACTION, slide.name, forces.slides[slide]
             yield kinds.SLIDE_MOMENT, slide.name, _moment(loading, slide, forces)
     for guide in forces.slides:
-        if isinstance(guide, RollingGuide) and isinstance(guide.given, Gear) and asked(guide.given.name):
+        if isinstance(guide, RollingGuide) and isinstance(guide.given, Gear) and is_requested(guide.given.name):
             yield kinds.GEAR_REACTION, guide.given.name, forces.teeth.get(guide.given, on_first(guide, forces))
     for contact in scene.contacts:
-        if (touching := touching_force(forces, board, contact)) and asked(contact.name):
+        if (touching := touching_force(forces, board, contact)) and is_requested(contact.name):
             yield kinds.CONTACT_REACTION, contact.name, touching
 
 
@@ -185,7 +185,7 @@ def arms(scene: Scene, forces: DrawnForces, board: Board, pose: Pose, named: Ite
         yield kinds.SLIDE_ARM, slide.name, (at, H)
 
 
-def _told(scene: Scene, forces: DrawnForces, point: str, link: str) -> bool:
+def _is_force_known(scene: Scene, forces: DrawnForces, point: str, link: str) -> bool:
     """Whether the force on a link at a joint is drawn, or those on all others there."""
     others = [other for other in scene.links_of[point] if other != link]
     return (point, link) in forces.joints or all((point, other) in forces.joints for other in others)
@@ -195,7 +195,7 @@ def touching_force(forces: DrawnForces, board: Board, contact: Contact) -> Span 
     """The force of a contact on its first link."""
     if contact.rolling:
         at, link = rolling_point(contact), contact.links[0]
-        return reaction_on(forces, board, at, link) if _told(forces.scene, forces, at, link) else None
+        return reaction_on(forces, board, at, link) if _is_force_known(forces.scene, forces, at, link) else None
     return next((on_first(slide, forces) for slide in forces.slides
                  if isinstance(slide, TouchingGuide) and slide.given == contact), None)
 
@@ -203,10 +203,10 @@ def touching_force(forces: DrawnForces, board: Board, contact: Contact) -> Span 
 def _moment(loading: Loading, slide: Slide, forces: DrawnForces) -> tuple[Mark, ...]:
     """The moment of a slide's reaction about its point."""
     acting = [Acting(forces.seats[slide], *forces.slides[slide]), *(forces.pairs[slide] or ())]
-    return _about(loading.pose.points[slide.at], acting)
+    return _moment_marks(loading.pose.points[slide.at], acting)
 
 
-def _about(pole: Mark, acting: Iterable[Acting]) -> tuple[Mark, ...]:
+def _moment_marks(pole: Mark, acting: Iterable[Acting]) -> tuple[Mark, ...]:
     """A point, and of each force that has a moment about it where it acts, its tail and its head."""
     marks = [(force.at, force.tail, force.head) for force in acting if force.at is not pole]
     return pole, *(mark for three in marks for mark in three)

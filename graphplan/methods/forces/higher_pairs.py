@@ -22,7 +22,7 @@ from graphplan.mechanism.numbers import dot, quarter_turn
 from graphplan.mechanism.pairs.pair import LINE
 from graphplan.mechanism.replaced import RollingGuide, with_lower_pairs
 from graphplan.methods.forces import stages
-from graphplan.methods.forces.free_bodies import DrawnForces, Span, signed
+from graphplan.methods.forces.free_bodies import DrawnForces, Span, with_sign
 from graphplan.methods.forces.loading import Acting
 from graphplan.methods.panels import MECHANISM
 from graphplan.methods.poses import Pose
@@ -97,7 +97,7 @@ def pushing(contact: Contact, points: Mapping[str, Pair]) -> tuple[float, float]
     return -second[0], -second[1]
 
 
-def pressed(scene: Scene) -> tuple[set[str], set[Slide]]:
+def pressed_by_teeth(scene: Scene) -> tuple[set[str], set[Slide]]:
     """The joints and the slides in whose reactions tooth forces have radial components."""
     inclined = [gear for gear in scene.gears if gear.tangent]
     racks = {gear.links[1] for gear in inclined if gear.direction is not None}
@@ -131,7 +131,7 @@ def press(board: Board, pose: Pose, scene: Scene, forces: DrawnForces) -> None:
     for guide in scene.slides:
         if isinstance(guide, RollingGuide) and isinstance(guide.given, Gear):
             forces.teeth[guide.given] = on_first(guide, forces)
-    for guide in toothed(scene):
+    for guide in inclined_guides(scene):
         gear: Gear = guide.given
         tail, head = forces.teeth[gear]
         bearings = _Bearings(board, scene, gear, forces)
@@ -141,7 +141,7 @@ def press(board: Board, pose: Pose, scene: Scene, forces: DrawnForces) -> None:
             line = line_of_pressure(pose, guide, tail, head)
             tip = board.meet(board.parallel(line, tail), board.parallel(pose.guide(guide), head))
         forces.teeth[gear] = tail, tip
-        forces.enlarged((tail, head), (tail, tip))
+        forces.replace_by_whole((tail, head), (tail, tip))
         bearings.press(Acting(pose.points[guide.at], head, tip))
 
 
@@ -167,17 +167,17 @@ class _Bearings:
         for joint, sign in self.joints:
             if joint in self.forces.joints:
                 with self.board.on(stage=stages.joint(joint[0])):
-                    self.forces.joints[joint] = self._added(self.forces.joints[joint], radial, sign)
+                    self.forces.joints[joint] = self._add_radial(self.forces.joints[joint], radial, sign)
         if self.slide:
             sign = 1 if self.slide.link == self.gear.links[1] else -1
             with self.board.on(stage=stages.seat(self.slide)):
-                self._add_couple(self.slide, radial if sign > 0 else radial.reversed)
-                self.forces.slides[self.slide] = self._added(self.forces.slides[self.slide], radial, sign)
+                self._add_couple(self.slide, radial if sign > 0 else radial.answer)
+                self.forces.slides[self.slide] = self._add_radial(self.forces.slides[self.slide], radial, sign)
 
-    def _added(self, span: Span, radial: Acting, sign: int) -> Span:
+    def _add_radial(self, span: Span, radial: Acting, sign: int) -> Span:
         """A reaction with the radial force, which is drawn in its place."""
-        whole = span[0], self.board.transfer(*signed((radial.tail, radial.head), sign), span[1])
-        self.forces.enlarged(span, whole)
+        whole = span[0], self.board.transfer(*with_sign((radial.tail, radial.head), sign), span[1])
+        self.forces.replace_by_whole(span, whole)
         return whole
 
     def _add_couple(self, slide: Slide, radial: Acting) -> None:
@@ -194,7 +194,7 @@ class _Bearings:
         self.forces.pairs[slide] = Acting(R, first, mark), Acting(Y, mark, first)
 
 
-def toothed(scene: Scene) -> list[RollingGuide]:
+def inclined_guides(scene: Scene) -> list[RollingGuide]:
     """The rolling guides of gears whose flanks are inclined."""
     return [slide for slide in scene.slides if isinstance(slide, RollingGuide) and isinstance(slide.given, Gear)
             and slide.given.tangent]
@@ -203,7 +203,7 @@ def toothed(scene: Scene) -> list[RollingGuide]:
 def on_first(guide: RollingGuide | TouchingGuide, forces: DrawnForces) -> Span:
     """The force on the first link of the gear or contact that a guide stands for."""
     assert guide.given is not None
-    return signed(forces.slides[guide], 1 if guide.link == guide.given.links[0] else -1)
+    return with_sign(forces.slides[guide], 1 if guide.link == guide.given.links[0] else -1)
 
 
 def line_of_pressure(pose: Pose, guide: RollingGuide, tail: Mark, head: Mark) -> Mark:

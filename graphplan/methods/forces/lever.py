@@ -29,12 +29,12 @@ from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.forces import stages
 from graphplan.methods.forces.free_bodies import Shown, Span, balance_letter, pair_letter
 from graphplan.methods.forces.groups import ForceTransfer, Result, pairs
-from graphplan.methods.forces.higher_pairs import pressed
+from graphplan.methods.forces.higher_pairs import pressed_by_teeth
 from graphplan.methods.forces.loading import Acting, Loading
-from graphplan.methods.motion.alternatives import ways
+from graphplan.methods.motion.alternatives import alternatives
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
-from graphplan.methods.motion.stages import begun
+from graphplan.methods.motion.stages import beginning_stage
 from graphplan.methods.motion.time_scale import Tempo, round_number
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan
@@ -61,14 +61,14 @@ class Levers:
         for mode, (name, balance) in enumerate(named.items()):
             own = len(drives) == 1 and drives[0].rate
             lever = self._lever(None if own else working(self.scene, mode),
-                                LeverPlan.of(None if len(named) == 1 else mode + 1), balance_letter(balance))
+                                LeverPlan.of_part(None if len(named) == 1 else mode + 1), balance_letter(balance))
             marks = lever.force(balance) if balance.at else lever.turning(*balance.links)
-            self._found(lever, kinds.balance_kind(kinds.BY_LEVER, balance), name, marks, "balance")
+            self._record_result(lever, kinds.balance_kind(kinds.BY_LEVER, balance), name, marks, "balance")
         return self
 
     def reactions(self, asked: Collection[str]) -> Levers:
         """The reactions of the joints and slides of these names that statics tells, each with its pair freed."""
-        scene, (joints, guides) = self.loading.net.scene, pressed(self.plans.given)
+        scene, (joints, guides) = self.loading.net.scene, pressed_by_teeth(self.plans.given)
         left = sorted(joints & {*asked}) + [slide.name for slide in guides if slide.name in asked]
         if left:
             self.notes.append(said("reactions in {0}: force plans alone have the radial components of tooth forces",
@@ -78,11 +78,12 @@ class Levers:
                 self._joint(JointForce(point, link), pin)
         for slide in self.scene.slides:
             if slide.name in asked and slide not in guides and slide.name not in scene.indeterminate_pairs:
-                lever = self._lever(freed_slide(self.scene, slide), LeverPlan.of(slide, "F"),
+                lever = self._lever(freed_slide(self.scene, slide), LeverPlan.of_part(slide, "F"),
                                     pair_letter(slide.along, slide.link))
-                self._found(lever, kinds.SLIDE_REACTION, slide.name, lever.off_guide(slide), "reaction")
-                lever = self._lever(freed_turning(self.scene, slide), LeverPlan.of(slide, "M"), f"M_{slide.link}")
-                self._found(lever, kinds.SLIDE_MOMENT, slide.name, lever.turning(slide.link, slide.along), "reaction")
+                self._record_result(lever, kinds.SLIDE_REACTION, slide.name, lever.off_guide(slide), "reaction")
+                lever = self._lever(freed_turning(self.scene, slide), LeverPlan.of_part(slide, "M"), f"M_{slide.link}")
+                self._record_result(lever, kinds.SLIDE_MOMENT, slide.name, lever.turning(slide.link, slide.along),
+                                    "reaction")
         return self
 
     def _joint(self, force: JointForce, pin: str) -> None:
@@ -90,14 +91,15 @@ class Levers:
         spans = []
         for axis, letter in zip(AXES, "xy", strict=True):
             lever = self._lever(freed_joint(self.scene, force.point, force.link, pin, axis),
-                                LeverPlan.of(force, letter), f"R_{letter}")
-            spans.append(lever.across(force.point, force.link, pin))
+                                LeverPlan.of_part(force, letter), f"R_{letter}")
+            spans.append(lever.force_across(force.point, force.link, pin))
             self.shown += [*lever.shown, Shown("reaction", lever.letter, *spans[-1])]
         (tail, corner), other = spans
         with self.pose.board.on(lever.panel, stage=lever.stage):
             self.results.append((kinds.REACTION, force.name, (tail, self.pose.board.transfer(*other, corner))))
 
-    def _found(self, lever: Lever, kind: kinds.ResultKind, name: str, marks: tuple[Mark, ...], shown: str) -> None:
+    def _record_result(self, lever: Lever, kind: kinds.ResultKind, name: str, marks: tuple[Mark, ...],
+                       shown: str) -> None:
         self.results.append((kind, name, marks))
         self.shown += [*lever.shown, Shown(shown, lever.letter, *marks[-2:])]
 
@@ -106,7 +108,7 @@ class Levers:
         if assumed is None:
             return Lever(self.velocity, self.loading, panel, {}, letter)
         if panel not in self.plans.planners:
-            self.plans.planners[panel] = planned(assumed.scene)
+            self.plans.planners[panel] = plan_motion(assumed.scene)
         own, planner = copy(self.pose), self.plans.planners[panel]
         own.scene = assumed.scene
         renamed = {new: self.pose.points[old] for (_, old), new in assumed.renamed.items()}
@@ -131,7 +133,7 @@ class Lever:
         self.shown: list[Shown] = []
         self.loads: list[str] = []
         self.stage = partial(stages.lever, panel, letter, self.loads)
-        with self.board.on(panel, stage=begun("o", panel.words, pole=True)):
+        with self.board.on(panel, stage=beginning_stage("o", panel.words, pole=True)):
             self.pole = self.board.pole(plan=panel, name="o")
 
     # ---- velocities --------------------------------------------------------------------------------------------
@@ -156,7 +158,7 @@ class Lever:
     def forces(self) -> Iterator[Acting]:
         """The loads at the ends of the velocities; those at fixed points have no moment, and are left out."""
         for link in self.loading.scene.moving:
-            for point, lay in self.loading.each(link):
+            for point, lay in self.loading.forces_on(link):
                 end = self.end(link, point)
                 if end is not self.pole:
                     force = lay(end)
@@ -172,7 +174,7 @@ class Lever:
                 tip = self.board.transfer(answer.tail, answer.head, ends[0])
                 yield Acting(ends[0], ends[0], tip, answer.name)
 
-    def _held(self, X: Mark) -> Mark:
+    def _balancing_force(self, X: Mark) -> Mark:
         """The force at the end X, square to its velocity and laid off there, that keeps the lever in balance."""
         mark = X
         for force in self.forces():
@@ -189,7 +191,7 @@ class Lever:
             X = self._relative(*(self.end(link, point) for point in names))
             if on != FRAME:
                 X = self._relative(self._relative(*(self.end(on, point) for point in names)), X)
-            head = self._held(X)
+            head = self._balancing_force(X)
         return self.velocity.pose.points[P], self.velocity.pose.points[R], X, head
 
     def force(self, balance: Balance) -> Span:
@@ -200,24 +202,24 @@ class Lever:
             if balance.on != FRAME:
                 X = self._relative(self.end(balance.on, balance.at), X)
             dx, dy = balance.direction
-            return self._along(X, self.board.guide(X, dx=dx, dy=dy))
+            return self._force_along(X, self.board.guide(X, dx=dx, dy=dy))
 
-    def _along(self, X: Mark, line: Mark) -> Span:
+    def _force_along(self, X: Mark, line: Mark) -> Span:
         """The force at X along a line: as much of it as has the moment of that which stands square."""
-        return X, self.board.meet(line, self.board.parallel(self.board.line(self.pole, X), self._held(X)))
+        return X, self.board.meet(line, self.board.parallel(self.board.line(self.pole, X), self._balancing_force(X)))
 
-    def across(self, point: str, link: str, pin: str) -> Span:
+    def force_across(self, point: str, link: str, pin: str) -> Span:
         """The force on a link at a freed pin, along the direction in which it may move there."""
         with self.board.on(self.panel, (link,), self.stage):
             X = self._relative(self.end(pin, point), self.end(link, point))
-            return X, self._held(X)
+            return X, self._balancing_force(X)
 
     def off_guide(self, slide: Slide) -> Span:
         """The force on a sliding link that may leave its guide."""
         guide = self.velocity.pose.guide(slide)
         with self.board.on(self.panel, (slide.link,), self.stage):
             X = self._relative(self.end(slide.along, slide.at), self.end(slide.link, slide.at))
-            return self._along(X, self.board.perpendicular(guide, X))
+            return self._force_along(X, self.board.perpendicular(guide, X))
 
 
 # ---- assumed motions ------------------------------------------------------------------------------------------------
@@ -230,11 +232,11 @@ class Assumed(NamedTuple):
     renamed: dict[tuple[str, str], str]
 
 
-def planned(scene: Scene) -> Planner:
+def plan_motion(scene: Scene) -> Planner:
     """The plan of an assumed motion by the best way."""
     every = Find(tuple(point for point, links in scene.links_of.items() if links), ())
     bare, style = replace(scene, loads=None, find=every), Style()
-    return next(ways(Network(bare), "", lambda planner: Draughtsman(bare, planner, style).draw()))[1]
+    return next(alternatives(Network(bare), "", lambda planner: Draughtsman(bare, planner, style).draw()))[1]
 
 
 def working(scene: Scene, mode: int) -> Assumed:
@@ -246,11 +248,11 @@ def working(scene: Scene, mode: int) -> Assumed:
     own = [drive.driven_at(speed if drive.slides else Fraction(1), Fraction(0)) for drive in ordered_drives(scene)]
     if len(own) > 1 and not balance.at:
         own = [TurningDrive(*balance.links, Fraction(1), Fraction(0))]
-    found = [_held(apart.with_drives((drive,)), held) for drive in own]
+    found = [_supported(apart.with_drives((drive,)), held) for drive in own]
     return Assumed(next((one for one in found if bracing(one).sound), found[0]), {})
 
 
-def _held(scene: Scene, balances: list[Balance]) -> Scene:
+def _supported(scene: Scene, balances: list[Balance]) -> Scene:
     """The scene with supports in the place of balances."""
     for nth, balance in enumerate(balances):
         if balance.direction is None:
@@ -273,7 +275,7 @@ def freed_joint(scene: Scene, point: str, link: str, pin: str, axis: Pair) -> As
              for name, points in scene.links.items()}
     slides = [replace(s, at=new) if (s.link, s.at) == (link, point) else s for s in scene.slides]
     written = *slides, Slide(block, pin, new, axis), _sliding(scene, block, pin)
-    return _freed(scene, links | {block: (new,)}, written, {(link, point): new})
+    return _free_pair(scene, links | {block: (new,)}, written, {(link, point): new})
 
 
 def freed_slide(scene: Scene, slide: Slide) -> Assumed:
@@ -283,7 +285,7 @@ def freed_slide(scene: Scene, slide: Slide) -> Assumed:
     axis = AXES[abs(float(dx)) >= abs(float(dy))]
     slides = [replace(s, along=block) if s == slide else s for s in scene.slides]
     written = *slides, Slide(block, slide.along, new, axis), _sliding(scene, block, slide.along)
-    return _freed(scene, scene.links | {block: (new,)}, written, {(block, slide.at): new})
+    return _free_pair(scene, scene.links | {block: (new,)}, written, {(block, slide.at): new})
 
 
 def freed_turning(scene: Scene, slide: Slide) -> Assumed:
@@ -291,18 +293,18 @@ def freed_turning(scene: Scene, slide: Slide) -> Assumed:
     block = f"block {slide.name}"
     slides = [replace(s, link=block) if s == slide else s for s in scene.slides]
     written = *slides, TurningDrive(slide.link, slide.along, Fraction(1), Fraction(0))
-    return _freed(scene, scene.links | {block: (slide.at,)}, written, {})
+    return _free_pair(scene, scene.links | {block: (slide.at,)}, written, {})
 
 
 def _sliding(scene: Scene, block: str, along: str) -> Drive:
     return SlidingDrive(block, along, round_number(scene.extent / 4), Fraction(0))
 
 
-def _freed(scene: Scene, links: dict[str, tuple[str, ...]], written: tuple[KinematicPair, ...],
+def _free_pair(scene: Scene, links: dict[str, tuple[str, ...]], written: tuple[KinematicPair, ...],
            renamed: dict[tuple[str, str], str]) -> Assumed:
     """The scene with other pairs, one freed and driven, and with all its balances as supports."""
     assert scene.loads is not None
     points = scene.points | {new: scene.points[old] for (_, old), new in renamed.items()}
     freed = replace(scene, points=points, links=links, written=written)
-    return Assumed(_held(freed, [replace(balance, at=renamed.get((balance.link, balance.at), balance.at))
+    return Assumed(_supported(freed, [replace(balance, at=renamed.get((balance.link, balance.at), balance.at))
                                  for balance in scene.loads.balances]), renamed)

@@ -37,11 +37,11 @@ from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.forces.statics import PREFERENCES
 from graphplan.methods.kinds import REACTION, SLIDE_MOMENT, SLIDE_REACTION
 from graphplan.methods.motion.acceleration import Normal
-from graphplan.methods.motion.alternatives import EQUAL, growth, ways
+from graphplan.methods.motion.alternatives import EQUAL, alternatives, growth
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import both, link_named, slide_named
+from graphplan.methods.panels import link_named, pair_text, slide_named
 from graphplan.methods.styles import Style
 from graphplan.methods.tolerances import REACTION_TOL, SHORT_FORCE
 from graphplan.phrases import Phrase, Said, phrase, said
@@ -71,19 +71,19 @@ class Loaded(Draughtsman):
         self.notes: list[str] = []
         self.rounds = 0
 
-    def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
+    def finish(self, velocity: Velocity, plan: Normal | None) -> Construction:
         """Motion and forces; the accelerations are drawn for inertia forces, too."""
         if plan is None and self.loads.masses:
             plan = self.accelerations(velocity)
         self._forces(velocity, plan)
         shown = force_arrows(self.board, self.marks, self.shown)
-        drawn = super().finished(velocity, plan)
+        drawn = super().finish(velocity, plan)
         return replace(drawn, phi=self.phi, shown=shown, rounds=self.rounds, notes=[*drawn.notes, *self.notes])
 
     def _forces(self, velocity: Velocity, plan: Normal | None) -> None:
         """Force plans and lever, as the style says."""
         loading = Loading(self.board, self.net, self.pose, self.phi, self.tempo.unit, plan, self.style.inertia)
-        loading.apart = frozenset(self._far(loading))
+        loading.apart = frozenset(self._shifted_too_far(loading))
         if self.style.polygons:
             self._polygons(velocity, loading)
         if self.style.lever or self.scene.repeating:
@@ -96,12 +96,12 @@ class Loaded(Draughtsman):
                                            "are the analytic solver's"))
             self._note(levers.results, levers.shown)
 
-    def _far(self, loading: Loading) -> Iterator[str]:
+    def _shifted_too_far(self, loading: Loading) -> Iterator[str]:
         """The links whose inertia force would be shifted too far, or is nothing beside its couple."""
         size = self.scene.extent
         for link, marks in loading.shifts():
             try:
-                home, end, P, R, tip = self._valued(marks)
+                home, end, P, R, tip = self._mark_values(marks)
             except ConstructionError:  # whoever reads the numbers is told
                 return
             force = math.dist(home, end)
@@ -129,12 +129,12 @@ class Loaded(Draughtsman):
             if span is None or way is None or span[0] is span[1]:
                 continue
             try:
-                tail, head = self._valued(span)
+                tail, head = self._mark_values(span)
             except ConstructionError:  # whoever reads the numbers is told
                 return
             if (head[0] - tail[0]) * way[0] + (head[1] - tail[1]) * way[1] < -SHORT_FORCE * self.scene.extent**2:
                 yield said("the contact of {0} can only push, and its force pulls: something else must press them "
-                           "together, such as a spring", both(contact.links))
+                           "together, such as a spring", pair_text(contact.links))
 
     def _rounds(self, velocity: Velocity, loading: Loading, forces: DrawnForces) -> None:
         """Rounds of friction, as many as are asked for, or until the forces stand."""
@@ -145,7 +145,7 @@ class Loaded(Draughtsman):
             rubbed, last = Rubbed(velocity, loading, forces), rubbed
             self.shown += forces.shown
             try:
-                stands = not self.loads.rounds and last.stands(rubbed, self._valued)
+                stands = not self.loads.rounds and last.stands(rubbed, self._mark_values)
             except ConstructionError:  # whoever reads the numbers is told
                 break
         self._note(results_with_friction(self.scene, loading, forces, self.board), ())
@@ -157,7 +157,7 @@ class Loaded(Draughtsman):
         else:
             self.notes.append(said("friction: the forces still change after {0} rounds", forces.number))
 
-    def _valued(self, marks: Sequence[Mark]) -> list[Any]:
+    def _mark_values(self, marks: Sequence[Mark]) -> list[Any]:
         """The values of marks in this pose."""
         program = freeze(self.board, marks)
         values = evaluate(program, Floats())
@@ -192,7 +192,7 @@ def force_arrows(board: Board, marks: list[Mark], shown: Iterable[Shown]) -> tup
 def loaded_constructions(scene: Scene, method: str, style: Style) -> Iterator[Construction]:
     """The constructions of a scene with loads, best first: by the ways through its motion, each with its forces."""
     forces = Alternatives(scene, style)
-    for best, planner in ways(Network(scene), method, forces.draw):
+    for best, planner in alternatives(Network(scene), method, forces.draw):
         yield forces.steadiest(best, planner)
 
 
@@ -229,7 +229,7 @@ class Alternatives:
         for style, missing in self._styles():
             self.chosen[planner] = style
             try:
-                found = self._drawn(planner, style)
+                found = self._draw_by(planner, style)
                 if _singular(found) and style.polygons:
                     found = self._by_best_way(found, planner)[0]
             except Refused as refused:
@@ -267,7 +267,7 @@ class Alternatives:
         if self.style.polygons:
             yield replace(self.style, lever=True, polygons=False), no_polygons
 
-    def _drawn(self, planner: Planner, style: Style, way: Way = TEXTBOOK, arms: tuple[str, ...] = ()) -> Construction:
+    def _draw_by(self, planner: Planner, style: Style, way: Way = TEXTBOOK, arms: tuple[str, ...] = ()) -> Construction:
         return Loaded(self.scene, planner, style, self.plans, way, arms, self._by_lever).draw()
 
     @property
@@ -282,11 +282,11 @@ class Alternatives:
         """The construction with its force plans, if it has any, drawn well."""
         style = self.chosen.get(planner)
         if style is None:  # of a motion that cannot be drawn: whoever reads the numbers is told
-            return self._drawn(planner, self.style)
+            return self._draw_by(planner, self.style)
         if not style.polygons:
             return found
         found, way = self._by_best_way(found, planner)
-        return _with_arms(found, lambda names: self._drawn(planner, style, way, names))
+        return _with_arms(found, lambda names: self._draw_by(planner, style, way, names))
 
     def _by_best_way(self, found: Construction, planner: Planner) -> tuple[Construction, Way]:
         """If errors grow in the force plans other ways are weighed against this one; the best, and which it is."""
@@ -295,7 +295,7 @@ class Alternatives:
         drawn = {TEXTBOOK: found}
         for way in ((order, pick) for order in PREFERENCES for pick in range(MOST_PICKS)):
             if way not in drawn and way[1] < self.plans.options:
-                drawn[way] = self._drawn(planner, self.chosen[planner], way)
+                drawn[way] = self._draw_by(planner, self.chosen[planner], way)
         grown = {way: growth(construction.program) for way, construction in drawn.items()}
         least = EQUAL * min(grown.values())
         way = min(drawn, key=lambda way: (max(grown[way], least), len(drawn[way].program)))

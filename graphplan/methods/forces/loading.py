@@ -20,7 +20,7 @@ from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.forces import stages
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.plan import MotionPlan
-from graphplan.methods.motion.time_scale import apart, round_number, tempo
+from graphplan.methods.motion.time_scale import point_distance, round_number, tempo
 from graphplan.methods.panels import MECHANISM, link_named
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
@@ -36,7 +36,7 @@ class Acting:
     name: str = ""
 
     @property
-    def reversed(self) -> Acting:
+    def answer(self) -> Acting:
         """The force that answers it."""
         return Acting(self.at, self.head, self.tail, self.name)
 
@@ -63,24 +63,26 @@ class Loading:
 
     def forces(self, link: str, start: Mark) -> Iterator[Acting]:
         """The forces on a link, one after the other from `start`."""
-        for _, lay in self.each(link):
+        for _, lay in self.forces_on(link):
             force = lay(start)
             yield force
             start = force.head
 
-    def each(self, link: str) -> Iterator[tuple[str, Lay]]:
+    def forces_on(self, link: str) -> Iterator[tuple[str, Lay]]:
         """The forces on a link: the point where each acts, and how it is laid off; one that is nothing is left out."""
         for name, force in named_forces(self.loads).items():
             if force.on == link and (force.table or any(force.value)):
                 why = said("{0}, the given force on {1} at {2}", name, link_named(link), force.at)
-                yield force.at, partial(self._given, force.at, force.value, Quantity(name, "force", bool(force.table)),
+                yield force.at, partial(self._lay_off_given, force.at, force.value,
+                                        Quantity(name, "force", bool(force.table)),
                                         why)
         mass = self.loads.masses.get(link)
         if mass and mass.mass:
             heaviness = tuple(mass.mass * g * weight(self.scene.units) for g in self.loads.gravity)
             if any(heaviness):
                 why = said("{0}, the weight of {1}, at {2}", f"G_{link}", link_named(link), mass.centre)
-                yield mass.centre, partial(self._given, mass.centre, heaviness, Quantity(f"G_{link}", "force"), why)
+                yield mass.centre, partial(self._lay_off_given, mass.centre, heaviness, Quantity(f"G_{link}", "force"),
+                                           why)
             yield from self._inertia_forces(link, mass)
 
     def _inertia_forces(self, link: str, mass: Mass) -> Iterator[tuple[str, Lay]]:
@@ -88,22 +90,23 @@ class Loading:
         form = self._form(link, mass)
         radius2 = mass.inertia / mass.mass * metre(self.scene.units) ** 2
         if form == "shifted":
-            yield self._shifted(link, mass, radius2), partial(self._inertia, link, mass.centre, mass.mass, f"J_{link}")
+            yield self._centre_without_couple(link, mass, radius2), partial(self._inertia, link, mass.centre, mass.mass,
+                                                                            f"J_{link}")
         elif form == "points":
             pivot = self.arm_points(link)[0]
             part = radius2 / self._square(pivot, mass.centre)
-            centre = self._beyond(link, pivot, mass.centre, part)
+            centre = self._oscillation_centre(link, pivot, mass.centre, part)
             yield centre, partial(self._inertia, link, centre, mass.mass / (1 + part), f"J_{link}")
-            if self._accelerated(link, pivot):
+            if self._has_acceleration(link, pivot):
                 yield pivot, partial(self._inertia, link, pivot, mass.mass * part / (1 + part), f"J_{link}'")
-        elif self._accelerated(link, mass.centre):
+        elif self._has_acceleration(link, mass.centre):
             yield mass.centre, partial(self._inertia, link, mass.centre, mass.mass, f"J_{link}")
 
     def _form(self, link: str, mass: Mass) -> str:
         """The form of a link's inertia: nothing if it cannot turn; with a couple where no force can take that up."""
         if self.motion is None or not (mass.inertia and self.turns(link)):
             return ""
-        able = {"shifted": link not in self.apart and self._accelerated(link, mass.centre),
+        able = {"shifted": link not in self.apart and self._has_acceleration(link, mass.centre),
                 "points": self._oscillates_nearby(link, mass)}
         return self.inertia if mass.mass and able.get(self.inertia) else "couple"
 
@@ -117,9 +120,9 @@ class Loading:
         one, two = self.scene.points[P], self.scene.points[R]
         return (one[0] - two[0]) ** 2 + (one[1] - two[1]) ** 2
 
-    def _shifted(self, link: str, mass: Mass, radius2: Number) -> str:
+    def _centre_without_couple(self, link: str, mass: Mass, radius2: Number) -> str:
         """The point where the inertia force acts without a couple: acceleration and turning say it, in proportion."""
-        name, points = _replaced(link), self.pose.standing
+        name, points = _inertia_place(link), self.pose.standing
         if name not in points:
             home, end, P, R, tip = self._couple_of(link, mass, radius2)
             with self.board.on(stage=stages.inertia(link)):
@@ -144,9 +147,9 @@ class Loading:
             if self.inertia == "shifted" and self._form(link, mass) == "shifted":
                 yield link, self._couple_of(link, mass, mass.inertia / mass.mass * metre(self.scene.units) ** 2)
 
-    def _beyond(self, link: str, pivot: str, centre: str, part: Number) -> str:
+    def _oscillation_centre(self, link: str, pivot: str, centre: str, part: Number) -> str:
         """The centre of oscillation for a pivot: with it the link is replaced by two points (Ozols 1974, 9-2)."""
-        name, points = _replaced(link), self.pose.standing
+        name, points = _inertia_place(link), self.pose.standing
         if name not in points:
             with self.board.on(MECHANISM, (link,), stages.inertia(link)):
                 points[name] = self.board.step_off(
@@ -154,7 +157,7 @@ class Loading:
                     why=said("the radius of gyration is the mean of the distances from {0}", centre))
         return name
 
-    def _given(self, at: str, value: tuple[Number, ...], quantity: Quantity, why: str, start: Mark) -> Acting:
+    def _lay_off_given(self, at: str, value: tuple[Number, ...], quantity: Quantity, why: str, start: Mark) -> Acting:
         x, y = value
         head = self.board.lay_off(start, dx=x * self.phi, dy=y * self.phi, why=why, quantity=quantity)
         return Acting(self.pose.points[at], start, head, quantity.written)
@@ -169,9 +172,9 @@ class Loading:
                    self.pose.letter_of_point(point))
         written = f"{name} = m_{link} a_{self.pose.letter_of_point(point)}"
         head = self.board.step_off(home, end, start, ratio=ratio, why=why, quantity=Quantity(written, "force"))
-        return Acting(self.pose.points[_replaced(link) if shifted else point], start, head, name)
+        return Acting(self.pose.points[_inertia_place(link) if shifted else point], start, head, name)
 
-    def _accelerated(self, link: str, point: str) -> bool:
+    def _has_acceleration(self, link: str, point: str) -> bool:
         return self.motion is not None and FRAME not in self.scene.links_of[point]
 
     def couples(self, link: str, start: Mark) -> Iterator[tuple[Acting, Acting]]:
@@ -210,15 +213,15 @@ class Loading:
         """Two points of a link, far apart, the first one fixed if the link has such; of a block, one of its guide."""
         scene, names = self.scene, sorted(self.scene.links[link], key=by_name)
         first = next((p for p in names if FRAME in scene.links_of[p]), names[0])
-        own = [p for p in names if apart(scene, first, p)]
+        own = [p for p in names if point_distance(scene, first, p)]
         names += [p for s in scene.slides if link in (s.link, s.along) for k in (s.link, s.along) if k != link
                   for p in scene.links[k]]
         names += list(scene.points)
         if own:
-            return first, max(own, key=lambda p: apart(scene, first, p))
-        return first, next((p for p in names if apart(scene, first, p)), None) or self._aside(first)
+            return first, max(own, key=lambda p: point_distance(scene, first, p))
+        return first, next((p for p in names if point_distance(scene, first, p)), None) or self._auxiliary_point(first)
 
-    def _aside(self, point: str) -> str:
+    def _auxiliary_point(self, point: str) -> str:
         """A point beside this one, where all points of the scene coincide: couples need an arm."""
         name, points = "point aside", self.pose.standing
         if name not in points:
@@ -233,7 +236,7 @@ class Loading:
         return self.pose.points[one], self.pose.points[two]
 
 
-def _replaced(link: str) -> str:
+def _inertia_place(link: str) -> str:
     """The place where a link's inertia force acts in another form: a name that no point of a scene has."""
     return f"inertia of {link}"
 

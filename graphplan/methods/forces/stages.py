@@ -11,7 +11,7 @@ from graphplan.kernel.stages import Equation, Known, Stage, Vector
 from graphplan.mechanism.model import Slide
 from graphplan.methods.motion.moves import FalsePosition
 from graphplan.methods.motion.stages import LAWS
-from graphplan.methods.panels import LeverPlan, link_named, listed, slide_named
+from graphplan.methods.panels import LeverPlan, link_named, list_links, slide_named
 from graphplan.phrases import Said, arrange, join, said
 
 CHAIN = said("the known forces on a link are laid off one after the other, each from the head of the last")
@@ -44,22 +44,22 @@ def line_of_action(letter: str) -> Stage:
 def moments(letter: str, links: Sequence[str], about: str, forces: Iterable[Vector], couples: Iterable[str],
             forms: Collection[str] = ()) -> Stage:
     """A force from moments of some links about a point, those of forces and of couples."""
-    title = arrange("{0}: {1}", letter, said("moments of {0} about {1}", listed(links), about))
+    title = arrange("{0}: {1}", letter, said("moments of {0} about {1}", list_links(links), about))
     return Stage(title, MOMENTS, (Equation.moments(forces, "Q" if isinstance(about, Said) else about, couples),))
 
 
-def across(letter: str, links: Sequence[str], forms: Collection[str] = ()) -> Stage:
+def component_stage(letter: str, links: Sequence[str], forms: Collection[str] = ()) -> Stage:
     """A force from the equilibrium of some links in one direction."""
     return Stage(_equilibrium(letter, links), ACROSS)
 
 
-def closed(letter: str, links: Sequence[str], forces: tuple[Vector, ...], forms: Collection[str] = ()) -> Stage:
+def polygon_stage(letter: str, links: Sequence[str], forces: tuple[Vector, ...], forms: Collection[str] = ()) -> Stage:
     """Forces that close the polygon of some links."""
     return Stage(_equilibrium(letter, links), CLOSED, (Equation.zero_sum(forces),))
 
 
 def _equilibrium(letter: str, links: Sequence[str]) -> Said:
-    return said("{0}: equilibrium of {1}", letter, listed(links))
+    return said("{0}: equilibrium of {1}", letter, list_links(links))
 
 
 def joint(point: str, forces: tuple[Vector, ...] = ()) -> Stage:

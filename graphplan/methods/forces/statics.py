@@ -128,21 +128,21 @@ class Equilibrium:
         self.options = 1
         self._choices: dict[Part, list[tuple[str, StaticMove]]] = {}
         self._open: set[Part] = set()  # parts of which nothing is told that is known already
-        whole = [site for part in group.parts for site, _ in group.boundary(part)]
+        whole = [site for part in group.connected_parts for site, _ in group.boundary(part)]
         for site in dict.fromkeys(whole):
             self.rank[site] = int(has_line(site))
             if has_line(site):
                 self.lines[site] = tuple(position.line(site) for position in positions)
                 self.through[site] = AtPoint(site.at)
         self._parts_of: dict[UnknownForce, list[Part]] = {site: [] for site in self.rank}
-        for part in group.parts:
+        for part in group.connected_parts:
             for site, _ in group.boundary(part):
                 self._parts_of[site].append(part)
 
     def plan(self) -> list[StaticMove]:
         """The moves, in order, that give the force of every site; refuses by name what no move reaches."""
         while any(rank < 2 for rank in self.rank.values()):
-            move = self._next()
+            move = self._next_move()
             if move is not None:
                 self._enter(move)
             elif not self._assume():
@@ -153,10 +153,10 @@ class Equilibrium:
 
     # ---- moves that tell something new -------------------------------------------------------------------------
 
-    def _next(self) -> StaticMove | None:
+    def _next_move(self) -> StaticMove | None:
         """The first new move of the most preferred kind."""
         for kind in self.order:
-            for part in self.group.parts if kind != "pin" else ():
+            for part in self.group.connected_parts if kind != "pin" else ():
                 choices = self._choices_of(part)
                 for choice in [choice for choice in choices if choice[0] == kind]:
                     if self._new(choice[1]):
@@ -185,7 +185,7 @@ class Equilibrium:
                     yield "found", ForceFact(part, site, about)
                 else:
                     kind = "auxiliary" if isinstance(about, AtCrossing) else "inner"
-                    yield "outer" if self.group.outer(site) else kind, LineFact(part, site, about)
+                    yield "outer" if self.group.is_outer(site) else kind, LineFact(part, site, about)
         if len(unknown) == 2:
             yield "polygon", ClosePolygon(part, *unknown)
 
@@ -211,7 +211,8 @@ class Equilibrium:
         for point in self.group.points:
             sites = [site for site in self.rank if isinstance(site, JointForce) and site.point == point]
             left = [site for site in sites if self.rank[site] < 2]
-            if len(left) == 1 and len(sites) == len(self.group.members(point)) > 2 and not self.group.rest(point):
+            whole = len(sites) == len(self.group.members(point)) > 2 and not self.group.remaining_links(point)
+            if len(left) == 1 and whole:
                 yield left[0]
 
     def _abouts(self, site: UnknownForce, others: list[UnknownForce]) -> list[About]:
@@ -227,7 +228,7 @@ class Equilibrium:
             options = [self._meeting(*pair) for pair in combinations(known[:3], 2)][:1]
         elif known and not self._is_couple(known[0]):
             options = [self.through[known[0]]] if not isinstance(known[0], JointForce) else [AtPoint(known[0].point)]
-        return [about for about in options if self._passed(about, free, known) and self._tells(site, about)]
+        return [about for about in options if self._all_pass(about, free, known) and self._tells(site, about)]
 
     def _meeting(self, one: UnknownForce, two: UnknownForce) -> About:
         """Where two known lines meet; a couple's line is far away."""
@@ -250,7 +251,7 @@ class Equilibrium:
             case AtCrossing(one, two):
                 return cross(self.lines[one][n], self.lines[two][n])
 
-    def _passed(self, about: About, free: list[UnknownForce], known: list[UnknownForce]) -> bool:
+    def _all_pass(self, about: About, free: list[UnknownForce], known: list[UnknownForce]) -> bool:
         """Whether all these forces pass a point in any position."""
         Y = self._point(about, 0)
         pencils = [self.positions[0].pencil(site) for site in free]
@@ -330,7 +331,7 @@ class Equilibrium:
         self._know(site, 2)
         self.assumed += 1
         while (closing := self._closing()) is None:
-            move = self._next()
+            move = self._next_move()
             if move is not None:
                 self._enter(move)
             elif not self._assume():
@@ -344,7 +345,7 @@ class Equilibrium:
 
     def _closing(self) -> tuple[JointForce, Part, About] | None:
         """A part whose equilibrium tells of a force that is known already."""
-        for part in self.group.parts:
+        for part in self.group.connected_parts:
             if part in self._open:
                 continue
             unknown = self._unknown(part)
@@ -352,7 +353,7 @@ class Equilibrium:
                 continue
             for site, _ in self.group.boundary(part):
                 if isinstance(site, JointForce) and self.rank[site] == 2:
-                    abouts = self._abouts(site, unknown) if unknown else self._anywhere(part, site)
+                    abouts = self._abouts(site, unknown) if unknown else self._other_points(part, site)
                     for about in abouts:
                         if self._closes(part, site, about):
                             return site, part, about
@@ -364,7 +365,7 @@ class Equilibrium:
         return all(any(cross(position.finite(site), Y)) and span.copy().adds(equation(part, Y))
                    for position, span, Y in zip(self.positions, self.used, self.points(about), strict=True))
 
-    def _anywhere(self, part: Part, site: JointForce) -> list[About]:
+    def _other_points(self, part: Part, site: JointForce) -> list[About]:
         """Other points of the part."""
         names = [p for link in self.group.links if link in part for p in self.group.scene.links[link]]
         return [AtPoint(name) for name in dict.fromkeys(names) if name != site.point]

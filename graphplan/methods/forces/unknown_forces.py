@@ -51,7 +51,7 @@ class ForceGroup:
         own = {p: None for link in self.links for p in self.scene.links[link]}
         return tuple(p for p in own if len(self.scene.links_of[p]) > 1)
 
-    def rest(self, point: str) -> frozenset[str]:
+    def remaining_links(self, point: str) -> frozenset[str]:
         """The links at a joint that are neither the group's nor known."""
         return frozenset(self.scene.links_of[point]) - self.done - frozenset(self.links)
 
@@ -59,10 +59,10 @@ class ForceGroup:
         """The group's links at a joint."""
         return tuple(link for link in self.links if point in self.scene.links[link])
 
-    def outer(self, site: UnknownForce) -> bool:
+    def is_outer(self, site: UnknownForce) -> bool:
         """Whether the site is a pair with what is not the group's."""
         if isinstance(site, JointForce):
-            return bool(self.rest(site.point))
+            return bool(self.remaining_links(site.point))
         return isinstance(site, Slide) and not {site.link, site.along} <= set(self.links)
 
     def _boundary(self, part: Part) -> list[tuple[UnknownForce, int]]:
@@ -87,7 +87,7 @@ class ForceGroup:
     def _side(self, point: str, here: list[str]) -> tuple[list[str], int]:
         """The links by whose forces that on the links `here` is told; fewer are better, then the first."""
         others = [link for link in self.members(point) if link not in here]
-        if not here or self.rest(point):
+        if not here or self.remaining_links(point):
             return here, 1
         first = self.members(point)[0]
         return (here, 1) if (len(here), first not in here) <= (len(others), first in here) else (others, -1)
@@ -95,13 +95,13 @@ class ForceGroup:
     def passed_on(self, part: Part) -> list[str]:
         """The joints at which a part has the known forces of solved groups, besides those of its boundary."""
         sides = {point: self._side(point, [link for link in self.members(point) if link in part])
-                 for point in self.points if not self.rest(point) and set(self.members(point)) & part}
+                 for point in self.points if not self.remaining_links(point) and set(self.members(point)) & part}
         return [point for point, (side, sign) in sides.items() if sign < 0 or not side]
 
     @cached_property
-    def parts(self) -> list[Part]:
+    def connected_parts(self) -> list[Part]:
         """The connected parts of the group, small ones first."""
-        near = {link: self._near(link) for link in self.links}
+        near = {link: self._neighbours(link) for link in self.links}
         found: dict[Part, None] = {frozenset({link}): None for link in self.links}
         for part in (waiting := list(found)):
             for other in set().union(*(near[link] for link in part)) - part:
@@ -114,7 +114,7 @@ class ForceGroup:
         found.setdefault(whole)
         return sorted(found, key=lambda part: (len(part), sorted(order[link] for link in part)))
 
-    def _near(self, link: str) -> set[str]:
+    def _neighbours(self, link: str) -> set[str]:
         joined = {other for p in self.scene.links[link] if p in self.points for other in self.members(p)}
         pairs = *((s.link, s.along) for s in self.scene.slides), *(one.links for one in _balances(self.scene))
         slid = {other for pair in pairs if link in pair for other in pair}
@@ -154,7 +154,7 @@ def in_general(scene: Scene) -> Position:
     return Position({p: pair(1) for p in scene.points}, {site: pair(0) for site in directed})
 
 
-def posed(scene: Scene) -> Position:
+def scene_position(scene: Scene) -> Position:
     """The position of the scene's pose."""
     ways: dict[UnknownForce, Triple] = {s: (*quarter(residues(s.direction)), 0) for s in scene.slides}
     ways |= {b: (*residues(b.direction), 0) for b in _balances(scene) if b.direction is not None}

@@ -19,7 +19,7 @@ from graphplan.mechanism.model import FRAME, Number, Slide
 from graphplan.methods.motion.moves import Carry, Guide, Meet, Move, Pole, Roll, Settle, SimilarFigure, Slip, Swing
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.motion.plan import MotionPlan, Vector
-from graphplan.methods.motion.stages import ACCELERATIONS, begun
+from graphplan.methods.motion.stages import ACCELERATIONS, beginning_stage
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN
 from graphplan.methods.poses import Pose
@@ -92,7 +92,7 @@ class Normal(MotionPlan):
                 beside = self._driven_beside(tied.popleft())
             else:
                 self.order[others[0]] = len(self.order)
-                beside = self._beside(others.popleft())
+                beside = self._neighbours(others.popleft())
             for link, at in beside:
                 if link not in anchors and self._moving(link):
                     anchors[link] = at
@@ -115,7 +115,7 @@ class Normal(MotionPlan):
                 other = weld.to if link == weld.link else weld.link
                 yield other, Anchor(link, weld.slide.at if weld.slide else weld.at, weld.slide)
 
-    def _beside(self, link: str) -> Iterable[tuple[str, Anchor]]:
+    def _neighbours(self, link: str) -> Iterable[tuple[str, Anchor]]:
         """The links beside a link, by pins and slides."""
         for point in self.net.links[link]:
             for other in self.net.links_of[point]:
@@ -125,7 +125,7 @@ class Normal(MotionPlan):
                 other = slide.along if link == slide.link else slide.link
                 yield other, Anchor(link, self.passing.get(slide.name, slide.at), slide)
 
-    def home(self, place: BodyPoint) -> Mark:
+    def plan_origin(self, place: BodyPoint) -> Mark:
         point, link = place
         if link:
             return self.figure(link, point)
@@ -136,7 +136,7 @@ class Normal(MotionPlan):
     def figure(self, link: str, point: str) -> Mark:
         point = self.net.place(point, link)[0]
         if (link, point) not in self.figures:
-            mark = self._grounded(link, point) if not self._moving(link) else self._figured_point(link, point)
+            mark = self._crank_figure(link, point) if not self._moving(link) else self._figured_point(link, point)
             self.figures[link, point] = mark
         return self.figures[link, point]
 
@@ -147,7 +147,7 @@ class Normal(MotionPlan):
         name = self.pose.letter_of_point(point).lower()
         return name if first == link and not home[1] else f"{name}({link})"
 
-    def _grounded(self, link: str, point: str) -> Mark:
+    def _crank_figure(self, link: str, point: str) -> Mark:
         """The figure of a crank is drawn on the crank itself: its points towards the pivot, as far as omega bids."""
         chain = self.net.chain(link)
         if not chain:
@@ -180,24 +180,24 @@ class Normal(MotionPlan):
         """A point of a moving link's figure: its anchor, or by the similar figure on one side of the link."""
         anchor = self.anchors[link]
         if point == self.net.place(anchor.point, link)[0]:
-            return self.board.give_name(self._anchored(link, anchor), self.figure_name(link, point))
-        if self.net.still(link) or self.net.coincide(point, anchor.point):
+            return self.board.give_name(self._anchor_figure(link, anchor), self.figure_name(link, point))
+        if self.net.never_turns(link) or self.net.coincide(point, anchor.point):
             return self.figure(link, anchor.point)
-        mark = self._scaled(link, anchor.point, point)
+        mark = self._figure_side(link, anchor.point, point)
         return self.board.give_name(mark, self.figure_name(link, point))
 
-    def _anchored(self, link: str, anchor: Anchor) -> Mark:
+    def _anchor_figure(self, link: str, anchor: Anchor) -> Mark:
         if not anchor.link:
             name = self.figure_name(link, anchor.point)
             begins = [step for step in self.board.steps if step.op.movement is Movement.BEGUN]
             plan = self.panel.part(1 + sum(step.panel.whole == self.panel for step in begins))
-            with self.board.on(self.panel, stage=begun(name, plan.words)):
+            with self.board.on(self.panel, stage=beginning_stage(name, plan.words)):
                 return self.board.begin(plan=plan, name=name)
         if anchor.slide is None:
             return self.figure(anchor.link, anchor.point)
         return self._less_coriolis(anchor.slide, anchor.link, link, anchor.point)
 
-    def _scaled(self, link: str, K: str, X: str) -> Mark:
+    def _figure_side(self, link: str, K: str, X: str) -> Mark:
         """The figure's side KX, by the semicircle on the link's first side from K or in proportion to it."""
         side = self._side(link, K) or X
         points = self.pose.points
@@ -218,12 +218,13 @@ class Normal(MotionPlan):
     def start(self, weld: DrivenPair, point: str) -> Mark:
         return self.pose.points[weld.slide.at if weld.slide else weld.at]
 
-    def prescribed(self, rates: tuple[Number, Number]) -> Number:
+    def prescribed_length(self, rates: tuple[Number, Number]) -> Number:
         return self.tempo.change(rates[1])
 
     def hop(self, weld: DrivenPair, point: str, mark: Mark, sign: int) -> Mark:
         one, two = self._gap(weld)
-        return super().hop(weld, point, self.moved(mark, one, two) if sign > 0 else self.moved(mark, two, one), sign)
+        return super().hop(weld, point, self.shift_by(mark, one, two) if sign > 0 else self.shift_by(mark, two, one),
+                           sign)
 
     def _gap(self, weld: DrivenPair) -> Vector:
         """How far the figures of a drive's two links stand apart where they meet; nowhere if one hangs on the other."""
@@ -250,7 +251,7 @@ class Normal(MotionPlan):
         link, P = self._pivot(slide.guiding, B)
         one, two = (self.net.place(B, end) for end in (known, new))
         with self.board.on(stage=partial(self.stages.coriolis, link, one, two)):
-            turning = self.velocity.about(link, P, B)
+            turning = self.velocity.relative_velocity(link, P, B)
             slip = self.velocity.slip(known, new, B)
             why = CORIOLIS(self.stages.name(*one), self.stages.name(*two))
             return self.board.coriolis(self.pose.points[P], self.pose.points[B], turning, slip, start, why=why)
@@ -285,9 +286,9 @@ class Normal(MotionPlan):
         for bar, D, G in move.bars:
             begin = self.figure(self.net.link_at(one, D), D[0])
             end = self.figure(self.net.link_at(two, G), G[0])
-            start = self.moved(self.figure(bar, G[0]), self.figure(bar, D[0]), begin)
+            start = self.shift_by(self.figure(bar, G[0]), self.figure(bar, D[0]), begin)
             origin = start if origin is None else origin
-            tip = self.moved(end, start, origin)
+            tip = self.shift_by(end, start, origin)
             side = self.board.side(self.point(D), self.point(G))
             gaps.append(self.board.perpendicular(side, tip))
         assert origin is not None
@@ -307,24 +308,24 @@ class PolarAcceleration(Normal):
     panel, ending = ACCELERATION_PLAN, "{0}'"
 
     def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
-        with board.on(self.panel, stage=begun("pi", self.panel.words, pole=True)):
+        with board.on(self.panel, stage=beginning_stage("pi", self.panel.words, pole=True)):
             self.pole = board.pole(plan=self.panel, name="pi")
         super().__init__(board, net, pose, velocity, moves)
 
-    def home(self, place: BodyPoint) -> Mark:
+    def plan_origin(self, place: BodyPoint) -> Mark:
         return self.pole
 
     def _base(self, link: str, point: str) -> str:
         return self.anchors[link].point
 
-    def _anchored(self, link: str, anchor: Anchor) -> Mark:
+    def _anchor_figure(self, link: str, anchor: Anchor) -> Mark:
         """Every link begins at the pole, but for two that a drive ties together."""
-        return super()._anchored(link, anchor) if self._tied(link, anchor.link) else self.pole
+        return super()._anchor_figure(link, anchor) if self._are_driven_together(link, anchor.link) else self.pole
 
     def _hangs(self, slide: Slide, one: str, two: str) -> bool:
-        return self._tied(one, two) and super()._hangs(slide, one, two)
+        return self._are_driven_together(one, two) and super()._hangs(slide, one, two)
 
-    def _tied(self, one: str, two: str) -> bool:
+    def _are_driven_together(self, one: str, two: str) -> bool:
         return any({weld.link, weld.to} == {one, two} for weld in self.net.welds.values())
 
     def figure_name(self, link: str, point: str) -> str:

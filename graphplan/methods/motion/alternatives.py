@@ -38,7 +38,7 @@ Choice = tuple[int, ...]  # at each place of a plan where there are several ways
 Made = Callable[[Choice], "_Alternative"]
 
 
-def ways(network: Network, method: str, draw: Draw) -> Iterator[tuple[Construction, Planner]]:
+def alternatives(network: Network, method: str, draw: Draw) -> Iterator[tuple[Construction, Planner]]:
     """The constructions by all ways, best first, each with its planner; more are sought as they are asked for.
 
     First the best way on at each ring, one ring after the other. Where its errors grow out of hand in this pose, all
@@ -55,13 +55,13 @@ def ways(network: Network, method: str, draw: Draw) -> Iterator[tuple[Constructi
 
     best = _ring_by_ring(way)
     if best.growth < WILD:
-        yield best.told(best.weighed + 1)
-    for other in _others(tried, way):
+        yield best.with_count(best.weighed + 1)
+    for other in _further_ways(tried, way):
         if other is not best and other.growth < WILD:
-            yield other.told(len({*map(id, tried.values())}))
+            yield other.with_count(len({*map(id, tried.values())}))
     found = {id(one): one for one in tried.values()}.values()
     wild = sorted((one for one in found if one.construction and one.growth >= WILD), key=_Alternative.rank(0.0))
-    yield from (one.told(len(found)) for one in wild)
+    yield from (one.with_count(len(found)) for one in wild)
     if all(one.construction is None for one in found):
         planner = Planner(network, method, general=True)  # as in other poses: it will say which lines do not meet here
         planner.plan()
@@ -82,7 +82,7 @@ def _ring_by_ring(way: Made) -> _Alternative:
     return taken
 
 
-def _others(tried: dict[Choice, _Alternative], way: Made) -> Iterator[_Alternative]:
+def _further_ways(tried: dict[Choice, _Alternative], way: Made) -> Iterator[_Alternative]:
     """Further ways, each that was drawn giving the next one like it in turn; those that were refused come last."""
     known = {id(one): one for one in tried.values()}
     waiting = deque(_neighbours(one) for one in sorted(known.values(), key=lambda one: one.construction is None))
@@ -118,7 +118,7 @@ class _Alternative:
     growth: float
     weighed: int = 0
 
-    def told(self, tried: int) -> tuple[Construction, Planner]:
+    def with_count(self, tried: int) -> tuple[Construction, Planner]:
         """The construction, which says how many ways it was weighed against, and its planner."""
         assert self.construction is not None
         among = max(self.weighed + 1, tried)
@@ -154,14 +154,14 @@ def _alternative(network: Network, method: str, choice: Choice, draw: Draw) -> _
 
 def growth(program: Program) -> float:
     """How much larger the shaking of the wanted marks is than that of each step; infinite where it cannot be drawn."""
-    return _shaking(lambda hand: _drawn(program, hand))
+    return _shaking(lambda hand: _draw_shakily(program, hand))
 
 
 def growth_of_rates(construction: Construction) -> float:
     """The same for the velocities and accelerations that are read, or where there are none for all rates, each kind
     beside its largest: the marks may lie far from the origin, and the vectors between them be short."""
     def read(kind: str, hand: Random | None) -> list[Any] | None:
-        marks = _drawn(construction.program, hand)
+        marks = _draw_shakily(construction.program, hand)
         values = construction.told(marks, Floats()).get(kind, {}).values() if marks else ()
         return [value if isinstance(value, tuple) else (value,) for value in values] if marks is not None else None
 
@@ -186,7 +186,7 @@ def _shaking(drawn: Callable[[Random | None], list[Any] | None]) -> float:
     return most / size / PERTURBATION
 
 
-def _drawn(program: Program, hand: Random | None) -> list[Any] | None:
+def _draw_shakily(program: Program, hand: Random | None) -> list[Any] | None:
     """The wanted marks, each step drawn with a shaking hand."""
     values: list[Any] = []
     for step in program.steps:

@@ -138,10 +138,10 @@ class CircleDiagram:
         for line, at in self.lines.get(sides, ()):
             yield KnownLine(line, at, self._unit(at, dual=True), PENCIL, frozenset())
         for third in self.links:
-            if third not in sides and (found := self._by(sides, third)):
+            if third not in sides and (found := self._line_of_poles(sides, third)):
                 yield found
 
-    def _by(self, sides: Sides, third: str) -> KnownLine | None:
+    def _line_of_poles(self, sides: Sides, third: str) -> KnownLine | None:
         """The line through the poles of two links with a third, if they are known and lie apart."""
         if (sides, third) not in self._through:
             P, Q = (self.found.get(self.sides(link, third)) for link in sides)

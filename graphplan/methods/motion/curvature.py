@@ -41,7 +41,7 @@ from graphplan.methods.motion.curve_stages import (
     pole_of,
 )
 from graphplan.methods.motion.plan import MotionPlan
-from graphplan.methods.motion.time_scale import apart
+from graphplan.methods.motion.time_scale import point_distance
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, link_named
 from graphplan.methods.poses import Pose
@@ -96,7 +96,7 @@ def sources(scene: Scene) -> dict[str, tuple[Source, Source]]:
     slides = {s.link if s.along == FRAME else s.along: s for s in scene.slides if FRAME in s.links and s.turns_alike}
     found, wheels = dict[str, tuple[Source, Source]](), rolling(scene)
 
-    def known(link: str) -> Iterator[Source]:
+    def known_centres(link: str) -> Iterator[Source]:
         for point in scene.links[link]:
             for other in scene.links_of[point]:
                 if other in pivots and other != link:
@@ -111,7 +111,7 @@ def sources(scene: Scene) -> dict[str, tuple[Source, Source]]:
                 yield Source("return", pivots[other], other, slide)
 
     def pair(link: str) -> tuple[Source, Source] | None:
-        ranked = sorted(known(link), key=lambda source: PREFERRED.index(source.how))
+        ranked = sorted(known_centres(link), key=lambda source: PREFERRED.index(source.how))
         return next(((one, two) for one, two in combinations(ranked, 2)
                      if scene.points[one.point] != scene.points[two.point]), None)
 
@@ -140,7 +140,7 @@ class Curves:
     # ---- a link's circle ----------------------------------------------------------------------------------------
 
     @cached_property
-    def known(self) -> dict[str, tuple[Source, Source]]:
+    def known_sources(self) -> dict[str, tuple[Source, Source]]:
         """Of each link two points with known centres; of none where the rates are asked for."""
         return sources(self.scene) if self.method != "accelerations" else {}
 
@@ -154,14 +154,14 @@ class Curves:
         if link not in self._circles:
             pivot = next((p for p in self.scene.links[link] if p in self.scene.links.get(FRAME, ())), "")
             self._circles[link] = (Circle(self.point(pivot), self.point(pivot)) if pivot else
-                                   self._first(self._ways(link)))
+                                   self._first_drawable(self._circle_methods(link)))
         return self._circles[link]
 
-    def _ways(self, link: str) -> Iterator[Callable[[], Circle]]:
+    def _circle_methods(self, link: str) -> Iterator[Callable[[], Circle]]:
         """How the circle may be drawn: from known centres, or else from the rates of two of the link's points."""
         if link in self.wheels:
             yield partial(self._by_rolling, link, self.wheels[link])
-        if link in self.known:
+        if link in self.known_sources:
             yield partial(self._by_centres, link)
         if not (pairs := self._pairs(link)):
             raise Refused(f"inflection circle of link {link}", "all points of the mechanism lie in one place",
@@ -179,11 +179,11 @@ class Curves:
     def _pairs(self, link: str) -> list[tuple[str, str]]:
         """Two points of a link's plane each: its own, those furthest apart first, then other links' in their place."""
         own = {*self.scene.links[link]}
-        found = [two for two in combinations(self.scene.points, 2) if apart(self.scene, *two)]
-        found.sort(key=lambda two: (-len(own & {*two}), -apart(self.scene, *two)))
+        found = [two for two in combinations(self.scene.points, 2) if point_distance(self.scene, *two)]
+        found.sort(key=lambda two: (-len(own & {*two}), -point_distance(self.scene, *two)))
         return found[:MOST]
 
-    def _first(self, ways: Iterator[Callable[[], Circle]]) -> Circle | None:
+    def _first_drawable(self, ways: Iterator[Callable[[], Circle]]) -> Circle | None:
         """The first of these that can be drawn in this pose."""
         for way in ways:
             with suppress(ConstructionError, Refused):
@@ -210,7 +210,7 @@ class Curves:
     def _by_centres(self, link: str) -> Circle:
         """P where the rays cross, W_0 where the perpendiculars to them in W_1 and W_2 do."""
         with self.board.on(MECHANISM, (link,), by_centres(link)):
-            two = self.known[link]
+            two = self.known_sources[link]
             with self.board.on(stage=pole_of(link)):
                 rays = [self._ray(source) for source in two]
                 P = self.board.meet(*rays, name="P")
@@ -249,7 +249,7 @@ class Curves:
         if source.how == "chain":
             circle = self.circle(source.link)
             assert circle is not None
-            return self._curved(circle, source.point)
+            return self._curvature_centre(circle, source.point)
         return self._pole(source.link) if source.how == "pin" else None
 
     def _on_the_circle(self, source: Source, centre: Mark | None, P: Mark, name: str) -> Mark:
@@ -277,7 +277,7 @@ class Curves:
         velocity = self.velocities()
         start, end = self._vector(velocity, link, X)
         if velocity.turned:
-            return velocity.moved(end, start, self.point(X))
+            return velocity.shift_by(end, start, self.point(X))
         return self.board.quarter(start, end, self.point(X))
 
     def _acceleration(self, link: str, X: str) -> Mark:
@@ -296,7 +296,7 @@ class Curves:
         for link in self.scene.find.inflection:
             self._inflection(link, read, keep)
         for name, (point, link) in self.scene.find.curvature_points.items():
-            kind, marks = self._traced(point, link)
+            kind, marks = self._path_reading(point, link)
             self.special += [SPECIAL[kind](name)] if kind in SPECIAL else []
             read(kind, name, *marks, given=None if marks else (0, 0))
 
@@ -320,14 +320,14 @@ class Curves:
                     middle = self.board.midpoint(P, opposite)
                     keep(self.board.circle(middle, self.board.opening(middle, P)))
 
-    def _traced(self, point: str, link: str) -> tuple[kinds.ResultKind, tuple[Mark, ...]]:
+    def _path_reading(self, point: str, link: str) -> tuple[kinds.ResultKind, tuple[Mark, ...]]:
         """What is read of the path of a point: of which kind, from which marks."""
         link = min(self.scene.links_of[point], key=lambda other: (self._rank(other), other != link))
         if self._rank(link) == 0:
             return kinds.CENTRE, (self.point(point), self._pole(link))
         if self._rank(link) == 1:
             return kinds.STRAIGHT, ()
-        told = link in self.known or link in self.wheels or link in self.scene.find.inflection
+        told = link in self.known_sources or link in self.wheels or link in self.scene.find.inflection
         circle = self.circle(link) if told else None
         with self.board.on(MECHANISM, (link,), partial(centre_of, point) if circle else centre_by_rates(point)):
             return self._by_circle(circle, point) if circle else self._by_normal(point, link)
@@ -337,7 +337,7 @@ class Curves:
         if FRAME in self.scene.links and {*self.scene.links[link]} & {*self.scene.links[FRAME]}:
             return 0
         sliding = any({link, FRAME} == {*slide.links} and slide.turns_alike for slide in self.scene.slides)
-        return 1 if sliding else 2 if link in self.known or link in self.wheels else 3
+        return 1 if sliding else 2 if link in self.known_sources or link in self.wheels else 3
 
     def _by_circle(self, circle: Circle, point: str) -> tuple[kinds.ResultKind, tuple[Mark, ...]]:
         """By Euler and Savary, Bobillier or Hartmann."""
@@ -347,21 +347,21 @@ class Curves:
             return kinds.CUSP, marks[:2]
         if abs(((P - M) * (W0 - M).conjugate()).real) <= EXTENT_TOL * abs(P - M) * max(abs(W0 - M), abs(P - M)):
             return kinds.STRAIGHT, marks
-        return kinds.CENTRE, (marks[1], self._curved(circle, point))
+        return kinds.CENTRE, (marks[1], self._curvature_centre(circle, point))
 
     def _by_normal(self, point: str, link: str) -> tuple[kinds.ResultKind, tuple[Mark, ...]]:
         """From velocity and normal acceleration: the radius is the third proportional to the two."""
         M, end = self.point(point), self._orthogonal(link, point)
-        if self._together(M, end) and (circle := self.circle(link)):
+        if self._coincide(M, end) and (circle := self.circle(link)):
             return kinds.CUSP, (circle.pole, M)
         N = self.board.foot(self.board.side(M, end), self._acceleration(link, point))
-        if self._together(M, N):
+        if self._coincide(M, N):
             vectors = (self._vector(plan, link, point) for plan in (self.velocities(), self.accelerations()))
             return kinds.STRAIGHT, (M, *chain.from_iterable(vectors))
         self.ways |= {BY_RATES: None}
         return kinds.CENTRE, (M, self.board.third(M, N, M, end, name=centre_name(point)))
 
-    def _curved(self, circle: Circle, point: str) -> Mark:
+    def _curvature_centre(self, circle: Circle, point: str) -> Mark:
         """The centre of curvature of a point's path, from its link's circle or from two points with known centres."""
         M, name = self.point(point), centre_name(point)
         if circle.pins and (not circle.shown or self.method in ("bobillier", "hartmann")):
@@ -369,7 +369,7 @@ class Curves:
             return self.board.conjugate(circle.pole, *circle.pins, M, name=name, names=letters)
         return self.board.curved(circle.pole, M, circle.inflection, name=name, names={"W": "W", "Q": "Q"})
 
-    def _together(self, *two: Mark) -> bool:
+    def _coincide(self, *two: Mark) -> bool:
         """Whether two marks fall on one place in this pose; not where they cannot be drawn there."""
         try:
             return math.dist(*self.values(*two)) <= EXTENT_TOL * self.scene.extent

@@ -25,7 +25,7 @@ from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.motion import moves
 from graphplan.methods.motion.moves import Locus, Move
 from graphplan.methods.motion.network import BodyPoint, Network
-from graphplan.methods.motion.residues import Image, Two, less, parallel, product, quarter, residues
+from graphplan.methods.motion.residues import Image, Two, difference, parallel, product, quarter, residues
 
 Fact = Two | None  # the normal of a locus; nothing where the end itself is known
 ANYWHERE: Two = (1939, 1974)  # the normal of what no line is drawn of, such as an assumption: like none of the pose
@@ -101,15 +101,15 @@ class Facts:
         self._tell(place)
 
     def _tell(self, place: BodyPoint) -> None:
-        for body in self._at(place):
+        for body in self._bodies_at(place):
             self._queue(body, *self.net.slides_of.get(body, ()))
 
-    def _at(self, place: BodyPoint) -> list[str]:
+    def _bodies_at(self, place: BodyPoint) -> list[str]:
         if place not in self.bodies:
             self.bodies[place] = self.net.bodies_at(place)
         return self.bodies[place]
 
-    def _heard(self, place: BodyPoint, body: str) -> int:
+    def _count_from_others(self, place: BodyPoint, body: str) -> int:
         """How many independent facts a place knows that this body did not tell it."""
         facts = [fact for source, fact in self.facts.get(place, {}).items() if source != body]
         if None in facts or any(_cross(one, two) for one, two in combinations(facts, 2)):
@@ -120,10 +120,10 @@ class Facts:
         """Where a place lies in the pose."""
         point = place[0]
         if point not in self.spots:
-            self.spots[point] = self._posed(self.net.scene.points[point])
+            self.spots[point] = self._direction_of(self.net.scene.points[point])
         return self.spots[point]
 
-    def _posed(self, pair: Pair) -> Two:
+    def _direction_of(self, pair: Pair) -> Two:
         """A point or direction of the pose, or in general position any other."""
         return residues(pair) if self.chance is None else (self.chance.randrange(PRIME), self.chance.randrange(PRIME))
 
@@ -148,11 +148,11 @@ class Facts:
         assert normal is not None
         return normal
 
-    def _carried(self, A: Locus, B: Locus, X: BodyPoint) -> Two:
+    def _carried_normal(self, A: Locus, B: Locus, X: BodyPoint) -> Two:
         """The normal of the locus that two loci give a third place; nothing where their crossing tells its end."""
         one, two = self._normal(A), self._normal(B)
-        p = product(one, less(self._spot(A[0]), self._spot(X)))
-        q = product(two, less(self._spot(B[0]), self._spot(X)))
+        p = product(one, difference(self._spot(A[0]), self._spot(X)))
+        q = product(two, difference(self._spot(B[0]), self._spot(X)))
         return (q * one[0] - p * two[0]) % PRIME, (q * one[1] - p * two[1]) % PRIME
 
     def _like(self, body: str) -> str:
@@ -179,10 +179,10 @@ class Facts:
 
     def _excess(self, body: str) -> int:
         """How many facts of a body follow from its others."""
-        heard = sum(self._heard(place, body) for place in self.places[body]) + bool(self._like(body))
+        heard = sum(self._count_from_others(place, body) for place in self.places[body]) + bool(self._like(body))
         return heard - self._count(body)
 
-    def _known(self, body: str) -> bool:
+    def _is_known(self, body: str) -> bool:
         return body == self.net.ground or body in self.retired or self._count(body) >= 3
 
     def _through_body(self, body: str) -> None:
@@ -191,14 +191,15 @@ class Facts:
         for place in list(self.places[body]):
             if place not in self.drawn:
                 rest = self._count(body, place)
-                here = max((self._heard(other, body) for other in self._together(body, place)), default=0)
+                here = max((self._count_from_others(other, body) for other in self._places_with(body, place)),
+                           default=0)
                 rank = 2 if rest >= 3 or here == 2 else 1 if rest == 2 or here == 1 else 0
                 if rank > self.told.get((body, place), 0):
                     self._emit(body, place, rank)
         if count >= 3:
             self._turning_known(body)
 
-    def _together(self, body: str, X: BodyPoint) -> list[BodyPoint]:
+    def _places_with(self, body: str, X: BodyPoint) -> list[BodyPoint]:
         """The other places of a body that lie in one spot with X: they move alike, however the body turns."""
         spot = self.net.spot(X[0])
         return [place for place in self.places[body] if place != X and self.net.spot(place[0]) == spot]
@@ -216,7 +217,7 @@ class Facts:
         if figure:
             self._tell_fact(body, X, [figure], None)
         elif not self.told.get((body, X)):  # known wholly, maybe, but no end is drawn yet to begin a figure at
-            whole = self._settle(body, X) or self._beside(body, X)
+            whole = self._settle(body, X) or self._similar_figure(body, X)
             line = self._line(body, X, self._locus_of(X, body) if whole else None)
             if line and whole:  # the locus is for others, who may ask for it; pruned if nobody does
                 self._tell_fact(body, X, [line[0], whole], line[1], marked=True)
@@ -233,32 +234,32 @@ class Facts:
         self.told[body, X] = 2 if fact is None else 1
         self._file(X, body, fact, marked=marked)
 
-    def _swung(self, K: BodyPoint, X: BodyPoint) -> Two:
+    def _circle_normal(self, K: BodyPoint, X: BodyPoint) -> Two:
         """The normal of the locus that a body gives X about K."""
-        return quarter(less(self._spot(X), self._spot(K)))
+        return quarter(difference(self._spot(X), self._spot(K)))
 
     def _line(self, body: str, X: BodyPoint, own: Locus | None) -> tuple[Move, Two] | None:
         """One fact for X, and its normal: from an end, from a locus and the turning, or from two loci of the body.
 
         Where X has an own locus by which the body is known, a line that is parallel to it is no news: better another.
         """
-        here = next(filter(None, (self._locus_of(place, body) for place in self._together(body, X))), None)
+        here = next(filter(None, (self._locus_of(place, body) for place in self._places_with(body, X))), None)
         if here:
             return moves.Slip(body, here, X, ""), self._normal(here)
         known, loci, like = self._ends(body, X), list(self._loci(body, X)), self._like(body)
-        K = max(known, key=lambda place: self._heard(place, body), default=None)
-        if K and not (own and parallel(self._normal(own), self._swung(K, X))):
-            return moves.Swing(body, K, X), self._swung(K, X)
+        K = max(known, key=lambda place: self._count_from_others(place, body), default=None)
+        if K and not (own and parallel(self._normal(own), self._circle_normal(K, X))):
+            return moves.Swing(body, K, X), self._circle_normal(K, X)
         if loci and like:
             return moves.Slip(body, loci[0], X, like), self._normal(loci[0])
-        if len(loci) > 1 and any(normal := self._carried(loci[0], loci[1], X)):
+        if len(loci) > 1 and any(normal := self._carried_normal(loci[0], loci[1], X)):
             return moves.Carry(body, loci[0], loci[1], X), normal
-        return (moves.Swing(body, K, X), self._swung(K, X)) if K else None
+        return (moves.Swing(body, K, X), self._circle_normal(K, X)) if K else None
 
     def _auxiliary(self, body: str, X: BodyPoint) -> moves.Auxiliary | None:
         """The end of X where it is itself the auxiliary point of two loci."""
         match list(self._loci(body, X)):
-            case [A, B, *_] if _cross(self._normal(A), self._normal(B)) and not any(self._carried(A, B, X)):
+            case [A, B, *_] if _cross(self._normal(A), self._normal(B)) and not any(self._carried_normal(A, B, X)):
                 return moves.Auxiliary(body, A, B, X)
         return None
 
@@ -271,7 +272,7 @@ class Facts:
         K = known[0]
         return moves.Settle(body, K, own, next(locus for locus in loci if locus[0] != K))
 
-    def _beside(self, body: str, X: BodyPoint) -> moves.SimilarFigure | None:
+    def _similar_figure(self, body: str, X: BodyPoint) -> moves.SimilarFigure | None:
         """The end of X, which has a locus of its own, from an end in its spot, or from another and the turning."""
         return next(chain(self._by_one(body, X), self._by_turning(body, X)), None) if self.facts.get(X) else None
 
@@ -281,7 +282,7 @@ class Facts:
 
     def _by_one(self, body: str, X: BodyPoint) -> Iterator[moves.SimilarFigure]:
         """The end of X by one that is drawn in the same spot."""
-        return (moves.SimilarFigure(body, K, X) for K in self._together(body, X) if K in self.drawn)
+        return (moves.SimilarFigure(body, K, X) for K in self._places_with(body, X) if K in self.drawn)
 
     def _by_turning(self, body: str, X: BodyPoint) -> Iterator[moves.SimilarFigure]:
         """The end of X by another and the turning of the body."""
@@ -293,7 +294,7 @@ class Facts:
         return (moves.SimilarFigure(body, K, X, R=R) for K, R in combinations(self._ends(body, X), 2)
                 if self.net.spot(K[0]) != self.net.spot(R[0]))
 
-    def _crossed(self, body: str, X: BodyPoint) -> tuple[list[Move], moves.Meet] | None:
+    def _meet_of_loci(self, body: str, X: BodyPoint) -> tuple[list[Move], moves.Meet] | None:
         """The end of X from loci elsewhere in the body: two of them and its turning, or three; None of fewer."""
         loci = [self._locus_of(place, body) for place in self.places[body]]
         spot, like = self.net.spot(X[0]), self._like(body)
@@ -305,7 +306,7 @@ class Facts:
                 (moves.Slip(body, A, X, like), self._normal(A)) for A in given)
         else:
             apart = combinations(self._loci(body, X), 2)
-            ways = ((moves.Carry(body, A, B, X), self._carried(A, B, X)) for A, B in apart)
+            ways = ((moves.Carry(body, A, B, X), self._carried_normal(A, B, X)) for A, B in apart)
         for move, normal in ways:
             if any(normal) and (not found or _cross(normal, next(iter(found.values())))):
                 name = f"{body} again" if found else f"{body} once"
@@ -329,38 +330,38 @@ class Facts:
     def _through_slide(self, slide: Slide) -> None:
         """A known end in one link's plane gives the other link one locus, once."""
         for known, new in ((slide.link, slide.along), (slide.along, slide.link)):
-            if known in self.net.passive or slide.name in self.net.unguided:
+            if known in self.net.passive or slide.name in self.net.silent_slides:
                 continue
-            if slide.name not in self.passed and (point := self._seen(slide, known, new)):
+            if slide.name not in self.passed and (point := self._guide_point(slide, known, new)):
                 target = self.net.place(point, new)
                 self.passed.add(slide.name)
                 self._add_place(self.net.body[new], target)
                 rolls = isinstance(slide, RollingGuide)
                 kind = moves.Guide if not rolls else moves.Common if self.common else moves.Roll
                 self.moves.append(kind(slide, point, known, new))
-                self._file(target, slide.name, None if kind is moves.Common else self._across(slide))
+                self._file(target, slide.name, None if kind is moves.Common else self._slide_normal(slide))
 
-    def _across(self, slide: Slide) -> Two:
+    def _slide_normal(self, slide: Slide) -> Two:
         """The normal of the locus that a slide gives: its direction; that of a line of centres follows from these."""
         if isinstance(slide, RollingGuide) and slide.through:
             one, two = (self._spot((centre, "")) for centre in slide.through)
-            return less(two, one)
-        return self._posed(slide.direction)
+            return difference(two, one)
+        return self._direction_of(slide.direction)
 
-    def _seen(self, slide: Slide, known: str, new: str) -> str:
+    def _guide_point(self, slide: Slide, known: str, new: str) -> str:
         """A point whose end is known in the plane of `known`, not by this slide: any, if its links turn alike."""
         own, at = self.net.place(slide.at, known), self.net.name(slide.at)
         if self.net.body[new] == self.net.ground:
             return ""
         if not slide.turns_alike:
             at_rest = self.net.body[known] == self.net.ground
-            return at if at_rest or (own in self.drawn and self._heard(own, slide.name) == 2) else ""
+            return at if at_rest or (own in self.drawn and self._count_from_others(own, slide.name) == 2) else ""
         if self.net.body[known] == self.net.ground:
             points = self.net.links[new]
             joints = [p for p in points if len(self.net.links_of[p]) > 1]
             return at if at in points else (joints or list(points) or [slide.at])[0]
         for place in self.places[self.net.body[known]]:
-            if place in self.drawn and self._heard(place, slide.name) == 2 and self.net.has(known, place):
+            if place in self.drawn and self._count_from_others(place, slide.name) == 2 and self.net.has(known, place):
                 return place[0]
         return ""
 

@@ -63,7 +63,7 @@ class Turnings:
         self._beside.setdefault(link, []).append((other, more))
         self._beside.setdefault(other, []).append((link, AngularRates(-more.omega, -more.alpha)))
 
-    def alike(self, link: str) -> dict[str, AngularRates]:
+    def links_turning_with(self, link: str) -> dict[str, AngularRates]:
         """The links whose turning differs from this one's by given rates, and by how much this link exceeds each."""
         if link not in self._found:
             found = self._found[link] = {link: AngularRates(0, 0)}
@@ -75,9 +75,9 @@ class Turnings:
                         waiting.append(other)
         return self._found[link]
 
-    def given(self, link: str) -> AngularRates | None:
+    def prescribed_rates(self, link: str) -> AngularRates | None:
         """The rates that the drives prescribe for a link: by how much it exceeds the frame."""
-        return self.alike(link).get(FRAME)
+        return self.links_turning_with(link).get(FRAME)
 
 
 class Network:
@@ -127,7 +127,7 @@ class Network:
             first: dict[str, str] = {}
             for point in (p for p in points if p not in self.wandering):
                 _unite(names, first.setdefault(self.spot(point), point), point)
-        return {point: _followed(names, point) for point in names}
+        return {point: _root_name(names, point) for point in names}
 
     def name(self, point: str) -> str:
         """The name under which a point is known here."""
@@ -146,12 +146,12 @@ class Network:
         return True
 
     @property
-    def shared(self) -> dict[str, str]:
+    def shared_marks(self) -> dict[str, str]:
         """The points that another's mark serves, each with that point: they lie in one place."""
         pairs = dict(self.names)
         for (at, _), name in self.coincident.items():
             _unite(pairs, at, name)
-        return {point: _followed(pairs, point) for point in pairs}
+        return {point: _root_name(pairs, point) for point in pairs}
 
     def _coincident_points(self) -> dict[tuple[str, str], str]:
         """Points of a guide's link that mark the place under a sliding point: A3 on link 3 under A, or under A2 on 2.
@@ -207,8 +207,8 @@ class Network:
         top: dict[str, str] = {}
         alike = (s.links for s in ordered_slides(self.scene) if s.turns_alike)
         for one, two in [*alike, *(drive.links for drive in self.turning)]:
-            _unite(top, *sorted(_followed(top, self.body[link]) for link in (one, two)))
-        return {body: _followed(top, body) for body in self.members}
+            _unite(top, *sorted(_root_name(top, self.body[link]) for link in (one, two)))
+        return {body: _root_name(top, body) for body in self.members}
 
     def told_by(self, source: str) -> list[str]:
         """The links of the slide or body that is the source of a fact."""
@@ -220,7 +220,7 @@ class Network:
         given = (one for link in links for one in (self.bars[link].links if link in self.bars else (link,)))
         return tuple(dict.fromkeys(link for link in given if link != FRAME))
 
-    def still(self, link: str) -> bool:
+    def never_turns(self, link: str) -> bool:
         """Whether a link is known never to turn: it slides on the frame, or on what slides there."""
         body = self.body[link]
         if not self.ground or self.classes[body] != self.classes[self.ground] or link in self.welds:
@@ -229,7 +229,7 @@ class Network:
 
     def turns(self, slide: Slide) -> bool:
         """Whether the guide of a slide turns, so that what slides on it has a Coriolis acceleration."""
-        return bool(slide.guiding) and not any(link == FRAME or self.still(link) for link in slide.guiding)
+        return bool(slide.guiding) and not any(link == FRAME or self.never_turns(link) for link in slide.guiding)
 
     def place(self, point: str, link: str) -> BodyPoint:
         """The place of a point in a link's plane."""
@@ -260,7 +260,7 @@ class Network:
         return frozenset((self.body[link], (point, "")) for link, point in lost | idle)
 
     @cached_property
-    def unguided(self) -> frozenset[str]:
+    def silent_slides(self) -> frozenset[str]:
         """The slides that say nothing new of where their links move."""
         return frozenset(c.pair for c in self.scene.redundant if c.way == "across")
 
@@ -269,13 +269,13 @@ class Network:
         """The links that pass nothing on: their pairs and drives, but for what is redundant, only say how they move."""
         redundant = [(c.link,) if c.way in ("x", "y") else (c.link, c.on) for c in self.scene.redundant]
 
-        def stated(link: str) -> int:
+        def count_statements(link: str) -> int:
             joints = sum(len(self.scene.links_of[p]) > 1 or p in self.scene.motions for p in self.links[link])
             others = sum(pair.binds for pair in self.scene.written if link in pair.links)
             return 2 * joints + others - sum(link in pair for pair in redundant)
 
         touched = {link for pair in redundant for link in pair} - {FRAME}
-        return frozenset(link for link in touched if stated(link) <= 3)
+        return frozenset(link for link in touched if count_statements(link) <= 3)
 
     def places_of(self, body: str) -> list[BodyPoint]:
         """The places of the body's own points, joints first."""
@@ -292,10 +292,10 @@ class Network:
 
     def excess(self, body: str, like: str) -> AngularRates:
         """By how much the turning of one body's top link exceeds another's, as the drives prescribe."""
-        return self.turnings.alike(body)[like]
+        return self.turnings.links_turning_with(body)[like]
 
 
-def _followed(names: dict[str, str], name: str) -> str:
+def _root_name(names: dict[str, str], name: str) -> str:
     """The name under which all that go by it are known."""
     while name in names:
         name = names[name]
@@ -304,6 +304,6 @@ def _followed(names: dict[str, str], name: str) -> str:
 
 def _unite(names: dict[str, str], one: str, two: str) -> None:
     """Know two, and all that go by their names, under the name of the first."""
-    one, two = _followed(names, one), _followed(names, two)
+    one, two = _root_name(names, one), _root_name(names, two)
     if one != two:
         names[two] = one

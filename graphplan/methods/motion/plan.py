@@ -3,10 +3,9 @@
 Velocities and accelerations are one linear problem. On each plan the ends of a link's vectors are the image of the
 link, with parallel sides or a quarter turned (`turn`). What differs is where a point's vector begins:
 
-- `home(place)` is the mark from which the place's vector is laid off;
-- `figure(link, X)` is the mark where X stands in the link's own figure: a joint's two links have it apart where a ring
-  of links does not close on the plan. Between home and figure all marks shift by that vector.
-
+- `plan_origin(place)` is the mark from which the place's vector is laid off;
+- `figure(link, X)` is where X stands in the link's own figure: a joint's two links have it apart where a ring of links
+  does not close on the plan. Between the two all marks shift by that vector.
 Plans: orthogonal velocities on the mechanism plan, relative normal accelerations, and the two polar plans.
 """
 
@@ -23,7 +22,7 @@ from graphplan.mechanism.model import Number, Slide
 from graphplan.methods.motion import moves
 from graphplan.methods.motion.moves import Locus, Move
 from graphplan.methods.motion.network import POLE, BodyPoint, DrivenPair, Network
-from graphplan.methods.motion.shifts import shifted, start_on
+from graphplan.methods.motion.shifts import shift_mark, start_on
 from graphplan.methods.motion.stages import MotionStages, Words, auxiliary
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.poses import Pose
@@ -59,7 +58,7 @@ class MotionPlan:
 
     # ---- what a plan says of itself -------------------------------------------------------------------------
 
-    def home(self, place: BodyPoint) -> Mark:
+    def plan_origin(self, place: BodyPoint) -> Mark:
         raise NotImplementedError
 
     def figure(self, link: str, point: str) -> Mark:
@@ -69,13 +68,13 @@ class MotionPlan:
         """Where the vector of a point of the frame ends, in the figure of a link that the drive ties to the frame."""
         raise NotImplementedError
 
-    def prescribed(self, rates: tuple[Number, Number]) -> Number:
+    def prescribed_length(self, rates: tuple[Number, Number]) -> Number:
         """What is drawn of a prescribed velocity and acceleration: one of them, in the scale of the plan."""
         raise NotImplementedError
 
     def hop(self, weld: DrivenPair, point: str, mark: Mark, sign: int) -> Mark:
         """The end of a point in the plane of `weld.link` from its end in that of `weld.to` (sign 1), or back (-1)."""
-        X, much = self.pose.points[point], sign * weld.sign * self.prescribed(weld.drive.rates)
+        X, much = self.pose.points[point], sign * weld.sign * self.prescribed_length(weld.drive.rates)
         if weld.slide is None:
             A = self.pose.points[weld.at]
             if A is X or not much:
@@ -83,34 +82,34 @@ class MotionPlan:
             return A if self.turned and much == 1 and mark is X else self._step((A, X), mark, much)
         line = self.pose.guide(weld.slide, run=True)
         line = self.board.perpendicular(line, X) if self.across else line
-        return self.board.lay_along(line, mark, length=much, quantity=self.words.given()) if much else mark
+        return self.board.lay_along(line, mark, length=much, quantity=self.words.given_vector()) if much else mark
 
     def _step(self, base: Vector, at: Mark, ratio: Number) -> Mark:
         """`at` moved by the image of a vector of a link that turns so much."""
         draw, times = (self.board.step_off, -ratio) if self.turned else (self.board.step_across, ratio)
-        return draw(*base, at, ratio=times, quantity=self.words.turned(*(mark.step.name for mark in base)))
+        return draw(*base, at, ratio=times, quantity=self.words.turning_part(*(mark.step.name for mark in base)))
 
     def seat(self, slide: Slide, known: str, new: str, point: str) -> Mark:
         """Where the vector of the guide's coincident point begins, for use in the other link's figure."""
         raise NotImplementedError
 
-    def seeded(self, place: BodyPoint) -> Mark:
+    def draw_given_point(self, place: BodyPoint) -> Mark:
         """The end of a point whose motion the scene gives."""
-        motion, home = self.pose.scene.motions[place[0]], self.home(place)
-        dx, dy = map(self.prescribed, zip(motion.velocity, motion.acceleration, strict=True))
+        motion, home = self.pose.scene.motions[place[0]], self.plan_origin(place)
+        dx, dy = map(self.prescribed_length, zip(motion.velocity, motion.acceleration, strict=True))
         dx, dy = (-dy, dx) if self.turned else (dx, dy)
-        given = self.words.given(self.stages.vector(self.words.symbol, place).name, turned=self.turned)
+        given = self.words.given_vector(self.stages.vector(self.words.symbol, place).name, turned=self.turned)
         return self.board.lay_off(home, dx=dx, dy=dy, quantity=given) if dx or dy else home
 
     def turned_by(self, body: str, like: str, base: Vector, at: Mark) -> Mark:
         """`at` moved by what the turning of `body` exceeds that of `like` on the vector `base`."""
-        ratio = self.prescribed(self.net.excess(body, like))
+        ratio = self.prescribed_length(self.net.excess(body, like))
         return self._step(base, at, ratio) if ratio else at
 
     def far_from(self, place: BodyPoint) -> Mark:
         """A mark away from the home of a place, to take the size of a trial from: as far as the place is from another
         point of its link."""
-        far, home = self.pose.far_from(place), self.home(place)
+        far, home = self.pose.far_from(place), self.plan_origin(place)
         return far if far.panel == home.panel else self.board.transfer(self.point(place), far, home)
 
     def pole_shift(self, move: moves.Pole) -> Vector | None:
@@ -126,7 +125,7 @@ class MotionPlan:
     # ---- drawing moves --------------------------------------------------------------------------------------
 
     def draw(self, planned: Iterable[Move]) -> None:
-        for group in self.stages.grouped(planned):
+        for group in self.stages.group_moves(planned):
             stage = partial(self.stages.tell, group, self.prime, self.stages.place(group[-1]) in self._located)
             for move in group:
                 with self.board.on(self.panel, self._links(move), stage):
@@ -138,9 +137,9 @@ class MotionPlan:
     def _draw(self, move: Move) -> None:
         match move:
             case moves.Rest(place):
-                self._end(place, self._rest(place))
+                self._end(place, self._resting_end(place))
             case moves.Seed(place):
-                self._end(place, self.seeded(place))
+                self._end(place, self.draw_given_point(place))
             case moves.Swing(body, K, X, source):
                 through = self._outward(body, X, self._inward(body, K, self.ends[K]))
                 side = self.pose.side(K[0], X[0])
@@ -149,20 +148,21 @@ class MotionPlan:
                 fixed = FIXED(self.end_name(X), named, self.pose.letter_of_point(K[0])) if line is side else None
                 self._locus((X, source or body), line, move, fixed)
             case moves.Slip(body, A, X, like, source):
-                self._locus((X, source or body), self._slipped(body, A, X, like), move)
+                self._locus((X, source or body), self._shift_locus(body, A, X, like), move)
             case moves.Carry(body, A, B, X, source):
                 ends = [self.point(A[0]), self._locus_in(body, A), self.point(B[0]), self._locus_in(body, B)]
                 line = self.board.carry(*ends, self.point(X), turn=self.turn, names=self._letters(body, A, B, X))
                 self._locus((X, source or body), self._outward(body, X, line), move)
             case moves.Settle(body, K, X, B):
-                self._end(X[0], self._outward(body, X[0], self._settled(body, K, X, B)), move)
+                self._end(X[0], self._outward(body, X[0], self._settle_trials(body, K, X, B)), move)
             case moves.SimilarFigure(body, K, X, R, like, copy):
                 self._end(copy or X, self.drawn_figure(body, K, X, R, like), move)
             case moves.Guide(slide, point, known, new):
                 self._guide(slide, point, known, new, move)
             case moves.Common(point=point, known=known, new=new):
                 place = self.net.place(point, new)
-                self._end(place, self.moved(self.end_in(known, point), self.figure(new, point), self.home(place)))
+                end = self.end_in(known, point)
+                self._end(place, self.shift_by(end, self.figure(new, point), self.plan_origin(place)))
             case moves.Meet(place, (one, two), copy):
                 self._end(copy or place, self.board.meet(self.loci[place, one], self.loci[place, two]), move)
             case moves.Auxiliary(body, A, B, place):
@@ -210,43 +210,43 @@ class MotionPlan:
         """The place on the mechanism plan."""
         return self.pose.points[place[0]]
 
-    # ---- between home and figure ----------------------------------------------------------------------------
+    # ---- between origin and figure --------------------------------------------------------------------------
 
     def _inward(self, body: str, place: BodyPoint, mark: Mark) -> Mark:
         """A mark at a place's home, shifted into the figure of the body's top link."""
         if place[1] == POLE:
             vector = self.pole_vectors.get((place, body))
-            return mark if vector is None else self.moved(mark, *vector)
+            return mark if vector is None else self.shift_by(mark, *vector)
         link = self.net.link_at(body, place)
-        mark = self.moved(mark, self.home(place), self.figure(link, place[0]))
+        mark = self.shift_by(mark, self.plan_origin(place), self.figure(link, place[0]))
         for weld in self.net.chain(link):
-            mark = self._hopped(weld, place[0], mark, -1)
+            mark = self._hop_over(weld, place[0], mark, -1)
         return mark
 
     def _outward(self, body: str, place: BodyPoint, mark: Mark) -> Mark:
         """A mark in the figure of the body's top link, shifted to the place's home."""
         if place[1] == POLE:
             vector = self.pole_vectors.get((place, body))
-            return mark if vector is None else self.moved(mark, vector[1], vector[0])
+            return mark if vector is None else self.shift_by(mark, vector[1], vector[0])
         link = self.net.link_at(body, place)
-        mark = self._down(link, place[0], mark)
-        return self.moved(mark, self.figure(link, place[0]), self.home(place))
+        mark = self._carry_down(link, place[0], mark)
+        return self.shift_by(mark, self.figure(link, place[0]), self.plan_origin(place))
 
-    def _down(self, link: str, point: str, mark: Mark) -> Mark:
+    def _carry_down(self, link: str, point: str, mark: Mark) -> Mark:
         """From the top link of a body down to one of its links."""
         for weld in reversed(self.net.chain(link)):
-            mark = self._hopped(weld, point, mark, 1)
+            mark = self._hop_over(weld, point, mark, 1)
         return mark
 
-    def _hopped(self, weld: DrivenPair, point: str, mark: Mark, sign: int) -> Mark:
+    def _hop_over(self, weld: DrivenPair, point: str, mark: Mark, sign: int) -> Mark:
         if mark.kind == POINT:
             return self.hop(weld, point, mark, sign)
         start = start_on(self.board, mark, self.pose.points[point])
-        return self.moved(mark, start, self.hop(weld, point, start, sign))
+        return self.shift_by(mark, start, self.hop(weld, point, start, sign))
 
-    def moved(self, mark: Mark, one: Mark, two: Mark) -> Mark:
+    def shift_by(self, mark: Mark, one: Mark, two: Mark) -> Mark:
         """A point or line shifted by the vector from one mark to another."""
-        return shifted(self.board, mark, one, two)
+        return shift_mark(self.board, mark, one, two)
 
     def _locus_in(self, body: str, locus: Locus) -> Mark:
         return self._inward(body, locus[0], self.loci[locus])
@@ -255,31 +255,31 @@ class MotionPlan:
         """The end of a point in a link's own figure, drawn from the link's known ends if need be."""
         place, body = self.net.place(point, link), self.net.body[link]
         if place in self.ends:
-            return self.moved(self.ends[place], self.home(place), self.figure(link, place[0]))
+            return self.shift_by(self.ends[place], self.plan_origin(place), self.figure(link, place[0]))
         if body == self.net.ground:
-            return self._welded(link, point)
-        return self._down(link, point, self._image(body, place))
+            return self._driven_end(link, point)
+        return self._carry_down(link, point, self._image(body, place))
 
-    def _welded(self, link: str, point: str) -> Mark:
+    def _driven_end(self, link: str, point: str) -> Mark:
         """The end of a point of the frame, or of a link that drives tie to it."""
         chain = self.net.chain(link)
-        return self._down(link, point, self.start(chain[-1], point) if chain else self.figure(link, point))
+        return self._carry_down(link, point, self.start(chain[-1], point) if chain else self.figure(link, point))
 
-    def _rest(self, place: BodyPoint) -> Mark:
+    def _resting_end(self, place: BodyPoint) -> Mark:
         link = self.net.link_at(self.net.ground, place)
-        mark = self._welded(link, place[0])
-        return self.moved(mark, self.figure(link, place[0]), self.home(place))
+        mark = self._driven_end(link, place[0])
+        return self.shift_by(mark, self.figure(link, place[0]), self.plan_origin(place))
 
     def _image(self, body: str, place: BodyPoint) -> Mark:
         """The end of a place in the figure of the body's top link, by two known ends or one and the turning."""
         known = [p for p in self.known[body] if p != place]
         here = next((p for p in known if self.net.spot(p[0]) == self.net.spot(place[0])), None)
         if here:
-            return self._figured(body, here, place, None, "")
+            return self._draw_similar(body, here, place, None, "")
         if len(known) > 1:
-            return self._figured(body, known[0], place, known[1], "")
+            return self._draw_similar(body, known[0], place, known[1], "")
         partner = self._partner(body)
-        return self._figured(body, known[0], place, None, partner)
+        return self._draw_similar(body, known[0], place, None, partner)
 
     def _partner(self, body: str) -> str:
         """A body that turns alike and has two known ends, or the frame's."""
@@ -290,11 +290,11 @@ class MotionPlan:
 
     # ---- the single moves -----------------------------------------------------------------------------------
 
-    def _slipped(self, body: str, A: Locus, X: BodyPoint, like: str) -> Mark:
+    def _shift_locus(self, body: str, A: Locus, X: BodyPoint, like: str) -> Mark:
         """A's locus moved along by the known vector from A's end to X's."""
         locus = self._locus_in(body, A)
         start = start_on(self.board, locus, self.point(A[0]))
-        line = self.moved(locus, start, self._as_turned(body, like, A[0], X, start))
+        line = self.shift_by(locus, start, self._as_turned(body, like, A[0], X, start))
         return self._outward(body, X, line)
 
     def _as_turned(self, body: str, like: str, A: BodyPoint, X: BodyPoint, at: Mark) -> Mark:
@@ -305,7 +305,7 @@ class MotionPlan:
         if like == self.net.ground:
             mark = self.at_rest(base, at)
         elif (same := self._same_side(like, base)) is not None:
-            mark = self.moved(at, *same)
+            mark = self.shift_by(at, *same)
         else:
             K, R = self.known[like][:2]
             ends = self._inward(like, K, self.ends[K]), self._inward(like, R, self.ends[R])
@@ -327,12 +327,12 @@ class MotionPlan:
             return at
         return base[1] if at is base[0] else self.board.transfer(*base, at)
 
-    def _settled(self, body: str, K: BodyPoint, X: Locus, B: Locus) -> Mark:
+    def _settle_trials(self, body: str, K: BodyPoint, X: Locus, B: Locus) -> Mark:
         known = self.point(K), self._inward(body, K, self.ends[K])
         one, two = self._locus_in(body, X), self._locus_in(body, B)
         return self.board.settle(*known, self.point(X[0]), one, self.point(B[0]), two, turn=self.turn)
 
-    def _figured(self, body: str, K: BodyPoint, X: BodyPoint, R: BodyPoint | None, like: str) -> Mark:
+    def _draw_similar(self, body: str, K: BodyPoint, X: BodyPoint, R: BodyPoint | None, like: str) -> Mark:
         at = self._inward(body, K, self.ends[K])
         if R is None:
             return self._as_turned(body, like, K, X, at)
@@ -342,13 +342,13 @@ class MotionPlan:
 
     def drawn_figure(self, body: str, K: BodyPoint, X: BodyPoint, R: BodyPoint | None, like: str) -> Mark:
         """The end of X at its home, by the figure of its body."""
-        return self._outward(body, X, self._figured(body, K, X, R, like))
+        return self._outward(body, X, self._draw_similar(body, K, X, R, like))
 
     def _guide(self, slide: Slide, point: str, known: str, new: str, move: Move) -> None:
         place = self.net.place(point, new)
         own = self.figure(new, place[0])
-        through = self.moved(self.end_in(known, point), self.seat(slide, known, new, point), own)
-        through = self.moved(through, own, self.home(place))
+        through = self.shift_by(self.end_in(known, point), self.seat(slide, known, new, point), own)
+        through = self.shift_by(through, own, self.plan_origin(place))
         side = self.board.perpendicular if self.across else self.board.parallel
         self._locus((place, slide.name), side(self.pose.guide(slide), through), move)
 
@@ -387,7 +387,7 @@ class MotionPlan:
             for name, drawn in before.items():
                 setattr(self, name, copy(drawn))  # nothing of another trial serves
             self.prime = outer + prime
-            start = self.board.pick(locus, self.home(place), self.far_from(place), ratio=ratio)
+            start = self.board.pick(locus, self.plan_origin(place), self.far_from(place), ratio=ratio)
             self._know(place, self.board.give_name(start, self.end_name(place) + self.prime))
             self.draw(move.moves)
             trials += [start, self.ends[move.end], self.loci[move.locus]]

@@ -63,18 +63,18 @@ class Planner(Facts):
             self._travel()
             if self._begin():
                 continue
-            loose = [body for body in self.places if not self._known(body)]
+            loose = [body for body in self.places if not self._is_known(body)]
             if not loose and not self.open:
                 return self.moves
             if not self._break(loose):
-                stuck = loose or [body for (place, _), _ in self.open for body in self._at(place)]
+                stuck = loose or [body for (place, _), _ in self.open for body in self._bodies_at(place)]
                 raise Refused(f"links {', '.join(stuck)}", "no known construction determines them",
                               "check the drives, or ask for points of other links")
 
     def _centre(self, body: str, spot: Pair) -> None:
         """Take the pole of a body for a point of it that is at rest, as a pin on the frame is."""
         place = (f"pole of {body}", FRAME)
-        self.spots[place[0]] = self._posed(spot)
+        self.spots[place[0]] = self._direction_of(spot)
         self._add_place(body, place)
         self.bodies[place] = [body]
         self.moves.append(moves.Centre(body, place))
@@ -95,10 +95,10 @@ class Planner(Facts):
             ways += [partial(self._try, locus) for locus in self._trials(loose)[:MOST_TRIALS]]
         if not ways:
             return False
-        ways[self._chosen(Choices(len(ways)))]()
+        ways[self._choose(Choices(len(ways)))]()
         return True
 
-    def _chosen(self, options: Choices) -> int:
+    def _choose(self, options: Choices) -> int:
         """Which of several ways on is taken."""
         asked = len(self.options)
         self.options.append(options)
@@ -132,8 +132,8 @@ class Planner(Facts):
         for body in loose:
             ends = self.places[body]
             rigid = len(self.net.members[body]) == 1 and len({self.net.spot(end[0]) for end in ends}) == 2
-            if rigid and len(ends) == 2 and all(len(self._at(place)) == 2 for place in ends):
-                (one, D), (two, G) = sorted((next(b for b in self._at(end) if b != body), end) for end in ends)
+            if rigid and len(ends) == 2 and all(len(self._bodies_at(place)) == 2 for place in ends):
+                (one, D), (two, G) = sorted((next(b for b in self._bodies_at(end) if b != body), end) for end in ends)
                 bars.setdefault(frozenset((one, two)), []).append((body, D, G))
         for pair, found in bars.items():
             single = all(self._count(body) == 2 and len(self.net.members[body]) == 1 for body in pair)
@@ -142,7 +142,7 @@ class Planner(Facts):
 
     def _pole_spot(self, bars: list[Bar]) -> Two | None:
         """Where the relative pole lies, if the bars are not parallel."""
-        return meet(*(line(self._swung(D, G), self._spot(D)) for _, D, G in bars))
+        return meet(*(line(self._circle_normal(D, G), self._spot(D)) for _, D, G in bars))
 
     def _join(self, pair: frozenset[str], bars: list[Bar]) -> None:
         one, two = sorted(pair)
@@ -181,7 +181,7 @@ class Planner(Facts):
         closings = list(self._closings(body))
         if not closings:
             return
-        taken = self._chosen(Choices(len(closings) + 1, rare=True))
+        taken = self._choose(Choices(len(closings) + 1, rare=True))
         if taken == 1:
             return  # another body may close it
         drawn, end, locus = closings[max(taken - 1, 0)]
@@ -192,7 +192,7 @@ class Planner(Facts):
 
     def _closings(self, body: str) -> Iterator[Closing]:
         """Ends with loci that owe each other nothing, in the body that has heard too much; last such as may."""
-        told = {place: self._heard(place, body) for place in self._ends(body)}
+        told = {place: self._count_from_others(place, body) for place in self._ends(body)}
         whole = [place for place, rank in told.items() if rank == 2]
         own = f"{body} trial"  # a source of its own: what the body told before stands
         for X in whole:
@@ -219,7 +219,7 @@ class Planner(Facts):
     def _three_loci(self, body: str) -> Closing | None:
         """An end found by all loci of a body but one, beside that one."""
         loci = list(self._loci(body))
-        crossed = self._crossed(body, loci[0][0]) if loci else None
+        crossed = self._meet_of_loci(body, loci[0][0]) if loci else None
         if crossed is None:
             return None
         lines, meet = crossed
@@ -231,7 +231,7 @@ class Planner(Facts):
         for body in self.places:
             if body != self.net.ground and body not in self.retired and self._count(body) == 3:
                 for X in self.places[body]:
-                    crossed = self._crossed(body, X) if X not in self.drawn else None
+                    crossed = self._meet_of_loci(body, X) if X not in self.drawn else None
                     if crossed and not self._ends(body):
                         self._tell_fact(body, X, [*crossed[0], crossed[1]], None)
                         return True

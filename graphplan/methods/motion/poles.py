@@ -37,7 +37,7 @@ from graphplan.methods.motion.circle_diagram import (
     cross,
 )
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import MECHANISM, link_named, listed, pole_letter
+from graphplan.methods.panels import MECHANISM, link_named, list_links, pole_letter
 from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import MIN_SIZE, PENCIL, PLACE_TOL, SINE_TOL
 from graphplan.phrases import Said, join, said
@@ -93,7 +93,7 @@ class Poles:
             for links in combinations(joint.links, 2):
                 self._enter(links, DrawnPole(self.pose.points[joint.at]))
         for gear in self.scene.gears:
-            with self._on(gear.links, PITCH_POINT):
+            with self._in_stage(gear.links, PITCH_POINT):
                 self._enter(gear.links, self._pitch_point(gear))
         for contact in self.scene.contacts:
             if contact.rolling:
@@ -102,12 +102,12 @@ class Poles:
     def _lines(self) -> None:
         """What guides have at infinity, and the common normals of profiles that slide on each other."""
         for slide in self.scene.slides:
-            with self._on(slide.links, ACROSS):
+            with self._in_stage(slide.links, ACROSS):
                 across = self.board.perpendicular(self.pose.guide(slide), self.pose.points[slide.at])
             self._enter(slide.links, DrawnPole(None, (across,)))
         for contact in self.scene.contacts:
             if not contact.rolling:
-                with self._on(contact.links, NORMAL):
+                with self._in_stage(contact.links, NORMAL):
                     normal = self._normal(contact)
                 line = PoleLine(contact.at, normal), self.seen[normal]
                 self.diagram.lines.setdefault(self.diagram.sides(*contact.links), []).append(line)
@@ -120,7 +120,7 @@ class Poles:
         one, *other = (self.pose.points[centre] for centre in gear.centres)
         letter = pole_letter(gear.links)
         if not other:
-            across = self.board.perpendicular(self._along(gear, one), one)
+            across = self.board.perpendicular(self._pitch_line(gear, one), one)
             return DrawnPole(self.board.lay_along(across, one, length=-gear.radius, name=letter))
         whole = gear.factors[0] + gear.factors[1]
         if not whole:
@@ -132,9 +132,9 @@ class Poles:
         one, *other = (self.pose.points[centre] for centre in contact.centres if centre)
         if other:
             return self.board.side(one, *other)
-        return self.board.perpendicular(self._along(contact, self.pose.points[contact.at]), one)
+        return self.board.perpendicular(self._pitch_line(contact, self.pose.points[contact.at]), one)
 
-    def _along(self, pair: Gear | Contact, through: Mark) -> Mark:
+    def _pitch_line(self, pair: Gear | Contact, through: Mark) -> Mark:
         """A line along the pitch line of a rack, or a straight profile."""
         if pair.through:
             return self.board.line(*(self.pose.points[end] for end in pair.through))
@@ -157,7 +157,7 @@ class Poles:
         while sides not in self.diagram.found and self._seed(sides):
             self.diagram.close()
         if sides not in self.diagram.found:
-            raise Refused(said("the pole of {0}", listed(sides)), said("no known construction determines it"),
+            raise Refused(said("the pole of {0}", list_links(sides)), said("no known construction determines it"),
                           "ask for other poles")
         return self._draw(sides)
 
@@ -168,7 +168,7 @@ class Poles:
             if sides in self.diagram.found:
                 self._draw(sides)
 
-    def near(self) -> Iterator[tuple[str, Pair]]:
+    def frame_poles(self) -> Iterator[tuple[str, Pair]]:
         """The links whose poles relative to the frame the circle diagram gives, no pins, each with where it is."""
         for sides, found in self.diagram.found.items():
             if sides[1] == FRAME and sides not in self.outset and self.diagram.distance(sides) <= NEAR:
@@ -182,8 +182,8 @@ class Poles:
             return found.mark
         sides = self.diagram.sides(one, two)
         if len(found.lines) < 2:
-            raise Refused(said("the pole of {0}", listed(sides)), said("it is at infinity"), "ask for other poles")
-        with self._on(sides, self._law(sides)):
+            raise Refused(said("the pole of {0}", list_links(sides)), said("it is at infinity"), "ask for other poles")
+        with self._in_stage(sides, self._law(sides)):
             mark = self.board.meet(*found.lines, name=pole_letter(sides))
         self.drawn[sides] = DrawnPole(mark)
         return mark
@@ -194,7 +194,7 @@ class Poles:
         return drawn is not None and drawn.mark is None and len(drawn.lines) == 1
 
     @property
-    def ways(self) -> Iterator[Said]:
+    def methods(self) -> Iterator[Said]:
         """How they are found."""
         yield said("Kennedy's theorem, in the order of the circle diagram")
         if self.seeds:
@@ -219,7 +219,7 @@ class Poles:
             if line.drawn is None:
                 self._draw(self.diagram.sides(link, line.by))  # before its own lines are begun
         lines = [line for line in (self._line(sides, line) for line in found.lines) if line is not None]
-        with self._on(sides, self._law(sides)):
+        with self._in_stage(sides, self._law(sides)):
             if len(lines) < 2 or self.diagram.at_infinity(sides):
                 self.drawn[sides] = DrawnPole(None, (lines[0],))
             elif self.diagram.distance(sides) <= NEAR:
@@ -231,10 +231,10 @@ class Poles:
     def _line(self, sides: Sides, line: PoleLine) -> Mark | None:
         """A line on which a pole lies; none of that at infinity."""
         if (sides, line) not in self.lines:
-            self.lines[sides, line] = self._through(sides, line.by) if line.drawn is None else line.drawn
+            self.lines[sides, line] = self._line_of_poles(sides, line.by) if line.drawn is None else line.drawn
         return self.lines[sides, line]
 
-    def _through(self, sides: Sides, third: str) -> Mark | None:
+    def _line_of_poles(self, sides: Sides, third: str) -> Mark | None:
         """The line through the poles that two links have with a third one."""
         P, Q = sorted((self._draw(self.diagram.sides(link, third)) for link in sides),
                       key=lambda pole: (pole.mark is None, -len(pole.lines)))
@@ -242,12 +242,12 @@ class Poles:
             P = DrawnPole(self.mark(*next(pair for pair, pole in self.drawn.items() if pole is P)))
         if P.mark is None:
             return None
-        with self._on(sides, self._law(sides)):
+        with self._in_stage(sides, self._law(sides)):
             if Q.mark is not None:
                 return self.board.side(P.mark, Q.mark)
             return (self.board.towards if len(Q.lines) == 2 else self.board.parallel)(*Q.lines, P.mark)
 
-    def _on(self, links: Sequence[str], law: Said) -> AbstractContextManager[None]:
+    def _in_stage(self, links: Sequence[str], law: Said) -> AbstractContextManager[None]:
         """Draw the steps inside in the stage of a pole, which has this law."""
         sides = self.diagram.sides(*links)
         one, two = map(link_named, sides)
@@ -258,12 +258,12 @@ class Poles:
         """Why a pole lies on the two lines that it is found by."""
         if sides in self.seeds:
             return BY_VELOCITIES
-        told = [said("of {0} and {1}", *(self._lettered(self.diagram.sides(link, line.by)) for link in sides))
+        told = [said("of {0} and {1}", *(self._letter_of(self.diagram.sides(link, line.by)) for link in sides))
                 if line.drawn is None else said("the common normal in {0}", line.by)
                 for line in self.diagram.found[sides].lines]
         return said("{0}; here on the lines {1}", KENNEDY, join(told, "; "))
 
-    def _lettered(self, sides: Sides) -> str:
+    def _letter_of(self, sides: Sides) -> str:
         """A pole by its letter, and that of the joint that it is."""
         drawn = self.drawn.get(sides)
         name = drawn.mark.step.name if drawn and drawn.mark is not None else ""
@@ -287,10 +287,10 @@ class Poles:
 
     def _by_velocities(self, sides: Sides) -> bool:
         """Whether the velocities of two points tell the pole of two links, one relative to the other."""
-        with self._on(sides, BY_VELOCITIES):
+        with self._in_stage(sides, BY_VELOCITIES):
             ends = [(self.pose.points[X], self._end(*sides, X)) for X in self._points(sides)]
-            still = next((X for X, x in ends if x is X or self.seen.one(X, x)), None)
-            moving = [(X, x) for X, x in ends if not (x is X or self.seen.one(X, x))]
+            still = next((X for X, x in ends if x is X or self.seen.points_coincide(X, x)), None)
+            moving = [(X, x) for X, x in ends if not (x is X or self.seen.points_coincide(X, x))]
             if still is not None and moving:
                 self._enter(sides, DrawnPole(still))
             best = min((found for pair in combinations(moving, 2) for found in self._crossing(*pair)),
@@ -318,7 +318,7 @@ class Poles:
         """The pole from the orthogonal velocities of two points: on the lines to their ends, or where these are one, on
         the line of the points and that of the ends turned back by a quarter."""
         (X, x), (Y, y) = one, two
-        if self.seen.one(X, Y):
+        if self.seen.points_coincide(X, Y):
             return
         pairs = [(self.board.side(X, x), self.board.side(Y, y))]
         if self._sine(*pairs[0]) <= SINE_TOL:
@@ -335,7 +335,7 @@ class Poles:
         if sides in self.outset:
             return False
         ends = [(self.pose.points[X], self._end(*sides, X)) for X in self._points(sides)[:2]]
-        return len(ends) == 2 and all(X is x or self.seen.one(X, x) for X, x in ends)
+        return len(ends) == 2 and all(X is x or self.seen.points_coincide(X, x) for X, x in ends)
 
     def _sine(self, k: Mark, l: Mark) -> float:
         """How well two lines cross."""
@@ -359,7 +359,7 @@ class _Seen:
         value = tuple(-part for part in value) if mark.against else value
         return (*value, 1) if len(value) == 2 else value
 
-    def one(self, P: Mark, Q: Mark) -> bool:
+    def points_coincide(self, P: Mark, Q: Mark) -> bool:
         """Whether two points fall on one place."""
         p, q = self[P], self[Q]
         size = max(MIN_SIZE, *(abs(float(part)) for part in (*p[:2], *q[:2])))

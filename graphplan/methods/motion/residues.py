@@ -36,7 +36,7 @@ def dot(p: Triple, q: Triple) -> int:
     return sum(a * b for a, b in zip(p, q, strict=True)) % PRIME
 
 
-def less(p: Two, q: Two) -> Two:
+def difference(p: Two, q: Two) -> Two:
     """The vector from q to p."""
     return (p[0] - q[0]) % PRIME, (p[1] - q[1]) % PRIME
 

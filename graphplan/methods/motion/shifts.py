@@ -7,7 +7,7 @@ from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.program import Board, Mark
 
 
-def shifted(board: Board, mark: Mark, one: Mark, two: Mark) -> Mark:
+def shift_mark(board: Board, mark: Mark, one: Mark, two: Mark) -> Mark:
     """A point or line shifted by the vector from one mark to another; nothing is drawn where they are one.
 
     The other mark may begin another plan: a point that is laid off from the one is laid off from the other.

@@ -34,7 +34,7 @@ from graphplan.methods.motion.moves import (
     Swing,
 )
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
-from graphplan.methods.panels import both, link_named, listed, slide_named
+from graphplan.methods.panels import link_named, list_links, pair_text, slide_named
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
 
 ROLLING = said("links that roll on each other have the same velocity where they touch: it is their relative pole")
@@ -75,12 +75,12 @@ class Words(NamedTuple):
     link: Phrase
     slide: Phrase
 
-    def given(self, name: str = "", *, turned: bool = False) -> Quantity:
+    def given_vector(self, name: str = "", *, turned: bool = False) -> Quantity:
         """A given vector by its name, drawn turned or not; without a name that of a slide."""
         name = name or f"{self.symbol}_r"
         return Quantity(said("{0}, turned by 90°", name) if turned else name, self.kind)
 
-    def turned(self, A: str, X: str) -> Quantity:
+    def turning_part(self, A: str, X: str) -> Quantity:
         """What the rate of a link makes of its side AX."""
         return Quantity(f"{self.turning}·{A}{X}", self.kind)
 
@@ -108,7 +108,7 @@ class MotionStages:
     letters: dict[str, str]
     purpose: Said | None = None
 
-    def grouped(self, planned: Iterable[Move]) -> Iterator[tuple[Move, ...]]:
+    def group_moves(self, planned: Iterable[Move]) -> Iterator[tuple[Move, ...]]:
         """The moves, those that textbooks make one together: the loci of a place, and where they meet."""
         group: list[Move] = []
         for move in planned:
@@ -160,7 +160,7 @@ class MotionStages:
 
         A drive between the two adds what it prescribes: X moves so relative to the point under it of the other's link.
         """
-        if not self._together(body, known, X):
+        if not self._are_of_one_link(body, known, X):
             under = X[0], self.net.link_at(body, known)
             return [*self.sum("", known, under, spare), *self._relative(X, under, Known.WHOLLY)]
         start = self._start(known)
@@ -168,7 +168,7 @@ class MotionStages:
             return [*start, self.vector("v", X, known, spare)]
         return [*start, self.vector("a^n", X, known), self.vector("a^t", X, known, spare)]
 
-    def _together(self, body: str, K: BodyPoint, X: BodyPoint) -> bool:
+    def _are_of_one_link(self, body: str, K: BodyPoint, X: BodyPoint) -> bool:
         """Whether two places are those of one link of a body, as all are but where drives make more than one a body."""
         links = self.net.members.get(body, ())
         return len(links) < 2 or any(self.net.has(link, K) and self.net.has(link, X) for link in links)
@@ -226,7 +226,7 @@ class MotionStages:
             case Auxiliary(body=body, place=place):
                 return said("Auxiliary point {0} of {1}", self.name(*place), self._links(body))
             case Pole(bodies=bodies, place=place):
-                return said("Relative pole {0} of {1}", self.name(*place), listed(bodies))
+                return said("Relative pole {0} of {1}", self.name(*place), list_links(bodies))
             case Centre(body=body, place=place):
                 return said("Pole {0} of {1}", self.name(*place), self._links(body))
             case FalsePosition():
@@ -235,7 +235,7 @@ class MotionStages:
                 return self.words.point(self.name(*self.place(move)))
 
     def _links(self, body: str) -> Said:
-        return listed([link for link in self.net.members[body] if link != FRAME])
+        return list_links([link for link in self.net.members[body] if link != FRAME])
 
     def _equations(self, move: Move, forms: Collection[str]) -> Iterator[tuple[Vector, list[Vector]]]:
         """The equations of a move: of which vector, and what it is the sum of."""
@@ -247,25 +247,25 @@ class MotionStages:
             case SimilarFigure(body, K, X, R) if R:
                 yield from ((unknown(X), self.sum(body, known, X)) for known in (K, R))
             case Slip(body, (A, _), X):
-                yield unknown(X), self._located(body, A, X, Known.WHOLLY)
+                yield unknown(X), self._locus_vectors(body, A, X, Known.WHOLLY)
             case Carry(body, (A, _), (B, _), X) if "auxiliary point" in forms:
                 Q = auxiliary(body), next(link for link in self.net.members[body] if link not in self.net.welds)
-                yield from ((unknown(Q), self._located(body, known, Q)) for known in (A, B))
+                yield from ((unknown(Q), self._locus_vectors(body, known, Q)) for known in (A, B))
                 yield unknown(X), self.sum(body, Q, X)
             case Auxiliary(body, (A, _), (B, _), Q):
-                yield from ((unknown(Q), self._located(body, known, Q)) for known in (A, B))
+                yield from ((unknown(Q), self._locus_vectors(body, known, Q)) for known in (A, B))
             case Guide(slide, point, known, new) if FRAME not in (known, new):
                 B, on = (self.net.place(point, link) for link in (new, known))
                 yield unknown(B), self.sliding(slide, B, on)
             case Rest(place):
-                yield from ((unknown(place), right) for right in self._driven(place))
+                yield from ((unknown(place), right) for right in self._driven_vectors(place))
 
-    def _located(self, body: str, A: BodyPoint, X: BodyPoint, spare: Known = Known.DIRECTION) -> list[Vector]:
+    def _locus_vectors(self, body: str, A: BodyPoint, X: BodyPoint, spare: Known = Known.DIRECTION) -> list[Vector]:
         """What the vector of X is made of, from that of a point of which a locus is known."""
         base, *rest = self.sum(body, A, X, spare)
         return [base._replace(known=Known.LOCUS), *rest]
 
-    def _driven(self, place: BodyPoint) -> Iterator[list[Vector]]:
+    def _driven_vectors(self, place: BodyPoint) -> Iterator[list[Vector]]:
         """What the vector of a point is made of whose link a drive moves."""
         weld: DrivenPair | None = self.net.welds.get(self.net.link_at(self.net.ground, place))
         if weld and weld.slide:
@@ -281,7 +281,8 @@ class MotionStages:
         part, square = self.vector("a^n", K, X), f"{self.vector('v', K, X).name}²"
         equation = Equation(f"{part.name} = {square}/{self.name(*K)}{self.name(*X)}", (part,))
         how = BY.get(next((form for form in forms if form in BY), ""), phrase("Normal acceleration of {0} about {1}"))
-        return Stage(how(self.name(*K), self.name(*X)), NORMAL, (equation, _reversed(part, self.vector("a^n", X, K))))
+        return Stage(how(self.name(*K), self.name(*X)), NORMAL,
+                     (equation, _reverse_equation(part, self.vector("a^n", X, K))))
 
     def figure(self, link: str, forms: Collection[str] = ()) -> Stage:
         """The normal accelerations of a link's other points."""
@@ -292,20 +293,20 @@ class MotionStages:
         part, slip = self.vector("a^C", B, on), self.vector("v", B, on)
         equation = Equation(f"{part.name} = 2 ω_{guide} {slip.name}", (part, slip))
         title = said("Coriolis acceleration of {0} relative to {1}", self.name(*B), self.name(*on))
-        return Stage(title, CORIOLIS, (equation, _reversed(part, self.vector("a^C", on, B))))
+        return Stage(title, CORIOLIS, (equation, _reverse_equation(part, self.vector("a^C", on, B))))
 
     def rate(self, link: str, forms: Collection[str] = ()) -> Stage:
         """The turning of a link."""
         return Stage(self.words.link(link_named(link)), RATE)
 
-    def slid(self, slide: Slide, forms: Collection[str] = ()) -> Stage:
+    def sliding_stage(self, slide: Slide, forms: Collection[str] = ()) -> Stage:
         """The motion of a slide's links relative to each other."""
         B, on = (self.net.place(slide.at, link) for link in (slide.link, slide.along))
         equation = Equation.sum(self.vector(self.words.symbol, B), self.sliding(slide, B, on, Known.NOTHING))
         return Stage(self.words.slide(slide_named(slide)), SLIDING, (equation,))
 
 
-def _reversed(known: Vector, other: Vector) -> Equation:
+def _reverse_equation(known: Vector, other: Vector) -> Equation:
     """A vector relative to a point is that of the point, reversed."""
     return Equation(f"{other.name} = -{known.name}", (other, known))
 
@@ -313,10 +314,10 @@ def _reversed(known: Vector, other: Vector) -> Equation:
 def pitch_point(guide: RollingGuide) -> Stage:
     """Where the point is drawn at which two links roll on each other."""
     title = POINT_OF_CONTACT if isinstance(guide.given, Contact) else PITCH_POINT
-    return Stage(title(guide.at, both(guide.given_links)), ROLLING)
+    return Stage(title(guide.at, pair_text(guide.given_links)), ROLLING)
 
 
-def divided(guide: RollingGuide) -> Said:
+def pitch_point_text(guide: RollingGuide) -> Said:
     """How the pitch point divides the line of centres: as the radii, or the numbers of teeth."""
     assert guide.through is not None
     centres = "".join(guide.through)
@@ -324,7 +325,7 @@ def divided(guide: RollingGuide) -> Said:
         return said("the point of contact lies on {0}, the line of the centres of curvature", centres)
     one, two = guide.given.factors
     pattern = INSIDE if (one > 0) == (two > 0) else OUTSIDE
-    return pattern(both(guide.given_links), centres, digits(abs(float(one)), 6), digits(abs(float(two)), 6))
+    return pattern(pair_text(guide.given_links), centres, digits(abs(float(one)), 6), digits(abs(float(two)), 6))
 
 
 def auxiliary(body: str) -> str:
@@ -332,7 +333,7 @@ def auxiliary(body: str) -> str:
     return f"auxiliary point of {body}"
 
 
-def begun(name: str, plan: Said, *, pole: bool = False) -> Stage:
+def beginning_stage(name: str, plan: Said, *, pole: bool = False) -> Stage:
     """Where a plan begins."""
     title = said("Pole {0} of the {1}", name, plan) if pole else said("Origin {0} of the {1}", name, plan)
     return Stage(title, BEGUN)

@@ -43,7 +43,7 @@ def tempo(scene: Scene) -> Tempo:
     well; else the fastest velocity that is prescribed is drawn a quarter of the mechanism."""
     if scene.sheet.kappa:
         return Tempo(1 / scene.sheet.kappa)
-    fastest = max(_prescribed(scene), default=0.0)
+    fastest = max(_prescribed_speeds(scene), default=0.0)
     for drive in turning_drives(scene):
         unit = drive.rate if drive.rate > 0 else -drive.rate
         if unit and _is_round(1 / unit) and SHORTEST <= fastest / float(unit) / scene.extent <= LONGEST:
@@ -51,7 +51,7 @@ def tempo(scene: Scene) -> Tempo:
     return Tempo(1 / round_number(USUAL * scene.extent / fastest) if fastest else Fraction(1))
 
 
-def _prescribed(scene: Scene) -> Iterator[float]:
+def _prescribed_speeds(scene: Scene) -> Iterator[float]:
     """The speeds that the scene prescribes: of drives, and of points with a given motion."""
     for drive in scene.drives:
         yield abs(float(drive.rate)) * (1.0 if drive.slides else _reach(scene, drive))
@@ -67,7 +67,7 @@ def _reach(scene: Scene, drive: Drive) -> float:
     return max((math.dist(places[P], places[R]) for P in joints for R in own), default=0.0)
 
 
-def apart(scene: Scene, P: str, R: str) -> float:
+def point_distance(scene: Scene, P: str, R: str) -> float:
     """How far apart two points are."""
     return max(abs(float(p - q)) for p, q in zip(scene.points[P], scene.points[R], strict=True))
 

@@ -13,7 +13,7 @@ from graphplan.mechanism.replaced import rolling_guides
 from graphplan.methods.motion.moves import Carry, Centre, Guide, Meet, Move, Roll, Settle, SimilarFigure, Slip, Swing
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.motion.plan import MotionPlan, Vector
-from graphplan.methods.motion.stages import VELOCITIES, begun
+from graphplan.methods.motion.stages import VELOCITIES, beginning_stage
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.panels import MECHANISM, TRIANGLES, VELOCITY_PLAN
 from graphplan.methods.poses import Pose
@@ -58,17 +58,17 @@ class Velocity(MotionPlan):
         """The pole of a body, whose vector is nothing: its end is where it begins."""
         self.pose.points[place[0]] = self.pole_of(self.net.members[body][0], FRAME)
         self.stages.letters[place[0]] = self.pose.letter_of_point(place[0])
-        self.ends[place] = self.home(place)
+        self.ends[place] = self.plan_origin(place)
         self.known[body] += (place,)
 
     def origin(self, point: str) -> Mark:
         """Where the velocity of a point begins."""
         raise NotImplementedError
 
-    def prescribed(self, rates: tuple[Number, Number]) -> Number:
+    def prescribed_length(self, rates: tuple[Number, Number]) -> Number:
         return self.tempo.rate(rates[0])
 
-    def home(self, place: BodyPoint) -> Mark:
+    def plan_origin(self, place: BodyPoint) -> Mark:
         return self.origin(place[0])
 
     def figure(self, link: str, point: str) -> Mark:
@@ -85,21 +85,21 @@ class Velocity(MotionPlan):
         start, end = self.end_in(link, K), self.end_in(link, A)
         if end is self.origin(A):  # A is fixed: what is left is the velocity of K
             return start, self.origin(K)
-        return self.moved(self.origin(A), self.origin(K), start), end
+        return self.shift_by(self.origin(A), self.origin(K), start), end
 
     def orthogonal(self, link: str, B: str) -> Mark:
         """The orthogonal velocity of B, a point of a link's plane, laid off at B: its end."""
-        return self._less(self.origin(B), self.end_in(link, B), B, B)
+        return self._subtract(self.origin(B), self.end_in(link, B), B, B)
 
-    def about(self, link: str, P: str, B: str) -> Mark:
+    def relative_velocity(self, link: str, P: str, B: str) -> Mark:
         """The orthogonal velocity of B about P, points of one link, laid off at B: its end."""
-        return self._less(self.end_in(link, P), self.end_in(link, B), P, B)
+        return self._subtract(self.end_in(link, P), self.end_in(link, B), P, B)
 
     def slip(self, known: str, new: str, B: str) -> Mark:
         """The orthogonal velocity of B as a point of one link about B as a point of the other, laid off at B."""
-        return self._less(self.end_in(known, B), self.end_in(new, B), B, B)
+        return self._subtract(self.end_in(known, B), self.end_in(new, B), B, B)
 
-    def _less(self, less: Mark, end: Mark, P: str, B: str) -> Mark:
+    def _subtract(self, less: Mark, end: Mark, P: str, B: str) -> Mark:
         """The orthogonal velocity of B, which ends at `end`, less that of P, laid off at B."""
         raise NotImplementedError
 
@@ -113,8 +113,8 @@ class Orthogonal(Velocity):
     def origin(self, point: str) -> Mark:
         return self.pose.points[point]
 
-    def _less(self, less: Mark, end: Mark, P: str, B: str) -> Mark:
-        return self.moved(end, less, self.pose.points[P])
+    def _subtract(self, less: Mark, end: Mark, P: str, B: str) -> Mark:
+        return self.shift_by(end, less, self.pose.points[P])
 
 
 class Polar(Velocity):
@@ -124,17 +124,17 @@ class Polar(Velocity):
 
     def __init__(self, board: Board, net: Network, pose: Pose, tempo: Tempo):
         super().__init__(board, net, pose, tempo)
-        self.pole = self._begun()
+        self.pole = self._origin_mark()
 
-    def _begun(self) -> Mark:
+    def _origin_mark(self) -> Mark:
         """The mark from which all velocities are laid off."""
-        with self.board.on(self.panel, stage=begun("p", self.panel.words, pole=True)):
+        with self.board.on(self.panel, stage=beginning_stage("p", self.panel.words, pole=True)):
             return self.board.pole(plan=self.panel, name="p")
 
     def origin(self, point: str) -> Mark:
         return self.pole
 
-    def _less(self, less: Mark, end: Mark, P: str, B: str) -> Mark:
+    def _subtract(self, less: Mark, end: Mark, P: str, B: str) -> Mark:
         return self.board.quarter(less, end, self.pose.points[B])
 
 
@@ -154,18 +154,18 @@ class Triangles(Polar):
         if not self.trains:
             raise Refused("plan triangles", "no gears here have a line of centres", "orthogonal or polar")
 
-    def _begun(self) -> Mark:
+    def _origin_mark(self) -> Mark:
         return next(self.pose.points[point] for point in (*self.net.links.get(FRAME, ()), *self.pose.points))
 
-    def home(self, place: BodyPoint) -> Mark:
+    def plan_origin(self, place: BodyPoint) -> Mark:
         return self.point(place)
 
-    def _rest(self, place: BodyPoint) -> Mark:
+    def _resting_end(self, place: BodyPoint) -> Mark:
         """On a link that a drive turns on the frame the velocity is laid off at its point."""
         weld = self.net.welds.get(self.net.link_at(self.net.ground, place))
         if weld is None or weld.slide or weld.to != FRAME:
-            return super()._rest(place)
-        much, X = weld.sign * self.prescribed(weld.drive.rates), self.point(place)
+            return super()._resting_end(place)
+        much, X = weld.sign * self.prescribed_length(weld.drive.rates), self.point(place)
         return self._step((self.pose.points[weld.at], X), X, much) if much and place[0] != weld.at else X
 
     def drawn_figure(self, body: str, K: BodyPoint, X: BodyPoint, R: BodyPoint | None, like: str) -> Mark:

@@ -148,7 +148,7 @@ class Plans:
 
     def kinds(self, panel: str) -> set[str]:
         """The kinds of vector drawn on a plan; a lever is made of velocities, and bears only those of its scene."""
-        lever = {"velocity"} if panel == LeverPlan.of() and self._moves else set()
+        lever = {"velocity"} if panel == LeverPlan.of_part() and self._moves else set()
         return lever | {vector.kind for vector in self.vectors(panel)}
 
     @property

@@ -25,7 +25,7 @@ from graphplan.methods.kinds import (
     TRANSLATION,
     kind_of,
 )
-from graphplan.methods.panels import JointForce, both, link_named, listed, pole_letter, slide_named
+from graphplan.methods.panels import JointForce, link_named, list_links, pair_text, pole_letter, slide_named
 from graphplan.phrases import Said, arrange, coordinates, digits, join, phrase, said, unit
 from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.composition import Composition
@@ -142,7 +142,8 @@ class TaskWords(SheetWords):
 GIVEN_FIGURES = 6  # of what is given
 QUESTIONS = {  # how kinds of results are asked for, and how those that have them are told
     "velocity": (phrase("Velocities: {0}."), ", ".join), "acceleration": (phrase("Accelerations: {0}."), ", ".join),
-    "omega": (phrase("Angular velocities: {0}."), listed), "alpha": (phrase("Angular accelerations: {0}."), listed),
+    "omega": (phrase("Angular velocities: {0}."), list_links),
+    "alpha": (phrase("Angular accelerations: {0}."), list_links),
 }  # fmt: skip
 
 
@@ -234,7 +235,7 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
     slides = {(slide.link, slide.along): slide for slide in scene.slides}
     for friction in loads.frictions:
         place = (slide_named(slides[friction.slide]) if friction.slide
-                 else both(friction.links) if friction.links else said("at {0}", friction.at))
+                 else pair_text(friction.links) if friction.links else said("at {0}", friction.at))
         radius = [] if friction.links else [_with_unit("r", friction.radius, units.length)]
         yield said("Friction {0}: {1}.", place, join((arrange("mu = {0}", _figure(friction.coefficient)), *radius)))
 
@@ -258,11 +259,12 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
     if traced := [name for kind in (CENTRE, STRAIGHT, CUSP) for name in values.get(kind, ())]:
         yield said("Centres of curvature of the paths of: {0}.", ", ".join(traced))
     if circles := [name for kind in (INFLECTION, TRANSLATION) for name in values.get(kind, ())]:
-        yield said("Inflection circles of: {0}.", listed(circles))
+        yield said("Inflection circles of: {0}.", list_links(circles))
     forces = values.get(REACTION, ())
     joints = [p for p in scene.joints if any(JointForce(p, link).name in forces for link in scene.links_of[p])]
     reactions = [*joints, *(slides[name] for name in values.get(SLIDE_REACTION, ()))]
-    reactions += [both(pair.links) for kind, pairs in ((GEAR_REACTION, scene.gears), (CONTACT_REACTION, scene.contacts))
+    reactions += [pair_text(pair.links) for kind,
+                  pairs in ((GEAR_REACTION, scene.gears), (CONTACT_REACTION, scene.contacts))
                   for pair in pairs if pair.name in values.get(kind, {})]
     if reactions:
         yield said("Reactions: {0}.", join(reactions))

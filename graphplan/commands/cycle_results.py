@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 from graphplan.accuracy.hand import Pencil
 from graphplan.commands.flywheel import pencil_errors
-from graphplan.marking.classroom.key import Row, single_row
-from graphplan.marking.judge.cycle_numbers import Expected
+from graphplan.marking.classroom.booklet import KeyRow, single_row
+from graphplan.marking.judge.numbers import ExpectedCycleNumber
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import KILOGRAMS, NEWTONS
 from graphplan.methods.kinds import CYCLE
@@ -38,7 +38,7 @@ class CycleResults:
 
         return flywheel(self.scene)
 
-    def expected_result(self, kind: str, of: str) -> Expected | None:
+    def expected_result(self, kind: str, of: str) -> ExpectedCycleNumber | None:
         """What is expected of a number, if it is one of these: a travel in degrees is any of the cycle."""
         found = self.flywheel
         if found is None or (kind == FLYWHEEL and found.given):
@@ -55,14 +55,14 @@ class CycleResults:
         one, (wheel, mean) = self._unit(kind), pencil_errors(found, self.pencil)
         if kind == CLOSING:
             closing = found.cycle.closing
-            return Expected(closing / one, mean / one, abs(found.drawing.mean + closing) / one)
-        return Expected(found.wheel.inertia / one, wheel / one, found.strip_error / one)
+            return ExpectedCycleNumber(closing / one, mean / one, abs(found.drawing.mean + closing) / one)
+        return ExpectedCycleNumber(found.wheel.inertia / one, wheel / one, found.strip_error / one)
 
-    def _expected_at(self, found: FlywheelResult, kind: str, travel: float) -> Expected:
+    def _expected_at(self, found: FlywheelResult, kind: str, travel: float) -> ExpectedCycleNumber:
         import numpy as np
 
         value = float(found.at(np.array([travel]))[PLACES[kind]][0])
-        return Expected(value / self._unit(kind), self._read(found, kind))
+        return ExpectedCycleNumber(value / self._unit(kind), self._read(found, kind))
 
     def _unit(self, kind: str) -> float:
         """The scene's unit, in kg m^2 or N m."""
@@ -76,7 +76,7 @@ class CycleResults:
         return math.sqrt(2) * self.pencil.point * scale / self._unit(kind)
 
     @property
-    def rows(self) -> Iterator[Row]:
+    def rows(self) -> Iterator[KeyRow]:
         """The rows of a key: moment and inertia at each plan, the closing moment, and the flywheel."""
         found, units = self.flywheel, self.scene.units
         if found is None:
@@ -90,6 +90,6 @@ class CycleResults:
                 yield single_row(CYCLE[kind], "", expected.value, abs(expected.value), units)
 
 
-def key_rows(scene: Scene) -> Iterator[Row]:
+def key_rows(scene: Scene) -> Iterator[KeyRow]:
     """The further rows of the key of a variant."""
     yield from CycleResults(scene, Pencil()).rows

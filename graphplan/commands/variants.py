@@ -38,7 +38,7 @@ from graphplan.output import back_end
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
-    from graphplan.marking.classroom.variants import Variant
+    from graphplan.marking.classroom.variants import ClassVariant
     from graphplan.mechanism.model import Scene
     from graphplan.methods.executors import SharedOut
     from graphplan.sheet.layout.composition import Composition
@@ -95,10 +95,10 @@ def _students(options: argparse.Namespace, messages: Messages) -> list[str]:
     """Whose each task is; the spare ones are nobody's."""
     names: tuple[str, ...] = ()
     if options.names:
-        from graphplan.marking.classroom.names import read
+        from graphplan.marking.classroom.register import read_class_list
         from graphplan.output.pdf_png import lacking
 
-        found = read(Path(options.names))
+        found = read_class_list(Path(options.names))
         names = found.students
         for name in names:
             if missing := lacking(name):
@@ -114,28 +114,27 @@ def _students(options: argparse.Namespace, messages: Messages) -> list[str]:
     return [*names, *[""] * (wanted - len(names) + options.spare)]
 
 
-def _files(options: argparse.Namespace, own: Composition, variants: Sequence[Variant], students: Sequence[str],
+def _files(options: argparse.Namespace, own: Composition, variants: Sequence[ClassVariant], students: Sequence[str],
            shared_out: SharedOut, messages: Messages) -> dict[str, str | bytes]:
     """All that is written, by name."""
     from graphplan.commands.cycle_results import key_rows
-    from graphplan.marking.classroom.booklet import Exercise, Printed, printed
-    from graphplan.marking.classroom.key import key_table, overview
-    from graphplan.marking.classroom.register import FILE, Register, TaskSheet
+    from graphplan.marking.classroom.booklet import Exercise, PrintedExercise, key_table, overview, print_exercise
+    from graphplan.marking.classroom.register import FILE, ClassRegister, TaskSheet
 
     digits = len(str(len(variants)))
     exercises = [Exercise(variant, student, f"variant-{variant.number:0{max(2, digits)}}.toml")
                  for variant, student in zip(variants, students, strict=True)]
-    pages, sheets = list[Printed](), list[TaskSheet]()
-    work = partial(printed, draw=partial(drafted, options), further=key_rows)
+    pages, sheets = list[PrintedExercise](), list[TaskSheet]()
+    work = partial(print_exercise, draw=partial(drafted, options), further=key_rows)
     for exercise, found in zip(exercises, shared_out(work, exercises), strict=True):
         page = 1 + sum(len(one.task) for one in pages)
         sheets.append(TaskSheet(found.code, exercise.variant.number, exercise.student, exercise.file, page))
         pages.append(found)
         messages.progress(f"sheets: {len(pages)}/{len(exercises)}")
     title = own.plans.drawing.scene.title
-    told = [(one.variant.number, one.student, one.variant.told) for one in exercises]
-    register = Register(title, options.seed, _chosen(options), tuple(sheets))
-    if twice := register.alike:
+    told = [(one.variant.number, one.student, one.variant.numbers_text) for one in exercises]
+    register = ClassRegister(title, options.seed, _chosen(options), tuple(sheets))
+    if twice := register.equal_codes:
         raise Refused(f"--seed {options.seed}", f"the corner marks of variants {twice[0]} and {twice[1]} are the same",
                       "another seed")
     pdf = back_end("pdf")

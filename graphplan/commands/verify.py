@@ -33,24 +33,21 @@ from __future__ import annotations
 
 import argparse
 import os
-import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from graphplan.commands.choices import add_choices, add_pencil, add_sheet, count, on_paper
+from graphplan.commands.choices import add_choices, add_pencil, add_sheet, count, on_paper, pencil
 from graphplan.commands.output import STANDARD, Messages, as_json, error, kind, page_names, write, write_all
+from graphplan.commands.verify_desk import Desk, printable
 from graphplan.errors import GraphplanError, Refused
 from graphplan.output import back_end
 
 if TYPE_CHECKING:
-    from graphplan.accuracy.drafted import Drafted
-    from graphplan.commands.cycle_results import CycleResults
-    from graphplan.marking.classroom.class_list import Marked
-    from graphplan.marking.judge.score import Weights
-    from graphplan.marking.traces import Frames, Submission
+    from graphplan.machine.rotors.rotor_balance import Answer
+    from graphplan.marking.answers import AnswerVerdict, TrueNumber
+    from graphplan.marking.classroom.results import MarkedDrawing
+    from graphplan.output.subjects.rotor_sheet import RotorSheet
     from graphplan.phrases import Said
 
 MOST_JOBS = 256
@@ -79,7 +76,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.marking.classroom.register import is_class
-    from graphplan.marking.judge.score import weights
+    from graphplan.marking.judge.score import parse_weights
 
     if is_class(Path(options.scene)):
         from graphplan.commands import verify_stack
@@ -88,7 +85,7 @@ def run(options: argparse.Namespace) -> int:
     _no_stack(options)
     if (status := _of_answers(options)) is not None:
         return status
-    path, weighed = Path(options.drawing), weights(options.weights)
+    path, weighed = Path(options.drawing), parse_weights(options.weights)
     ending = _reported(options.report, path, options.scene)
     desk = Desk(on_paper(options), weighed, options)
     found = (_class if os.path.isdir(path) else _one)(desk, path)
@@ -109,9 +106,7 @@ def _of_answers(options: argparse.Namespace) -> int | None:
     text = source_text(options.scene, options.scene)
     if "rotor" not in tables_of(text, options.scene):
         return None
-    from graphplan.commands import verify_answers
-
-    return verify_answers.of_rotor(options, text)
+    return of_rotor(options, text)
 
 
 def _no_stack(options: argparse.Namespace) -> None:
@@ -131,82 +126,6 @@ class Findings(NamedTuple):
     lines: Iterable[Said]
     pages: Callable[[str], Sequence[str | bytes]]
     judged: bool = True
-
-
-@dataclass(frozen=True)
-class Desk:
-    """Where drawings are judged, one after the other, by the construction on its sheet."""
-
-    on_sheet: Drafted
-    weights: Weights
-    options: argparse.Namespace
-
-    def marked(self, path: Path) -> Marked:
-        """A drawing judged; fails with `Refused` where it cannot be, whatever happens."""
-        try:
-            with warnings.catch_warnings():  # what libraries say is not for the reader
-                warnings.simplefilter("ignore")
-                return self.judged(self._read(path))
-        except GraphplanError:
-            raise
-        except MemoryError:
-            raise Refused(f"{path}", "not judged: there is not enough memory", "a smaller drawing") from None
-        except Exception as fault:  # one bad file never stops a class
-            raise Refused(f"{path}", f"could not be judged: {type(fault).__name__}",
-                          "judge it by hand, and report the fault with this file") from fault
-
-    def _read(self, path: Path) -> Submission:
-        """What is in a file, read beside the sheet that was printed."""
-        from graphplan.marking.submission import read
-        from graphplan.sheet.handout import code, task
-
-        composition = self.on_sheet.composition
-        size = composition.arrangement.width, composition.arrangement.height
-        return read(path, self._plans, self.frames,  # task and guided version have the same plans
-                    lambda: task(composition)[0], code(composition), size)
-
-    @property
-    def _plans(self) -> list[str]:
-        """The plans that marks may be said to lie on: where none are asked for, those of every way to draw motions."""
-        from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, VELOCITY_PLAN
-
-        asked = self.options.method or self.options.plan
-        others = () if asked else (N_PLAN, VELOCITY_PLAN, ACCELERATION_PLAN)
-        return list(dict.fromkeys([*self.on_sheet.composition.views, *others]))
-
-    @cached_property
-    def _cycle(self) -> CycleResults:
-        """What is expected of numbers over the machine's cycle."""
-        from graphplan.commands.cycle_results import CycleResults
-
-        return CycleResults(self.on_sheet.drawing.scene, self.on_sheet.pencil)
-
-    @property
-    def frames(self) -> Frames:
-        """Where the plans lie on the sheet that was printed."""
-        from graphplan.marking.traces import PlanFrame
-
-        views = self.on_sheet.composition.views
-        return {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in views.items()}
-
-    def judged(self, submission: Submission) -> Marked:
-        """A drawing judged by what was read of it."""
-        from graphplan.check.trusted import construct
-        from graphplan.marking.classroom.class_list import Marked
-        from graphplan.marking.judge.cycle_numbers import with_cycle
-        from graphplan.marking.judge.judge import judge, judge_any_method
-        from graphplan.marking.judge.score import score
-
-        work = self.on_sheet.drawing, self.on_sheet.composition, submission, self.on_sheet.pencil
-        found = (judge(*work) if self.options.method
-                 else judge_any_method(*work, self.options.plan, self.options.inertia, construct))
-        judgement = replace(with_cycle(found, self._cycle.expected_result), name=printable(submission.name))
-        return Marked(judgement, score(judgement, self.weights))
-
-
-def printable(name: str) -> str:
-    """A name as it can be written: a file may be called by what no terminal should obey and no text can hold."""
-    return "".join(char if char.isprintable() else "\N{REPLACEMENT CHARACTER}" for char in name)
 
 
 def _reported(output: str | None, path: Path, scene: str) -> str:
@@ -233,7 +152,7 @@ def _same(one: str, other: str | Path) -> bool:
 
 def _one(desk: Desk, path: Path) -> Findings:
     """One drawing, judged."""
-    from graphplan.marking.judge.findings import record
+    from graphplan.marking.judge.findings import judgement_record
     from graphplan.marking.judge.overlay import overlay
 
     messages = Messages(desk.options.quiet)
@@ -250,21 +169,29 @@ def _one(desk: Desk, path: Path) -> Findings:
 
         return [marked(one.judgement, one.score, sheets)]
 
-    return Findings(record(one.judgement, one.score), _lines(one), pages)
+    return Findings(judgement_record(one.judgement, one.score), _lines(one), pages)
 
 
-def _lines(one: Marked) -> Iterator[Said]:
+def _lines(one: MarkedDrawing) -> Iterator[Said]:
     """The verdict in a few lines."""
-    from graphplan.marking.judge.findings import asked, look_at, miss, opinion, read_as, summary, wrong_numbers
+    from graphplan.marking.judge.findings import (
+        first_wrong_sentence,
+        look_at_lines,
+        opinion,
+        reading_lines,
+        summary_lines,
+        wrong_number,
+        wrong_numbers,
+    )
 
-    yield from read_as(one.judgement)
+    yield from reading_lines(one.judgement)
     yield opinion(one.judgement)
-    yield from asked(one.judgement)
-    yield from summary(one.judgement)
-    yield from look_at(one.judgement)
+    yield from first_wrong_sentence(one.judgement)
+    yield from summary_lines(one.judgement)
+    yield from look_at_lines(one.judgement)
     wrong = wrong_numbers(one.judgement)  # the first is the opinion, if no step is wrong
-    yield from (miss(one.judgement, number) for number in (wrong if one.judgement.first else wrong[1:]))
-    yield one.score.told
+    yield from (wrong_number(one.judgement, number) for number in (wrong if one.judgement.first_wrong else wrong[1:]))
+    yield one.score.text
 
 
 # ---- a class -------------------------------------------------------------------------------------------------------
@@ -272,7 +199,7 @@ def _lines(one: Marked) -> Iterator[Said]:
 
 def _class(desk: Desk, folder: Path) -> Findings:
     """Every file of a folder, judged; one that cannot be judged is an error line, and the others go on."""
-    from graphplan.marking.classroom.class_list import Classroom, Unread, lines
+    from graphplan.marking.classroom.results import Classroom, Unread, class_lines
 
     messages, paths = Messages(desk.options.quiet), _files(folder, desk.options.report)
     marked, unread = [], []
@@ -292,7 +219,7 @@ def _class(desk: Desk, folder: Path) -> Findings:
 
         return [class_list(found, desk.on_sheet.composition.plans.tongue)]
 
-    return Findings(found.data, lines(found), pages, bool(marked))
+    return Findings(found.data, class_lines(found), pages, bool(marked))
 
 
 def _files(folder: Path, report: str | None) -> list[Path]:
@@ -313,3 +240,87 @@ def _enclosed(path: Path) -> None:
         raise Refused(f"{path}", "this is a folder within the folder", "move its drawings out of it")
     if not os.path.exists(path):
         raise Refused(f"{path}", "the target of this link does not exist", "the drawing itself")
+
+
+# ---- answers to a rotor's task ---------------------------------------------------------------------------------------
+
+
+def of_rotor(options: argparse.Namespace, text: str) -> int:
+    """Judge the answers to the task of a rotor."""
+    from graphplan.check.rotors import check_rotor
+    from graphplan.machine.rotors.rotor import parse
+    from graphplan.machine.rotors.rotor_balance import balanced
+    from graphplan.output.subjects.rotor_sheet import one_sheet
+
+    found = balanced(parse(text, options.scene))
+    sheet = one_sheet(found, check_rotor(found), pencil(options))
+    return _judge(options, [_expected(sheet, answer) for answer in found.answers], found.task.sheet.language)
+
+
+def _judge(options: argparse.Namespace, choices: Sequence[Sequence[TrueNumber]], language: str) -> int:
+    """Judge a table of answers, or each in a folder, by the nearest of the choices, and print the verdicts."""
+    from graphplan.words.tongue import tongue
+
+    if options.report:
+        raise Refused(f"--report {options.report}", "there is no report of answers", "--json")
+    path = Path(options.drawing)
+    files = sorted(path.glob("*.csv")) if path.is_dir() else [path]
+    if not files:
+        raise Refused(f"{path}", "it contains no table of answers", "files that end in .csv")
+    verdicts = {file.name: _judged(choices, file) for file in files}
+    if options.json:
+        write(as_json([_record(name, each) for name, each in verdicts.items()] if path.is_dir() else
+                      _record(path.name, verdicts[path.name]), rows=True))
+        return 0
+    say, lines = tongue(options.language or language), []
+    for name, each in verdicts.items():
+        lines += [name] if path.is_dir() else []
+        lines += [str(say(one.text)) for one in each]
+    write("".join(f"{line}\n" for line in lines))
+    return 0
+
+
+def _judged(choices: Sequence[Sequence[TrueNumber]], path: Path) -> list[AnswerVerdict]:
+    """The verdicts on one table, by the choice that it is nearest to."""
+    from graphplan.marking.answers import count_right, judge_answers
+    from graphplan.marking.files.tables import read_answers
+
+    answers = read_answers(path)
+    for given in answers:
+        if not any(one.matches(given) for one in choices[0]):
+            known = ", ".join(f"{one.quantity},{one.of}" for one in choices[0])
+            raise Refused(given.where, f"{given.quantity!r} of {given.of!r} is not asked for", f"one of {known}")
+    try:
+        return max((judge_answers(choice, answers) for choice in choices), key=count_right)
+    except ValueError as error:
+        raise Refused(f"{path}", str(error), f"a unit such as {choices[0][0].written}") from None
+
+
+def _expected(sheet: RotorSheet, answer: Answer) -> list[TrueNumber]:
+    """The true numbers of a rotor: corrections plane by plane, the static unbalance and the moment about plane I."""
+    from graphplan.marking.answers import TrueNumber
+    from graphplan.mechanism.units import Dimension
+
+    task, sums, found = sheet.balanced.task, sheet.balanced.sums, list[TrueNumber]()
+    mass, length, kg_m, metres = task.units.mass, task.units.length, float(task.kg_m), float(task.metres)
+    unbalance, moment = Dimension(0, 2, 1, "U", "kg*m"), Dimension(1, 2, 1, "U", "kg*m^2")
+    for one, off_by in zip(answer, sheet.errors, strict=True):
+        found.append(TrueNumber("correction", one.letter, one.mass_radius * kg_m, 2 * off_by.mass_radius * kg_m,
+                              f"{mass}·{length}", kg_m, unbalance))
+        if one.mass_radius:
+            found.append(TrueNumber("angle", one.letter, one.angle, 2 * off_by.angle, "°"))
+    off = 2 * kg_m * sheet.errors[0].mass_radius  # the sum of m·r is drawn as well as what balances it
+    found.append(TrueNumber("static unbalance", "", sums.static * kg_m, off, f"{mass}·{length}", kg_m, unbalance))
+    if task.rotor.dynamic:
+        off = 2 * kg_m * metres * sheet.errors[1].mass_radius * float(task.rotor.between)
+        found.append(TrueNumber("moment", "", sums.dynamic * kg_m * metres, off, f"{mass}·{length}²", kg_m * metres,
+                              moment))
+    return found
+
+
+def _record(name: str, verdicts: Sequence[AnswerVerdict]) -> dict[str, Any]:
+    """The verdicts on one table as data."""
+    from graphplan.marking.answers import count_right
+
+    return {"name": name, "right": count_right(verdicts), "of": len(verdicts),
+            "answers": [one.record for one in verdicts]}

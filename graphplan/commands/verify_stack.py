@@ -18,17 +18,25 @@ from graphplan import __version__
 from graphplan.commands import parser
 from graphplan.commands.output import Messages, as_json, write
 from graphplan.commands.variants import drafted
-from graphplan.commands.verify import Desk
+from graphplan.commands.verify_desk import Desk
 from graphplan.errors import GraphplanError, Refused
 from graphplan.marking.classroom import results as found_results
 from graphplan.marking.classroom import stack as fates
-from graphplan.marking.classroom.class_list import Unread
-from graphplan.marking.classroom.grading import FILES, Data, Failed, Keeper, done, file_digest, key
-from graphplan.marking.classroom.pages import StackPage, look, pages, sight
-from graphplan.marking.classroom.register import FILE, Register, TaskSheet, is_class, load
-from graphplan.marking.classroom.results import Results, SheetResult, file_names
-from graphplan.marking.classroom.stack import Placed, Seen, assignments, instead, placed
-from graphplan.marking.judge.score import Weights, weights
+from graphplan.marking.classroom.grading import FILES, Data, Failed, Keeper, file_digest, key, run_jobs
+from graphplan.marking.classroom.register import FILE, ClassRegister, TaskSheet, is_class, load_register
+from graphplan.marking.classroom.results import SheetResult, StackResults, Unread, file_names
+from graphplan.marking.classroom.stack import (
+    PlacedPage,
+    SeenPage,
+    StackPage,
+    assignments,
+    load_sight,
+    look_at_page,
+    pages,
+    place_pages,
+    replace_failed,
+)
+from graphplan.marking.judge.score import Weights, parse_weights
 from graphplan.mechanism.scene import load as load_scene
 from graphplan.methods.executors import cores
 from graphplan.phrases import said
@@ -43,7 +51,7 @@ OF_THE_SHEETS = {"method": str, "plan": str, "inertia": str, "rounds": int, "pap
 def run(options: argparse.Namespace) -> int:
     """Judge a stack; 2 where nothing could be judged."""
     folder, stack = Path(options.scene), Path(options.drawing)
-    weighed, register = weights(options.weights), load(folder)
+    weighed, register = parse_weights(options.weights), load_register(folder)
     if not find_spec("cv2"):
         raise Refused(f"{stack}", "reading scans needs OpenCV, which is not installed", "pip install 'graphplan[scan]'")
     if stack.is_dir() and is_class(stack):
@@ -55,7 +63,7 @@ def run(options: argparse.Namespace) -> int:
     found = classroom.results(*pages(stack))
     classroom.write(found)
     write(as_json(found.data) if options.json else "".join(f"{classroom.say(line)}\n" for line in found.findings()))
-    return 0 if found.of(found_results.JUDGED) else 2
+    return 0 if found.with_status(found_results.JUDGED) else 2
 
 
 @dataclass(frozen=True)
@@ -78,7 +86,7 @@ class StackDesk:
     """Where the stacks of a class are judged."""
 
     folder: Path
-    register: Register
+    register: ClassRegister
     into: Path
     weights: Weights
     options: argparse.Namespace
@@ -97,22 +105,22 @@ class StackDesk:
         named = self.register.options.get("language")
         return tongue(named or load_scene(str(self.folder / self.register.sheets[0].scene)).sheet.language)
 
-    def results(self, stack: Sequence[StackPage], unread: Sequence[Unread]) -> Results:
+    def results(self, stack: Sequence[StackPage], unread: Sequence[Unread]) -> StackResults:
         """What is found of a stack."""
         word = assignments(self.options.assign or (), stack, self.register)
         if stack:
             _made(self.keeper.folder)
         seen, broken = self._seen(stack)
-        whose = placed(seen, self.register, word)
+        whose = place_pages(seen, self.register, word)
         judged = self._judged(whose)
-        whose = list(instead(whose, {page for page, data in judged.items() if FAULT in data}))
+        whose = list(replace_failed(whose, {page for page, data in judged.items() if FAULT in data}))
         sheets = [*self._sheets(whose, judged), *broken]
         blank = sum(one.fate == fates.BLANK for one in whose)
-        return Results(self.register.title, self.say.code, tuple(sheets), blank, tuple(unread))
+        return StackResults(self.register.title, self.say.code, tuple(sheets), blank, tuple(unread))
 
     # ---- page by page ----------------------------------------------------------------------------------------------
 
-    def _seen(self, stack: Sequence[StackPage]) -> tuple[list[Seen], list[SheetResult]]:
+    def _seen(self, stack: Sequence[StackPage]) -> tuple[list[SeenPage], list[SheetResult]]:
         """What is seen on every page, and the pages that cannot be opened."""
         files = {path: file_digest(path) for path in dict.fromkeys(page.path for page in stack)}
         keys = {page: key("sight", __version__, files[page.path], page.number) for page in stack}
@@ -123,10 +131,10 @@ class StackDesk:
             if FAULT in found[name]:
                 broken.append(SheetResult(found_results.FAILED, page.name, look=(found[name][FAULT],)))
             else:
-                seen.append(Seen(page, sight(found[name])))
+                seen.append(SeenPage(page, load_sight(found[name])))
         return seen, broken
 
-    def _judged(self, whose: Sequence[Placed]) -> dict[str, Data]:
+    def _judged(self, whose: Sequence[PlacedPage]) -> dict[str, Data]:
         """What is found of every sheet, by the name of its page; of equal pictures it is found once."""
         jobs, keys = dict[str, Job](), dict[str, str]()
         for one in whose:
@@ -138,7 +146,7 @@ class StackDesk:
         found = self._done(judged, jobs, "sheets", lambda job: job.page.name)
         return {page: found[name] for page, name in keys.items()}
 
-    def _job(self, one: Placed, further: Sequence[Placed]) -> tuple[str, Job]:
+    def _job(self, one: PlacedPage, further: Sequence[PlacedPage]) -> tuple[str, Job]:
         """The job of a sheet, by a digest of all that it hangs on."""
         assert one.sheet is not None
         scene, options = self.folder / one.sheet.scene, self._drawn_by()
@@ -164,7 +172,7 @@ class StackDesk:
         """What comes of all jobs, told as they are done."""
         messages, found = Messages(self.options.quiet), dict[str, Data]()
         try:
-            for name, made in done(work, jobs, self.keeper, self.processes):
+            for name, made in run_jobs(work, jobs, self.keeper, self.processes):
                 found[name] = {FAULT: made.why} if isinstance(made, Failed) else made
                 messages.progress(f"{what}: {len(found)}/{len(jobs)} {named(jobs[name])}")
         except KeyboardInterrupt:
@@ -175,7 +183,7 @@ class StackDesk:
 
     # ---- put together ----------------------------------------------------------------------------------------------
 
-    def _sheets(self, whose: Sequence[Placed], judged: Mapping[str, Data]) -> Iterator[SheetResult]:
+    def _sheets(self, whose: Sequence[PlacedPage], judged: Mapping[str, Data]) -> Iterator[SheetResult]:
         """The sheets by variant, students without one, then pages that are nobody's."""
         named = [one for one in whose if one.sheet is not None]
         for sheet in self.register.sheets:
@@ -187,7 +195,7 @@ class StackDesk:
             if one.sheet is None and one.fate != fates.BLANK:
                 yield self._sheet(one, None)
 
-    def _sheet(self, one: Placed, data: Data | None) -> SheetResult:
+    def _sheet(self, one: PlacedPage, data: Data | None) -> SheetResult:
         """One page as a line of the results."""
         notes = tuple(self.say(note) for note in one.notes)
         about = SheetResult(FATES[one.fate], one.seen.page.name, None if one.sheet is None else one.sheet.variant,
@@ -200,7 +208,7 @@ class StackDesk:
                                               "detail", "judgement")}
         return replace(about, **told, look=(*notes, *data["look"]), corrected=data[FILES][0])
 
-    def write(self, found: Results) -> None:
+    def write(self, found: StackResults) -> None:
         """Write all that is found into the folder, and remove what an earlier run had to hand back."""
         from graphplan.output.results_page import results_page
 
@@ -233,7 +241,7 @@ def _made(folder: Path) -> None:
                       "-o FOLDER, where it can be") from None
 
 
-def _same(one: Placed, other: Placed) -> bool:
+def _same(one: PlacedPage, other: PlacedPage) -> bool:
     """Whether two pages are of one student, or of one spare sheet."""
     return one.owner == other.owner and (bool(one.owner) or one.sheet == other.sheet)
 
@@ -244,7 +252,7 @@ def _same(one: Placed, other: Placed) -> bool:
 def looked(page: StackPage) -> Data:
     """What is seen on a page, or why it cannot be opened."""
     try:
-        return look(page).data
+        return look_at_page(page).data
     except GraphplanError as fault:
         return {FAULT: fault.lines[0].removeprefix(f"{page.path}: ")}
 
@@ -259,15 +267,15 @@ def judged(job: Job) -> Data:
 
 def _judged(job: Job) -> Data:
     from graphplan.marking.classroom.corrections import Corrections
-    from graphplan.marking.judge.findings import look_at, opinion, read_as, record
-    from graphplan.marking.scans.facsimile import as_it_is, cut, photograph, straight
-    from graphplan.marking.scans.image import picture
+    from graphplan.marking.judge.findings import judgement_record, look_at_lines, opinion, reading_lines
+    from graphplan.marking.scans.image import page_picture
     from graphplan.marking.scans.scan import PencilPage, read_picture
+    from graphplan.marking.scans.straighten import cut_out, sheet_photograph, straight_picture, whole_photograph
     from graphplan.output.pdf_png import pdf
     from graphplan.output.report_page import picture as embedded
     from graphplan.sheet.handout import code, task
 
-    image = picture(job.page.path, job.page.number)
+    image = page_picture(job.page.path, job.page.number)
     image = image[:, ::-1] if job.mirrored else image
     scene = load_scene(str(job.scene))
     named = replace(scene.sheet, student=job.sheet.student, variant=str(job.sheet.variant))
@@ -278,21 +286,21 @@ def _judged(job: Job) -> Data:
     submission = read_picture(image, job.page.name, task(composition)[0], desk.frames, job.sheet.code)
     one, say = desk.judged(submission), composition.plans.tongue
     if isinstance(submission.page, PencilPage):
-        sheet = straight(image, submission.page.warp)
-        shown = photograph(sheet)
+        sheet = straight_picture(image, submission.page.warp)
+        shown = sheet_photograph(sheet)
     else:  # there is nothing on it
-        shown = as_it_is(image, max(composition.arrangement.width, composition.arrangement.height))
+        shown = whole_photograph(image, max(composition.arrangement.width, composition.arrangement.height))
     corrections = Corrections(one.judgement, one.score, composition, shown)
-    further = [as_it_is(picture(page.path, page.number)) for page in job.further]
+    further = [whole_photograph(page_picture(page.path, page.number)) for page in job.further]
     write(pdf(corrections.pages(further)), str(job.corrected))
-    detail = corrections.detail(lambda rect: cut(sheet, rect))
-    first = one.judgement.first
-    sure = [verdict.confidence for verdict in one.judgement.judged] if first is None else [first.confidence]
-    look = [*read_as(one.judgement), *look_at(one.judgement)]
+    detail = corrections.detail(lambda rect: cut_out(sheet, rect))
+    first = one.judgement.first_wrong
+    sure = [verdict.confidence for verdict in one.judgement.counting_verdicts] if first is None else [first.confidence]
+    look = [*reading_lines(one.judgement), *look_at_lines(one.judgement)]
     return {
         "score": one.score.total, "groups": one.score.groups, "first": one.guilty.short if one.guilty else "",
         "words": say(opinion(one.judgement)), "faultless": one.faultless, "kind": first.kind if first else "",
         "confidence": round(min(sure, default=1.0), 3),
         "look": [say(told) for told in look], "detail": embedded(detail) if detail else "",
-        "judgement": record(one.judgement, one.score), FILES: [job.corrected.name],
+        "judgement": judgement_record(one.judgement, one.score), FILES: [job.corrected.name],
     }  # fmt: skip

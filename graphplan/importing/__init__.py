@@ -21,7 +21,7 @@ from graphplan.errors import Refused, SceneError
 from graphplan.importing import linkage2, pmks
 from graphplan.importing.sketch import LinkageSketch
 from graphplan.importing.written import propose_scene
-from graphplan.marking.files.safe import MB, contents, unpacked
+from graphplan.marking.files.safe import MB, contents, unpack
 from graphplan.mechanism.scene import parse
 
 LARGEST = 16 * MB
@@ -56,7 +56,7 @@ def _embedded_scene(path: Path, data: bytes) -> str:
     found = ""
     with suppress(Refused, UnicodeDecodeError):
         if data.startswith(b"PK"):
-            found = unpacked(path, data, SCENE, LARGEST).decode()
+            found = unpack(path, data, SCENE, LARGEST).decode()
         elif lines := COMMENT.findall(data):
             found = b"\n".join(lines).decode() + "\n"
         elif data.lstrip()[:1] == b"<" and (held := SCRIPT.search(data.decode())):

@@ -18,7 +18,7 @@ from typing import Any
 from graphplan.errors import Refused
 from graphplan.importing.sketch import LinkageSketch, SketchDrive, Slot
 from graphplan.importing.tolerances import JOINT_TOL
-from graphplan.marking.files.dxf import DEEPEST, of_document
+from graphplan.marking.files.dxf import DEEPEST, read_document
 from graphplan.marking.files.safe import Budget, on_paper
 from graphplan.mechanism.model import FRAME
 
@@ -36,7 +36,7 @@ THINGS = 4000
 
 def read(path: Path, data: bytes) -> LinkageSketch:
     """The linkage of a file."""
-    return of_document(path, data, lambda document: _DxfLinkage(path, document).sketch())
+    return read_document(path, data, lambda document: _DxfLinkage(path, document).sketch())
 
 
 @dataclass

@@ -23,7 +23,15 @@ from typing import Any
 
 from graphplan.importing.sketch import LinkageSketch, SketchDrive, Slot
 from graphplan.importing.tolerances import DIRECTION_TOL
-from graphplan.marking.files.constructions import CAPTION, LINES, NAME, Objects, Vector, of_construction, seen
+from graphplan.marking.files.constructions import (
+    CAPTION,
+    LINES,
+    NAME,
+    GeoGebraObjects,
+    PlaneVector,
+    is_shown,
+    read_construction,
+)
 from graphplan.mechanism.model import FRAME
 
 AXES = {"xAxis": 1 + 0j, "yAxis": 1j}
@@ -35,13 +43,13 @@ GUESS = "GeoGebra knows no speed: 1 {unit} is a guess."
 
 def read(path: Path, data: bytes) -> LinkageSketch:
     """The linkage of a file."""
-    return of_construction(path, data, lambda objects: _GeoGebraLinkage(objects).sketch)
+    return read_construction(path, data, lambda objects: _GeoGebraLinkage(objects).sketch)
 
 
 class _GeoGebraLinkage:
     """Reads the objects, link by link and then point by point."""
 
-    def __init__(self, objects: Objects):
+    def __init__(self, objects: GeoGebraObjects):
         self.objects = objects
         self.dependents: dict[str, set[str]] = {}
         for label in objects.elements:
@@ -129,7 +137,8 @@ class _GeoGebraLinkage:
             command, inputs, place = self._command(label)
             layer = element.find("layer")
             strange = own and (layer is None or layer.get("val") != "0")
-            if command not in ("Segment", "Polygon", "PolyLine", "Polyline") or place or not seen(element) or strange:
+            if command not in ("Segment", "Polygon", "PolyLine",
+                               "Polyline") or place or not is_shown(element) or strange:
                 continue
             corners = [name for name in inputs if name in self.points and not (own and name.startswith("point_"))]
             if len(corners) < 2 or (len(corners) < len(inputs) and not own):
@@ -225,7 +234,7 @@ class _GeoGebraLinkage:
         command, inputs, _ = self._command(label)
         on = command in ("Point", "PointIn") and len(inputs) == 1
         of = [*self._ends(inputs[0])] if on else [name for name in inputs if name in self.points]
-        if not (seen(self.objects.elements[label]) and (on or command in RIGID) and len(of) > 1):
+        if not (is_shown(self.objects.elements[label]) and (on or command in RIGID) and len(of) > 1):
             return
         if any(self.moves(name) for name in self._needs(label) - self.points) and not on:
             return
@@ -259,7 +268,7 @@ class _GeoGebraLinkage:
         """A slide along a line."""
         value: Any = self.objects.values.get(line) or self.objects.term(line)
         ends, along = self._ends(line), AXES.get(line, getattr(value, "along", None))
-        if along is not None and not isinstance(value, Vector) and not self.moves(line):
+        if along is not None and not isinstance(value, PlaneVector) and not self.moves(line):
             self.sketch.slots.append(Slot(label, FRAME, along / abs(along)))
         elif len(ends) == 2:
             self._bar(*ends)

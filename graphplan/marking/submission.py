@@ -21,7 +21,7 @@ STANDARD_ERROR = 2  # the file in which libraries in other languages write, what
 EXTRAS = {".svg": ("svgelements", "svg"), ".dxf": ("ezdxf", "dxf")}  # the package that reads a kind, and its extra
 
 
-def read(path: Path, panels: Collection[str], frames: Frames,
+def read_submission(path: Path, panels: Collection[str], frames: Frames,
          printed: Callable[[], Sheet] | None = None, code: int | None = None, size: Size = None) -> Submission:
     """The drawing in a file; `panels` are the plans of the construction, `frames` where they lie on its own sheet.
 
@@ -32,18 +32,18 @@ def read(path: Path, panels: Collection[str], frames: Frames,
     """
     suffix = path.suffix.casefold()
     if suffix in IMAGES:
-        return _scanned(path, frames, printed, code)
+        return _read_image(path, frames, printed, code)
     if suffix not in FILES:
         kind = suffix if suffix[1:].isalnum() else "without a suffix that is known"
         raise Refused(f"{path}", f"files of this kind ({kind[:40]}) are not read",
                       f"give one of {' '.join([*FILES, *IMAGES])}")
-    found = _read(path, suffix, panels, frames, size)
+    found = _read_data_file(path, suffix, panels, frames, size)
     if not found.traces and not found.numbers:
         raise Refused(f"{path}", "it contains no mark and no result", "fill it in")
     return found
 
 
-def _scanned(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, code: int | None) -> Submission:
+def _read_image(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, code: int | None) -> Submission:
     """A scan or photo."""
     if printed is None:
         raise Refused(f"{path}", "a picture is read beside the sheet that was printed, and none is named",
@@ -53,12 +53,12 @@ def _scanned(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, co
                       "pip install 'graphplan[scan]'")
     from graphplan.marking.scans.scan import read_scan
 
-    with hushed():
+    with silence_stderr():
         return read_scan(path, printed(), frames, code)
 
 
 @contextmanager
-def hushed() -> Iterator[None]:
+def silence_stderr() -> Iterator[None]:
     """Within, libraries write nothing where errors are written: what they say of a picture is not for the reader."""
     try:
         kept = os.dup(STANDARD_ERROR)
@@ -74,18 +74,18 @@ def hushed() -> Iterator[None]:
         os.close(kept)
 
 
-def _read(path: Path, suffix: str, panels: Collection[str], frames: Frames, size: Size) -> Submission:
+def _read_data_file(path: Path, suffix: str, panels: Collection[str], frames: Frames, size: Size) -> Submission:
     """A file of numbers or of a drawing program."""
     package, extra = EXTRAS.get(suffix, ("", ""))
     if package and not find_spec(package):
         raise Refused(f"{path}", f"reading {suffix[1:].upper()} needs {package}", f"pip install 'graphplan[{extra}]'")
     match suffix:
         case ".csv":
-            from graphplan.marking.tables.reader import read_csv
+            from graphplan.marking.files.tables import read_csv
 
             return read_csv(path, panels)
         case ".toml":
-            from graphplan.marking.tables.reader import read_toml
+            from graphplan.marking.files.tables import read_toml
 
             return read_toml(path, panels)
         case ".svg":

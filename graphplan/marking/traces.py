@@ -1,12 +1,15 @@
-"""What is seen on a student's sheet: points, lines and circles in its own millimetres, and numbers in a table.
+"""What is seen on a student's sheet: points, lines and circles in its own millimetres, and numbers in a table; and
+names of marks, spelled as programs have them, whichever way a student or his drawing program writes them.
 
-Nothing here knows mechanics. A sheet may lie, be turned and be scaled as it likes; where a plan of it is known to
-lie, as on a printed handout, its frame says so.
+Nothing here knows mechanics. A sheet may lie, be turned and be scaled as it likes; where a plan of it is known to lie,
+as on a printed handout, its frame says so. In names `v_b` is v with a subscript, Greek letters have their names, primes
+stand at the end.
 """
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
@@ -15,8 +18,7 @@ import shapely
 from shapely import LineString, Point, Polygon
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.spelling import mark
-from graphplan.sheet.lettering.lettering import CAPS
+from graphplan.sheet.lettering.lettering import CAPS, GREEK
 
 Spot = tuple[float, float]
 SPOTS = {POINT: 1, LINE: 2, CIRCLE: 3}  # how many spots at least say where a thing lies
@@ -64,8 +66,8 @@ class Lettering:
     @property
     def names(self) -> list[str]:
         """The marks that are named: several that share a spot stand with commas; other words name none."""
-        whole = mark(self.text)
-        found = [whole] if whole else [mark(part) for part in self.text.split(",")]
+        whole = mark_name(self.text)
+        found = [whole] if whole else [mark_name(part) for part in self.text.split(",")]
         return found if all(found) else []
 
     @property
@@ -83,11 +85,11 @@ class PlanFrame:
     origin: complex
     unit: complex
 
-    def onto(self, spot: complex) -> complex:
+    def to_sheet(self, spot: complex) -> complex:
         """From the plan to the sheet."""
         return self.origin + self.unit * spot
 
-    def back(self, spot: complex) -> complex:
+    def to_plan(self, spot: complex) -> complex:
         """From the sheet to the plan."""
         return (spot - self.origin) / self.unit
 
@@ -96,7 +98,7 @@ Frames = Mapping[str, PlanFrame]
 
 
 @dataclass(frozen=True)
-class Number:
+class StudentNumber:
     """One entry of a result table: a vector's components or a single number, the unit that was written, and the
     standard deviation with which it was rounded, in that unit."""
 
@@ -107,19 +109,19 @@ class Number:
     rounding: float = field(default=0.0, compare=False)
 
 
-class Searched(Protocol):
+class SearchableImage(Protocol):
     """A picture of a sheet that can be asked for what is expected on it; all in mm of the sheet."""
 
-    def near(self, one: Spot, two: Spot, within: float) -> Trace | None:
+    def find_line(self, one: Spot, two: Spot, within: float) -> Trace | None:
         """The line about the expected one between two spots."""
 
-    def rim(self, centre: Spot, radius: float, spots: Sequence[Spot], within: float) -> Trace | None:
+    def find_arc(self, centre: Spot, radius: float, spots: Sequence[Spot], within: float) -> Trace | None:
         """The arc about the expected one, near some spots of it."""
 
-    def dot(self, spot: Spot, within: float) -> Trace | None:
+    def find_dot(self, spot: Spot, within: float) -> Trace | None:
         """The point about the expected one."""
 
-    def share(self, kind: str, spots: Sequence[Spot], within: float) -> float | None:
+    def visible_share(self, kind: str, spots: Sequence[Spot], within: float) -> float | None:
         """The share of some spots that have a stroke, or a point, so near; None where most could not be seen."""
 
 
@@ -137,13 +139,56 @@ class Submission:
 
     name: str
     traces: tuple[Trace, ...] = ()
-    numbers: tuple[Number, ...] = ()
+    numbers: tuple[StudentNumber, ...] = ()
     shows: frozenset[str] = frozenset()
     frames: Frames = field(default_factory=dict)
-    page: Searched | None = None
+    page: SearchableImage | None = None
     tips: tuple[Spot, ...] = ()
     letters: tuple[Lettering, ...] = ()
     measured: bool = False
     stated: bool = False
     left_out: tuple[str, ...] = ()
     millimetres: float = math.inf
+
+
+# ---- spelling -------------------------------------------------------------------------------------------------------
+
+
+NAMES = {letter: name for name, letter in GREEK.items()} | {"ϵ": "epsilon", "ϕ": "phi", "ϑ": "theta"}
+SPELLED = {letter.upper(): name.capitalize() for letter, name in NAMES.items()} | NAMES
+LOW = str.maketrans("₀₁₂₃₄₅₆₇₈₉ₐₑₕₖₗₘₙₒₚₛₜₓ", "0123456789aehklmnopstx")
+PRIMES = str.maketrans({"′": "'", "’": "'", "`": "'", "″": "''", "”": "''", '"': "''", "‴": "'''"})
+STEM = "|".join([*sorted(GREEK, key=len, reverse=True), "[A-Z]?[a-z][0-9]{0,2}", "[0-9]{1,3}"])
+MARK = re.compile(rf"(?:{STEM})(?:_[A-Z0-9,]{{1,6}})?(?:\([A-Z0-9]{{1,3}}\))?'*", re.IGNORECASE)
+
+
+def spell(name: str) -> str:
+    """A name as it is compared: v_{b}, A₁′, α and P_25_1 become v_b, A_1', alpha and P_25,1."""
+    text = re.sub(r"[{}$\\]", "", name.strip()).translate(PRIMES)
+    if low := re.search(r"[₀-₉ₐ-ₜ]+", text):
+        text = f"{text[: low.start()]}_{low[0].translate(LOW)}{text[low.end() :]}"
+    text = "".join([SPELLED.get(char, char) for char in text])
+    stem, _, index = text.replace("'", "").partition("_")
+    index = re.sub(r"(?<=\d)_(?=\d)", ",", index).replace("_", "")
+    return stem + (f"_{index}" if index else "") + "'" * text.count("'")
+
+
+def bare_name(name: str) -> str:
+    """A name without what spellings differ in: A_3, a3 and "link A3" are one."""
+    return re.sub(r"^(link|point)\s+|[\s_]", "", spell(name).casefold())
+
+
+def mark_name(name: str) -> str:
+    """The name spelled, if it reads as that of a mark; else nothing."""
+    found = spell(name)
+    return found if MARK.fullmatch(found) else ""
+
+
+def is_greek(name: str) -> bool:
+    """Whether the name is a Greek letter's, as those of lines are."""
+    return name.rstrip("'").partition("_")[0].lower() in GREEK
+
+
+def can_name_line(name: str) -> bool:
+    """Whether a name may stand beside a line: a Greek letter's or a number."""
+    return is_greek(name) or name.isdigit()

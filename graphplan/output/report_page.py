@@ -12,20 +12,20 @@ from functools import cached_property
 from html import escape
 from importlib.resources import files
 
-from graphplan.marking.classroom.class_list import NOT_JUDGED, Classroom, Marked, mistaken
+from graphplan.marking.classroom.results import NOT_JUDGED, Classroom, MarkedDrawing, mistake_words
 from graphplan.marking.judge.findings import (
     ALLOWED,
     FIGURES,
     OFF,
-    called,
-    figures,
-    look_at,
-    named,
+    look_at_lines,
+    number_text,
+    number_words,
     opinion,
-    read_as,
+    reading_lines,
     result_named,
-    summary,
-    written,
+    step_name,
+    step_words,
+    summary_lines,
 )
 from graphplan.marking.judge.score import GROUPS, KINDS, Score
 from graphplan.marking.judge.verdict import STATES, UNSEEN, Judgement, NumberVerdict, Verdict
@@ -124,14 +124,14 @@ class _Report(HtmlPage):
 
     def body(self, sheets: Sequence[Sheet]) -> Iterator[str]:
         """What stands on the page."""
-        scene, wrong = self.judgement.drawing.scene, " wrong" if self.judgement.first else ""
+        scene, wrong = self.judgement.drawing.scene, " wrong" if self.judgement.first_wrong else ""
         yield f"<h1>{escape(scene.title)}</h1>"
         yield f'<p class="source">{escape(self.judgement.name)}</p>'
-        for line in read_as(self.judgement):
+        for line in reading_lines(self.judgement):
             yield f'<p class="reading">{self.set(line)}</p>'
         yield f'<p class="opinion{wrong}">{self.set(opinion(self.judgement))}</p>'
-        yield from (f"<p>{self.set(told)}</p>" for told in summary(self.judgement))
-        yield from (f"<p>{self.set(told)}</p>" for told in look_at(self.judgement))
+        yield from (f"<p>{self.set(told)}</p>" for told in summary_lines(self.judgement))
+        yield from (f"<p>{self.set(told)}</p>" for told in look_at_lines(self.judgement))
         yield from self._score()
         for sheet in sheets:
             yield f"<figure>{picture(sheet)}</figure>"
@@ -160,10 +160,10 @@ class _Report(HtmlPage):
 
     def _step(self, verdict: Verdict) -> tuple[HtmlCell, ...]:
         drawn, plans = self.judgement.drawing.drawn, self.judgement.composition.plans
-        seen = self.judgement.measured(verdict)
+        seen = self.judgement.is_measured(verdict)
         sizes = [self.say(digits(size, FIGURES)) if seen else "" for size in (verdict.off, verdict.tolerance)]
         return (
-            HtmlCell(self.set(called(drawn, verdict.step).short), FIGURE),
+            HtmlCell(self.set(step_name(drawn, verdict.step).short), FIGURE),
             HtmlCell(self.say(plans.plan_of_step[verdict.step].words)),
             HtmlCell(self.set(drawn.sentence(verdict.step))),
             HtmlCell(self.say(STATES[verdict.state]()), STATE),
@@ -178,7 +178,7 @@ class _Report(HtmlPage):
             return ""
         if verdict.at_fault == verdict.step:
             return verdict.mistake
-        return arrange("{0}: {1}", named(self.judgement.drawing.drawn, verdict.at_fault), verdict.mistake)
+        return arrange("{0}: {1}", step_words(self.judgement.drawing.drawn, verdict.at_fault), verdict.mistake)
 
     # ---- numbers ---------------------------------------------------------------------------------------------------
 
@@ -193,8 +193,8 @@ class _Report(HtmlPage):
     def _number(self, verdict: NumberVerdict) -> tuple[HtmlCell, ...]:
         what = result_named(self.judgement, verdict.number.kind, verdict.number.of)
         return (
-            HtmlCell(self.set(what)), HtmlCell(self.say(written(verdict.number)), FIGURE),
-            HtmlCell(self.say(figures(verdict.true)), FIGURE), HtmlCell(self.say(STATES[verdict.state]()), STATE),
+            HtmlCell(self.set(what)), HtmlCell(self.say(number_words(verdict.number)), FIGURE),
+            HtmlCell(self.say(number_text(verdict.true)), FIGURE), HtmlCell(self.say(STATES[verdict.state]()), STATE),
             *(HtmlCell(self.say(digits(size, FIGURES)), FIGURE) for size in (verdict.off, verdict.tolerance)),
             HtmlCell(self.set(verdict.mistake or "")),
         )  # fmt: skip
@@ -219,9 +219,9 @@ class _ClassList(HtmlPage):
         """What stands on the page."""
         yield f"<h1>{escape(self.found.title)}</h1>"
         yield from (f"<p>{self.say(told)}</p>" for told in self.found.findings())
-        first = {self.say(step.told): count for step, count in self.found.histogram.items()}
+        first = {self.say(step.words_with_mark): count for step, count in self.found.histogram.items()}
         yield from self.bars(said("First wrong step"), first, len(self.found.marked))
-        kinds = {self.say(mistaken(kind)): count for kind, count in self.found.mistakes.items()}
+        kinds = {self.say(mistake_words(kind)): count for kind, count in self.found.mistakes.items()}
         yield from self.bars(said("Mistakes"), kinds, len(self.found.marked))
         yield from self._drawings()
         yield from self._unread()
@@ -231,11 +231,11 @@ class _ClassList(HtmlPage):
         rows = [("" if one.guilty is None else "wrong", self._row(one)) for one in self.found.marked]
         yield from self.table(said("Drawings"), EACH(), heads, rows)
 
-    def _row(self, one: Marked) -> tuple[HtmlCell, ...]:
+    def _row(self, one: MarkedDrawing) -> tuple[HtmlCell, ...]:
         return (
             HtmlCell(escape(one.file)), HtmlCell("" if one.score.total is None else f"{one.score.total:.0f}", FIGURE),
             HtmlCell("" if one.guilty is None else escape(one.guilty.short), FIGURE),
-            HtmlCell(self.say(one.mistake or "")), HtmlCell(self.say(one.told)),
+            HtmlCell(self.say(one.mistake or "")), HtmlCell(self.say(one.text)),
         )  # fmt: skip
 
     def _unread(self) -> Iterator[str]:

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from html import escape
 
-from graphplan.marking.classroom.class_list import mistaken
 from graphplan.marking.classroom.results import (
     ABSENT,
     FAILED,
@@ -14,15 +13,16 @@ from graphplan.marking.classroom.results import (
     SHOWN,
     STATUS,
     UNASSIGNED,
-    Results,
     SheetResult,
+    StackResults,
+    mistake_words,
 )
 from graphplan.output.report_page import FIGURE, PICTURES, HtmlCell, HtmlPage
 from graphplan.phrases import said
 from graphplan.words.tongue import Tongue
 
 
-def results_page(found: Results, tongue: Tongue) -> str:
+def results_page(found: StackResults, tongue: Tongue) -> str:
     """The page of the results of a class, in this tongue."""
     page = _ResultsPage(tongue, found)
     return page.page(found.title, page.body(), PICTURES)
@@ -32,7 +32,7 @@ def results_page(found: Results, tongue: Tongue) -> str:
 class _ResultsPage(HtmlPage):
     """The results of a class in words."""
 
-    found: Results
+    found: StackResults
 
     def body(self) -> Iterator[str]:
         """What stands on the page."""
@@ -47,11 +47,11 @@ class _ResultsPage(HtmlPage):
 
     def _left(self) -> Iterator[str]:
         """The pages that the teacher has to name, as pictures."""
-        left = self.found.of(UNASSIGNED, FAILED)
+        left = self.found.with_status(UNASSIGNED, FAILED)
         if left:
             yield f"<h2>{self.say(said('To be looked at'))}</h2><div class=\"pictures\">"
             for one in left:
-                why = f"{one.page}: {one.told}"
+                why = f"{one.page}: {one.look_text}"
                 shown = (f'<img src="data:image/jpeg;base64,{escape(one.thumbnail)}" alt="{escape(one.page)}">'
                          if one.thumbnail else "")
                 yield f"<figure>{shown}<figcaption>{escape(why)}</figcaption></figure>"
@@ -74,19 +74,19 @@ class _ResultsPage(HtmlPage):
             HtmlCell(name), HtmlCell("" if one.variant is None else str(one.variant), FIGURE),
             HtmlCell(escape(one.page)), HtmlCell("" if one.score is None else f"{one.score:.0f}", FIGURE),
             HtmlCell(escape(one.first), FIGURE), HtmlCell(escape(told)),
-            HtmlCell(sure if one.status != ABSENT else "", FIGURE), HtmlCell(escape(one.told)),
+            HtmlCell(sure if one.status != ABSENT else "", FIGURE), HtmlCell(escape(one.look_text)),
         )  # fmt: skip
 
     def _mistakes(self) -> Iterator[str]:
         """The most frequent mistakes, with the places of some of them."""
         found = self.found.mistakes
-        kinds = {self.say(mistaken(kind)): len(sheets) for kind, sheets in found.items()}
-        yield from self.bars(said("Mistakes"), kinds, len(self.found.of(JUDGED)))
+        kinds = {self.say(mistake_words(kind)): len(sheets) for kind, sheets in found.items()}
+        yield from self.bars(said("Mistakes"), kinds, len(self.found.with_status(JUDGED)))
         for kind, sheets in list(found.items())[:SHOWN]:
             shown = [one for one in sheets if one.detail][:SHOWN]
             if not shown:
                 continue
-            yield f"<h3>{self.say(mistaken(kind))}</h3><div class=\"pictures\">"
+            yield f"<h3>{self.say(mistake_words(kind))}</h3><div class=\"pictures\">"
             for one in shown:
                 yield f"<figure>{one.detail}<figcaption>{escape(one.student or one.page)}: {escape(one.words)}"
                 yield "</figcaption></figure>"

@@ -31,9 +31,9 @@ from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.mistakes import Mistake
-from graphplan.marking.judge.student_sheet import apart as apart_by
+from graphplan.marking.judge.student_sheet import distance_apart as apart_by
 from graphplan.marking.judge.verdict import Judgement
-from graphplan.marking.submission import read
+from graphplan.marking.submission import read_submission
 from graphplan.marking.traces import PlanFrame, Submission
 from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construction import Construction
@@ -133,16 +133,16 @@ def measure(kind: str, name: str, seeds: range, tally: Tally) -> None:
         found = _judged(kind, drawing, sheet, clean, seed, tally)
         tally.misread += misread(found, clean)
         tally.faultless += 1
-        if found.first:
+        if found.first_wrong:
             tally.alarms += 1
             tally.missed.append(f"{name} {seed} faultless: {_told(found)}")
         mistaken = _mistaken(kind, drawing, sheet, where, seed, found)
         if mistaken is not None:
             slip, drawn = mistaken
             found = _judged(kind, drawing, sheet, drawn, seed, tally)
-            exact = found.guilty == slip.step.index
+            exact = found.first_wrong_step == slip.step.index
             tally.mistaken, tally.exact = tally.mistaken + 1, tally.exact + exact
-            told = (found.first.kind or UNTOLD) if found.first else NONE
+            told = (found.first_wrong.kind or UNTOLD) if found.first_wrong else NONE
             tally.confusion[slip.kind, told] += 1
             if not exact:
                 tally.missed.append(f"{name} {seed} step {drawing.drawn.number(slip.step.index)} {slip.kind}, "
@@ -155,7 +155,7 @@ def _judged(kind: str, drawing: Construction, sheet: Composition, drawn: Drawn, 
     page = cache(lambda: task(sheet)[0])
     before = time.perf_counter()
     known = isinstance(made, Submission)
-    submission = made if known else read(made, list(sheet.views), drawn.frames, page, code(sheet))
+    submission = made if known else read_submission(made, list(sheet.views), drawn.frames, page, code(sheet))
     found = judge(drawing, sheet, submission, PENCIL)
     tally.seconds.append(time.perf_counter() - before)
     return found
@@ -169,7 +169,7 @@ def misread(found: Judgement, drawn: Drawn) -> Iterator[float]:
         if trace is None or value is None or step.op.name in ("given", "begin", "pick"):
             continue
         frame = found.frames[plan_of_step[verdict.step]]
-        spots = np.array([frame.back(complex(*spot)) for spot in trace.spots])
+        spots = np.array([frame.to_plan(complex(*spot)) for spot in trace.spots])
         yield apart_by(trace.kind, [float(part) for part in value], spots) * abs(frame.unit)
 
 
@@ -200,10 +200,10 @@ def _mistaken(kind: str, drawing: Construction, sheet: Composition, where: dict[
 
 def _told(found: Judgement) -> str:
     """What was said of a drawing."""
-    if found.first is None or found.guilty is None:
+    if found.first_wrong is None or found.first_wrong_step is None:
         return "nothing is wrong"
-    return (f"step {found.drawing.drawn.number(found.guilty)}, {found.first.off:.2f} mm off, "
-            f"{found.first.tolerance:.2f} allowed; {found.first.mistake}")
+    return (f"step {found.drawing.drawn.number(found.first_wrong_step)}, {found.first_wrong.off:.2f} mm off, "
+            f"{found.first_wrong.tolerance:.2f} allowed; {found.first_wrong.mistake}")
 
 
 def table(kind: str, tally: Tally) -> Iterator[str]:

@@ -14,7 +14,7 @@ import pytest
 
 from graphplan.commands import main
 from graphplan.commands.variants import MOST
-from graphplan.marking.classroom.register import Register, load
+from graphplan.marking.classroom.register import ClassRegister, load_register
 from graphplan.mechanism.scene import load as load_scene
 
 CLASS = "name\nStudent 1\nStudent 2\nStudent 1\n"
@@ -31,9 +31,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def register(folder: Path) -> Register:
+def register(folder: Path) -> ClassRegister:
     """Its register."""
-    return load(folder)
+    return load_register(folder)
 
 
 def key(folder: Path) -> list[dict[str, str]]:
@@ -41,7 +41,7 @@ def key(folder: Path) -> list[dict[str, str]]:
     return [*csv.DictReader((folder / "key.csv").read_text(encoding="utf-8").splitlines())]
 
 
-def test_each_student_has_a_task(folder: Path, register: Register) -> None:
+def test_each_student_has_a_task(folder: Path, register: ClassRegister) -> None:
     """Each name is on one sheet, equal names are told apart, spare sheets are nobody's; the key has the same names."""
     assert [sheet.student for sheet in register.sheets] == ["Student 1", "Student 2", "Student 1 (2)", ""]
     assert [sheet.variant for sheet in register.sheets] == [1, 2, 3, 4]
@@ -51,7 +51,7 @@ def test_each_student_has_a_task(folder: Path, register: Register) -> None:
         "booklet.pdf", "class.json", "key.csv", "key.pdf", *(f"variant-0{k}.toml" for k in (1, 2, 3, 4))]
 
 
-def test_variants_differ_in_what_varies_alone(folder: Path, register: Register) -> None:
+def test_variants_differ_in_what_varies_alone(folder: Path, register: ClassRegister) -> None:
     """Each scene has values of the ranges and no table [vary]; they differ, and all have the same paper and scales."""
     own = load_scene("four-bar")
     sheets, drawn = set[str](), set[tuple[Any, ...]]()
@@ -71,7 +71,8 @@ def test_variants_differ_in_what_varies_alone(folder: Path, register: Register) 
     assert {"paper", "k_s", "k_v", "multiples"} <= {*json.loads(sheets.pop())}
 
 
-def test_the_key_is_right(folder: Path, register: Register, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_key_is_right(folder: Path, register: ClassRegister, tmp_path: Path,
+                          capsys: pytest.CaptureFixture[str]) -> None:
     """A student who hands in the key's own rows of the variant has everything right."""
     for sheet in register.sheets[:2]:
         rows = [row for row in key(folder) if row["variant"] == str(sheet.variant)]
@@ -93,7 +94,7 @@ def test_the_same_seed_gives_the_same_bytes(folder: Path, tmp_path: Path) -> Non
         path.name: path.read_bytes() for path in folder.iterdir()}
 
 
-def test_names_stand_on_the_sheets(folder: Path, register: Register) -> None:
+def test_names_stand_on_the_sheets(folder: Path, register: ClassRegister) -> None:
     """On each page of the booklet stands its student; the pages of the register are those of the booklet. The key
     begins with who has which variant."""
     pdfium = pytest.importorskip("pypdfium2")

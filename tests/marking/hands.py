@@ -17,7 +17,7 @@ from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
-from graphplan.marking.judge.mistakes import Mistake, mistakes
+from graphplan.marking.judge.mistakes import Mistake, possible_mistakes
 from graphplan.marking.traces import PlanFrame, Submission, Trace
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.composition import Composition
@@ -69,7 +69,7 @@ def draw(drawing: Construction, where: Mapping[str, PlanFrame], pencil: Pencil, 
 def slipped(drawing: Construction, index: int) -> list[Mistake]:
     """The mistakes that can be made at a step: nobody marks where lines cross that are one, or never meet."""
     found = []
-    for mistake in mistakes(drawing.drawn, drawing.drawn.steps[index], Plans(drawing).plan_of_step):
+    for mistake in possible_mistakes(drawing.drawn, drawing.drawn.steps[index], Plans(drawing).plan_of_step):
         with suppress(Undrawable):
             mistake.value(Floats(), drawing.values)
             found.append(mistake)
@@ -90,7 +90,7 @@ def traced(drawn: Drawn, digits: int | None = None) -> list[Trace]:
         if value is None or step.op.gives == OPENING:
             continue
         frame = drawn.frames[plan_of_step[step.index]]
-        spots = [frame.onto(z) for z in _spots(drawn, step, value)]
+        spots = [frame.to_sheet(z) for z in _spots(drawn, step, value)]
         rounded = tuple((z.real, z.imag) if digits is None else (round(z.real, digits), round(z.imag, digits))
                         for z in spots)
         label = step.name or str(program.number(step.index))
@@ -195,7 +195,7 @@ def in_panel(drawn: Drawn, sheet: Composition) -> bool:
         if step.op.gives == POINT and value is not None:
             home = plan_of_step[step.index]
             rect, frame = _room(sheet, home), drawn.frames[home]
-            spots = [frame.onto(complex(*spot[:2])) for spot in (value, true)]
+            spots = [frame.to_sheet(complex(*spot[:2])) for spot in (value, true)]
             if rect.holds((spots[1].real, spots[1].imag)) and not rect.holds((spots[0].real, spots[0].imag)):
                 return False
     return True

@@ -62,6 +62,6 @@ class Maker:
         """A true mark on the student's sheet, moved by so many mm."""
         frame = self.frames[self.plans.plan_of_step[step.index]]
         on = [complex(*self.plans.spot(mark)) for mark in self.plans.marks_on.get(step.index, ())]
-        found = [frame.onto(spot) + off for spot in extent(step, value, on, 3.0)]
+        found = [frame.to_sheet(spot) + off for spot in extent(step, value, on, 3.0)]
         label = self.drawing.drawn.text(step.index)
         return Trace(step.op.gives, tuple((spot.real, spot.imag) for spot in found), label)

@@ -8,8 +8,8 @@ import pytest
 from judged import judgement
 
 import graphplan as gp
-from graphplan.marking.classroom.class_list import Classroom, Marked, Unread, lines, mistaken
-from graphplan.marking.judge.findings import Called, called
+from graphplan.marking.classroom.results import Classroom, MarkedDrawing, Unread, class_lines, mistake_words
+from graphplan.marking.judge.findings import StepName, step_name
 from graphplan.marking.judge.mistakes import MISTAKES
 from graphplan.marking.judge.score import score
 from graphplan.marking.judge.verdict import RIGHT, UNSEEN, WRONG, Judgement, Verdict
@@ -19,20 +19,20 @@ from graphplan.sheet.layout.composition import compose
 WRONG_LINE = "wrong line"
 
 
-def paper(file: str, wrong: int | None = None, kind: str = "") -> Marked:
+def paper(file: str, wrong: int | None = None, kind: str = "") -> MarkedDrawing:
     """A drawing of the four-bar with this step wrong."""
     told = said("parallel to {0} instead of {1}", "AB", "BC") if kind == WRONG_LINE else None
     found = judgement("four-bar", {} if wrong is None else {wrong: 2.5 + 1j}, told, kind, file)
-    return Marked(found, score(found))
+    return MarkedDrawing(found, score(found))
 
 
-def by_construction(file: str, plan: str, wrong: int) -> Marked:
+def by_construction(file: str, plan: str, wrong: int) -> MarkedDrawing:
     """A drawing of the four-bar by the construction of a plan, with this step wrong, counted from the last."""
     drawing = gp.construct(gp.load("four-bar"), plan=plan)
     steps = [Verdict(step.index, RIGHT) for step in drawing.drawn.steps]
     steps[wrong] = replace(steps[wrong], state=WRONG)
     found = Judgement(file, drawing, compose(drawing), {}, tuple(steps))
-    return Marked(found, score(found))
+    return MarkedDrawing(found, score(found))
 
 
 def parallels() -> list[int]:
@@ -40,13 +40,13 @@ def parallels() -> list[int]:
     return [step.index for step in judgement("four-bar").drawing.drawn.steps if step.op.name == "parallel"]
 
 
-def room(*marked: Marked, unread: tuple[Unread, ...] = ()) -> Classroom:
+def room(*marked: MarkedDrawing, unread: tuple[Unread, ...] = ()) -> Classroom:
     return Classroom(judgement("four-bar").drawing.scene.title, marked, unread)
 
 
-def step(index: int) -> Called:
+def step(index: int) -> StepName:
     """What a step of the four-bar's construction is called."""
-    return called(judgement("four-bar").drawing.drawn, index)
+    return step_name(judgement("four-bar").drawing.drawn, index)
 
 
 def test_the_most_frequent_mistake_and_step_are_told() -> None:
@@ -56,7 +56,7 @@ def test_the_most_frequent_mistake_and_step_are_told() -> None:
     assert found.histogram == {step(one): 1, step(two): 2}
     assert found.hardest == step(two)
     assert found.mistakes == {WRONG_LINE: 2, "reversed": 1}
-    told = [str(line) for line in lines(found)]
+    told = [str(line) for line in class_lines(found)]
     number = step(two).number
     assert told[0] == "a: 100 of 100; no wrong step"
     assert f"b: 80 of 100; Step {number}: parallel to AB instead of BC, 2.7 mm off, 0.5 mm allowed" in told
@@ -74,20 +74,21 @@ def test_of_equally_frequent_steps_the_earlier_is_told() -> None:
 def test_a_class_may_follow_several_constructions() -> None:
     """A step is told after the construction of its own drawing, however many steps the others have."""
     drawings = [by_construction("a", "", -1), by_construction("b", "polar", -1), by_construction("c", "polar", -1)]
-    orthogonal, polar = (called(one.judgement.drawing.drawn, one.judgement.guilty or 0) for one in drawings[:2])
+    orthogonal, polar = (step_name(one.judgement.drawing.drawn, one.judgement.first_wrong_step or 0)
+                         for one in drawings[:2])
     assert orthogonal != polar
     found = room(*drawings)
     assert found.histogram == {orthogonal: 1, polar: 2}
     assert [one.guilty for one in found.marked] == [orthogonal, polar, polar]
     assert found.data["most_frequent_first_wrong"] == polar.number
-    assert f"Most frequent first wrong step: {polar.told} (2)." in map(str, lines(found))
+    assert f"Most frequent first wrong step: {polar.words_with_mark} (2)." in map(str, class_lines(found))
 
 
 def test_a_drawing_of_which_nothing_is_judged_is_not_faultless() -> None:
     """Where nothing is to be seen, that is told, and the drawing is none without a wrong step."""
     found = judgement("four-bar", file="b")
     unseen = replace(found, verdicts=tuple(replace(v, state=UNSEEN) for v in found.verdicts))
-    told = [str(line) for line in lines(room(paper("a"), Marked(unseen, score(unseen))))]
+    told = [str(line) for line in class_lines(room(paper("a"), MarkedDrawing(unseen, score(unseen))))]
     assert "b: nothing to judge" in told
     assert "Drawings: 2, of which 1 have no wrong step." in told
 
@@ -97,7 +98,7 @@ def test_the_mean_is_that_of_what_could_be_judged() -> None:
     found = room(paper("a"), paper("b", parallels()[0]), unread=(Unread("c", "it is empty; give a drawing"),))
     assert found.mean == pytest.approx((100 + found.data["drawings"][1]["score"]) / 2)
     assert found.data["not_judged"] == [{"file": "c", "why": "it is empty; give a drawing"}]
-    assert "Not judged: 1." in map(str, lines(found))
+    assert "Not judged: 1." in map(str, class_lines(found))
 
 
 def test_a_class_of_which_nothing_can_be_read_has_no_findings() -> None:
@@ -108,4 +109,4 @@ def test_a_class_of_which_nothing_can_be_read_has_no_findings() -> None:
 
 def test_every_kind_of_mistake_can_be_told() -> None:
     """A class report has words for every kind of the table of mistakes, and others for each."""
-    assert len({str(mistaken(kind)) for kind in MISTAKES}) == len(MISTAKES)
+    assert len({str(mistake_words(kind)) for kind in MISTAKES}) == len(MISTAKES)

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from graphplan.errors import Refused
-from graphplan.marking.classroom.names import read
+from graphplan.marking.classroom.register import read_class_list
 
 LISTS = {
     "a column of names": ("name,group\nStudent 1,A\nStudent 2,B\n", ["Student 1", "Student 2"]),
@@ -28,7 +28,7 @@ def test_names_are_found(tmp_path: Path, case: str) -> None:
     text, names = LISTS[case]
     path = tmp_path / "class.csv"
     path.write_bytes(text.encode())
-    found = read(path)
+    found = read_class_list(path)
     assert list(found.students) == names
     assert found.remarks == ()
 
@@ -37,7 +37,7 @@ def test_equal_names_are_told_apart(tmp_path: Path) -> None:
     """Each sheet has a name of its own, also where a number is taken; that is told."""
     path = tmp_path / "class.csv"
     path.write_text("name\nStudent\nStudent (2)\nStudent\nStudent\n")
-    found = read(path)
+    found = read_class_list(path)
     assert found.students == ("Student", "Student (2)", "Student (3)", "Student (4)")
     assert found.remarks == (f"{path}: Student is named 3 times; the others are Student (2) ...",)
 
@@ -46,7 +46,7 @@ def test_other_encodings_are_told(tmp_path: Path) -> None:
     """A list that is no UTF-8 is read as spreadsheets of old write it, with a word."""
     path = tmp_path / "class.csv"
     path.write_bytes("name\nSchüler 1\n".encode("cp1252"))
-    found = read(path)
+    found = read_class_list(path)
     assert found.students == ("Schüler 1",)
     assert "this is no UTF-8" in found.remarks[0]
 
@@ -57,10 +57,10 @@ def test_what_has_no_names_is_refused(tmp_path: Path, data: bytes) -> None:
     path = tmp_path / "class.csv"
     path.write_bytes(data)
     with pytest.raises(Refused, match=r"class\.csv: (it contains no name|not a list of names); "):
-        read(path)
+        read_class_list(path)
 
 
 def test_no_file_is_refused(tmp_path: Path) -> None:
     """A list that is not there is one line."""
     with pytest.raises(Refused, match="cannot be read"):
-        read(tmp_path / "class.csv")
+        read_class_list(tmp_path / "class.csv")

@@ -75,6 +75,6 @@ def test_a_vector_of_no_length_is_told_as_omitted(name: str, mark: str, begin: s
     traces = [replace(trace, spots=spots[begin]) if (trace.label, trace.panel) == (mark, "N-plan") else trace
               for trace in submission.traces]
     found = judge(drawing, sheet, replace(submission, traces=tuple(traces)), Pencil())
-    assert found.first
-    assert (found.first.step, str(found.first.mistake)) == (names[mark].index, told)
-    assert found.first.state == WRONG
+    assert found.first_wrong
+    assert (found.first_wrong.step, str(found.first_wrong.mistake)) == (names[mark].index, told)
+    assert found.first_wrong.state == WRONG

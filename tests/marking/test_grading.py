@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from graphplan.errors import Refused
-from graphplan.marking.classroom.grading import Failed, Keeper, done
+from graphplan.marking.classroom.grading import Failed, Keeper, run_jobs
 
 CALLS = list[str]()
 
@@ -30,7 +30,7 @@ def work(job: str) -> dict[str, str]:
 
 def made(folder: Path, *jobs: str, processes: int = 1) -> dict[str, object]:
     """What comes of jobs, by their names."""
-    return dict(done(work, {job: job for job in jobs}, Keeper(folder / "kept"), processes))
+    return dict(run_jobs(work, {job: job for job in jobs}, Keeper(folder / "kept"), processes))
 
 
 def test_only_what_is_new_is_done(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ import pytest
 
 from graphplan.errors import Refused
 from graphplan.marking.files.safe import MB
-from graphplan.marking.submission import read
+from graphplan.marking.submission import read_submission
 
 SECONDS = 2.0  # of the processor
 BOMB = bytes(17 * MB)
@@ -145,7 +145,7 @@ def refused(path: Path) -> str:
     """The one line in which a file is refused, in time."""
     begun = time.process_time()
     with pytest.raises(Refused) as told:
-        read(path, ("N-plan",), {})
+        read_submission(path, ("N-plan",), {})
     assert time.process_time() - begun < SECONDS
     assert told.value.status == 2
     (line,) = told.value.lines
@@ -195,7 +195,7 @@ def test_terms_of_wrong_kinds_have_no_value(tmp_path: Path, written: str) -> Non
     """Points compared, lines through lines: what is made of things of another kind is not there, the rest is read."""
     path, made = tmp_path / "x.ggb", f'<element type="{ABSURD[written]}" label="C"><show object="true"/></element>'
     path.write_bytes(ggb(f'{SEEN}{RULED}<expression label="C" exp="{written}"/>{made}'))
-    assert [trace.label for trace in read(path, (), {}).traces] == ["A", "B"]
+    assert [trace.label for trace in read_submission(path, (), {}).traces] == ["A", "B"]
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -226,11 +226,11 @@ def test_truncated_files(tmp_path: Path, name: str) -> None:
     for part in range(1, 8):
         path.write_bytes(SOUND[name][: len(SOUND[name]) * part // 8])
         try:
-            assert read(path, (), {}).traces
+            assert read_submission(path, (), {}).traces
         except Refused as error:
             assert str(path) in str(error)
     path.write_bytes(SOUND[name])
-    assert read(path, (), {}).traces
+    assert read_submission(path, (), {}).traces
 
 
 def test_one_changed_byte(tmp_path: Path) -> None:
@@ -242,7 +242,7 @@ def test_one_changed_byte(tmp_path: Path) -> None:
             place = chance.randrange(len(data))
             path.write_bytes(data[:place] + chance.randbytes(1) + data[place + 1 :])
             try:
-                read(path, (), {})
+                read_submission(path, (), {})
             except Refused as error:
                 assert "\n" not in str(error)
 
@@ -252,7 +252,7 @@ def test_other_members_of_an_archive_are_left_alone(tmp_path: Path) -> None:
     path = tmp_path / "x.ggb"
     members = {"../../evil": b"x", "bomb": BOMB, "geogebra.xml": GEOGEBRA.format(point("3")).encode()}
     path.write_bytes(archive(members))
-    assert read(path, (), {}).traces[0].spots == ((3, 1),)
+    assert read_submission(path, (), {}).traces[0].spots == ((3, 1),)
     assert os.listdir(tmp_path) == ["x.ggb"]
 
 

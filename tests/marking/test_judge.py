@@ -14,12 +14,12 @@ import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.judge.findings import summary, twice
+from graphplan.marking.judge.findings import repeated_number, summary_lines
 from graphplan.marking.judge.judge import judge, judge_any_method
 from graphplan.marking.judge.mistakes import MISTAKES
 from graphplan.marking.judge.verdict import FOLLOWS, IMPLIED, MISSING, RIGHT, UNSEEN, WRONG
-from graphplan.marking.submission import read
-from graphplan.marking.traces import Number, Submission, Trace
+from graphplan.marking.submission import read_submission
+from graphplan.marking.traces import StudentNumber, Submission, Trace
 from graphplan.methods.construction import Construction
 from graphplan.output.svg import svg
 from graphplan.sheet.layout.composition import Composition, compose
@@ -52,8 +52,8 @@ def test_a_faultless_drawing_has_no_wrong_step(name: str) -> None:
     drawing, sheet = composed(name)
     for seed in (1, 2):
         drawn = draw(drawing, frames(drawing, sheet, seed), PENCIL, seed)
-        assert judge(drawing, sheet, points(drawn), PENCIL).first is None
-        assert judge(drawing, sheet, whole(drawn), PENCIL).first is None
+        assert judge(drawing, sheet, points(drawn), PENCIL).first_wrong is None
+        assert judge(drawing, sheet, whole(drawn), PENCIL).first_wrong is None
 
 
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "five-bar"])
@@ -62,9 +62,9 @@ def test_an_unlabelled_drawing_is_matched_to_its_steps(name: str) -> None:
     drawing, sheet = composed(name)
     drawn = draw(drawing, frames(drawing, sheet), PENCIL, 3)
     found = judge(drawing, sheet, whole(drawn, labels=False), PENCIL)
-    assert found.first is None
+    assert found.first_wrong is None
     assert not found.spare
-    assert all(verdict.state in (RIGHT, IMPLIED) for verdict in found.judged)
+    assert all(verdict.state in (RIGHT, IMPLIED) for verdict in found.counting_verdicts)
 
 
 @pytest.mark.parametrize("kind", MISTAKES)
@@ -82,9 +82,9 @@ def test_every_mistake_is_held_against_its_own_step(kind: str) -> None:
             if None in drawn.values or wrong_by(drawn, step) < 5.0:  # by chance it is as it should be
                 continue
             found = judge(drawing, sheet, whole(drawn), PENCIL)
-            assert found.guilty == step.index
-            assert found.first
-            assert found.first.kind == kind
+            assert found.first_wrong_step == step.index
+            assert found.first_wrong
+            assert found.first_wrong.kind == kind
             assert [verdict.state for verdict in found.verdicts].count(WRONG) == 1
             return
     pytest.fail("no scene shows this mistake")
@@ -110,9 +110,9 @@ def test_a_mark_drawn_from_the_truth_after_a_slip_is_right() -> None:
               for trace in traced(drawn) if trace.kind == POINT]
     found = judge(drawing, sheet, Submission("x.csv", tuple(traces), shows=frozenset({POINT})), PENCIL)
     assert [drawing.drawn.steps[v.step].name for v in found.verdicts if v.state == WRONG] == ["v_b"]
-    assert found.first
-    assert found.first.off == pytest.approx(8.0, abs=1.0)
-    assert found.first.off > 3 * found.first.tolerance
+    assert found.first_wrong
+    assert found.first_wrong.off == pytest.approx(8.0, abs=1.0)
+    assert found.first_wrong.off > 3 * found.first_wrong.tolerance
 
 
 def test_the_tolerance_of_every_mark_is_told() -> None:
@@ -131,8 +131,8 @@ def test_a_coarser_pencil_is_judged_more_mildly() -> None:
     shifted = [replace(trace, spots=((trace.spots[0][0] + 1.5, trace.spots[0][1]),)) if trace.label == "M_1" else trace
                for trace in traced(drawn) if trace.kind == POINT]
     submission = Submission("x.csv", tuple(shifted), shows=frozenset({POINT}))
-    assert judge(drawing, sheet, submission, PENCIL).first
-    assert not judge(drawing, sheet, submission, Pencil(0.5, 0.5, 0.25, 0.5)).first
+    assert judge(drawing, sheet, submission, PENCIL).first_wrong
+    assert not judge(drawing, sheet, submission, Pencil(0.5, 0.5, 0.25, 0.5)).first_wrong
 
 
 @pytest.mark.parametrize("size", [0.2, 0.5, 2.0])
@@ -145,9 +145,9 @@ def test_no_pencil_hides_what_is_a_tenth_of_a_plan_off(size: float) -> None:
         moved = [replace(trace, spots=((trace.spots[0][0] + 30.0 * (trace.label == mark), trace.spots[0][1]),))
                  for trace in traced(drawn) if trace.kind == POINT]
         found = judge(drawing, sheet, Submission("x.csv", tuple(moved), shows=frozenset({POINT})), coarse)
-        assert found.first
-        assert drawing.drawn.steps[found.first.step].name == mark
-        assert found.first.tolerance <= 15.0
+        assert found.first_wrong
+        assert drawing.drawn.steps[found.first_wrong.step].name == mark
+        assert found.first_wrong.tolerance <= 15.0
 
 
 def test_missing_marks_are_told_unless_others_rest_on_them() -> None:
@@ -157,7 +157,7 @@ def test_missing_marks_are_told_unless_others_rest_on_them() -> None:
     traces = [trace for trace in traced(drawn) if trace.kind == POINT and trace.label not in ("v_b", "M_1")]
     found = judge(drawing, sheet, Submission("x.csv", tuple(traces), shows=frozenset({POINT})), PENCIL)
     states = {drawing.drawn.steps[verdict.step].name: verdict.state for verdict in found.verdicts}
-    assert found.first is None
+    assert found.first_wrong is None
     assert (states["v_b"], states["M_1"]) == (MISSING, MISSING)
     lines = {verdict.state for verdict in found.verdicts if drawing.drawn.steps[verdict.step].op.gives == LINE}
     assert lines == {IMPLIED, UNSEEN, MISSING}  # before a right mark, before a missing one, after all that is there
@@ -170,7 +170,7 @@ def test_traces_that_no_step_asks_for_are_spare() -> None:
     submission = whole(draw(drawing, frames(drawing, sheet), PENCIL, 1), labels=False)
     found = judge(drawing, sheet, replace(submission, traces=(*submission.traces, own)), PENCIL)
     assert found.spare == (own,)
-    assert found.first is None
+    assert found.first_wrong is None
 
 
 def test_another_form_of_construction_is_accepted() -> None:
@@ -179,7 +179,7 @@ def test_another_form_of_construction_is_accepted() -> None:
     other, other_sheet = composed("alt-eight-link", "trial")
     assert [step.key for step in task.drawn.steps] != [step.key for step in other.drawn.steps]
     found = judge_any_method(task, sheet, whole(draw(other, frames(other, other_sheet), PENCIL, 1)), PENCIL)
-    assert found.first is None
+    assert found.first_wrong is None
     assert [step.key for step in found.drawing.drawn.steps] == [step.key for step in other.drawn.steps]
 
 
@@ -188,7 +188,7 @@ def test_polar_plans_are_accepted_for_orthogonal_ones() -> None:
     task, sheet = composed("four-bar")
     other, other_sheet = composed("four-bar", "", "polar")
     found = judge_any_method(task, sheet, points(draw(other, frames(other, other_sheet), PENCIL, 1)), PENCIL)
-    assert found.first is None
+    assert found.first_wrong is None
     assert "velocity plan" in found.frames
 
 
@@ -206,7 +206,7 @@ def test_numbers_of_links_are_not_those_of_steps() -> None:
     submission = whole(draw(drawing, frames(drawing, sheet), PENCIL, 1), labels=False)
     bars = [Trace(LINE, trace.spots, number) for number, trace in zip(("1", "2", "3"), (
         trace for trace in submission.traces[::-1] if trace.kind == LINE), strict=False)]
-    assert judge(drawing, sheet, replace(submission, traces=(*submission.traces, *bars)), PENCIL).first is None
+    assert judge(drawing, sheet, replace(submission, traces=(*submission.traces, *bars)), PENCIL).first_wrong is None
 
 
 @pytest.mark.parametrize("name", ["four-bar", "triad"])
@@ -216,8 +216,8 @@ def test_our_own_sheet_is_a_faultless_drawing(name: str, tmp_path: Path) -> None
     path = tmp_path / "sheet.svg"
     path.write_text(svg(layout(drawing, composition=sheet)))
     size = sheet.arrangement.width, sheet.arrangement.height
-    submission = read(path, list(sheet.views), frames(drawing, sheet), size=size)
-    assert judge(drawing, sheet, submission, PENCIL).first is None
+    submission = read_submission(path, list(sheet.views), frames(drawing, sheet), size=size)
+    assert judge(drawing, sheet, submission, PENCIL).first_wrong is None
 
 
 def test_noise_is_no_drawing() -> None:
@@ -249,7 +249,7 @@ def test_a_mark_on_one_of_its_loci_alone_tells_which_vector_is_wrong(mark: str, 
     x, y = drawn.values[steps[mark].index]
     far = 13.0 / sheet.views[steps[mark].panel].scale / float(a * a + b * b) ** 0.5
     drawn.values[steps[mark].index] = x + far * float(b), y - far * float(a)
-    found = judge(drawing, sheet, points(drawn), PENCIL).first
+    found = judge(drawing, sheet, points(drawn), PENCIL).first_wrong
     assert found
     assert (found.step, str(found.mistake)) == (steps[mark].index, told)
 
@@ -257,9 +257,9 @@ def test_a_mark_on_one_of_its_loci_alone_tells_which_vector_is_wrong(mark: str, 
 # ---- numbers ---------------------------------------------------------------------------------------------------------
 
 
-def _velocity(name: str, factor: complex = 1.0) -> Number:
+def _velocity(name: str, factor: complex = 1.0) -> StudentNumber:
     value = composed("four-bar")[0].velocity[name] * factor
-    return Number("velocity", name, (value.real, value.imag), "mm/s")
+    return StudentNumber("velocity", name, (value.real, value.imag), "mm/s")
 
 
 @pytest.mark.parametrize(("factor", "told"), [
@@ -283,14 +283,14 @@ def test_a_number_of_another_point_is_recognised() -> None:
 def test_a_result_that_is_not_asked_for_is_told_and_counts_for_nothing() -> None:
     """The others are judged as they are without it; alone it is no blank sheet."""
     drawing, sheet = composed("four-bar")
-    number, right = Number("velocity", "Z", (1.0, 2.0), "mm/s"), _velocity("B")
+    number, right = StudentNumber("velocity", "Z", (1.0, 2.0), "mm/s"), _velocity("B")
     alone, beside, without = (judge(drawing, sheet, Submission("x.csv", numbers=numbers), PENCIL)
                               for numbers in ((number,), (right, number), (right,)))
     assert [one.unasked for one in (alone, beside, without)] == [(number,), (number,), ()]
     assert beside.numbers == without.numbers
     assert not alone.numbers
-    assert not alone.blank
-    assert "Not asked for, and not counted: velocity Z." in map(str, summary(beside))
+    assert not alone.is_blank
+    assert "Not asked for, and not counted: velocity Z." in map(str, summary_lines(beside))
 
 
 def test_a_result_that_is_written_twice_is_judged_once() -> None:
@@ -300,14 +300,14 @@ def test_a_result_that_is_written_twice_is_judged_once() -> None:
     found = judge(drawing, sheet, Submission("x.csv", numbers=numbers), PENCIL)
     again = [(one.number.of, one.state, one.again) for one in found.numbers]
     assert again == [("B", RIGHT, numbers[2:]), ("A", RIGHT, ())]
-    assert "written down twice" in str(twice(found, found.numbers[0]))
+    assert "written down twice" in str(repeated_number(found, found.numbers[0]))
 
 
 def test_a_result_is_told_in_the_language() -> None:
     """The words of a number of a table, of what slides on what, and of its unit, are the sheet's."""
-    number = Number("slide velocity", "3 along frame", (1.0, 2.0), "mm/s")
+    number = StudentNumber("slide velocity", "3 along frame", (1.0, 2.0), "mm/s")
     found = judge(*composed("slider-crank"), Submission("x.csv", numbers=(number, number)), PENCIL)
-    told = tongue("ru")(twice(found, found.numbers[0]))
+    told = tongue("ru")(repeated_number(found, found.numbers[0]))
     assert "скорость скольжения 3 по стойке" in told
     assert "(1; 2) мм/с" in told
 
@@ -319,7 +319,7 @@ def test_a_number_read_off_a_wrong_drawing_follows() -> None:
     traces = [replace(trace, spots=((trace.spots[0][0] + 8.0, trace.spots[0][1]),)) if trace.label == "v_b" else trace
               for trace in traced(drawn) if trace.kind == POINT]
     value = drawing.velocity["B"] - 8.0j / sheet.views["mechanism"].scale / drawing.kappa
-    submission = Submission("x.csv", tuple(traces), (Number("velocity", "B", (value.real, value.imag), "mm/s"),),
+    submission = Submission("x.csv", tuple(traces), (StudentNumber("velocity", "B", (value.real, value.imag), "mm/s"),),
                     frozenset({POINT}))
     found = judge(drawing, sheet, submission, PENCIL)
     assert found.numbers[0].state == FOLLOWS

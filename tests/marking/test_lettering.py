@@ -15,13 +15,12 @@ from hands import Drawn, draw, frames, traced
 import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import POINT
-from graphplan.marking.files.drawing import drawing as put
-from graphplan.marking.files.drawing import lettering
-from graphplan.marking.judge.asked import results
-from graphplan.marking.judge.assignment import assigned, cheapest
+from graphplan.marking.files.drawing import drawing_submission as put
+from graphplan.marking.files.drawing import word_at
 from graphplan.marking.judge.judge import judge
-from graphplan.marking.judge.units import scaled
-from graphplan.marking.judge.verdict import IMPLIED, RIGHT, WRONG
+from graphplan.marking.judge.labels import assign_labels, cheapest_columns
+from graphplan.marking.judge.readings import scale_submission
+from graphplan.marking.judge.verdict import IMPLIED, RIGHT, WRONG, asked_results
 from graphplan.marking.traces import Lettering, Submission, Trace
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.composition import Composition, compose
@@ -49,7 +48,7 @@ def written(drawn: Drawn, exchanged: tuple[str, str] = ("", ""), dots: bool = Tr
         if trace.kind != POINT or dots:
             traces.append(replace(trace, label="", panel=""))
         if trace.kind == POINT and not trace.label.isdigit():
-            word, way = lettering(others.get(trace.label, trace.label), (0, 0), 2.5), rng.uniform(0, math.tau)
+            word, way = word_at(others.get(trace.label, trace.label), (0, 0), 2.5), rng.uniform(0, math.tau)
             far = rng.uniform(1.0, 2.5)
             x, y = (part + far * turn for part, turn in zip(
                 trace.spots[0], (math.cos(way), math.sin(way)), strict=True))
@@ -74,7 +73,7 @@ def test_letters_alone_hand_a_result_in() -> None:
     but that of v_S, beside which strokes cross a little way off."""
     for seed in (1, 2):
         found = judge(*composed("open-chain"), written(drawn("open-chain", seed), dots=False, seed=seed), PENCIL)
-        assert {one.of for one in results(found) if one.state not in (RIGHT, IMPLIED)} <= {"S"}
+        assert {one.of for one in asked_results(found) if one.state not in (RIGHT, IMPLIED)} <= {"S"}
 
 
 @pytest.mark.parametrize(("name", "pair"), [("four-bar", ("A_1", "B_1")), ("alt-eight-link", ("v_c", "v_e"))])
@@ -84,8 +83,8 @@ def test_exchanged_letters_are_a_mistake(name: str, pair: tuple[str, str]) -> No
     found = judge(*composed(name), written(made, exchanged=pair), PENCIL)
     assert [made.drawing.drawn.steps[verdict.step].name for verdict in found.verdicts if verdict.state == WRONG] == [
         pair[0]]
-    assert found.first
-    assert str(found.first.mistake) == f"the letters of {pair[0]} and {pair[1]} are exchanged"
+    assert found.first_wrong
+    assert str(found.first_wrong.mistake) == f"the letters of {pair[0]} and {pair[1]} are exchanged"
 
 
 @pytest.mark.parametrize(("mm", "told"), [(1.0, ""), (10.0, "drawn in cm (1 unit = 10 mm)"),
@@ -95,9 +94,9 @@ def test_exchanged_letters_are_a_mistake(name: str, pair: tuple[str, str]) -> No
 def test_the_unit_of_a_drawing_is_told(mm: float, told: str) -> None:
     """A drawing in cm, m, inches or a unit of its own is recognized by the size of its mechanism."""
     made = drawn("four-bar")
-    found = judge(*composed("four-bar"), scaled(written(made), 1 / mm), PENCIL)
+    found = judge(*composed("four-bar"), scale_submission(written(made), 1 / mm), PENCIL)
     assert str(found.reading) == told
-    assert found.first is None
+    assert found.first_wrong is None
 
 
 def test_the_least_sum_of_costs() -> None:
@@ -105,8 +104,8 @@ def test_the_least_sum_of_costs() -> None:
     rng = random.Random(3)
     for _ in range(50):
         table = [[rng.choice((rng.random(), math.inf)) for _ in range(5)] + [2.0] * 4 for _ in range(4)]
-        found = cheapest(table)
+        found = cheapest_columns(table)
         least = min(sum(map(lambda row, place: row[place], table, way)) for way in permutations(range(9), 4))
         assert len(set(found)) == 4
         assert sum(map(lambda row, place: row[place], table, found)) == pytest.approx(least)
-    assert assigned([{1: 0.0, 2: 1.0}, {1: 0.5, 2: 3.0}, {7: 1.0}, {}], 9.0, 4.0) == [2, 1, 7, None]
+    assert assign_labels([{1: 0.0, 2: 1.0}, {1: 0.5, 2: 3.0}, {7: 1.0}, {}], 9.0, 4.0) == [2, 1, 7, None]

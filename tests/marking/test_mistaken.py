@@ -17,7 +17,7 @@ from graphplan.marking.judge import measures
 from graphplan.marking.judge.findings import remark
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.mistakes import Mistake
-from graphplan.marking.judge.student_sheet import Residual, weighed
+from graphplan.marking.judge.student_sheet import Residual, weigh_mark
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.marking.traces import Submission
 from graphplan.phrases import said
@@ -52,11 +52,11 @@ def judged(name: str, seed: int, mistakes: dict[str, str] | None = None, odd: di
 @pytest.mark.parametrize("most", [measures.PICTURE_ODDS, measures.FAINT_ODDS, measures.FILE_ODDS])
 def test_a_mark_weighs_the_less_the_farther_off_it_is(kind: str, most: dict[str, float]) -> None:
     """And never less than none at all, nor than a stroke of which nothing is seen."""
-    away = [weighed(most[kind], measures.ABSENT_ODDS[kind], Residual(np.array([off, 0.0]), np.eye(2)))
+    away = [weigh_mark(most[kind], measures.ABSENT_ODDS[kind], Residual(np.array([off, 0.0]), np.eye(2)))
             for off in (0, 2, 4, 100)]
     assert away == sorted(away, reverse=True)
     assert away[0] == most[kind]
-    assert away[-1] == measures.ABSENT_ODDS[kind] == weighed(most[kind], measures.ABSENT_ODDS[kind], None, share=0.0)
+    assert away[-1] == measures.ABSENT_ODDS[kind] == weigh_mark(most[kind], measures.ABSENT_ODDS[kind], None, share=0.0)
 
 
 @pytest.mark.parametrize(("name", "seed", "mistake"), [
@@ -69,9 +69,9 @@ def test_a_mark_weighs_the_less_the_farther_off_it_is(kind: str, most: dict[str,
 def test_a_mistake_is_found_without_labels(name: str, seed: int, mistake: dict[str, str]) -> None:
     """The step is named, and what was done, whatever else has moved with it."""
     found, index = judged(name, seed, mistake)
-    assert found.guilty == index
-    assert found.first
-    assert str(found.first.mistake) in mistake.values()
+    assert found.first_wrong_step == index
+    assert found.first_wrong
+    assert str(found.first_wrong.mistake) in mistake.values()
 
 
 @pytest.mark.parametrize(("name", "mark", "mistake", "somewhere"), [
@@ -89,22 +89,23 @@ def test_a_mark_that_is_not_to_be_seen_is_told_by_what_follows(name: str, mark: 
     submission = unlabelled(drawn)
     kept = [trace for trace, true in zip(submission.traces, traced(drawn), strict=True) if true.label != mark]
     found = judge(drawing, sheet, replace(submission, traces=tuple(kept)), Pencil())
-    assert found.first
-    assert (found.first.step, str(found.first.mistake), found.first.trace) == (step.index, mistake, None)
-    assert math.isfinite(found.first.off) == math.isfinite(found.first.tolerance) == somewhere
-    assert found.first.off > found.first.tolerance > 0.1 or not somewhere
-    assert (str(remark(found, found.first)) == mistake) == (not somewhere)
+    assert found.first_wrong
+    assert (found.first_wrong.step, str(found.first_wrong.mistake), found.first_wrong.trace) == (step.index, mistake,
+                                                                                                 None)
+    assert math.isfinite(found.first_wrong.off) == math.isfinite(found.first_wrong.tolerance) == somewhere
+    assert found.first_wrong.off > found.first_wrong.tolerance > 0.1 or not somewhere
+    assert (str(remark(found, found.first_wrong)) == mistake) == (not somewhere)
 
 
 @pytest.mark.parametrize(("name", "seed"), [("ozols-10-1", 710), ("ozols-10-1", 711), ("ozols-10-2", 710)])
 def test_strokes_side_by_side_are_told_apart(name: str, seed: int) -> None:
     """Two lines that lie within a pencil's width are taken for each other only if nothing else says which is which."""
     found, _ = judged(name, seed)
-    assert found.first is None
+    assert found.first_wrong is None
 
 
 def test_a_mistake_that_no_table_has_is_found_by_what_follows_from_it() -> None:
     """Its step is named; what was done is not known."""
     found, index = judged("four-bar", 5, odd={"A_1": cmath.rect(1.3, 0.4)})
-    assert found.first
-    assert (found.first.step, found.first.mistake) == (index, None)
+    assert found.first_wrong
+    assert (found.first_wrong.step, found.first_wrong.mistake) == (index, None)

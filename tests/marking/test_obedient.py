@@ -87,5 +87,5 @@ def test_who_mistakes_a_spoken_length_is_not() -> None:
     far = 1 + 2 * per_mm / math.dist(start, values[step.index])
     values[step.index] = tuple(x + far * (to - x) for x, to in zip(start, values[step.index], strict=True))
     found = judge(drawing, composition, points(Drawn(drawing, values, frames(drawing, composition))), Pencil())
-    assert found.first
-    assert found.first.step == step.index
+    assert found.first_wrong
+    assert found.first_wrong.step == step.index

@@ -12,8 +12,8 @@ from judged import composed
 
 from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import POINT
-from graphplan.marking.classroom.class_list import Classroom, Marked, lines
-from graphplan.marking.judge.findings import called, opinion, record
+from graphplan.marking.classroom.results import Classroom, MarkedDrawing, class_lines
+from graphplan.marking.judge.findings import judgement_record, opinion, step_name
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.overlay import RED, overlay
 from graphplan.marking.judge.score import score
@@ -60,22 +60,22 @@ def boxed(found: Judgement) -> str:
 @pytest.mark.parametrize("name", SCENES)
 def test_all_reports_name_the_same_first_wrong_step(name: str) -> None:
     """The opinion, the data, the page, the overlay, and the line, the data and the bars of a class."""
-    wrong = [found for drawn in faulty(name, EACH) if (found := judged(drawn, name)).first]
+    wrong = [found for drawn in faulty(name, EACH) if (found := judged(drawn, name)).first_wrong]
     assert wrong
     for found in wrong:
-        assert found.guilty is not None
-        step = called(found.drawing.drawn, found.guilty)
-        start = str(step.named)
-        one = Marked(found, score(found))
+        assert found.first_wrong_step is not None
+        step = step_name(found.drawing.drawn, found.first_wrong_step)
+        start = str(step.words)
+        one = MarkedDrawing(found, score(found))
         room = Classroom("Class", (one,))
         assert opinion(found).startswith(f"First wrong is {start}: ")
-        assert record(found, one.score)["first_wrong"]["step"] == step.number
-        assert record(found, one.score)["first_wrong"]["mark"] == step.mark
+        assert judgement_record(found, one.score)["first_wrong"]["step"] == step.number
+        assert judgement_record(found, one.score)["first_wrong"]["mark"] == step.mark
         page = re.sub("</?sub>", "", marked(found, one.score, []))
         assert f"First wrong is {start}: " in page
         assert boxed(found).lower().startswith(f"{start}:".lower())
-        line = next(line for line in map(str, lines(room)) if line.startswith("a.csv"))
+        line = next(line for line in map(str, class_lines(room)) if line.startswith("a.csv"))
         assert f"; {start}: ".lower() in line.lower()
         assert room.data["drawings"][0]["first_wrong"] == step.number
         assert list(room.histogram) == [step]
-        assert all(verdict.at_fault >= found.guilty for verdict in found.verdicts if verdict.state == "wrong")
+        assert all(verdict.at_fault >= found.first_wrong_step for verdict in found.verdicts if verdict.state == "wrong")

@@ -23,7 +23,7 @@ from graphplan.marking.judge.overlay import (
 )
 from graphplan.marking.judge.score import score
 from graphplan.marking.judge.verdict import RIGHT, UNSURE, WRONG, Judgement, NumberVerdict
-from graphplan.marking.traces import Number
+from graphplan.marking.traces import StudentNumber
 from graphplan.phrases import said
 from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Text
 
@@ -90,7 +90,7 @@ def test_the_first_wrong_step_alone_is_called_out(name: str) -> None:
                       said("parallel to {0} instead of {1}", "AB", "BC"))
     shown = items(found)
     boxes = [item for item in shown if isinstance(item, Polygon) and item.pen.colour == RED]
-    first = found.first
+    first = found.first_wrong
     assert first is not None
     drawn, panel = found.drawing.drawn, found.composition.plates.steps[first.step].view.rect
     assert len(boxes) == 1
@@ -104,7 +104,7 @@ def test_the_first_wrong_step_alone_is_called_out(name: str) -> None:
 
 def test_numbers_stand_beside_the_true_ones() -> None:
     """The table has what was handed in, what is true, and how far off it may be; what is wrong is told below."""
-    number = Number("velocity", "A", (3.0, 4.5))
+    number = StudentNumber("velocity", "A", (3.0, 4.5))
     verdict = NumberVerdict(number, WRONG, 0.5, 0.25, (3.0, 4.0), said("y has the wrong sign"))
     found = replace(judgement("four-bar"), numbers=(verdict,))
     told = words([item for sheet in overlay(found, score(found)) for item in sheet.items])

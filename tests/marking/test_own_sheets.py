@@ -12,7 +12,7 @@ from graphplan.accuracy.hand import Pencil
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.score import score
 from graphplan.marking.judge.verdict import MISSING, UNSURE, WRONG
-from graphplan.marking.submission import read
+from graphplan.marking.submission import read_submission
 from graphplan.marking.traces import PlanFrame
 from graphplan.output.dxf import dxf
 from graphplan.output.exports.geogebra import geogebra
@@ -36,7 +36,8 @@ def test_own_sheets_are_faultless(name: str, other: str, tmp_path: Path) -> None
     for kind in ("svg", other):
         path = tmp_path / f"sheet.{kind}"
         path.write_bytes(files[kind]())
-        submission = read(path, list(composition.views), frames, size=(arrangement.width, arrangement.height))
+        submission = read_submission(path, list(composition.views), frames,
+                                     size=(arrangement.width, arrangement.height))
         found = judge(drawing, composition, submission, Pencil())
         assert not [(kind, drawing.drawn.text(verdict.step), verdict.state) for verdict in found.verdicts
                     if verdict.state in (WRONG, MISSING, UNSURE)]

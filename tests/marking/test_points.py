@@ -10,9 +10,8 @@ import pytest
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.spelling import mark, spelled
-from graphplan.marking.submission import read
-from graphplan.marking.traces import Submission
+from graphplan.marking.submission import read_submission
+from graphplan.marking.traces import Submission, mark_name, spell
 
 PANELS = ("mechanism plan", "N-plan", "force plan 2, 3")
 MARKS = {"A": (12.5, -3.25), "v_b": (40.0, 7.125), "A_1'": (0.5, 1e2), "12": (7.0, 8.0)}
@@ -32,7 +31,7 @@ def submission(folder: Path, name: str, text: str, coding: str = "utf-8") -> Sub
     """The text as a file, read."""
     path = folder / name
     path.write_bytes(text.encode(coding))
-    return read(path, PANELS, {})
+    return read_submission(path, PANELS, {})
 
 
 @pytest.mark.parametrize("way", WAYS)
@@ -182,6 +181,6 @@ def test_spellings_of_names() -> None:
     ways = {"v_b": ["v_{b}", " v_b "], "alpha_3'": ["α_3'", "α₃′", "α′_3"], "A_1''": ["A₁″", "A_{1}''"],
             "v_p25": ["v_p_25"], "P_25,1": ["P_25_1"], "B_1(3)": ["B_1(3)"]}
     for name, others in ways.items():
-        assert {spelled(other) for other in (name, *others)} == {name}
-        assert mark(name) == name
-    assert [mark(word) for word in ("mm", "Draw", "12.5", "1000", "", "A B", "figure")] == ["mm"] + [""] * 6
+        assert {spell(other) for other in (name, *others)} == {name}
+        assert mark_name(name) == name
+    assert [mark_name(word) for word in ("mm", "Draw", "12.5", "1000", "", "A B", "figure")] == ["mm"] + [""] * 6

@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 
 from graphplan.errors import Refused
-from graphplan.marking.classroom.register import FILE, Register, TaskSheet, is_class, load
+from graphplan.marking.classroom.register import FILE, ClassRegister, TaskSheet, is_class, load_register
 
 SHEETS = (TaskSheet(0x01020304, 1, "Student 1", "variant-01.toml", 1),
           TaskSheet(0xFF0203FF, 2, "", "variant-02.toml", 2))
-REGISTER = Register("Four-bar linkage", 7, {"paper": "A4", "plan": ""}, SHEETS)
+REGISTER = ClassRegister("Four-bar linkage", 7, {"paper": "A4", "plan": ""}, SHEETS)
 
 
 def test_a_register_is_read_as_it_was_written(tmp_path: Path) -> None:
@@ -21,7 +21,7 @@ def test_a_register_is_read_as_it_was_written(tmp_path: Path) -> None:
     assert not is_class(tmp_path)
     REGISTER.save(tmp_path)
     assert is_class(tmp_path)
-    assert load(tmp_path) == REGISTER
+    assert load_register(tmp_path) == REGISTER
 
 
 def test_a_sheet_is_found_by_its_marks_and_by_its_student() -> None:
@@ -29,8 +29,8 @@ def test_a_sheet_is_found_by_its_marks_and_by_its_student() -> None:
     assert REGISTER.with_code(0x01020304) == SHEETS[0]
     assert REGISTER.with_code(0x00020300) == SHEETS[1]  # 255 is printed as 0
     assert REGISTER.with_code(5) is None
-    assert REGISTER.of("Student 1") == SHEETS[0]
-    assert REGISTER.of("") is None
+    assert REGISTER.sheet_of("Student 1") == SHEETS[0]
+    assert REGISTER.sheet_of("") is None
 
 
 ROW = SHEETS[0].__dict__
@@ -53,10 +53,10 @@ def test_a_broken_register_is_refused(tmp_path: Path, text: bytes) -> None:
     """What is no register is one line that says what is wrong."""
     (tmp_path / FILE).write_bytes(text)
     with pytest.raises(Refused, match=r"class\.json: not .*; the class\.json that graphplan variants wrote$"):
-        load(tmp_path)
+        load_register(tmp_path)
 
 
 def test_a_folder_without_a_register_is_refused(tmp_path: Path) -> None:
     """Without the file the line says that it cannot be read."""
     with pytest.raises(Refused, match="cannot be read"):
-        load(tmp_path)
+        load_register(tmp_path)

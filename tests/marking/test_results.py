@@ -9,19 +9,19 @@ import pytest
 from each import each
 
 from graphplan.errors import Refused
-from graphplan.marking.submission import read
-from graphplan.marking.tables.results import in_scene_units
-from graphplan.marking.traces import Number
+from graphplan.marking.files.quantities import in_scene_units
+from graphplan.marking.submission import read_submission
+from graphplan.marking.traces import StudentNumber
 from graphplan.mechanism.model import Units
 from graphplan.methods.kinds import KINDS
 from graphplan.methods.recorded import READERS
 
 
-def numbers(folder: Path, text: str) -> tuple[Number, ...]:
+def numbers(folder: Path, text: str) -> tuple[StudentNumber, ...]:
     """The numbers of a table."""
     path = folder / "results.csv"
     path.write_text(text, encoding="utf-8")
-    return read(path, (), {}).numbers
+    return read_submission(path, (), {}).numbers
 
 
 def test_quantities_are_those_of_constructions() -> None:
@@ -34,11 +34,11 @@ def test_vectors_and_single_numbers(tmp_path: Path) -> None:
     table = ("quantity;of;x;y;size;angle;value;unit\nvelocity;A;1,5;-2;;;;m/s\nAcceleration;B;;;2;90;;\n"
              "angular velocity;3;;;;;-4,5;rad/s\nreaction;2 at  B;;;;;;N\nbalance moment;1;;;;;29;N·m\n")
     a, b, omega, moment = numbers(tmp_path, table)
-    assert a == Number("velocity", "A", (1.5, -2.0), "m/s")
+    assert a == StudentNumber("velocity", "A", (1.5, -2.0), "m/s")
     assert (b.kind, b.of, b.unit) == ("acceleration", "B", "")
     assert b.value == pytest.approx((0, 2))
-    assert omega == Number("omega", "3", (-4.5,), "rad/s")
-    assert moment == Number("balance moment", "1", (29.0,), "N·m")
+    assert omega == StudentNumber("omega", "3", (-4.5,), "rad/s")
+    assert moment == StudentNumber("balance moment", "1", (29.0,), "N·m")
 
 
 SYMBOLS = {"vA": ("velocity", "A"), "v_A": ("velocity", "A"), "a_B": ("acceleration", "B"), "aB": ("acceleration", "B"),
@@ -95,7 +95,8 @@ CONVERTED = [
 def test_units_become_the_scenes(kind: str, unit: str, units: Units, factor: float) -> None:
     """A number in any unit is converted to what the scene's results come in."""
     value = (3.0,) if KINDS[kind].single else (3.0, -2.0)
-    assert in_scene_units(Number(kind, "A", value, unit), units) == pytest.approx([factor * part for part in value])
+    assert in_scene_units(StudentNumber(kind, "A", value, unit),
+                          units) == pytest.approx([factor * part for part in value])
 
 
 @each("unit", ["furlong/s", "mm", "N", "m/s^2", "m//s", "m/s^99", "m" * 1000])

@@ -22,9 +22,9 @@ import graphplan as gp  # noqa: E402
 from graphplan.errors import Refused  # noqa: E402
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT  # noqa: E402
 from graphplan.marking.scans import measures  # noqa: E402
-from graphplan.marking.scans.printed_ink import picture, pieces  # noqa: E402
+from graphplan.marking.scans.printed_ink import print_picture, print_pieces  # noqa: E402
 from graphplan.marking.scans.scan import PencilPage, read_page, read_scan  # noqa: E402
-from graphplan.marking.scans.straighten import _by_marks, straighten  # noqa: E402
+from graphplan.marking.scans.straighten import _warp_by_marks, straighten  # noqa: E402
 from graphplan.marking.traces import PlanFrame, Trace  # noqa: E402
 from graphplan.sheet.frames.frame import corner_marks, corner_numbers, corner_rects, mark_cells, sheet_code  # noqa: E402
 from graphplan.sheet.handout import task  # noqa: E402
@@ -144,7 +144,8 @@ def test_photos(lost: tuple[int, ...], seed: int, tmp_path: Path) -> None:
 
 def astray(sheet: Sheet, seen: Picture) -> tuple[float, float]:
     """How many mm a straightened picture is off somewhere, and how sure of itself it is."""
-    _, found = straighten(seen.image, sheet, picture(sheet, measures.PAGE_PX_PER_MM), measures.PAGE_PX_PER_MM, None,
+    _, found = straighten(seen.image, sheet, print_picture(sheet, measures.PAGE_PX_PER_MM), measures.PAGE_PX_PER_MM,
+                          None,
                           "photo")
     across, up = np.linspace(25, sheet.width - 15, 9), np.linspace(15, sheet.height - 15, 7)
     spots = np.array([(x, y) for x in across for y in up])
@@ -165,7 +166,7 @@ def test_a_sheet_is_laid_by_all_its_marks(seed: int) -> None:
     chance, sheet = np.random.default_rng(seed), page()
     rects = corner_rects(sheet.width, sheet.height, sheet.frame)
     marks = [np.array(rect.corners[::-1]) * 7 + chance.uniform(-1, 1, (4, 2)) for rect in rects]
-    laid = _by_marks(dict(enumerate(marks)), sheet)
+    laid = _warp_by_marks(dict(enumerate(marks)), sheet)
     off = [laid(np.array(rect.corners[::-1])) - seen for rect, seen in zip(rects, marks, strict=True)]
     assert np.abs(off).max() < 3
 
@@ -192,20 +193,20 @@ def dot() -> tuple[float, float]:
 def test_a_page_is_asked_for_what_is_expected() -> None:
     """A faint line, a short arc and a dot are found near where they belong, and nothing where nothing is."""
     (x, y), (u, v) = lines()[0]
-    found = asked().near((x + 0.3, y - 0.4), (u, v + 0.3), 1.0)
+    found = asked().find_line((x + 0.3, y - 0.4), (u, v + 0.3), 1.0)
     assert found is not None
     assert distance(found, lines()[0]) < 0.15
     centre = list(page().panels.values())[1].centre
-    rim = asked().rim(centre, 30.4, arc(), 1.0)
+    rim = asked().find_arc(centre, 30.4, arc(), 1.0)
     assert rim is not None
     assert rim.kind == CIRCLE
     assert max(abs(math.dist(spot, centre) - 30) for spot in rim.spots) < 0.2
-    spot = asked().dot((dot()[0] + 0.3, dot()[1]), 1.0)
+    spot = asked().find_dot((dot()[0] + 0.3, dot()[1]), 1.0)
     assert spot is not None
     assert spot.kind == POINT
     assert math.dist(spot.spots[0], dot()) < 0.1
-    assert asked().near((x, y + 12), (u, v + 12), 1.0) is None
-    assert asked().dot((x + 4, y + 9), 1.0) is None
+    assert asked().find_line((x, y + 12), (u, v + 12), 1.0) is None
+    assert asked().find_dot((x + 4, y + 9), 1.0) is None
 
 
 @cache
@@ -229,7 +230,7 @@ def test_a_dot_is_told_from_lines_that_cross(count: int, dot: bool) -> None:
     seen, places = dotted()
     spots = [trace.spots[0] for trace in seen.traces if trace.kind == POINT]
     assert any(math.dist(spot, places[dot, count]) < 0.3 for spot in spots) == dot
-    assert (seen.dot(places[dot, count], 0.5) is not None) == dot
+    assert (seen.find_dot(places[dot, count], 0.5) is not None) == dot
 
 
 def test_a_ring_marks_the_point_in_its_middle(tmp_path: Path) -> None:
@@ -255,7 +256,7 @@ def test_a_short_arc_is_seen_as_askew_as_it_is(far: float) -> None:
     """Its spots lie on it, where it was expected about a centre to one side."""
     (x, y), (u, v) = list(page().panels.values())[1].centre, arc()[20]
     across = (y - v) / 30 * far, (u - x) / 30 * far
-    rim = asked().rim((x + across[0], y + across[1]), 30.0, arc(), 1.0)
+    rim = asked().find_arc((x + across[0], y + across[1]), 30.0, arc(), 1.0)
     assert rim is not None
     assert max(abs(math.dist(spot, (x, y)) - 30) for spot in rim.spots) < 0.2
 
@@ -287,17 +288,17 @@ def test_another_task_is_refused(tmp_path: Path) -> None:
 
 def test_print_that_is_drawn_over_is_known() -> None:
     """A sheet all of whose own print a pencil is drawn along is still that of its task; one without it is not."""
-    ink = pieces(page())
+    ink = print_pieces(page())
     side = np.column_stack([-ink.along[:, 1], ink.along[:, 0]])[ink.own] * 0.5
     ends = (ink.along * ink.halves[:, None])[ink.own]
     pencil = [(tuple(map(tuple, (at - end, at + end))), 0.6, 0.9)
               for at, end in zip(ink.middles[ink.own] + side, ends, strict=True)]
     over = scan(paper(), pencil, 83).image
-    assert straighten(over, page(), picture(page(), measures.PAGE_PX_PER_MM), measures.PAGE_PX_PER_MM, CODE,
+    assert straighten(over, page(), print_picture(page(), measures.PAGE_PX_PER_MM), measures.PAGE_PX_PER_MM, CODE,
                       "over")[1].own > 0.5
     bare = replace(page(), items=tuple(item for item in page().items if item.layer in {"paper", MARKS}))
     with pytest.raises(Refused, match="not found where this task has it"):
-        straighten(scan(printed(bare), [], 84).image, page(), picture(page(), measures.PAGE_PX_PER_MM),
+        straighten(scan(printed(bare), [], 84).image, page(), print_picture(page(), measures.PAGE_PX_PER_MM),
                    measures.PAGE_PX_PER_MM, CODE, "bare")
 
 

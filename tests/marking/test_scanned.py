@@ -20,7 +20,7 @@ from graphplan.marking.judge.judge import judge  # noqa: E402
 from graphplan.marking.judge.mistakes import Mistake  # noqa: E402
 from graphplan.marking.judge.score import score  # noqa: E402
 from graphplan.marking.judge.verdict import MISSING, RIGHT, Judgement  # noqa: E402
-from graphplan.marking.submission import read  # noqa: E402
+from graphplan.marking.submission import read_submission  # noqa: E402
 from graphplan.methods.construction import Construction  # noqa: E402
 from graphplan.output.pdf_png import pdf  # noqa: E402
 from graphplan.sheet.handout import code, task  # noqa: E402
@@ -46,7 +46,7 @@ def judged(folder: Path, seed: int, slips: dict[int, Mistake] | None = None, *, 
     picture = (photo if phone else scan)(paper, strokes(drawn, sheet, seed), seed)
     path = folder / ("photo.jpg" if phone else "scan.png")
     cv2.imwrite(str(path), picture.image)
-    submission = read(path, list(sheet.views), ways, lambda: page, code(sheet))
+    submission = read_submission(path, list(sheet.views), ways, lambda: page, code(sheet))
     return judge(drawing, sheet, submission, Pencil())
 
 
@@ -55,7 +55,7 @@ def test_a_faultless_drawing_is_right_in_a_picture(tmp_path: Path, phone: bool) 
     """No step is wrong, and most of what can be seen is found."""
     found = judged(tmp_path, 39, phone=phone)
     states = [verdict.state for verdict in found.verdicts]
-    assert found.first is None
+    assert found.first_wrong is None
     assert states.count(RIGHT) > len(states) / 3
     assert states.count(MISSING) <= 2
     lines = [trace.spots for trace in found.spare if trace.kind == LINE]
@@ -68,7 +68,7 @@ def test_a_point_far_off_is_found_in_a_scan(tmp_path: Path) -> None:
     b = next(step.index for step in drawing.drawn.steps if step.name == "b")
     for mistake in (mistake for mistake in slipped(drawing, b) if mistake.kind in ("reversed", "turned the wrong way")):
         found = judged(tmp_path, 33, {b: mistake})
-        assert found.guilty == b
+        assert found.first_wrong_step == b
         assert (score(found).total or 0) < 90
 
 
@@ -78,9 +78,10 @@ def test_nothing_is_wrong_on_an_own_sheet_in_a_pdf(tmp_path: Path) -> None:
     drawing, sheet, page, _ = handout()
     path = tmp_path / "sheet.pdf"
     path.write_bytes(pdf([layout(drawing, composition=sheet)]))
-    found = judge(drawing, sheet, read(path, list(sheet.views), frames(drawing, sheet), lambda: page, code(sheet)),
+    found = judge(drawing, sheet,
+                  read_submission(path, list(sheet.views), frames(drawing, sheet), lambda: page, code(sheet)),
                   Pencil())
-    assert found.first is None
+    assert found.first_wrong is None
     assert (score(found).total or 0) > 90
 
 
@@ -90,7 +91,7 @@ def test_a_wrong_line_is_found_in_a_scan(tmp_path: Path) -> None:
     beta = next(step.index for step in drawing.drawn.steps if step.name == "beta")
     mistake = next(mistake for mistake in slipped(drawing, beta) if mistake.told == "perpendicular to AB instead of BC")
     found = judged(tmp_path, 32, {beta: mistake})
-    assert found.guilty == beta
-    assert found.first
-    assert str(found.first.mistake) == "perpendicular to AB instead of BC"
-    assert found.first.off > 3 * found.first.tolerance
+    assert found.first_wrong_step == beta
+    assert found.first_wrong
+    assert str(found.first_wrong.mistake) == "perpendicular to AB instead of BC"
+    assert found.first_wrong.off > 3 * found.first_wrong.tolerance

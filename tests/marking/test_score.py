@@ -8,10 +8,9 @@ import pytest
 from judged import judgement
 
 from graphplan.errors import Refused
-from graphplan.marking.classroom.class_list import mistaken
-from graphplan.marking.judge import asked
+from graphplan.marking.classroom.results import mistake_words
 from graphplan.marking.judge.findings import opinion
-from graphplan.marking.judge.score import POSE, RESULTS, Weights, score, served, weights
+from graphplan.marking.judge.score import POSE, RESULTS, Weights, groups_of_steps, parse_weights, score
 from graphplan.marking.judge.verdict import (
     FOLLOWS,
     IMPLIED,
@@ -23,12 +22,13 @@ from graphplan.marking.judge.verdict import (
     Judgement,
     NumberVerdict,
 )
-from graphplan.marking.traces import Number
+from graphplan.marking.judge.verdict import asked_results as asked_results
+from graphplan.marking.traces import StudentNumber
 
 
 def numbered(found: Judgement, *states: str) -> Judgement:
     """The drawing with numbers of these verdicts."""
-    number = Number("velocity", "A", (1.0, 2.0))
+    number = StudentNumber("velocity", "A", (1.0, 2.0))
     return replace(found, numbers=tuple(NumberVerdict(number, state, 0.0, 1.0, (1.0, 2.0)) for state in states))
 
 
@@ -49,20 +49,20 @@ def test_a_slip_is_punished_once() -> None:
     """One wrong step costs what its kind of mistake does, or its step's share if that is more, whatever rests on it;
     follows=0 takes those shares too."""
     slipped = judgement("four-bar", {crossing("four-bar"): 3j})
-    seen = [verdict.state for verdict in slipped.judged if verdict.state != UNSEEN]
+    seen = [verdict.state for verdict in slipped.counting_verdicts if verdict.state != UNSEEN]
     assert FOLLOWS in seen
-    results = [one.state for one in asked.results(slipped)]
+    results = [one.state for one in asked_results(slipped)]
     whole = len(seen) + 3 * len(results)
-    assert score(slipped, weights("numbers=3")).total == pytest.approx(88.0)
-    assert score(slipped, weights("numbers=3,other=0")).total == pytest.approx(100 * (1 - 1 / whole))
+    assert score(slipped, parse_weights("numbers=3")).total == pytest.approx(88.0)
+    assert score(slipped, parse_weights("numbers=3,other=0")).total == pytest.approx(100 * (1 - 1 / whole))
     right = seen.count(RIGHT) + 3 * results.count(RIGHT)
-    assert score(slipped, weights("numbers=3,follows=0,other=0")).total == pytest.approx(100 * right / whole)
+    assert score(slipped, parse_weights("numbers=3,follows=0,other=0")).total == pytest.approx(100 * right / whole)
 
 
 def test_the_first_mistake_of_each_kind_costs_what_the_teacher_says() -> None:
     """Two mistakes of one kind cost its points once, and of the second a step's share; another kind costs its own."""
     one, two = [step.index for step in judgement("four-bar").drawing.drawn.steps if step.op.name == "meet"][:2]
-    told = weights("reversed=30,wrong line=25")
+    told = parse_weights("reversed=30,wrong line=25")
     twice = score(judgement("four-bar", {one: 3j, two: 3j}, kind="reversed"), told)
     once = score(judgement("four-bar", {one: 3j}, kind="reversed"), told)
     share = 100 / sum(most for _, most in once.shares.values())
@@ -72,19 +72,20 @@ def test_the_first_mistake_of_each_kind_costs_what_the_teacher_says() -> None:
     both = judgement("four-bar", {one: 3j, two: 3j}, kind="reversed")
     mixed = replace(both, verdicts=tuple(replace(v, kind="wrong line") if v.step == two else v for v in both.verdicts))
     assert score(mixed, told).total == pytest.approx(45.0)
-    assert f"{mistaken('reversed')} −28" in str(score(mixed, told).told)
+    assert f"{mistake_words('reversed')} −28" in str(score(mixed, told).text)
 
 
 def test_one_number_is_worth_one_number() -> None:
     """Of a table alone every result that is asked for counts alike, and what is not in it is missing."""
     found = judgement("four-bar")
     empty = replace(found, verdicts=tuple(replace(v, state=UNSEEN, trace=None) for v in found.verdicts))
-    wanted = [(one.kind, one.of) for one in asked.results(empty)]
+    wanted = [(one.kind, one.of) for one in asked_results(empty)]
     assert len(wanted) > 5
     for count in (0, 1, len(wanted)):
-        numbers = tuple(NumberVerdict(Number(kind, of, (1.0,)), RIGHT, 0.0, 1.0, (1.0,)) for kind, of in wanted[:count])
+        numbers = tuple(NumberVerdict(StudentNumber(kind, of, (1.0,)), RIGHT, 0.0, 1.0, (1.0,))
+                        for kind, of in wanted[:count])
         told = replace(empty, numbers=numbers)
-        assert told.blank == (count == 0)
+        assert told.is_blank == (count == 0)
         assert score(told).total == pytest.approx(100 * count / len(wanted))
 
 
@@ -94,7 +95,7 @@ def test_a_blank_sheet_scores_nothing() -> None:
     free = [step.op.free for step in found.drawing.drawn.steps]
     blank = replace(found, verdicts=tuple(
         v if free[v.step] else replace(v, state=MISSING, trace=None) for v in found.verdicts))
-    assert blank.blank
+    assert blank.is_blank
     assert score(blank).total == 0.0
     assert "blank" in opinion(blank)
 
@@ -110,7 +111,7 @@ def test_what_is_given_counts_only_where_it_is_wrong() -> None:
 
 def test_numbers_count_as_steps() -> None:
     """A result counts for as many steps as its weight says, and one of a wrong number earns nothing."""
-    right, wrong = (score(numbered(judgement("four-bar"), state), weights("numbers=3")).shares[RESULTS]
+    right, wrong = (score(numbered(judgement("four-bar"), state), parse_weights("numbers=3")).shares[RESULTS]
                     for state in (RIGHT, WRONG))
     assert right[0] == right[1] == wrong[1]
     assert wrong[0] == right[0] - 3.0
@@ -129,23 +130,23 @@ def test_penalties_never_make_a_score_negative() -> None:
     """Wrong steps may cost more than they would earn, but no drawing has less than nothing."""
     all_wrong = judgement("four-bar")
     wrong = replace(all_wrong, verdicts=tuple(replace(v, state=WRONG) for v in all_wrong.verdicts))
-    assert score(wrong, weights("wrong=-1")).total == 0.0
+    assert score(wrong, parse_weights("wrong=-1")).total == 0.0
 
 
 def test_steps_are_told_apart_by_what_they_serve() -> None:
     """In a loaded scene steps serve velocities first, then accelerations, then forces; the pose serves all."""
     found = judgement("jaanimets-10")
-    groups, drawn = served(found.drawing), found.drawing.drawn
+    groups, drawn = groups_of_steps(found.drawing), found.drawing.drawn
     assert set(groups) == {POSE, "velocity", "acceleration", "force"}
     assert all(groups[step.index] == "force" for step in drawn.steps if step.panel.startswith(("force plan", "lever")))
-    assert "force" not in served(judgement("open-chain").drawing)
+    assert "force" not in groups_of_steps(judgement("open-chain").drawing)
     assert all(groups[arg] != "force" for step in drawn.steps if groups[step.index] == "velocity" for arg in step.args)
 
 
 def test_weights_are_read() -> None:
     """What a text leaves out stays as it is by default."""
-    assert weights("") == Weights()
-    assert weights("follows=0.5, numbers = 3") == Weights(follows=0.5, numbers=3.0)
+    assert parse_weights("") == Weights()
+    assert parse_weights("follows=0.5, numbers = 3") == Weights(follows=0.5, numbers=3.0)
 
 
 @pytest.mark.parametrize(("text", "why"), [
@@ -165,7 +166,7 @@ def test_weights_are_read() -> None:
 def test_bad_weights_are_refused(text: str, why: str) -> None:
     """One line says what is wrong with the weights."""
     with pytest.raises(Refused, match=why):
-        weights(text)
+        parse_weights(text)
 
 
 def test_what_is_implied_earns_and_what_cannot_be_told_does_not() -> None:
@@ -173,5 +174,5 @@ def test_what_is_implied_earns_and_what_cannot_be_told_does_not() -> None:
     found = judgement("four-bar")
     implied, unsure = (replace(found, verdicts=tuple(replace(v, state=state) for v in found.verdicts))
                        for state in (IMPLIED, UNSURE))
-    assert score(implied, weights("missing=0.5")).total == 100.0
-    assert score(unsure, weights("missing=0.5")).total == 0.0
+    assert score(implied, parse_weights("missing=0.5")).total == 100.0
+    assert score(unsure, parse_weights("missing=0.5")).total == 0.0

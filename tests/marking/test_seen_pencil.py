@@ -12,7 +12,7 @@ from hands import draw, frames, points
 import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import POINT
-from graphplan.marking.judge.findings import summary
+from graphplan.marking.judge.findings import summary_lines
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.marking.traces import Submission
@@ -50,7 +50,7 @@ def test_a_faultless_drawing_is_faultless_however_coarse(hand: float, reading: f
     for name in SCENES:
         for seed, stated in ((2, False), (3, True)):
             found = judged(name, measured(name, seed, hand, reading, stated))
-            assert found.first is None
+            assert found.first_wrong is None
             assert found.pencil is not None
             assert found.pencil.reading == 0.0 if stated else found.pencil.reading < 2 * max(reading, 0.1)
 
@@ -76,7 +76,7 @@ def test_who_states_the_bounds_of_his_reading_is_judged_by_less() -> None:
             submission = measured("ozols-5-3", seed, 1.0, 0.2, stated=True)
             traces = tuple(replace(trace, blur=stated) for trace in submission.traces)
             found = judged("ozols-5-3", replace(submission, traces=traces))
-            assert found.first is None
+            assert found.first_wrong is None
             assert found.pencil is not None
             parts.append(found.pencil.share_shown)
         told.append(np.mean(parts))
@@ -94,7 +94,7 @@ def test_a_mistake_makes_no_coarser_pencil() -> None:
     assert clean is not None
     assert found.pencil is not None
     assert found.pencil.scale == pytest.approx(clean.scale, rel=0.3)
-    assert found.first is not None
+    assert found.first_wrong is not None
 
 
 def test_few_marks_are_judged_by_the_stated_pencil() -> None:
@@ -102,6 +102,6 @@ def test_few_marks_are_judged_by_the_stated_pencil() -> None:
     submission = measured("four-bar", 4, 1.0, 0.1)
     few = replace(submission, traces=submission.traces[:2])
     assert judged("four-bar", few).pencil is None
-    told = " ".join(summary(judged("four-bar", submission)))
+    told = " ".join(summary_lines(judged("four-bar", submission)))
     assert "Pencil read off the drawing: " in told
     assert "marks measured to" in told

@@ -7,14 +7,22 @@ from pathlib import Path
 import pytest
 
 from graphplan.errors import Refused
-from graphplan.marking.classroom.pages import Sight, StackPage
-from graphplan.marking.classroom.register import Register, TaskSheet
-from graphplan.marking.classroom.stack import Assignment, Seen, assignments, coded, instead, placed
+from graphplan.marking.classroom.register import ClassRegister, TaskSheet
+from graphplan.marking.classroom.stack import (
+    Assignment,
+    PageSight,
+    SeenPage,
+    StackPage,
+    assignments,
+    decode_page,
+    place_pages,
+    replace_failed,
+)
 from graphplan.sheet.frames.frame import corner_numbers, page_code, sheet_code
 
 CODES = [sheet_code(f"variant {number}") for number in range(1, 5)]
 STUDENTS = "Student 1", "Student 2", "Student 3", ""
-REGISTER = Register("Class", 1, {}, tuple(
+REGISTER = ClassRegister("Class", 1, {}, tuple(
     TaskSheet(code, number, student, f"variant-{number}.toml", number)
     for number, (code, student) in enumerate(zip(CODES, STUDENTS, strict=True), 1)))
 
@@ -24,14 +32,14 @@ def marks(code: int, *corners: int) -> tuple[int, ...]:
     return tuple(corner_numbers(code)[corner] for corner in corners or range(4))
 
 
-def seen(name: str, upright: tuple[int, ...] = (), mirrored: tuple[int, ...] = (), *, blank: bool = False) -> Seen:
+def seen(name: str, upright: tuple[int, ...] = (), mirrored: tuple[int, ...] = (), *, blank: bool = False) -> SeenPage:
     """A page with these marks."""
-    return Seen(StackPage(Path(name), 1, name), Sight(name, upright, mirrored, blank, ""))
+    return SeenPage(StackPage(Path(name), 1, name), PageSight(name, upright, mirrored, blank, ""))
 
 
-def fates(*pages: Seen, assigned: dict[str, Assignment] | None = None) -> list[tuple[str, str, str]]:
+def fates(*pages: SeenPage, assigned: dict[str, Assignment] | None = None) -> list[tuple[str, str, str]]:
     """What becomes of pages: each by its name, whose it is, and its fate."""
-    found = placed(pages, REGISTER, assigned or {})
+    found = place_pages(pages, REGISTER, assigned or {})
     return [(one.seen.page.name, one.owner or (str(one.sheet.variant) if one.sheet else ""), one.fate) for one in found]
 
 
@@ -48,7 +56,7 @@ def fates(*pages: Seen, assigned: dict[str, Assignment] | None = None) -> list[t
 def test_a_sheet_is_known_by_its_marks_or_not_at_all(
         upright: tuple[int, ...], mirrored: tuple[int, ...], student: str | None) -> None:
     """Two marks of a sheet tell it, a third against a misread one; what does not fit one sheet alone is nobody's."""
-    found = coded(seen("page", upright, mirrored).sight, REGISTER)
+    found = decode_page(seen("page", upright, mirrored).sight, REGISTER)
     assert (found.sheet.student if found.sheet else None) == student
     assert (found.why is None) == (student is not None)
     assert found.mirrored == bool(mirrored)
@@ -56,8 +64,9 @@ def test_a_sheet_is_known_by_its_marks_or_not_at_all(
 
 def test_marks_that_fit_two_sheets_tell_neither() -> None:
     """A page whose marks are those of two sheets is left to the teacher, who is told of both."""
-    twins = Register("Class", 1, {}, (*REGISTER.sheets[:1], TaskSheet(CODES[0], 9, "Student 9", "variant-9.toml", 9)))
-    found = coded(seen("page", marks(CODES[0])).sight, twins)
+    twins = ClassRegister("Class", 1, {},
+                          (*REGISTER.sheets[:1], TaskSheet(CODES[0], 9, "Student 9", "variant-9.toml", 9)))
+    found = decode_page(seen("page", marks(CODES[0])).sight, twins)
     assert found.sheet is None
     assert str(found.why) == "its corner marks fit several sheets: Student 1, Student 9"
 
@@ -85,17 +94,17 @@ def test_the_teacher_names_pages(word: Assignment, fate: tuple[str, str, str]) -
 
 def test_a_name_does_not_change_the_task() -> None:
     """A sheet that another student drew on is judged by its own code, under the name that the teacher says."""
-    (found,) = placed([seen("page", marks(CODES[3]))], REGISTER, {"page": Assignment("Student 2")})
+    (found,) = place_pages([seen("page", marks(CODES[3]))], REGISTER, {"page": Assignment("Student 2")})
     assert found.sheet == REGISTER.sheets[3]
     assert found.owner == "Student 2"
 
 
 def test_a_scan_that_cannot_be_judged_gives_way() -> None:
     """Where the first scan of a sheet cannot be judged, the second counts, and that is told."""
-    found = placed([seen("one", marks(CODES[0])), seen("two", marks(CODES[0]))], REGISTER, {})
-    assert [(one.fate, *map(str, one.notes)) for one in instead(found, {"one"})] == [
+    found = place_pages([seen("one", marks(CODES[0])), seen("two", marks(CODES[0]))], REGISTER, {})
+    assert [(one.fate, *map(str, one.notes)) for one in replace_failed(found, {"one"})] == [
         ("again",), ("judged", "page one cannot be judged")]
-    assert list(instead(found, {"one", "two"})) == found
+    assert list(replace_failed(found, {"one", "two"})) == found
 
 
 def test_words_of_the_teacher(tmp_path: Path) -> None:
@@ -111,4 +120,4 @@ def test_words_of_the_teacher(tmp_path: Path) -> None:
         with pytest.raises(Refused, match=why):
             assignments([told], pages, REGISTER)
     with pytest.raises(Refused, match="perhaps Student 3"):
-        placed([seen("torn")], REGISTER, {"torn": Assignment("student 3")})
+        place_pages([seen("torn")], REGISTER, {"torn": Assignment("student 3")})

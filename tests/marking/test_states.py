@@ -12,15 +12,15 @@ import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge.judge import judge
-from graphplan.marking.judge.states import sureness
 from graphplan.marking.judge.verdict import EARNED, IMPLIED, MISSING, RIGHT, UNSURE, WRONG, Judgement
-from graphplan.marking.traces import Number, Submission, Trace
+from graphplan.marking.judge.verdicts import sureness
+from graphplan.marking.traces import StudentNumber, Submission, Trace
 
 PENCIL = Pencil(0.1, 0.1, 0.05, 0.1)
 
 
 def four_bar(*without: str, moved: dict[str, float] | None = None, kinds: tuple[str, ...] = (POINT, LINE),
-             letters: bool = True, numbers: tuple[Number, ...] = ()) -> Judgement:
+             letters: bool = True, numbers: tuple[StudentNumber, ...] = ()) -> Judgement:
     """A four-bar as a hand drew it, some of its marks left out, some drawn so many mm aside."""
     sheet = composed("four-bar")
     drawing = sheet.plans.drawing
@@ -52,7 +52,7 @@ def test_a_crossing_of_right_lines_needs_no_dot() -> None:
 def test_a_right_number_shows_its_result() -> None:
     """What is not drawn is missing, unless its number is in the table and right."""
     true = gp.construct(gp.load("four-bar")).acceleration["M"]
-    right, wrong = (Number("acceleration", "M", (value.real, value.imag), "mm/s^2") for value in (true, -true))
+    right, wrong = (StudentNumber("acceleration", "M", (value.real, value.imag), "mm/s^2") for value in (true, -true))
     told = four_bar("M_1", kinds=(POINT,), numbers=(right,))
     assert states(told)["M_1"] == IMPLIED
     assert states(four_bar("M_1", kinds=(POINT,), numbers=(wrong,)))["M_1"] == MISSING
@@ -80,8 +80,8 @@ def test_every_verdict_bears_its_confidence() -> None:
         assert all(0.0 <= verdict.confidence <= 1.0 for verdict in found.verdicts)
         sure = [verdict.confidence for verdict in found.verdicts if verdict.state in (*EARNED, WRONG)]
         assert min(sure) > 0.85
-    assert RIGHT in {verdict.state for verdict in found.judged}
-    assert found.first
+    assert RIGHT in {verdict.state for verdict in found.counting_verdicts}
+    assert found.first_wrong
 
 
 def test_odds_become_probabilities() -> None:

@@ -14,8 +14,8 @@ from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.marking.judge.judge import judge
-from graphplan.marking.judge.score import score, served
-from graphplan.marking.traces import Number, Submission, Trace
+from graphplan.marking.judge.score import groups_of_steps, score
+from graphplan.marking.traces import StudentNumber, Submission, Trace
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import VELOCITY
 
@@ -45,7 +45,7 @@ def traces(drawn: Drawn, kept: Kept = lambda drawing, index: True, kinds: Iterab
 
 def velocities(drawing: Construction, index: int) -> bool:
     """Whether a step serves the velocities."""
-    return served(drawing)[index] == VELOCITY
+    return groups_of_steps(drawing)[index] == VELOCITY
 
 
 def results(drawing: Construction, index: int) -> bool:
@@ -53,7 +53,7 @@ def results(drawing: Construction, index: int) -> bool:
     return index in drawing.drawn.wanted
 
 
-def table(drawing: Construction, count: int | None = None, factor: float = 1.0) -> tuple[Number, ...]:
+def table(drawing: Construction, count: int | None = None, factor: float = 1.0) -> tuple[StudentNumber, ...]:
     """So many of the results that are asked for, as numbers."""
     asked = [reading for reading in drawing.readings if reading.given is None][:count]
     found = []
@@ -61,11 +61,12 @@ def table(drawing: Construction, count: int | None = None, factor: float = 1.0) 
         value = drawing.value(reading, [drawing.values[drawing.drawn.wanted[place]] for place in reading.marks],
                               Floats())
         parts = value if isinstance(value, tuple) else (value,)
-        found.append(Number(reading.kind, reading.of, tuple(factor * float(part) for part in parts)))
+        found.append(StudentNumber(reading.kind, reading.of, tuple(factor * float(part) for part in parts)))
     return tuple(found)
 
 
-def sheet(found: list[Trace], numbers: tuple[Number, ...] = (), shows: Iterable[str] = (POINT, LINE)) -> Submission:
+def sheet(found: list[Trace], numbers: tuple[StudentNumber, ...] = (),
+          shows: Iterable[str] = (POINT, LINE)) -> Submission:
     return Submission("a.csv", tuple(found), numbers, frozenset(shows) if found else frozenset())
 
 
@@ -96,4 +97,4 @@ def test_a_sheet_scores_as_a_teacher_would_mark_it(which: str) -> None:
     submission, least, most = SHEETS[which]
     found = score(judge(DRAWING, composed("four-bar"), submission, PENCIL))
     assert found.total is not None
-    assert least <= found.total <= most, found.told
+    assert least <= found.total <= most, found.text

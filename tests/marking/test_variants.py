@@ -11,8 +11,7 @@ import pytest
 from graphplan.accuracy.drafted import Drafted, draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.check.trusted import report
-from graphplan.marking.classroom.flaws import Flaw, Quality, flaw
-from graphplan.marking.classroom.variants import Design, Wording, draws, keys_of
+from graphplan.marking.classroom.variants import Design, Flaw, Quality, Wording, draw_values, find_flaw, sheet_keys
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load, parse
 from graphplan.words.tongue import ENGLISH, tongue
@@ -33,11 +32,11 @@ def design(name: str) -> Design:
 
 def test_values_are_drawn_uniformly_and_none_twice() -> None:
     """All of the grid is drawn, each once, in an order of the seed alone; each place is as likely to come first."""
-    found = [tuple(values.values()) for values in draws(CHOICES, 5)]
+    found = [tuple(values.values()) for values in draw_values(CHOICES, 5)]
     assert len(found) == len(set(found)) == 12
-    assert found == [tuple(values.values()) for values in draws(CHOICES, 5)]
-    assert found != [tuple(values.values()) for values in draws(CHOICES, 6)]
-    firsts = Counter(tuple(next(draws(CHOICES, seed)).values()) for seed in range(1200))
+    assert found == [tuple(values.values()) for values in draw_values(CHOICES, 5)]
+    assert found != [tuple(values.values()) for values in draw_values(CHOICES, 6)]
+    firsts = Counter(tuple(next(draw_values(CHOICES, seed)).values()) for seed in range(1200))
     assert len(firsts) == 12
     assert all(60 < count < 140 for count in firsts.values())
 
@@ -62,9 +61,9 @@ def test_the_scene_itself_is_a_task(name: str) -> None:
     """A scene at the scales of its own sheet has no flaw, and has that sheet's scales."""
     own = design(name)
     composition = own.drafted.composition
-    keys = keys_of(own.scene, composition.scales, composition.arrangement.paper)
-    text = own.worded(keys).variant(1, {}).text
-    assert flaw(text, name, draw, own.own) is None
+    keys = sheet_keys(own.scene, composition.scales, composition.arrangement.paper)
+    text = own.wording(keys).variant(1, {}).text
+    assert find_flaw(text, name, draw, own.own_quality) is None
     assert draw(parse(text, name)).composition.scales == composition.scales
 
 
@@ -82,9 +81,9 @@ def test_flaws_are_told(case: str) -> None:
     name, values, kind = FLAWS[case]
     own = design(name)
     composition = own.drafted.composition
-    wording = own.worded(keys_of(own.scene, composition.scales, composition.arrangement.paper))
+    wording = own.wording(sheet_keys(own.scene, composition.scales, composition.arrangement.paper))
     variant = wording.variant(1, {path: Fraction(value) for path, value in values.items()})
-    found = flaw(variant.text, name, draw, own.own)
+    found = find_flaw(variant.text, name, draw, own.own_quality)
     assert found is not None
     assert found.kind == kind
     assert found.told
@@ -94,9 +93,9 @@ def test_a_sheet_may_be_as_bad_as_the_scenes_own() -> None:
     """What is poor is only a flaw where the scene's own sheet is better."""
     good = Quality((), (), 0.0, True, 40.0, "omega of link 2", 0.02)
     bad = Quality((3.0,), (7,), 0.5, False, 5.0, "omega of link 2", 0.5)
-    assert bad.flaw(bad) is None
-    assert good.flaw(good) is None
-    assert bad.flaw(good) == Flaw("it is nearly singular", "lines cross at 5°")
+    assert bad.find_flaw(bad) is None
+    assert good.find_flaw(good) is None
+    assert bad.find_flaw(good) == Flaw("it is nearly singular", "lines cross at 5°")
 
 
 def test_a_small_grid_gives_the_same_numbers_twice() -> None:

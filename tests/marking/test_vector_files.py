@@ -17,11 +17,10 @@ import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.files.curves import circle
-from graphplan.marking.judge.lettering import lettered
-from graphplan.marking.spelling import spelled
-from graphplan.marking.submission import read
-from graphplan.marking.traces import PlanFrame, Spot, Submission, Trace
+from graphplan.marking.files.drawing import circle_through
+from graphplan.marking.judge.lettering import name_marks
+from graphplan.marking.submission import read_submission
+from graphplan.marking.traces import PlanFrame, Spot, Submission, Trace, spell
 from graphplan.output.dxf import dxf
 from graphplan.output.exports.geogebra import geogebra
 from graphplan.output.svg import svg
@@ -121,13 +120,13 @@ def submission(folder: Path, name: str, data: bytes, frames: dict[str, PlanFrame
     """The data as a file, read."""
     path = folder / name
     path.write_bytes(data)
-    return read(path, (), frames or {})
+    return read_submission(path, (), frames or {})
 
 
 def lying(trace: Trace) -> list[float]:
     """Where a thing lies, however it was drawn: a line by its ends in their order, a circle by centre and radius."""
     if trace.kind == CIRCLE:
-        found = circle(*trace.spots[:3])
+        found = circle_through(*trace.spots[:3])
         assert found is not None
         return [*found[0], found[1]]
     return [part for spot in sorted(trace.spots) for part in spot]
@@ -225,7 +224,7 @@ def own(scene: str) -> tuple[Composition, Sheet, dict[str, Spot]]:
     composition = compose(drawing, None, None)
     found = composition.plates
     points = [mark for mark in found.all_marks if mark.kind == POINT and mark.view.rect.holds(mark.spot)]
-    named = {spelled(point.name): point.spot for point in points if point.name and not CORNER.fullmatch(point.name)}
+    named = {spell(point.name): point.spot for point in points if point.name and not CORNER.fullmatch(point.name)}
     return composition, layout(drawing, composition=composition), named
 
 
@@ -270,7 +269,7 @@ def test_own_sheets_are_read_back(tmp_path: Path, scene: str) -> None:
                 assert max(apart(rims, Trace(POINT, (spot,))) for spot in (trace.spots[0], trace.spots[-1])) < far
             else:
                 assert apart(found.traces, trace) < far
-        told = lettered(composition.plans.drawing, composition, found, Pencil())
+        told = name_marks(composition.plans.drawing, composition, found, Pencil())
         points = {trace.label: trace.spots[0] for trace in told.traces if trace.kind == POINT}
         assert not [label for label, at in named.items() if math.dist(points.get(label, (0.0, 0.0)), at) > 2 * far]
         assert found.frames
@@ -281,8 +280,8 @@ def test_own_sheets_of_other_paper(tmp_path: Path, kind: str) -> None:
     """Plans lie where their frames say on a sheet of the size that is asked for, and anywhere on another."""
     (composition, sheet, _), path, frames = own("four-bar"), tmp_path / f"own.{kind}", {"N-plan": PlanFrame(0j, 1 + 0j)}
     path.write_bytes(dxf([sheet], composition.plates) if kind == "dxf" else svg(sheet).encode())
-    assert read(path, (), frames, size=(sheet.width, sheet.height)).frames == frames
-    assert read(path, (), frames, size=(sheet.height, sheet.width)).frames == {}
+    assert read_submission(path, (), frames, size=(sheet.width, sheet.height)).frames == frames
+    assert read_submission(path, (), frames, size=(sheet.height, sheet.width)).frames == {}
 
 
 @pytest.mark.parametrize("scene", SCENES)

@@ -24,13 +24,13 @@ from graphplan.accuracy.hand import Pencil  # noqa: E402
 from graphplan.commands import main, parser  # noqa: E402
 from graphplan.commands.result_schemas import result_schema as printed_schema  # noqa: E402
 from graphplan.commands.variants import drafted  # noqa: E402
-from graphplan.commands.verify import Desk  # noqa: E402
-from graphplan.marking.classroom.register import Register, TaskSheet  # noqa: E402
-from graphplan.marking.judge.findings import record  # noqa: E402
-from graphplan.marking.judge.score import weights  # noqa: E402
-from graphplan.marking.scans.facsimile import as_it_is  # noqa: E402
-from graphplan.marking.scans.image import Grey, picture  # noqa: E402
-from graphplan.marking.scans.sheet_marks import blank, sheet_marks  # noqa: E402
+from graphplan.commands.verify_desk import Desk  # noqa: E402
+from graphplan.marking.classroom.register import ClassRegister, TaskSheet  # noqa: E402
+from graphplan.marking.judge.findings import judgement_record  # noqa: E402
+from graphplan.marking.judge.score import parse_weights  # noqa: E402
+from graphplan.marking.scans.image import Grey, page_picture  # noqa: E402
+from graphplan.marking.scans.printed_ink import is_blank, marks_of_sheet  # noqa: E402
+from graphplan.marking.scans.straighten import whole_photograph  # noqa: E402
 from graphplan.mechanism.scene import load  # noqa: E402
 from graphplan.output.pdf_png import pdf  # noqa: E402
 from graphplan.sheet.frames.frame import corner_marks, corner_numbers, sheet_code  # noqa: E402
@@ -74,7 +74,7 @@ class Class:
 
 def _page(image: Grey) -> Sheet:
     """A picture as a page."""
-    shown = as_it_is(np.ascontiguousarray(image))
+    shown = whole_photograph(np.ascontiguousarray(image))
     return Sheet(shown.rect.width, shown.rect.height, shown.rect, {}, (shown,), "", "", (), Scales(1.0, 1.0, "mm", {}))
 
 
@@ -86,7 +86,7 @@ def a_class(folder: Path) -> Class:
         scene.write_text(f"# variant {number}\n{SCENE}")
         named = replace((own := load(str(scene))).sheet, student=STUDENTS[number - 1], variant=str(number))
         sheets.append(drafted(chosen(scene), replace(own, sheet=named)))
-    register = Register("Four bars", 1, {"paper": "A4"}, tuple(
+    register = ClassRegister("Four bars", 1, {"paper": "A4"}, tuple(
         TaskSheet(code(sheet.composition), number, student, f"variant-{number}.toml", number)
         for number, (student, sheet) in enumerate(zip(STUDENTS, sheets, strict=True), 1)))
     register.save(folder)
@@ -176,15 +176,15 @@ def test_each_page_is_as_told(judged: Judged) -> None:
 
 def test_one_verdict(judged: Judged) -> None:
     """A sheet of a stack is judged as a drawing of its scene is alone."""
-    image = picture(judged.stack, 3)
+    image = page_picture(judged.stack, 3)
     sheet = judged.made.sheets[0]
-    desk = Desk(sheet, weights(""), chosen(judged.made.folder / "variant-1.toml"))
+    desk = Desk(sheet, parse_weights(""), chosen(judged.made.folder / "variant-1.toml"))
     from graphplan.marking.scans.scan import read_picture
 
     alone = desk.judged(read_picture(image, "scans.pdf#3", task(sheet.composition)[0], desk.frames,
                                      code(sheet.composition)))
     found = json.loads((judged.into / "results.json").read_text())["sheets"][0]
-    assert found["judgement"] == json.loads(json.dumps(record(alone.judgement, alone.score)))
+    assert found["judgement"] == json.loads(json.dumps(judgement_record(alone.judgement, alone.score)))
     assert found["score"] == alone.score.total
 
 
@@ -257,11 +257,11 @@ def test_marks_are_read_any_way_up(made: Class, quarters: int) -> None:
     """Marks tell the sheet whichever way it lies, by two of them too; a page without ink is blank, a sheet is not."""
     sheet = made.sheets[0].composition
     image = scan(printed(task(sheet)[0]), [], 7, dpi=150, quarters=quarters).image
-    assert sheet_marks(image) == dict(enumerate(corner_numbers(code(sheet))))
+    assert marks_of_sheet(image) == dict(enumerate(corner_numbers(code(sheet))))
     high, wide = image.shape
     half = image[: high // 2] if quarters % 2 else image[:, : wide // 2]
-    assert len(sheet_marks(half)) == 2
-    assert not blank(image)
+    assert len(marks_of_sheet(half)) == 2
+    assert not is_blank(image)
 
 
 def test_data_is_after_its_schema(judged: Judged) -> None:

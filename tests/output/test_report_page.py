@@ -12,11 +12,11 @@ import pytest
 
 import graphplan as gp
 from graphplan.kernel.kinds import POINT
-from graphplan.marking.classroom.class_list import Classroom, Marked, Unread
+from graphplan.marking.classroom.results import Classroom, MarkedDrawing, Unread
 from graphplan.marking.judge.overlay import overlay
 from graphplan.marking.judge.score import score
 from graphplan.marking.judge.verdict import RIGHT, UNSEEN, WRONG, Judgement, NumberVerdict, Verdict
-from graphplan.marking.traces import Number, PlanFrame, Trace
+from graphplan.marking.traces import PlanFrame, StudentNumber, Trace
 from graphplan.output.report_page import class_list, marked
 from graphplan.phrases import said
 from graphplan.sheet.layout.composition import compose
@@ -73,7 +73,7 @@ def judgement() -> Judgement:
         told = said("parallel to {0} instead of {1}", HOSTILE, HOSTILE) if step.index == wrong else None
         verdicts.append(Verdict(step.index, WRONG if told else RIGHT, 2.0, 0.5, 2.0, Trace(POINT, (here,), HOSTILE),
                                 drawing.values[step.index], None, told, "wrong line" if told else ""))
-    number = NumberVerdict(Number(HOSTILE, HOSTILE, (1.0, 2.0), HOSTILE), WRONG, 1.0, 0.5, (1.0, 1.0))
+    number = NumberVerdict(StudentNumber(HOSTILE, HOSTILE, (1.0, 2.0), HOSTILE), WRONG, 1.0, 0.5, (1.0, 1.0))
     spare = Trace(POINT, ((0.0, 0.0),), HOSTILE)
     return Judgement(HOSTILE, drawing, composition, frames, tuple(verdicts), (spare,), (number,))
 
@@ -87,7 +87,7 @@ def page() -> str:
 @cache
 def class_page() -> str:
     found = judgement()
-    room = Classroom(HOSTILE, (Marked(found, score(found)),), (Unread(HOSTILE, HOSTILE),))
+    room = Classroom(HOSTILE, (MarkedDrawing(found, score(found)),), (Unread(HOSTILE, HOSTILE),))
     return class_list(room, ENGLISH)
 
 
@@ -139,7 +139,7 @@ def test_a_wrong_point_of_the_pose_is_told_by_its_letter() -> None:
     """It has no step, and so no number."""
     found = judgement()
     spoilt = replace(found, verdicts=(replace(found.verdicts[0], state=WRONG), *found.verdicts[1:]))
-    text = class_list(Classroom("", (Marked(spoilt, score(spoilt)),)), ENGLISH)
+    text = class_list(Classroom("", (MarkedDrawing(spoilt, score(spoilt)),)), ENGLISH)
     letter = spoilt.drawing.drawn.text(0)
     assert f'<td class="figure">{letter}</td>' in text
     assert f'<th scope="row">the given point {letter}</th>' in text

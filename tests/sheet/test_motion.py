@@ -16,7 +16,7 @@ from sheets import solution
 
 import graphplan as gp
 from graphplan.cycle.motion_curves import traced_motion
-from graphplan.marking.submission import read
+from graphplan.marking.submission import read_submission
 from graphplan.methods.panels import MECHANISM
 from graphplan.output import back_end
 from graphplan.sheet.handout import task
@@ -110,7 +110,7 @@ def test_the_judge_does_not_see_the_motion(ending: str, package: str, tmp_path: 
         text = back_end(ending)(*([sheet] if ending == "svg" else [[sheet], one.plates]))
         file = tmp_path / f"sheet.{ending}"
         file.write_bytes(text if isinstance(text, bytes) else text.encode())
-        found.append(len(read(file, [], {}).traces))
+        found.append(len(read_submission(file, [], {}).traces))
     assert found[0] == found[1] > 50
 
 

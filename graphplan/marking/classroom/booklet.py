@@ -1,45 +1,128 @@
-"""The booklet of a class: a task a page with coded corners, its student's name on it."""
+"""What is printed for a class: the booklet of its tasks, and the key: who has which variant, and the results of each,
+as a table that `graphplan verify` reads of a student.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import csv
+import io
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from graphplan.accuracy.drafted import Drafted
-from graphplan.marking.classroom.flaws import Draw
-from graphplan.marking.classroom.key import Row, key_rows
-from graphplan.marking.classroom.variants import Variant
-from graphplan.mechanism.model import Scene
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.marking.classroom.variants import ClassVariant, Draw
+from graphplan.mechanism.model import Scene, Units
 from graphplan.mechanism.scene import parse
+from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import KINDS, ResultKind
+from graphplan.phrases import said
+from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.handout import code, solution, task
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.layout import back_to_front, frame_items, layout, title_items
+from graphplan.sheet.layout.paper import paginate_tightly, words_page
 from graphplan.sheet.plates.display import Sheet
+from graphplan.sheet.tolerances import ZERO_TOL
+from graphplan.sheet.words.rows import TextRow, largest_size, row_items
+from graphplan.sheet.words.texts import SheetWords
 
 
 @dataclass(frozen=True)
 class Exercise:
     """A variant for its student (none of a spare sheet), in a file of this name."""
 
-    variant: Variant
+    variant: ClassVariant
     student: str
     file: str
 
 
 @dataclass(frozen=True)
-class Printed:
+class PrintedExercise:
     """What is printed of an exercise: its code, the pages of the task and of the solution, its results."""
 
     code: int
     task: tuple[Sheet, ...]
     solution: tuple[Sheet, ...]
-    rows: tuple[Row, ...]
+    rows: tuple[KeyRow, ...]
 
 
-def printed(exercise: Exercise, draw: Draw, further: Callable[[Scene], Iterable[Row]]) -> Printed:
+def print_exercise(exercise: Exercise, draw: Draw, further: Callable[[Scene], Iterable[KeyRow]]) -> PrintedExercise:
     """An exercise on paper; `further` are results of its scene that no drawing of one pose has. Fails as the drawing of
     its scene does."""
     scene = parse(exercise.variant.text, exercise.file)
     sheet = replace(scene.sheet, student=exercise.student, variant=str(exercise.variant.number))
     drafted: Drafted = draw(replace(scene, sheet=sheet))
     composition = drafted.composition
-    return Printed(code(composition), tuple(task(composition)), tuple(solution(composition)),
+    return PrintedExercise(code(composition), tuple(task(composition)), tuple(solution(composition)),
                    (*key_rows(composition.plans.drawing), *further(scene)))
+
+
+# ---- the key --------------------------------------------------------------------------------------------------------
+
+
+KEY = said("Key")
+HEAD = "variant", "student", "quantity", "of", "x", "y", "value", "unit"
+
+
+class KeyRow(NamedTuple):
+    """A result: its quantity, what it is of, its components or its value, its unit."""
+
+    quantity: str
+    of: str
+    x: str
+    y: str
+    value: str
+    unit: str
+
+
+def key_rows(drawing: Construction) -> Iterator[KeyRow]:
+    """The results of a construction in the scene's units; what is only rounding beside the largest of its kind is 0."""
+    for name, values in drawing.read(Floats()).items():
+        if name not in KINDS:
+            continue
+        kind: ResultKind = KINDS[name]
+        largest = max(map(abs, values.values()), default=0.0) if kind.single else largest_size(values)
+        unit = kind.dimension.unit(drawing.scene.units)
+        for of, value in values.items():
+            x, y, one = ("", "", value) if kind.single else (*value, "")
+            yield KeyRow(name, of, _six_digits(x, largest), _six_digits(y, largest), _six_digits(one, largest), unit)
+
+
+def single_row(kind: ResultKind, at: str, value: float, largest: float, units: Units) -> KeyRow:
+    """A single number over the cycle, at a travel if it has one."""
+    return KeyRow(f"{kind} at {at}" if at else str(kind), "", "", "", _six_digits(value, largest),
+                  kind.dimension.unit(units))
+
+
+def _six_digits(value: float | str, largest: float) -> str:
+    """A number in six digits, which no machine rounds in another way; nothing where there is none."""
+    return value if isinstance(value, str) else f"{value if abs(value) > ZERO_TOL * largest else 0.0:.6g}"
+
+
+def key_table(found: Iterable[tuple[int, str, Iterable[KeyRow]]]) -> str:
+    """The results of all variants, each by its number, with its student, as CSV."""
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(HEAD)
+    for variant, student, rows in found:
+        table.writerows((variant, student, *row) for row in rows)
+    return text.getvalue()
+
+
+def overview(composition: Composition, told: Sequence[tuple[int, str, str]]) -> Iterator[Sheet]:
+    """The first pages of the key: each variant with its student and what was drawn for it."""
+    plans, scene = composition.plans, composition.plans.drawing.scene
+    words, frame = SheetWords(plans), frame_of(scene)
+    page = words_page(frame.paper("A4"), frame, frame.block(scene, plans.tongue))
+
+    def rows(wide: float) -> Sequence[TextRow]:
+        lines = [(f"{variant}", f"{student}: {values}" if student else values) for variant, student, values in told]
+        return [row for number, line in lines for row in words.paragraph(line, wide, number=number)]
+
+    apart, filled = replace(composition, arrangement=page), paginate_tightly(page.set(rows), page)
+    first = layout(plans.drawing, composition=composition, document=KEY)
+    for number, placed in enumerate(filled, 1):
+        items = back_to_front([*frame_items(apart), *row_items(placed), *title_items(apart, KEY, number, len(filled))])
+        yield replace(first, width=page.width, height=page.height, frame=page.frame, panels={}, items=tuple(items))

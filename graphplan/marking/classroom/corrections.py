@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.kernel.kinds import POINT
-from graphplan.marking.judge.findings import look_at, opinion
+from graphplan.marking.judge.findings import look_at_lines, opinion
 from graphplan.marking.judge.overlay import (
     CALLED,
     LAYER,
@@ -18,9 +18,9 @@ from graphplan.marking.judge.overlay import (
     SIZES,
     StudentMark,
     StudentStrokes,
-    boxed,
+    boxed_words,
     overlay,
-    told,
+    plan_remarks,
 )
 from graphplan.marking.judge.score import Score
 from graphplan.marking.judge.verdict import EARNED, UNSURE, WRONG, Judgement, Verdict
@@ -70,8 +70,8 @@ class ScanStrokes(StudentStrokes):
         panel = self.judgement.composition.plates.steps[verdict.step].panel
         if panel not in self.judgement.frames:
             return None
-        spot = self.judgement.composition.views[panel].to_plan(self.about(verdict))
-        at = self.judgement.frames[panel].onto(complex(*spot))
+        spot = self.judgement.composition.views[panel].to_plan(self.expected_spot(verdict))
+        at = self.judgement.frames[panel].to_sheet(complex(*spot))
         return at.real, at.imag
 
     def corrections(self) -> Iterator[Item]:
@@ -116,10 +116,10 @@ class Corrections:
     def detail(self, cut: Callable[[Rect], Photograph]) -> Sheet | None:
         """The place of the first wrong step alone, as far as it can be seen; `cut` gives a piece of the scan, at the
         origin."""
-        mark = next((mark for mark in self.student.marks if mark.verdict is self.judgement.first), None)
+        mark = next((mark for mark in self.student.marks if mark.verdict is self.judgement.first_wrong), None)
         if mark is None:
             return None
-        (x, y), whole = mark.at, self.scan.rect
+        (x, y), whole = mark.label_spot, self.scan.rect
         left, low = (min(max(at - half, 0.0), most - 2 * half)
                      for at, half, most in ((x, CUT[0], whole.width), (y, CUT[1], whole.height)))
         rect = Rect(left, low, left + 2 * CUT[0], low + 2 * CUT[1])
@@ -135,9 +135,9 @@ class Corrections:
         student, composition = self.student, self.judgement.composition
         true, over = self.true[0].items, list(student.corrections())
         for panel in self.judgement.frames:
-            over += told(student, panel, student.rect(panel), [*true, *over])
+            over += plan_remarks(student, panel, student.rect(panel), [*true, *over])
         words = composition.plans.tongue(
-            join((self.score.told, opinion(self.judgement), *look_at(self.judgement)), " "))
+            join((self.score.text, opinion(self.judgement), *look_at_lines(self.judgement)), " "))
         names = tuple(step.name for step in self.judgement.drawing.drawn.steps if step.name)
         rect = student.rect(next(iter(self.printed.views)))
-        return [*over, *boxed(words, names, (rect.left, rect.top), [*true, *over], rect, CALLED)[1]]
+        return [*over, *boxed_words(words, names, (rect.left, rect.top), [*true, *over], rect, CALLED)[1]]

@@ -55,10 +55,10 @@ class Keeper:
     def put(self, key: str, data: Data) -> None:
         """Keep data, whole or not at all."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        replaced(self.folder / f"{key}.json", json.dumps(data, ensure_ascii=False).encode())
+        write_whole(self.folder / f"{key}.json", json.dumps(data, ensure_ascii=False).encode())
 
 
-def replaced(path: Path, content: bytes) -> None:
+def write_whole(path: Path, content: bytes) -> None:
     """Write a file in one step, whole or not at all."""
     temporary = path.with_name(f".{path.name}-{os.getpid()}")
     try:
@@ -82,7 +82,7 @@ def file_digest(path: Path) -> str:
     return found.hexdigest()
 
 
-def done(work: Callable[[Job], Data], jobs: Mapping[str, Job], keeper: Keeper, processes: int
+def run_jobs(work: Callable[[Job], Data], jobs: Mapping[str, Job], keeper: Keeper, processes: int
               ) -> Iterator[tuple[str, Data | Failed]]:
     """What comes of each job, by its key, as it is done: what is kept first, and what is new is kept then.
 
@@ -94,32 +94,33 @@ def done(work: Callable[[Job], Data], jobs: Mapping[str, Job], keeper: Keeper, p
             yield name, kept
         else:
             new[name] = job
-    for name, made in _together(work, new, processes):
+    for name, made in _run_together(work, new, processes):
         if not isinstance(made, Failed):
             keeper.put(name, made)
         yield name, made
 
 
-def _together(work: Callable[[Job], Data], jobs: Mapping[str, Job], processes: int
+def _run_together(work: Callable[[Job], Data], jobs: Mapping[str, Job], processes: int
                    ) -> Iterator[tuple[str, Data | Failed]]:
     """The jobs, so many at once; each alone that was under way, or waited, when a process died."""
     if min(processes, len(jobs)) < 2:
-        yield from ((name, _tried(work, job)) for name, job in jobs.items())
+        yield from ((name, _try_job(work, job)) for name, job in jobs.items())
         return
     left = dict(jobs)
-    for name, made in _pooled(work, jobs, min(processes, len(jobs))):
+    for name, made in _run_in_pool(work, jobs, min(processes, len(jobs))):
         del left[name]
         yield name, made
     for name, job in left.items():
-        yield next(iter(_pooled(work, {name: job}, 1)), (name, Failed(DIED)))
+        yield next(iter(_run_in_pool(work, {name: job}, 1)), (name, Failed(DIED)))
 
 
-def _pooled(work: Callable[[Job], Data], jobs: Mapping[str, Job], processes: int
+def _run_in_pool(work: Callable[[Job], Data], jobs: Mapping[str, Job], processes: int
                  ) -> Iterator[tuple[str, Data | Failed]]:
     """What is done until a process dies; one that is interrupted leaves what has begun to end by itself."""
     with _one_thread_each():
-        pool = ProcessPoolExecutor(processes, get_context("spawn"), _begin)
-        futures: dict[Future[Data | Failed], str] = {pool.submit(_tried, work, job): name for name, job in jobs.items()}
+        pool = ProcessPoolExecutor(processes, get_context("spawn"), _start_process)
+        futures: dict[Future[Data | Failed], str] = {pool.submit(_try_job, work, job): name
+                                                     for name, job in jobs.items()}
     try:
         for future in as_completed(futures):
             yield futures[future], future.result()
@@ -131,7 +132,7 @@ def _pooled(work: Callable[[Job], Data], jobs: Mapping[str, Job], processes: int
         pool.shutdown(wait=False)
 
 
-def _begin() -> None:
+def _start_process() -> None:
     """Begin a process that ends with the one that started it, however that ends, and by no key pressed meanwhile."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     Thread(target=_end_with_parent, daemon=True).start()
@@ -143,7 +144,7 @@ def _end_with_parent() -> None:
         os._exit(1)
 
 
-def _tried(work: Callable[[Job], Data], job: Job) -> Data | Failed:
+def _try_job(work: Callable[[Job], Data], job: Job) -> Data | Failed:
     """What comes of a job, whatever happens in it."""
     try:
         return work(job)

@@ -1,18 +1,21 @@
-"""The register of a class: which sheet is whose, told by the code of its corner marks.
+"""Who is in a class: the register, which sheet is whose, told by the code of its corner marks; and the list of names
+that it is made from, as schools and spreadsheets write it.
 
-It stands in `class.json` beside the scenes of the tasks. What it says of how they are drawn is by the names of the
-command line, so that each sheet can be composed again as it was printed.
+The register stands in `class.json` beside the scenes of the tasks. What it says of how they are drawn is by the names
+of the command line, so that each sheet can be composed again as it was printed.
 """
 
 from __future__ import annotations
 
+import csv
 import json
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from graphplan.errors import Refused
+from graphplan.errors import Refused, printable
 from graphplan.sheet.frames.frame import corner_numbers
 
 FILE = "class.json"
@@ -32,7 +35,7 @@ class TaskSheet:
 
 
 @dataclass(frozen=True)
-class Register:
+class ClassRegister:
     """The sheets of a class, the seed that their numbers were drawn by, and the options by which they are drawn."""
 
     title: str
@@ -44,12 +47,12 @@ class Register:
         """The sheet that has these corner marks; None where none has."""
         return next((sheet for sheet in self.sheets if corner_numbers(sheet.code) == corner_numbers(code)), None)
 
-    def of(self, student: str) -> TaskSheet | None:
+    def sheet_of(self, student: str) -> TaskSheet | None:
         """The sheet of a student; None where there is no such student."""
         return next((sheet for sheet in self.sheets if student and sheet.student == student), None)
 
     @property
-    def alike(self) -> tuple[int, int] | None:
+    def equal_codes(self) -> tuple[int, int] | None:
         """The first two variants whose sheets have the same corner marks; None where all differ."""
         seen: dict[tuple[int, ...], int] = {}
         for sheet in self.sheets:
@@ -79,12 +82,12 @@ def is_class(folder: Path) -> bool:
     return (folder / FILE).is_file()
 
 
-def load(folder: Path) -> Register:
+def load_register(folder: Path) -> ClassRegister:
     """The register in a folder. Fails with `Refused` where there is none, or it is not what graphplan writes."""
     path = folder / FILE
     try:
         read = json.loads(path.read_text(encoding="utf-8"))
-        return _register(read)
+        return _parse_register(read)
     except OSError as error:
         raise Refused(f"{path}", f"it cannot be read ({error.strerror})", "a folder that graphplan variants wrote"
                       ) from None
@@ -97,16 +100,106 @@ def load(folder: Path) -> Register:
 KINDS = {"code": int, "variant": int, "student": str, "scene": str, "page": int}
 
 
-def _register(read: Any) -> Register:
+def _parse_register(read: Any) -> ClassRegister:
     """The register of a file; fails with `KeyError` or `TypeError` where something is missing or of another kind."""
-    sheets = tuple(TaskSheet(**{key: _kept(row[key], kind) for key, kind in KINDS.items()}) for row in read["sheets"])
-    options = {_kept(key, str): _kept(value, str) for key, value in dict(read["options"]).items()}
+    sheets = tuple(TaskSheet(**{key: _require_type(row[key], kind) for key, kind in KINDS.items()})
+                   for row in read["sheets"])
+    options = {_require_type(key, str): _require_type(value, str) for key, value in dict(read["options"]).items()}
     if any(Path(sheet.scene).name != sheet.scene for sheet in sheets):  # a scene lies in the folder itself
         raise KeyError("scene")
-    return Register(_kept(read["title"], str), _kept(read["seed"], int), options, sheets)
+    return ClassRegister(_require_type(read["title"], str), _require_type(read["seed"], int), options, sheets)
 
 
-def _kept(value: Any, kind: type) -> Any:
+def _require_type(value: Any, kind: type) -> Any:
     if type(value) is not kind:
         raise TypeError
     return value
+
+
+# ---- names: a CSV file in whatever dialect --------------------------------------------------------------------------
+
+
+WHOLE = {"name", "student", "full name", "student name", "nimi", "vārds", "имя", "фио", "студент", "ім'я", "піб"}
+FIRST = {"first name", "firstname", "given name", "vorname", "eesnimi", "vārds", "имя", "ім'я"}
+LAST = {"last name", "lastname", "surname", "family name", "nachname", "perenimi", "uzvārds", "фамилия", "прізвище"}
+SEPARATORS = ";\t,"
+LARGEST, MOST = 10_000_000, 10_000  # bytes of a list, and names in it
+
+
+@dataclass(frozen=True)
+class ClassList:
+    """The students of a class, each once, and what is to be told of their list."""
+
+    students: tuple[str, ...]
+    remarks: tuple[str, ...] = ()
+
+
+def read_class_list(path: Path) -> ClassList:
+    """The names in a list: of the column that is called so, of those of first and last names, or of the first.
+
+    Equal names get a number, so that each is one sheet's. Fails with `Refused` where there is no list, or none in it.
+    """
+    text, remarks = _read_text(path)
+    rows = [[" ".join(printable(cell).split()) for cell in row] for row in _rows(text)]
+    rows = [row for row in rows if any(row)]
+    names = [name for row in _student_cells(rows) if (name := " ".join(filter(None, row)))]
+    if not names:
+        raise Refused(f"{path}", "it contains no name", "a line for each student, such as: name")
+    if len(names) > MOST:
+        raise Refused(f"{path}", f"it contains {len(names)} names", f"at most {MOST}")
+    students = _numbered_names(names)
+    remarks += [f"{path}: {name} is named {count} times; the others are {name} (2) ..."
+                for name, count in Counter(names).items() if count > 1]
+    return ClassList(tuple(students), tuple(remarks))
+
+
+def _read_text(path: Path) -> tuple[str, list[str]]:
+    """The text of a file and what is to be told of it."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(LARGEST + 1)
+    except OSError as error:
+        raise Refused(f"{path}", f"it cannot be read ({error.strerror})", "a list of names, a .csv") from None
+    if len(data) > LARGEST or b"\0" in data.removeprefix(b"\xff\xfe"):
+        raise Refused(f"{path}", "not a list of names", "a .csv, saved as UTF-8")
+    try:
+        return data.decode("utf-8-sig"), []
+    except UnicodeDecodeError:
+        return data.decode("cp1252", "replace"), [f"{path}: this is no UTF-8, and read as Windows-1252; see the names"]
+
+
+def _rows(text: str) -> list[list[str]]:
+    """The cells, parted by what parts the most of them in the first line."""
+    first = next((line for line in text.splitlines() if line.strip()), "")
+    parted = max(SEPARATORS, key=first.count)
+    try:
+        return list(csv.reader(text.splitlines(), delimiter=parted, skipinitialspace=True))
+    except csv.Error:  # such as a cell beyond all bounds
+        return []
+
+
+def _student_cells(rows: Sequence[Sequence[str]]) -> list[tuple[str, ...]]:
+    """The cells of each row that name a student; a first row that says what columns are is none."""
+    heads = [cell.casefold() for cell in rows[0]] if rows else []
+    whole = next((place for place, head in enumerate(heads) if head in WHOLE), None)
+    first, last = (next((place for place, head in enumerate(heads) if head in known), None) for known in (FIRST, LAST))
+    if first is not None and last is not None:
+        columns = [first, last]
+    elif whole is not None:
+        columns = [whole]
+    else:
+        return [tuple(row[:1]) for row in rows]
+    return [tuple(row[column] for column in columns if column < len(row)) for row in rows[1:]]
+
+
+def _numbered_names(names: Sequence[str]) -> list[str]:
+    """The names, equal ones with a number that no other name has."""
+    found: dict[str, None] = {}
+    taken = set(names)
+    for name in names:
+        own, number = name, 1
+        while own in found or (number > 1 and own in taken):
+            number += 1
+            own = f"{name} ({number})"
+        found[own] = None
+    return list(found)

@@ -1,4 +1,6 @@
-"""The results of a stack: a line for each sheet, what went wrong most often, and what is left to the teacher."""
+"""The results of a class: of a folder of drawings, and of a stack of scans: a line for each, what went wrong most
+often, and what is left to the teacher.
+"""
 
 from __future__ import annotations
 
@@ -11,9 +13,155 @@ from dataclasses import asdict, dataclass, field
 from statistics import fmean
 from typing import Any
 
-from graphplan.marking.classroom.class_list import Unread, mistaken
-from graphplan.marking.judge.score import GROUPS
-from graphplan.phrases import Phrase, Said, phrase, said
+from graphplan.marking.judge.findings import (
+    StepName,
+    complaint,
+    look_at_lines,
+    not_handed_in,
+    opinion,
+    step_name,
+    wrong_numbers,
+)
+from graphplan.marking.judge.score import GROUPS, KINDS, UNJUDGED, Score
+from graphplan.marking.judge.verdict import Judgement
+from graphplan.phrases import Phrase, Said, arrange, join, phrase, said
+
+# ---- a folder -------------------------------------------------------------------------------------------------------
+
+
+NOT_JUDGED = phrase("Not judged")
+
+
+@dataclass(frozen=True)
+class MarkedDrawing:
+    """A drawing that was judged."""
+
+    judgement: Judgement
+    score: Score
+
+    @property
+    def file(self) -> str:
+        """The name of its file."""
+        return self.judgement.name
+
+    @property
+    def guilty(self) -> StepName | None:
+        """The step to blame for the first wrong one; None where no step is wrong."""
+        index = self.judgement.first_wrong_step
+        return None if index is None else step_name(self.judgement.drawing.drawn, index)
+
+    @property
+    def faultless(self) -> bool:
+        """Whether something could be judged, and nothing is wrong or missing."""
+        return self.score.total is not None and not (
+            self.judgement.first_wrong or wrong_numbers(self.judgement) or not_handed_in(self.judgement))
+
+    @property
+    def mistake(self) -> Said | None:
+        """What was probably done at the first wrong step."""
+        return self.judgement.first_wrong.mistake if self.judgement.first_wrong else None
+
+    @property
+    def text(self) -> Said:
+        """The verdict in words."""
+        if self.judgement.first_wrong is not None:
+            return complaint(self.judgement, self.judgement.first_wrong)
+        if self.score.total is None:
+            return UNJUDGED()
+        if self.faultless:
+            return said("no wrong step")
+        return join((opinion(self.judgement), *look_at_lines(self.judgement)), " ")
+
+
+@dataclass(frozen=True)
+class Unread:
+    """A file that could not be judged, and why."""
+
+    file: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Classroom:
+    """All drawings of a class, in the order of their files; each is judged by the construction that it follows."""
+
+    title: str
+    marked: tuple[MarkedDrawing, ...]
+    unread: tuple[Unread, ...] = ()
+
+    @property
+    def mean(self) -> float | None:
+        """The mean score; none where nothing could be judged."""
+        totals = [total for one in self.marked if (total := one.score.total) is not None]
+        return fmean(totals) if totals else None
+
+    @property
+    def histogram(self) -> dict[StepName, int]:
+        """How many drawings have each step for their first wrong one, by what it is called, in drawing order."""
+        firsts = (first for one in self.marked if (first := one.guilty) is not None)
+        return dict(sorted(Counter(firsts).items()))
+
+    @property
+    def mistakes(self) -> dict[str, int]:
+        """How many drawings go wrong by each kind of mistake, the most frequent first."""
+        kinds = (first.kind for one in self.marked if (first := one.judgement.first_wrong) is not None and first.kind)
+        return dict(sorted(Counter(kinds).items(), key=lambda found: (-found[1], found[0])))
+
+    @property
+    def hardest(self) -> StepName | None:
+        """The step that is wrong first most often, the earlier of equals."""
+        found = self.histogram
+        return max(found, key=found.__getitem__, default=None)  # the first of equals
+
+    def findings(self) -> Iterator[Said]:
+        """What there is to say of the class."""
+        faultless = sum(one.faultless for one in self.marked)
+        yield said("Drawings: {0}, of which {1} have no wrong step.", len(self.marked), faultless)
+        if self.mean is not None:
+            yield said("Mean score: {0} of 100.", f"{self.mean:.0f}")
+        if self.mistakes:
+            kind, count = next(iter(self.mistakes.items()))
+            yield said("Most frequent mistake: {0} ({1}).", mistake_words(kind), count)
+        if self.hardest is not None:
+            yield said("Most frequent first wrong step: {0} ({1}).", self.hardest.words_with_mark,
+                       self.histogram[self.hardest])
+        if self.unread:
+            yield arrange("{0}: {1}.", NOT_JUDGED(), len(self.unread))
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The same as data."""
+        hardest = self.hardest
+        kind = next(iter(self.mistakes), None)
+        return {
+            "title": self.title,
+            "drawings": [{"file": one.file, "score": one.score.total, "first_wrong": one.guilty and one.guilty.number,
+                          "mistake": None if one.mistake is None else str(one.mistake)} for one in self.marked],
+            "not_judged": [{"file": one.file, "why": one.why} for one in self.unread],
+            "mean_score": self.mean,
+            "most_frequent_mistake": kind,
+            "most_frequent_first_wrong": hardest and hardest.number,
+            "mistakes": self.mistakes,
+            "first_wrong_steps": [{"step": step.number, "mark": step.mark, "drawings": count}
+                                  for step, count in self.histogram.items()],
+        }  # fmt: skip
+
+
+def mistake_words(kind: str) -> Said:
+    """A kind of mistake in words."""
+    return KINDS[kind]()
+
+
+def class_lines(found: Classroom) -> Iterator[Said]:
+    """The class as text: a line for each drawing and each file that could not be judged, then the findings."""
+    for one in found.marked:
+        points = [] if one.score.total is None else [said("{0} of 100", f"{one.score.total:.0f}")]
+        yield arrange("{0}: {1}", one.file, join((*points, one.text), "; "))
+    yield from found.findings()
+
+
+# ---- a stack --------------------------------------------------------------------------------------------------------
+
 
 JUDGED, AGAIN, JOINED, ASIDE, UNASSIGNED, FAILED, ABSENT = (
     "judged", "again", "joined", "set aside", "unassigned", "not judged", "not handed in")
@@ -56,13 +204,13 @@ class SheetResult:
     judgement: Mapping[str, Any] | None = None
 
     @property
-    def told(self) -> str:
+    def look_text(self) -> str:
         """What the teacher must look at, in one line."""
         return "; ".join(line.rstrip(".") for line in self.look)
 
 
 @dataclass(frozen=True)
-class Results:
+class StackResults:
     """All sheets of a class: first those of its register, then pages without a name; how many pages are blank, and
     files that are no scans."""
 
@@ -72,14 +220,14 @@ class Results:
     blank: int = 0
     unread: tuple[Unread, ...] = ()
 
-    def of(self, *status: str) -> list[SheetResult]:
+    def with_status(self, *status: str) -> list[SheetResult]:
         """The sheets of which this is so."""
         return [sheet for sheet in self.sheets if sheet.status in status]
 
     @property
     def scores(self) -> list[float]:
         """The scores that count."""
-        return [sheet.score for sheet in self.of(JUDGED) if sheet.score is not None]
+        return [sheet.score for sheet in self.with_status(JUDGED) if sheet.score is not None]
 
     @property
     def mean(self) -> float | None:
@@ -97,27 +245,27 @@ class Results:
     def mistakes(self) -> dict[str, list[SheetResult]]:
         """The sheets that go wrong first by each kind of mistake, the most frequent first."""
         found: dict[str, list[SheetResult]] = {}
-        for sheet in self.of(JUDGED):
+        for sheet in self.with_status(JUDGED):
             if sheet.kind:
                 found.setdefault(sheet.kind, []).append(sheet)
         return dict(sorted(found.items(), key=lambda kind: (-len(kind[1]), kind[0])))
 
     def findings(self) -> Iterator[Said]:
         """What there is to say of the class."""
-        yield said("Sheets judged: {0}, of which {1} have no wrong step.", len(self.of(JUDGED)),
-                   sum(sheet.faultless for sheet in self.of(JUDGED)))
+        yield said("Sheets judged: {0}, of which {1} have no wrong step.", len(self.with_status(JUDGED)),
+                   sum(sheet.faultless for sheet in self.with_status(JUDGED)))
         if self.mean is not None:
             yield said("Mean score: {0} of 100.", f"{self.mean:.0f}")
         if self.mistakes:
             kind, sheets = next(iter(self.mistakes.items()))
-            yield said("Most frequent mistake: {0} ({1}).", mistaken(kind), len(sheets))
-        if absent := self.of(ABSENT):
+            yield said("Most frequent mistake: {0} ({1}).", mistake_words(kind), len(sheets))
+        if absent := self.with_status(ABSENT):
             yield said("Not handed in: {0}.", ", ".join(sheet.student for sheet in absent))
-        if twice := self.of(AGAIN):
+        if twice := self.with_status(AGAIN):
             yield said("Handed in twice: {0}.", ", ".join(sheet.student or sheet.page for sheet in twice))
-        if failed := self.of(FAILED):
+        if failed := self.with_status(FAILED):
             yield said("Could not be judged: {0}.", ", ".join(sheet.page for sheet in failed))
-        if unassigned := self.of(UNASSIGNED):
+        if unassigned := self.with_status(UNASSIGNED):
             names = ", ".join(sheet.page for sheet in unassigned)
             yield said("Left to be named, by --assign PAGE=STUDENT: {0}.", names)
         if self.blank:
@@ -133,9 +281,9 @@ class Results:
         table.writerow(["page", "variant", "student", "status", "score", *GROUPS, "first_wrong_step", "verdict",
                         "kind", "confidence", "look", "corrected"])
         for one in self.sheets:
-            groups = (_rounded(one.groups.get(group)) for group in GROUPS)
-            table.writerow([one.page, one.variant, one.student, one.status, _rounded(one.score), *groups, one.first,
-                            one.words, one.kind, one.confidence, one.told, one.corrected])
+            groups = (_round_score(one.groups.get(group)) for group in GROUPS)
+            table.writerow([one.page, one.variant, one.student, one.status, _round_score(one.score), *groups, one.first,
+                            one.words, one.kind, one.confidence, one.look_text, one.corrected])
         return written.getvalue()
 
     @property
@@ -150,7 +298,7 @@ class Results:
         }  # fmt: skip
 
 
-def _rounded(score: float | None) -> float | None:
+def _round_score(score: float | None) -> float | None:
     """A score as a table has it."""
     return None if score is None else round(score, 1)
 

@@ -1,4 +1,5 @@
-"""Whose each page of a stack is: by the code of its corner marks, or by the word of the teacher, and never by a guess.
+"""A stack of scans: its pages, and whose each is: by the code of its corner marks, or by the word of the teacher, and
+never by a guess.
 
 A page scanned twice is told, and its first scan counts. Pages without a code are left to the teacher, who names them
 (after A. Bienvenüe's Auto Multiple Choice, whose association is by a code, by a list, or by hand).
@@ -7,18 +8,119 @@ A page scanned twice is told, and its first scan counts. Pages without a code ar
 from __future__ import annotations
 
 import csv
+from base64 import b64encode
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
+from hashlib import blake2b
 from itertools import product
 from pathlib import Path
+from typing import Any
 
-from graphplan.errors import Refused
-from graphplan.marking.classroom.pages import Sight, StackPage
-from graphplan.marking.classroom.register import Register, TaskSheet
+from graphplan.errors import GraphplanError, Refused, by_name, printable
+from graphplan.marking.classroom.register import ClassRegister, TaskSheet
+from graphplan.marking.classroom.results import Unread
 from graphplan.marking.files.safe import MB, text
+from graphplan.marking.submission import IMAGES
 from graphplan.mechanism.items import suggestion
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.frames.frame import corner_numbers, page_code
+
+# ---- pages ----------------------------------------------------------------------------------------------------------
+
+
+THUMBNAIL, QUALITY = 480, 70  # pixels of its longer side, and how well JPEG keeps it
+
+
+@dataclass(frozen=True)
+class StackPage:
+    """A page: its file, its number there, counted from 1, and its name, such as `scans.pdf#3`."""
+
+    path: Path
+    number: int
+    name: str
+
+
+@dataclass(frozen=True)
+class PageSight:
+    """What is seen on a page: a digest of its picture, the numbers of the corner marks as it lies and as its mirror
+    image has them, whether it is blank, and a small picture of it, a JPEG in base 64."""
+
+    digest: str
+    marks: tuple[int, ...]
+    mirrored: tuple[int, ...]
+    blank: bool
+    thumbnail: str
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The same as data."""
+        return asdict(self)
+
+
+def load_sight(data: dict[str, Any]) -> PageSight:
+    """What was seen, from its data. Fails with `TypeError` or `KeyError` where it is none."""
+    return PageSight(**{**data, "marks": tuple(data["marks"]), "mirrored": tuple(data["mirrored"])})
+
+
+def pages(stack: Path) -> tuple[list[StackPage], list[Unread]]:
+    """All pages of a file or of the files in a folder, in the order of their names, and what is no scan.
+
+    Fails with `Refused` where there is nothing to be read.
+    """
+    found, unread = list[StackPage](), list[Unread]()
+    for path in _files(stack):
+        name = printable(path.name)
+        try:
+            found += _file_pages(path, name)
+        except GraphplanError as fault:
+            unread.append(Unread(name, fault.lines[0].removeprefix(f"{path}: ")))
+    return found, unread
+
+
+def look_at_page(page: StackPage) -> PageSight:
+    """What is seen on a page. Fails with `Refused` where it cannot be opened."""
+    from graphplan.marking.scans.image import encode_jpeg, page_picture, shrink
+    from graphplan.marking.scans.printed_ink import is_blank, marks_of_sheet
+
+    image = page_picture(page.path, page.number)
+    small = shrink(image, THUMBNAIL**2 * min(image.shape) / max(image.shape))
+    marks, mirrored = (tuple(sorted(marks_of_sheet(seen).values())) for seen in (image, image[:, ::-1]))
+    digest = blake2b(image.tobytes(), digest_size=16, person=b"graphplan page")
+    digest.update(repr(image.shape).encode())
+    empty = not marks and not mirrored and is_blank(image)
+    return PageSight(digest.hexdigest(), marks, mirrored, empty, b64encode(encode_jpeg(small, QUALITY)).decode())
+
+
+def _files(stack: Path) -> list[Path]:
+    """The files of a stack; what is hidden is none."""
+    if not stack.is_dir():
+        return [stack]
+    try:
+        held = [path for path in stack.iterdir() if not path.name.startswith(".")]
+    except OSError as fault:
+        raise Refused(f"{stack}", f"it cannot be read ({fault.strerror})", "a readable folder") from None
+    if not held:
+        raise Refused(f"{stack}", "it contains no scan", "a folder of scans, PDF, PNG or JPEG")
+    return sorted(held, key=lambda path: by_name(path.name))
+
+
+def _file_pages(path: Path, name: str) -> Iterator[StackPage]:
+    """The pages of a file."""
+    if path.is_dir():
+        raise Refused(f"{path}", "this is a folder within the folder", "move its scans out of it")
+    if not path.is_file():
+        raise Refused(f"{path}", "no such file", "a scan, or a folder of scans")
+    if path.suffix.casefold() not in IMAGES:
+        raise Refused(f"{path}", "not a scan", f"one of {' '.join(IMAGES)}")
+    from graphplan.marking.scans.image import count
+
+    many = path.suffix.casefold() == ".pdf"
+    for number in range(1, count(path) + 1):
+        yield StackPage(path, number, f"{name}#{number}" if many else name)
+
+
+# ---- whose they are -------------------------------------------------------------------------------------------------
+
 
 SURE, ENOUGH = 3, 2  # marks that tell a sheet though another one is misread, and though the others are lost
 ALL = 4  # marks of a page
@@ -29,22 +131,22 @@ PERHAPS = "perhaps"  # it counts or is joined, as there is no other sheet of its
 
 
 @dataclass(frozen=True)
-class Seen:
+class SeenPage:
     """A page and what is seen on it."""
 
     page: StackPage
-    sight: Sight
+    sight: PageSight
 
 
 @dataclass(frozen=True)
-class Placed:
+class PlacedPage:
     """A page and what becomes of it: it counts, is the same sheet `again`, is joined to the sheet of its student, is
     blank, set aside by the teacher, or still unassigned; and what the teacher must know of it.
 
     `sheet` is whose task it is judged by, `owner` the student, or of a spare sheet nobody.
     """
 
-    seen: Seen
+    seen: SeenPage
     fate: str
     sheet: TaskSheet | None = None
     owner: str = ""
@@ -53,7 +155,7 @@ class Placed:
 
 
 @dataclass(frozen=True)
-class Coded:
+class DecodedPage:
     """The sheet whose code a page bears, and which page of it it is, or why none is told; how many marks are seen."""
 
     sheet: TaskSheet | None
@@ -63,25 +165,25 @@ class Coded:
     why: Said | None = None
 
 
-def coded(sight: Sight, register: Register) -> Coded:
+def decode_page(sight: PageSight, register: ClassRegister) -> DecodedPage:
     """The sheet of a page by its marks: the only one of the class that they fit."""
-    best = Coded(None)
+    best = DecodedPage(None)
     for mirrored, marks in ((False, sight.marks), (True, sight.mirrored)):
-        fitting = list(_fitting(marks, register.sheets))
+        fitting = list(_fitting_sheets(marks, register.sheets))
         if len(fitting) > 1:
-            names = join(_told(sheet) for sheet, _ in fitting)
-            return Coded(None, why=said("its corner marks fit several sheets: {0}", names))
+            names = join(_sheet_name(sheet) for sheet, _ in fitting)
+            return DecodedPage(None, why=said("its corner marks fit several sheets: {0}", names))
         if fitting and len(marks) > best.marks:
-            best = Coded(*fitting[0], mirrored, len(marks))
+            best = DecodedPage(*fitting[0], mirrored, len(marks))
     if best.sheet is not None:
         return best
     if len(sight.marks) > ENOUGH:
-        return Coded(None, why=said("its code is that of no sheet of this class"))
-    return Coded(None, why=said("too few of its corner marks can be read") if sight.marks else
+        return DecodedPage(None, why=said("its code is that of no sheet of this class"))
+    return DecodedPage(None, why=said("too few of its corner marks can be read") if sight.marks else
                  said("no corner marks are seen on it"))
 
 
-def _fitting(marks: Sequence[int], sheets: Iterable[TaskSheet]) -> Iterator[tuple[TaskSheet, int]]:
+def _fitting_sheets(marks: Sequence[int], sheets: Iterable[TaskSheet]) -> Iterator[tuple[TaskSheet, int]]:
     """The sheets and the pages of them that bear these marks: all of them, or at least three."""
     for sheet, page in product(sheets, range(1, PAGES + 1)):
         own = len(set(marks) & set(corner_numbers(page_code(sheet.code, page))))
@@ -89,7 +191,7 @@ def _fitting(marks: Sequence[int], sheets: Iterable[TaskSheet]) -> Iterator[tupl
             yield sheet, page
 
 
-def _told(sheet: TaskSheet) -> Said | str:
+def _sheet_name(sheet: TaskSheet) -> Said | str:
     """A sheet by its student, or its variant."""
     return sheet.student or said("variant {0}", sheet.variant)
 
@@ -105,7 +207,7 @@ class Assignment:
     variant: int = 0
 
 
-def assignments(told: Sequence[str], pages: Sequence[StackPage], register: Register) -> dict[str, Assignment]:
+def assignments(told: Sequence[str], pages: Sequence[StackPage], register: ClassRegister) -> dict[str, Assignment]:
     """The teacher's word by the name of the page: from `PAGE=STUDENT`, or tables with `page` and `student` or
     `variant`.
 
@@ -113,12 +215,12 @@ def assignments(told: Sequence[str], pages: Sequence[StackPage], register: Regis
     """
     found = {}
     for one in told:
-        for name, student, variant in _rows(one):
-            found[_page(one, name, pages)] = _assignment(one, student, variant, register)
+        for name, student, variant in _assigned_rows(one):
+            found[_page_name(one, name, pages)] = _parse_assignment(one, student, variant, register)
     return found
 
 
-def _rows(told: str) -> Iterator[tuple[str, str, str]]:
+def _assigned_rows(told: str) -> Iterator[tuple[str, str, str]]:
     """Page, student and variant, as they were told."""
     if "=" in told and not Path(told).is_file():
         page, _, student = told.rpartition("=")
@@ -136,7 +238,7 @@ def _rows(told: str) -> Iterator[tuple[str, str, str]]:
             yield page, student, variant
 
 
-def _page(told: str, name: str, pages: Sequence[StackPage]) -> str:
+def _page_name(told: str, name: str, pages: Sequence[StackPage]) -> str:
     """The name of a page; of a stack in one file the number will do."""
     names = [page.name for page in pages]
     if name in names:
@@ -146,7 +248,7 @@ def _page(told: str, name: str, pages: Sequence[StackPage]) -> str:
     raise Refused(f"--assign {told}", f"there is no page {name} in the stack", suggestion(name, names, "page"))
 
 
-def _assignment(told: str, student: str, variant: str, register: Register) -> Assignment:
+def _parse_assignment(told: str, student: str, variant: str, register: ClassRegister) -> Assignment:
     """Who or what was meant."""
     if ASIDE in (student, variant):
         return Assignment()
@@ -159,39 +261,41 @@ def _assignment(told: str, student: str, variant: str, register: Register) -> As
 # ---- association ---------------------------------------------------------------------------------------------------
 
 
-def placed(stack: Iterable[Seen], register: Register, assigned: Mapping[str, Assignment]) -> list[Placed]:
+def place_pages(stack: Iterable[SeenPage], register: ClassRegister,
+                assigned: Mapping[str, Assignment]) -> list[PlacedPage]:
     """What becomes of every page, in the order of the stack.
 
     Fails with `Refused` where a page without a code is assigned to a student who has no sheet.
     """
-    found = [_placed(seen, coded(seen.sight, register), register, assigned.get(seen.page.name)) for seen in stack]
-    return list(_counted(found))
+    found = [_place_page(seen, decode_page(seen.sight, register), register, assigned.get(seen.page.name))
+             for seen in stack]
+    return list(_choose_counting(found))
 
 
-def _placed(seen: Seen, code: Coded, register: Register, word: Assignment | None) -> Placed:
+def _place_page(seen: SeenPage, code: DecodedPage, register: ClassRegister, word: Assignment | None) -> PlacedPage:
     """One page, whatever the others are."""
     if word is None and code.sheet is not None:
-        return Placed(seen, _fate(code), code.sheet, code.sheet.student, code.mirrored, tuple(_notes(code)))
+        return PlacedPage(seen, _fate(code), code.sheet, code.sheet.student, code.mirrored, tuple(_notes(code)))
     if word is None:
         why = (code.why,) if code.why is not None else ()
-        return Placed(seen, BLANK) if seen.sight.blank else Placed(seen, UNASSIGNED, notes=why)
+        return PlacedPage(seen, BLANK) if seen.sight.blank else PlacedPage(seen, UNASSIGNED, notes=why)
     if word == Assignment():
-        return Placed(seen, SET_ASIDE, code.sheet)
-    return _named(seen, code, register, word)
+        return PlacedPage(seen, SET_ASIDE, code.sheet)
+    return _place_by_teacher(seen, code, register, word)
 
 
-def _named(seen: Seen, code: Coded, register: Register, word: Assignment) -> Placed:
+def _place_by_teacher(seen: SeenPage, code: DecodedPage, register: ClassRegister, word: Assignment) -> PlacedPage:
     """A page that the teacher names: what its code says of the task stands, the name is the teacher's."""
-    sheet = code.sheet or register.of(word.student) or _variant(register, word.variant)
+    sheet = code.sheet or register.sheet_of(word.student) or _variant(register, word.variant)
     if sheet is None:
         students = [sheet.student for sheet in register.sheets if sheet.student]
         raise Refused(f"--assign {seen.page.name}={word.student}", "this student has no sheet, and the page no code",
                       suggestion(word.student, students, "student"))
     notes = *_notes(code), said("named by the teacher")
-    return Placed(seen, _fate(code), sheet, word.student or sheet.student, code.mirrored, notes)
+    return PlacedPage(seen, _fate(code), sheet, word.student or sheet.student, code.mirrored, notes)
 
 
-def _fate(code: Coded) -> str:
+def _fate(code: DecodedPage) -> str:
     """What becomes of a page that is somebody's: the plans count; further pages, and those without a code, are joined
     to them."""
     if code.sheet is None:
@@ -199,11 +303,11 @@ def _fate(code: Coded) -> str:
     return COUNTS if code.number == 1 else JOINED
 
 
-def _variant(register: Register, variant: int) -> TaskSheet | None:
+def _variant(register: ClassRegister, variant: int) -> TaskSheet | None:
     return next((sheet for sheet in register.sheets if sheet.variant == variant), None)
 
 
-def _notes(code: Coded) -> Iterator[Said]:
+def _notes(code: DecodedPage) -> Iterator[Said]:
     """What the teacher must know of how a page was read."""
     if code.mirrored:
         yield said("the page is mirrored")
@@ -211,16 +315,16 @@ def _notes(code: Coded) -> Iterator[Said]:
         yield said("{0} of 4 corner marks are read", code.marks)
 
 
-def _counted(found: Sequence[Placed]) -> Iterator[Placed]:
+def _choose_counting(found: Sequence[PlacedPage]) -> Iterator[PlacedPage]:
     """The first sheet of everybody counts, further ones are told; a page without a code that the teacher names is
     that sheet where there is none."""
-    first = dict[str, Placed]()
+    first = dict[str, PlacedPage]()
     for fate in (COUNTS, PERHAPS):
         for one in found:
             if one.fate == fate:
-                first.setdefault(_key(one), one)
+                first.setdefault(_owner_key(one), one)
     for one in found:
-        counts = first.get(_key(one))
+        counts = first.get(_owner_key(one))
         if one.fate not in (COUNTS, PERHAPS) or counts is None:
             yield one
         elif one is counts:
@@ -232,24 +336,24 @@ def _counted(found: Sequence[Placed]) -> Iterator[Placed]:
             yield replace(one, fate=AGAIN, notes=(*one.notes, note))
 
 
-def instead(found: Sequence[Placed], failed: Collection[str]) -> Iterator[Placed]:
+def replace_failed(found: Sequence[PlacedPage], failed: Collection[str]) -> Iterator[PlacedPage]:
     """The same, where some pages by their names cannot be judged: the next scan of the same sheet, if it can be, counts
     in its place."""
-    gone = {_key(one): one for one in found if one.fate == COUNTS and one.seen.page.name in failed}
-    counts = dict[str, Placed]()
+    gone = {_owner_key(one): one for one in found if one.fate == COUNTS and one.seen.page.name in failed}
+    counts = dict[str, PlacedPage]()
     for one in found:
-        if one.fate == AGAIN and one.seen.page.name not in failed and _key(one) in gone:
-            counts.setdefault(_key(one), one)
+        if one.fate == AGAIN and one.seen.page.name not in failed and _owner_key(one) in gone:
+            counts.setdefault(_owner_key(one), one)
     for one in found:
-        if counts.get(_key(one)) is one:
+        if counts.get(_owner_key(one)) is one:
             yield replace(one, fate=COUNTS, notes=(*one.notes[:-1], said("page {0} cannot be judged",
-                                                                         gone[_key(one)].seen.page.name)))
-        elif one.fate == COUNTS and _key(one) in counts:
+                                                                          gone[_owner_key(one)].seen.page.name)))
+        elif one.fate == COUNTS and _owner_key(one) in counts:
             yield replace(one, fate=AGAIN)
         else:
             yield one
 
 
-def _key(one: Placed) -> str:
+def _owner_key(one: PlacedPage) -> str:
     """Whose a page is: a student's, or the variant's of a spare sheet."""
     return one.owner or (str(one.sheet.variant) if one.sheet else "")

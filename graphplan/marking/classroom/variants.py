@@ -17,20 +17,99 @@ from fractions import Fraction
 from functools import partial
 from itertools import islice
 from random import Random
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphplan.accuracy.drafted import Drafted
-from graphplan.errors import Refused
-from graphplan.marking.classroom.flaws import Draw, Flaw, Quality, flaw, sheet_of
+from graphplan.errors import ConstructionError, GraphplanError, Refused, SceneError, SingularPose
 from graphplan.marking.tolerances import SCALE_STEP
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import decimal
+from graphplan.mechanism.scene import parse
 from graphplan.mechanism.scene_text import Tables, decimal_text, edit_text, with_keys, with_numbers, without_table
 from graphplan.mechanism.variation import Choices, path_parts
 from graphplan.methods.executors import SharedOut
 from graphplan.phrases import said
 from graphplan.sheet.layout.scales import Scales, round_up
 from graphplan.words.tongue import Tongue
+
+# ---- flaws: why a variant is no task for a class, though the scene itself is one ------------------------------------
+
+
+FLATTEST = 12.0  # degrees: two lines that cross flatter have no clear point
+COARSEST = 0.15  # of the largest of its kind: a result that a careful hand misses by more is none
+WORSE = 1.25  # times: so much worse than the scene itself a variant may be where that is no better
+
+Draw = Callable[[Scene], Drafted]  # a scene on its sheet, as the options say
+
+
+class Flaw(NamedTuple):
+    """What is wrong, as a kind that many variants share, and as it is with this one."""
+
+    kind: str
+    told: str
+
+
+@dataclass(frozen=True)
+class Quality:
+    """What is measured of a sheet: vectors too short, in mm; steps outside the paper; the part of letters without a
+    good place; whether it is legible; the flattest crossing in degrees; the result that a careful hand draws worst, and
+    by how much of the largest it is off."""
+
+    short: tuple[float, ...]
+    outside: tuple[int, ...]
+    poor: float
+    legible: bool
+    flattest: float
+    worst: str
+    error: float
+
+    @classmethod
+    def of_sheet(cls, drafted: Drafted) -> Quality:
+        """The quality of a sheet."""
+        composition, cost = drafted.composition, drafted.cost
+        return cls(tuple(composition.short), cost.off_sheet, composition.poor, composition.legible,
+                   cost.flattest.degrees if cost.flattest else 90.0, drafted.worst.label if drafted.worst else "",
+                   drafted.error)
+
+    def find_flaw(self, own: Quality) -> Flaw | None:
+        """What makes it worse than a class's sheet may be; `own` is the quality of the scene's own sheet."""
+        if self.flattest < min(FLATTEST, own.flattest / WORSE):
+            return Flaw("it is nearly singular", f"lines cross at {self.flattest:.0f}°")
+        if len(self.short) > len(own.short):
+            return Flaw("vectors are too short", f"vectors of {min(self.short):.1f} mm are too short")
+        if len(self.outside) > len(own.outside):
+            return Flaw("steps are outside the paper", f"step {self.outside[0]} is outside the paper")
+        if self.error > max(COARSEST, WORSE * own.error):
+            off = f"by {100 * self.error:.0f} %" if math.isfinite(self.error) else "without bound"
+            return Flaw("a careful hand draws it too far off", f"a careful hand is off {off} in {self.worst}")
+        if own.legible and not self.legible:
+            return Flaw("the sheet is crowded", f"the sheet is crowded, {100 * self.poor:.0f} % of its letters have no "
+                        "good place")
+        return None
+
+
+def sheet_of(text: str, name: str, draw: Draw) -> Drafted | Flaw:
+    """The sheet of a scene, or why there is none."""
+    try:
+        return draw(parse(text, name))
+    except SceneError as error:
+        return Flaw("it cannot be assembled", f"{error.faults[0].where}: {error.faults[0].what}")
+    except (SingularPose, ConstructionError) as error:
+        return Flaw("it is singular", f"{error}".partition(";")[0])
+    except Refused as error:
+        return Flaw("it does not fit the scales of the class", f"{error.what}: {error.why}")
+    except GraphplanError as error:
+        return Flaw("it cannot be drawn", f"{error}")
+
+
+def find_flaw(text: str, name: str, draw: Draw, own: Quality) -> Flaw | None:
+    """Why a scene is no task for the class whose own scene has a sheet of this quality; None where it is one."""
+    found = sheet_of(text, name, draw)
+    return found if isinstance(found, Flaw) else Quality.of_sheet(found).find_flaw(own)
+
+
+# ---- variants -------------------------------------------------------------------------------------------------------
+
 
 MOST_TRIES, PATIENCE = 8, 40  # draws for each variant, and more of them in all
 PILOTS, ENOUGH = 12, 0.75  # first variants by which scales are chosen, and the part of them that is to fit
@@ -42,7 +121,7 @@ COORDINATES = {"0": "x", "1": "y"}  # of a point, by their places
 
 
 @dataclass(frozen=True)
-class Variant:
+class ClassVariant:
     """A scene of the class: its number, what was drawn for it, and its text."""
 
     number: int
@@ -50,16 +129,16 @@ class Variant:
     text: str
 
     @property
-    def told(self) -> str:
+    def numbers_text(self) -> str:
         """What was drawn, by what a reader of the key calls it: `A x` for `points.A.0`."""
-        return ", ".join(f"{_called(path)} = {decimal_text(value)}" for path, value in self.values.items())
+        return ", ".join(f"{_path_words(path)} = {decimal_text(value)}" for path, value in self.values.items())
 
 
 @dataclass(frozen=True)
-class Series:
+class VariantSeries:
     """The variants of a class, with what was drawn anew on the way: each draw with its flaw."""
 
-    variants: tuple[Variant, ...]
+    variants: tuple[ClassVariant, ...]
     drawn_anew: tuple[tuple[int, Values, Flaw], ...]
     repeated: int  # variants whose numbers another has, too
 
@@ -69,12 +148,12 @@ class Series:
         kinds = Counter(found.kind for _, _, found in self.drawn_anew)
         for kind, count in kinds.most_common():
             number, values, found = next(one for one in self.drawn_anew if one[2].kind == kind)
-            yield f"drawn anew {count} times, as {kind}: such as variant {number}: {told(values)}: {found.told}"
+            yield f"drawn anew {count} times, as {kind}: such as variant {number}: {values_text(values)}: {found.told}"
         if self.repeated:
             yield f"[vary] has too few good values: {self.repeated} variants have the numbers of another"
 
 
-def _called(path: str) -> str:
+def _path_words(path: str) -> str:
     """The number at a path: a coordinate by its point, else what it is of, of things in a list counted from 1."""
     table, *keys = path.split(".")
     if table == "points":
@@ -82,12 +161,12 @@ def _called(path: str) -> str:
     return " ".join((table, *(str(int(key) + 1) if key.isdigit() else key for key in keys)))
 
 
-def told(values: Values) -> str:
+def values_text(values: Values) -> str:
     """What was drawn, by the paths in the scene."""
     return ", ".join(f"{path} = {decimal_text(value)}" for path, value in values.items())
 
 
-def draws(choices: Choices, seed: int) -> Iterator[Values]:
+def draw_values(choices: Choices, seed: int) -> Iterator[Values]:
     """Values drawn uniformly, none twice, until the grid is empty."""
     random, seen = Random(seed).random, set[tuple[int, ...]]()  # of which Python promises the same numbers for ever
     while len(seen) < math.prod(map(len, choices.values())):
@@ -97,7 +176,7 @@ def draws(choices: Choices, seed: int) -> Iterator[Values]:
             yield {path: values[place] for (path, values), place in zip(choices.items(), places, strict=True)}
 
 
-# ---- the text of a variant -------------------------------------------------------------------------------------------
+# ---- the text of a variant ------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -109,7 +188,7 @@ class Wording:
     keys: Keys
     tongue: Tongue
 
-    def variant(self, number: int, values: Values) -> Variant:
+    def variant(self, number: int, values: Values) -> ClassVariant:
         """The scene with these numbers, as a teacher would write it: without [vary], its comments kept."""
         title = self.tongue(said("{0}, variant {1}", self.title, number) if self.title else said("Variant {0}", number))
 
@@ -117,41 +196,42 @@ class Wording:
             text = without_table(with_numbers(text, values), "vary")
             return with_keys(with_keys(text, "sheet", self.keys), "", {"title": json.dumps(title, ensure_ascii=False)})
 
-        def meant(tables: Tables) -> None:
+        def edit_tables(tables: Tables) -> None:
             for path, value in values.items():
-                _put(tables, path_parts(path), value)
+                _set_path(tables, path_parts(path), value)
             tables.pop("vary", None)
             tables["title"] = title
             own = tomllib.loads("\n".join(f"{key} = {value}" for key, value in self.keys.items()), parse_float=decimal)
             tables["sheet"] = tables.get("sheet", {}) | own
 
-        return Variant(number, values, edit_text(self.text, edit, meant))
+        return ClassVariant(number, values, edit_text(self.text, edit, edit_tables))
 
 
-def _put(tables: Any, path: Sequence[str], value: Fraction) -> None:
+def _set_path(tables: Any, path: Sequence[str], value: Fraction) -> None:
     for part in path[:-1]:
         tables = tables[int(part) if isinstance(tables, list) else part]
     tables[int(path[-1]) if isinstance(tables, list) else path[-1]] = value
 
 
-# ---- the scales of a class -------------------------------------------------------------------------------------------
+# ---- the scales of a class ------------------------------------------------------------------------------------------
 
 
-def keys_of(scene: Scene, scales: Scales, paper: str, *, multiples: bool = True) -> Keys:
+def sheet_keys(scene: Scene, scales: Scales, paper: str, *, multiples: bool = True) -> Keys:
     """What [sheet] says so that a scene is drawn on this paper at these scales; what it says already is left out."""
     own = scene.sheet
     found = {"paper": json.dumps(paper), "language": json.dumps(own.language)}
     rates = bool(scene.drives or scene.motions)
-    found |= {} if own.k_s else {"k_s": _plain(scales.k_s)}
-    found |= {} if own.k_v or not rates else {"k_v": _plain(scales.k_s / scales.kappa)}
-    found |= {} if own.k_F or not scene.loads else {"k_F": _plain(scales.k_s / scales.phi)}
+    found |= {} if own.k_s else {"k_s": _short_decimal(scales.k_s)}
+    found |= {} if own.k_v or not rates else {"k_v": _short_decimal(scales.k_s / scales.kappa)}
+    found |= {} if own.k_F or not scene.loads else {"k_F": _short_decimal(scales.k_s / scales.phi)}
     if multiples and scales.multiples and not own.multiples:
         plans = {panel.whole.twin: multiple for panel, multiple in scales.multiples.items()}  # type: ignore[attr-defined]
-        found["multiples"] = f"{{ {', '.join(f'{json.dumps(str(plan))} = {_plain(m)}' for plan, m in plans.items())} }}"
+        entries = ", ".join(f"{json.dumps(str(plan))} = {_short_decimal(multiple)}" for plan, multiple in plans.items())
+        found["multiples"] = f"{{ {entries} }}"
     return found
 
 
-def _plain(value: Fraction | float) -> str:
+def _short_decimal(value: Fraction | float) -> str:
     return decimal_text(Fraction(f"{float(value):.12g}"))
 
 
@@ -169,16 +249,16 @@ class Design:
         return self.drafted.drawing.scene
 
     @property
-    def own(self) -> Quality:
+    def own_quality(self) -> Quality:
         """The quality of the scene's own sheet."""
-        return Quality.of(self.drafted)
+        return Quality.of_sheet(self.drafted)
 
     @property
     def tongue(self) -> Tongue:
         """The language of the class."""
         return self.drafted.composition.plans.tongue
 
-    def worded(self, keys: Keys) -> Wording:
+    def wording(self, keys: Keys) -> Wording:
         """The scene's words with these keys in [sheet]."""
         return Wording(self.scene.text, self.scene.title, keys, self.tongue)
 
@@ -190,7 +270,7 @@ class Design:
             if keys in seen:
                 continue
             seen.append(keys)
-            texts = [self.worded(keys).variant(number, values).text for number, values in enumerate(pilots, 1)]
+            texts = [self.wording(keys).variant(number, values).text for number, values in enumerate(pilots, 1)]
             fitting = sum(found is None for found in self.shared_out(self._work, texts))
             if most is None or fitting > most[0]:
                 most = fitting, keys
@@ -204,31 +284,31 @@ class Design:
         scale of lengths, and at the next coarser one."""
         composition, given = self.drafted.composition, self.scene.sheet
         own, paper = composition.scales, composition.arrangement.paper
-        yield keys_of(self.scene, own, paper)
+        yield sheet_keys(self.scene, own, paper)
         coarser = round_up(own.k_s * (1 + SCALE_STEP), (1, own.kappa, own.kappa**2))
         for k_s in dict.fromkeys((own.k_s, own.k_s if given.k_s or given.k_v or given.k_F else float(coarser))):
             scales = replace(own, k_s=k_s)
-            free = self.worded(keys_of(self.scene, scales, paper, multiples=False))
+            free = self.wording(sheet_keys(self.scene, scales, paper, multiples=False))
             texts = [free.variant(number, values).text for number, values in enumerate(pilots, 1)]
-            work = partial(multiples, name=self.scene.name, draw=self.draw, own=self.own)
+            work = partial(plan_multiples, name=self.scene.name, draw=self.draw, own=self.own_quality)
             found = [one for one in self.shared_out(work, texts) if one is not None]
             plans = [plan for plan in own.multiples if all(plan in one for one in found)]
             ordered = {plan: sorted(one[plan] for one in found) for plan in plans if found}
             fitted = [{plan: sizes[int(part * len(sizes))] for plan, sizes in ordered.items()} for part in SMALL]
-            yield from (keys_of(self.scene, replace(scales, multiples=sizes), paper) for sizes in fitted if sizes)
+            yield from (sheet_keys(self.scene, replace(scales, multiples=sizes), paper) for sizes in fitted if sizes)
 
     @property
     def _work(self) -> Any:
         """What is asked of the text of each variant: its flaw."""
-        return partial(flaw, name=self.scene.name, draw=self.draw, own=self.own)
+        return partial(find_flaw, name=self.scene.name, draw=self.draw, own=self.own_quality)
 
     # ---- the choice of variants --------------------------------------------------------------------------------------
 
-    def series(self, count: int, seed: int, progress: Progress) -> Series:
+    def series(self, count: int, seed: int, progress: Progress) -> VariantSeries:
         """So many variants; fails with `Refused` where too few of those drawn are without a flaw."""
         choices = self.scene.vary
-        wording = self.worded(self.scales([*islice(draws(choices, seed), min(PILOTS, count + 2))]))
-        tried = [*islice(draws(choices, seed), MOST_TRIES * count + PATIENCE)]
+        wording = self.wording(self.scales([*islice(draw_values(choices, seed), min(PILOTS, count + 2))]))
+        tried = [*islice(draw_values(choices, seed), MOST_TRIES * count + PATIENCE)]
         found, drawn_anew = list[Values](), list[tuple[int, Values, Flaw]]()
         flaws = self.shared_out(self._work, (wording.variant(count, values).text for values in tried))
         for values, wrong in zip(tried, flaws, strict=False):
@@ -242,7 +322,7 @@ class Design:
         if len(found) < count and not (found and len(found) + len(drawn_anew) == math.prod(map(len, choices.values()))):
             raise self._too_wide(wording, count, found, drawn_anew)
         variants = (wording.variant(number, found[(number - 1) % len(found)]) for number in range(1, count + 1))
-        return Series(tuple(variants), tuple(drawn_anew), count - len(found))
+        return VariantSeries(tuple(variants), tuple(drawn_anew), count - len(found))
 
     def _too_wide(self, wording: Wording, count: int, found: Sequence[Values],
                   drawn_anew: Sequence[tuple[int, Values, Flaw]]) -> Refused:
@@ -260,7 +340,8 @@ class Design:
         return Refused(f"{self.scene.name}: vary", f"{few}; mostly {kind}", "narrower ranges, or a larger --paper")
 
 
-def multiples(text: str, name: str, draw: Draw, own: Quality) -> Mapping[str, Fraction] | None:
+def plan_multiples(text: str, name: str, draw: Draw, own: Quality) -> Mapping[str, Fraction] | None:
     """How large the other plans of a scene are drawn; None where it is no task for the class."""
     found = sheet_of(text, name, draw)
-    return None if isinstance(found, Flaw) or Quality.of(found).flaw(own) else found.composition.scales.multiples
+    return None if isinstance(found,
+                              Flaw) or Quality.of_sheet(found).find_flaw(own) else found.composition.scales.multiples

@@ -19,8 +19,8 @@ from typing import Any, NamedTuple, TypeVar
 from xml.etree.ElementTree import Element
 
 from graphplan.errors import Refused
-from graphplan.marking.files.curves import NEAR
-from graphplan.marking.files.safe import MB, number, tree, unpacked
+from graphplan.marking.files.drawing import NEAR
+from graphplan.marking.files.safe import MB, number, tree, unpack
 from graphplan.marking.tolerances import PARALLEL_TOL
 
 T = TypeVar("T")
@@ -49,7 +49,7 @@ class CircleValue(NamedTuple):
     radius: float
 
 
-class Vector(NamedTuple):
+class PlaneVector(NamedTuple):
     """A vector, which is no point."""
 
     along: complex
@@ -64,20 +64,20 @@ def _bisector(one: complex, two: complex) -> LineValue:
 
 
 def _meet(one: LineValue, two: LineValue) -> complex:
-    across = _across(one.along, two.along)
+    across = _vector_product(one.along, two.along)
     if abs(across) <= PARALLEL_TOL * abs(one.along) * abs(two.along):
         raise ValueError("parallel lines do not meet")
-    return one.at + one.along * _across(two.at - one.at, two.along) / across
+    return one.at + one.along * _vector_product(two.at - one.at, two.along) / across
 
 
-def _across(one: complex, two: complex) -> float:
+def _vector_product(one: complex, two: complex) -> float:
     """The vector product."""
     return (one.conjugate() * two).imag
 
 
 def _distance(point: complex, other: Any) -> float:
     if isinstance(other, LineValue):
-        return abs(_across(other.along, point - other.at)) / abs(other.along)
+        return abs(_vector_product(other.along, point - other.at)) / abs(other.along)
     return float(abs(point - other))
 
 
@@ -85,12 +85,12 @@ def _circle(centre: complex, other: Any) -> CircleValue:
     return CircleValue(centre, abs(other - centre if isinstance(other, complex) else other))
 
 
-def _unit(thing: Any, turn: complex = 1.0) -> Vector:
-    return Vector(turn * thing.along / abs(thing.along))
+def _unit(thing: Any, turn: complex = 1.0) -> PlaneVector:
+    return PlaneVector(turn * thing.along / abs(thing.along))
 
 
 NUMBER = float | int
-DIRECTED = LineValue | Vector
+DIRECTED = LineValue | PlaneVector
 CALLS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {  # what a command does, and of which kinds of thing
     **dict.fromkeys(("Line", "Ray"), (_line, (complex, complex | DIRECTED))), "Segment": (_line, (complex, complex)),
     **dict.fromkeys(("OrthogonalLine", "PerpendicularLine"),
@@ -100,26 +100,26 @@ CALLS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {  # what a comma
     "Midpoint": (lambda one, two: (one + two) / 2, (complex, complex)),
     "Distance": (_distance, (complex, complex | LineValue)), "Circle": (_circle, (complex, complex | NUMBER)),
     "Center": (lambda circle: circle.at, (CircleValue,)), "Radius": (lambda circle: circle.radius, (CircleValue,)),
-    "Vector": (lambda start, end=None: Vector(start if end is None else end - start), (complex, complex)),
-    "Direction": (lambda line: Vector(line.along), (LineValue,)), "UnitVector": (_unit, (DIRECTED,)),
-    "OrthogonalVector": (lambda thing: Vector(1j * thing.along), (DIRECTED,)),
+    "Vector": (lambda start, end=None: PlaneVector(start if end is None else end - start), (complex, complex)),
+    "Direction": (lambda line: PlaneVector(line.along), (LineValue,)), "UnitVector": (_unit, (DIRECTED,)),
+    "OrthogonalVector": (lambda thing: PlaneVector(1j * thing.along), (DIRECTED,)),
     "UnitOrthogonalVector": (lambda thing: _unit(thing, 1j), (DIRECTED,)),
-    "Translate": (lambda point, vector: point + vector.along, (complex, Vector)),
+    "Translate": (lambda point, vector: point + vector.along, (complex, PlaneVector)),
     "Rotate": (lambda point, angle, centre: centre + (point - centre) * cmath.exp(1j * angle),
                (complex, NUMBER, complex)),
     "If": (lambda holds, one, other: one if holds else other, (bool, object, object)),
     "sqrt": (math.sqrt, (NUMBER,)), "abs": (abs, (complex | NUMBER,)),
     "sgn": (lambda value: (value > 0) - (value < 0), (NUMBER,)), "sin": (math.sin, (NUMBER,)),
-    "cos": (math.cos, (NUMBER,)), "x": (lambda thing: _place(thing).real, (complex | Vector,)),
-    "y": (lambda thing: _place(thing).imag, (complex | Vector,)),
+    "cos": (math.cos, (NUMBER,)), "x": (lambda thing: _vector_or_point(thing).real, (complex | PlaneVector,)),
+    "y": (lambda thing: _vector_or_point(thing).imag, (complex | PlaneVector,)),
 }  # fmt: skip
 
 
-def _place(thing: Any) -> complex:
-    return thing.along if isinstance(thing, Vector) else complex(thing)
+def _vector_or_point(thing: Any) -> complex:
+    return thing.along if isinstance(thing, PlaneVector) else complex(thing)
 
 
-def _called(name: str, arguments: list[Any]) -> Any:
+def _run_command(name: str, arguments: list[Any]) -> Any:
     """What a command gives.
 
     Fails with `ValueError` where it is not known, or not for these arguments.
@@ -140,20 +140,20 @@ def _number(value: Any) -> float:
 
 
 def _plus(one: Any, two: Any) -> Any:
-    if isinstance(two, Vector) and isinstance(one, complex | Vector):
-        return one + two.along if isinstance(one, complex) else Vector(one.along + two.along)
+    if isinstance(two, PlaneVector) and isinstance(one, complex | PlaneVector):
+        return one + two.along if isinstance(one, complex) else PlaneVector(one.along + two.along)
     if isinstance(one, complex | NUMBER) and isinstance(two, complex | NUMBER):
         return one + two
     raise ValueError("these cannot be added")
 
 
 def _times(one: Any, two: Any) -> Any:
-    if isinstance(two, Vector):
+    if isinstance(two, PlaneVector):
         one, two = two, one
     factor = two if isinstance(two, complex) else _number(two)
-    if not isinstance(one, complex | NUMBER | Vector):
+    if not isinstance(one, complex | NUMBER | PlaneVector):
         raise ValueError("these cannot be multiplied")
-    return Vector(one.along * factor) if isinstance(one, Vector) else one * factor
+    return PlaneVector(one.along * factor) if isinstance(one, PlaneVector) else one * factor
 
 
 OPERATIONS: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
@@ -164,7 +164,7 @@ OPERATIONS: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
 }  # fmt: skip
 
 
-def _written(term: str, names: list[str]) -> str:
+def _python_term(term: str, names: list[str]) -> str:
     """A term in Python's grammar; its names are numbered, and gathered."""
     found, place, term = [], 0, term.rstrip()
     while place < len(term):
@@ -179,9 +179,9 @@ def _written(term: str, names: list[str]) -> str:
     return " ".join(found)
 
 
-def _valued(node: ast.AST, names: list[str], known: Mapping[str, Any]) -> Any:
+def _evaluate(node: ast.AST, names: list[str], known: Mapping[str, Any]) -> Any:
     def of(part: ast.AST) -> Any:
-        return _valued(part, names, known)
+        return _evaluate(part, names, known)
 
     match node:
         case ast.Constant(value=float(value)):
@@ -199,11 +199,11 @@ def _valued(node: ast.AST, names: list[str], known: Mapping[str, Any]) -> Any:
         case ast.Compare(left=one, ops=[sign], comparators=[two]):
             return OPERATIONS[type(sign)](_number(of(one)), _number(of(two)))
         case ast.Call(func=ast.Name(id=name), args=arguments):
-            return _called(names[int(name[1:])], [of(part) for part in arguments])
+            return _run_command(names[int(name[1:])], [of(part) for part in arguments])
     raise ValueError("a term is not understood")
 
 
-class Objects:
+class GeoGebraObjects:
     """The objects of a construction by label: elements, the commands that make them, and values of those that have one.
     """
 
@@ -217,19 +217,19 @@ class Objects:
             if child.tag == "expression":
                 self.terms[child.get("label", "")] = child.get("exp", "")
             elif child.tag == "command":
-                inputs = _arguments(child.find("input"))
-                for place, label in enumerate(_arguments(child.find("output"))):
+                inputs = _command_arguments(child.find("input"))
+                for place, label in enumerate(_command_arguments(child.find("output"))):
                     self.commands[label] = child.get("name", ""), inputs, place
             elif child.tag == "element":
                 label = child.get("label", "")
                 self.elements[label] = child
-                value = stated(child)
+                value = stated_value(child)
                 if value is None and label in self.terms:
                     value = self.term(self.terms[label])
                 name, inputs, place = self.commands.get(label, ("", [], 0))
                 if value is None and name and not place:
                     with suppress(ValueError):
-                        value = _called(name, [self.term(term) for term in inputs])
+                        value = _run_command(name, [self.term(term) for term in inputs])
                 if value is not None:
                     self.values[label] = value
 
@@ -244,7 +244,7 @@ class Objects:
         try:
             if self.left >= 0:
                 names: list[str] = []
-                return _valued(ast.parse(_written(term, names), mode="eval").body, names, self.values)
+                return _evaluate(ast.parse(_python_term(term, names), mode="eval").body, names, self.values)
         except (ValueError, ArithmeticError, SyntaxError, RecursionError, MemoryError, KeyError):
             pass  # it is not understood
         return None
@@ -255,12 +255,12 @@ class Objects:
         return value if isinstance(value, complex) else None
 
 
-def _arguments(element: Element | None) -> list[str]:
+def _command_arguments(element: Element | None) -> list[str]:
     """a0, a1, ... of a command."""
     return [] if element is None else [element.get(f"a{i}", "") for i in range(len(element.attrib))]
 
 
-def stated(element: Element) -> Any:
+def stated_value(element: Element) -> Any:
     """The value that the file states for an object; None where it states none, or it is undefined.
 
     Fails with `ValueError` where a number is none.
@@ -268,32 +268,32 @@ def stated(element: Element) -> Any:
     kind, coords = element.get("type"), element.find("coords")
     if kind in ("numeric", "angle"):
         value = element.find("value")
-        return None if value is None else finite(value.get("val", ""))
+        return None if value is None else coordinate(value.get("val", ""))
     if kind in CIRCLES:
-        return _conic(element.find("matrix"))
+        return _circle_of_conic(element.find("matrix"))
     if coords is None:
         return None
-    x, y, z = (finite(coords.get(name, "0")) for name in "xyz")
+    x, y, z = (coordinate(coords.get(name, "0")) for name in "xyz")
     if not math.isfinite(x + y + z):
         return None
     if kind == "point":
         return complex(x / z, y / z) if z else None
     if kind == "vector":
-        return Vector(complex(x, y))
+        return PlaneVector(complex(x, y))
     across = complex(x, y)  # of the line x X + y Y + z = 0
     return LineValue(-z * across / abs(across) ** 2, -1j * across) if across and kind in LINES else None
 
 
-def finite(written: str) -> float:
+def coordinate(written: str) -> float:
     """A coordinate; what cannot be drawn has none."""
     return math.nan if written in UNDEFINED else number(written)
 
 
-def _conic(matrix: Element | None) -> CircleValue | None:
+def _circle_of_conic(matrix: Element | None) -> CircleValue | None:
     """A circle by the coefficients of x², y², 1, xy, x and y, the last three halved; None where it is none."""
     if matrix is None:
         return None
-    xx, yy, one, xy, x, y = (finite(matrix.get(f"A{i}", "0")) for i in range(6))
+    xx, yy, one, xy, x, y = (coordinate(matrix.get(f"A{i}", "0")) for i in range(6))
     if not math.isfinite(xx + yy + one + xy + x + y) or not xx or abs(xx - yy) + abs(xy) > NEAR * abs(xx):
         return None
     centre = complex(-x / xx, -y / xx)
@@ -301,19 +301,19 @@ def _conic(matrix: Element | None) -> CircleValue | None:
     return CircleValue(centre, math.sqrt(square)) if square > 0 else None
 
 
-def seen(element: Element) -> bool:
+def is_shown(element: Element) -> bool:
     """Whether an object is shown."""
     show = element.find("show")
     return show is None or show.get("object") != "false"
 
 
-def of_construction(path: Path, data: bytes, read: Callable[[Objects], T]) -> T:
+def read_construction(path: Path, data: bytes, read: Callable[[GeoGebraObjects], T]) -> T:
     """What is read from the objects of a GeoGebra file; fails with `Refused` where it is damaged."""
-    root = tree(path, unpacked(path, data, "geogebra.xml", LARGEST))
+    root = tree(path, unpack(path, data, "geogebra.xml", LARGEST))
     construction = root.find("construction")
     if root.tag != "geogebra" or construction is None:
         raise Refused(f"{path}", "it holds no construction of GeoGebra", "save the drawing anew")
     try:
-        return read(Objects(construction))
+        return read(GeoGebraObjects(construction))
     except (ValueError, ArithmeticError) as error:
         raise Refused(f"{path}", f"the drawing is damaged ({error})", "save it anew") from None

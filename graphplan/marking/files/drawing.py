@@ -1,26 +1,178 @@
-"""What a drawing program's file shows, put together: each thing once, sound, and with its letters.
+"""What a drawing program's file shows, put together: lines, circles and points by their spots, each thing once, sound,
+and with its letters.
 
 Which letters name which of the things is not told here: that the whole drawing tells, beside its construction.
 """
 
 from __future__ import annotations
 
+import cmath
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from itertools import chain
+from itertools import chain, pairwise
 from pathlib import Path
 
 from shapely import Point, STRtree
 
 from graphplan.errors import Refused
-from graphplan.kernel.kinds import LINE, POINT
-from graphplan.marking.files.curves import aside, dotted
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.safe import FARTHEST, TRACES, Budget, on_paper
-from graphplan.marking.spelling import lined
-from graphplan.marking.tolerances import SIZE_TOL
-from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
+from graphplan.marking.tolerances import BULGE_TOL, COLLINEAR_TOL, SIZE_TOL
+from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace, can_name_line
 from graphplan.sheet.lettering.lettering import SUBSCRIPT, TextRun, width
+
+# ---- lines and circles by their spots -------------------------------------------------------------------------------
+
+
+DOT, SMALL = 1.5, 100  # mm: no compass strikes so small a circle, a pair's symbol has 1.2; nor so small a part of all
+RING = 4  # spots of a whole circle
+HALVED, SQUARED = 0.05, 0.7  # of their length that strokes of a cross may miss their middles; the sine of their angle
+NEAR = 0.01  # how far spots may lie off a line or circle that they are to show, beside its size
+FAR_CLOSER = 10  # times: where an arc is so much closer to spots than a line, they show no line
+ROUND = 12  # straight pieces at least that show a circle
+SHORT = 0.5  # mm: a straight piece shorter than this shows no line
+SHARP = math.radians(45)  # the corner of an outline that is as sharp as a tip
+
+
+def circle_spots(centre: Spot, radius: float) -> tuple[Spot, ...]:
+    """Four spots of a circle's rim."""
+    (x, y), r = centre, radius
+    return (x + r, y), (x, y + r), (x - r, y), (x, y - r)
+
+
+def arc_spots(centre: Spot, radius: float, start: float, end: float) -> tuple[Spot, ...]:
+    """Both ends and the middle of an arc, counter-clockwise between two angles in degrees; four spots of a circle."""
+    sweep = (end - start) % 360 or 360.0
+    if sweep == 360:
+        return circle_spots(centre, radius)
+    z = complex(*centre)
+    spots = [z + cmath.rect(radius, math.radians(start + part * sweep)) for part in (0.0, 0.5, 1.0)]
+    return tuple([(spot.real, spot.imag) for spot in spots])
+
+
+def circle_trace(centre: Spot, radius: float) -> Trace:
+    """A circle."""
+    return Trace(CIRCLE, circle_spots(centre, radius))
+
+
+def dots_to_points(traces: Sequence[Trace]) -> list[Trace]:
+    """The things with points for what stands for them: circles and crosses that are small beside all."""
+    size = extent([spot for trace in traces for spot in trace.spots] or [(0.0, 0.0)])
+    most = min(DOT, size / SMALL)
+    return _crosses_to_points([dot_or_circle(trace, most) for trace in traces], most)
+
+
+def dot_or_circle(trace: Trace, radius: float = DOT) -> Trace:
+    """A circle, or the point that a small one stands for."""
+    if trace.kind != CIRCLE or len(trace.spots) != RING:
+        return trace
+    found = circle_through(*trace.spots[:3])
+    return Trace(POINT, (found[0],)) if found and found[1] < radius else trace
+
+
+def _crosses_to_points(traces: Sequence[Trace], most: float) -> list[Trace]:
+    """With a point for every two short strokes that halve each other."""
+    short = [trace for trace in traces if trace.kind == LINE and math.dist(*trace.spots) < 3 * most]
+    found, crosses = dict[Trace, Trace | None](), STRtree([trace.figure.centroid for trace in short])
+    for one in short:
+        for place in crosses.query(one.figure.centroid, "dwithin", HALVED * one.figure.length):
+            other = short[place]
+            ways = [complex(*trace.spots[1]) - complex(*trace.spots[0]) for trace in (one, other)]
+            across = abs((ways[0].conjugate() * ways[1]).imag)
+            if one not in found and other not in found and across > SQUARED * max(abs(way) for way in ways) ** 2:
+                at = one.figure.centroid
+                found |= {one: Trace(POINT, ((at.x, at.y),)), other: None}
+    return [kept for trace in traces if (kept := found.get(trace, trace))]
+
+
+def chain_traces(spots: Sequence[Spot], short: float = 0.0) -> Iterator[Trace]:
+    """A chain of straight pieces: one line where it is straight, a circle where it is as round, else line by line;
+    what is not longer than `short` shows none."""
+    if len(spots) > 2 and (far := extent(spots)) > short and _chord_deviation(spots) <= NEAR * far:
+        yield Trace(LINE, (spots[0], spots[-1]))
+    elif len(spots) > ROUND and (found := recognize_curve(spots)):
+        yield found
+    else:
+        for start, end in pairwise(spots):
+            if math.dist(start, end) > short:
+                yield Trace(LINE, (start, end))
+
+
+def recognize_curve(spots: Sequence[Spot]) -> Trace | None:
+    """The line, circle, arc or dot that a smooth curve through these spots is; None where it is another.
+
+    A flat arc is as good as straight; it is an arc where it lies closer to its circle by far.
+    """
+    count, far = len(spots) - 1, extent(spots)
+    closed = math.dist(spots[0], spots[-1]) < NEAR * far
+    parts = [spots[count * i // 4] for i in range(4)] if closed else [spots[0], spots[count // 2], spots[-1]]
+    found = circle_through(*parts[:3])
+    off = max(abs(math.dist(spot, found[0]) - found[1]) for spot in spots) if found else math.inf
+    bulge = _chord_deviation(spots)
+    if bulge <= NEAR * far and not BULGE_TOL * far < bulge > FAR_CLOSER * off:
+        return Trace(LINE, (spots[0], spots[-1])) if far > SHORT else None
+    if found is None or off > NEAR * found[1]:
+        return None
+    return Trace(CIRCLE, tuple(parts))
+
+
+def sharp_corners(corners: Sequence[Spot]) -> Iterator[Spot]:
+    """The sharp corners of an outline, as the tip of an arrow's head is."""
+    spots = [complex(*corner) for corner in corners]
+    for before, here, after in zip([*spots[-1:], *spots], spots, [*spots[1:], *spots[:1]], strict=False):
+        ways = (before - here) * (after - here).conjugate()
+        if ways and abs(cmath.phase(ways)) < SHARP:
+            yield here.real, here.imag
+
+
+def circle_through(first: Spot, second: Spot, third: Spot) -> tuple[Spot, float] | None:
+    """Centre and radius of the circle through three spots; None where they lie on a line."""
+    a, b, c = (complex(*spot) for spot in (first, second, third))
+    u, v = b - a, c - a
+    across = 2 * (u.conjugate() * v).imag
+    if abs(across) <= COLLINEAR_TOL * abs(u) * abs(v):
+        return None
+    z = a + 1j * (v * abs(u) ** 2 - u * abs(v) ** 2) / -across
+    return (z.real, z.imag), abs(z - a)
+
+
+def visible_stretch(at: complex, along: complex, spots: Iterable[Spot]) -> tuple[Spot, Spot] | None:
+    """As much of an endless line as lies beside these spots; None where that is nothing."""
+    if not along:
+        return None
+    along /= abs(along)
+    steps = [((complex(*spot) - at) * along.conjugate()).real for spot in spots]
+    if not steps or min(steps) == max(steps):
+        return None
+    start, end = at + min(steps) * along, at + max(steps) * along
+    return (start.real, start.imag), (end.real, end.imag)
+
+
+def distance_off_line(line: Sequence[Spot], spot: Spot) -> float:
+    """How far a spot lies off an endless line through two others."""
+    a, b = complex(*line[0]), complex(*line[1])
+    return abs(((complex(*spot) - a) * (b - a).conjugate()).imag) / abs(b - a) if a != b else math.dist(line[0], spot)
+
+
+def extent(spots: Iterable[Spot]) -> float:
+    """The diagonal of what spots cover."""
+    xs, ys = zip(*spots, strict=True)
+    return math.hypot(max(xs) - min(xs), max(ys) - min(ys))
+
+
+def _chord_deviation(spots: Sequence[Spot]) -> float:
+    """How far spots lie off the stretch from the first to the last."""
+    a, b = complex(*spots[0]), complex(*spots[-1])
+    if a == b:
+        return extent(spots)
+    along = (b - a) / abs(b - a)
+    offs = [(complex(*spot) - a) * along.conjugate() for spot in spots]
+    return max(max(abs(off.imag), -off.real, off.real - abs(b - a)) for off in offs)
+
+
+# ---- drawings -------------------------------------------------------------------------------------------------------
+
 
 STATED = 3.0  # what the unit that a file states speaks for itself, as a logarithm of odds
 WORDS = 500  # that may be names; more name nothing
@@ -28,28 +180,28 @@ LED = 0.6  # of their size that a leader begins beside letters
 AT, FREE, LONGEST = 0.3, 0.5, 30.0  # mm from a leader's end to its mark, and from the other to anything; of a leader
 
 
-def lettering(text: str, at: Spot, size: float, anchor: float = 0.0) -> Lettering:
+def word_at(text: str, at: Spot, size: float, anchor: float = 0.0) -> Lettering:
     """Words that are anchored at a part of their length: 0 at the beginning, 1 at the end; a subscript is smaller."""
     stem, _, index = text.partition("_")
     long = width((TextRun(stem), TextRun(index, -1)), size)
     return Lettering(text, (at[0] - anchor * long, at[1]), size, long)
 
 
-def joined(words: Sequence[Lettering]) -> list[Lettering]:
+def join_words(words: Sequence[Lettering]) -> list[Lettering]:
     """Words that stand apart in a file and together on the sheet, in the order of the file: smaller ones that are set
     lower become subscripts."""
     found: list[Lettering] = []
     end = math.inf
     for word in words:
-        if found and (link := _link(found[-1], end, word)) is not None:
-            found[-1] = lettering(found[-1].text + link + word.text, found[-1].at, found[-1].size)
+        if found and (link := _join_text(found[-1], end, word)) is not None:
+            found[-1] = word_at(found[-1].text + link + word.text, found[-1].at, found[-1].size)
         else:
             found.append(word)
         end = word.at[0] + word.long
     return found
 
 
-def _link(whole: Lettering, end: float, word: Lettering) -> str | None:
+def _join_text(whole: Lettering, end: float, word: Lettering) -> str | None:
     """What stands between a text and the word that continues it; None where it does not."""
     drop, smaller = (whole.at[1] - word.at[1]) / whole.size, word.size / whole.size
     if abs(end - word.at[0]) > 0.25 * whole.size or abs(drop) > 0.6:
@@ -59,17 +211,17 @@ def _link(whole: Lettering, end: float, word: Lettering) -> str | None:
     return "" if abs(smaller - 1) < 0.05 and "_" in whole.text else None
 
 
-def led(words: Sequence[Lettering], traces: Sequence[Trace], leaders: Sequence[Trace] | None
+def follow_leaders(words: Sequence[Lettering], traces: Sequence[Trace], leaders: Sequence[Trace] | None
         ) -> tuple[list[Lettering], list[Trace]]:
     """The words that name marks, with where their leaders end, and the traces without those. Some files know their
     `leaders`; of another nothing leads from a number or a Greek letter, as those stand where lines end."""
-    strokes = _like_leaders(traces) if leaders is None else leaders
+    strokes = _likely_leaders(traces) if leaders is None else leaders
     words = [word for word in words if word.names]
     ends, taken = dict[int, tuple[float, Spot]](), set[Trace]()
-    able = [place for place, word in enumerate(words) if leaders is not None or not lined(word.names[0])]
+    able = [place for place, word in enumerate(words) if leaders is not None or not can_name_line(word.names[0])]
     boxes = STRtree([words[place].box for place in able])
     for stroke in strokes if able else ():
-        gap, nearest, far = min(_beside(boxes, *spots) for spots in (stroke.spots, stroke.spots[::-1]))
+        gap, nearest, far = min(_nearest_letters(boxes, *spots) for spots in (stroke.spots, stroke.spots[::-1]))
         word = able[nearest]
         if gap < LED * words[word].size and gap < ends.get(word, (math.inf,))[0]:
             ends[word] = gap, far
@@ -78,14 +230,14 @@ def led(words: Sequence[Lettering], traces: Sequence[Trace], leaders: Sequence[T
     return found, [trace for trace in traces if trace not in taken]
 
 
-def _beside(boxes: STRtree, near: Spot, far: Spot) -> tuple[float, int, Spot]:
+def _nearest_letters(boxes: STRtree, near: Spot, far: Spot) -> tuple[float, int, Spot]:
     """The letters beside one end of a stroke: how far off they are, which they are, and where the stroke leads."""
     at = Point(*near)
     word = int(boxes.nearest(at))
     return float(boxes.geometries[word].distance(at)), word, far
 
 
-def _like_leaders(traces: Sequence[Trace]) -> list[Trace]:
+def _likely_leaders(traces: Sequence[Trace]) -> list[Trace]:
     """The short strokes that may be leaders: from a point to where nothing is, past no other point; none that goes on
     from another line through the point."""
     lines = [trace for trace in traces if trace.kind == LINE]
@@ -100,7 +252,7 @@ def _like_leaders(traces: Sequence[Trace]) -> list[Trace]:
         mark, end = ends if marked[0] else ends[::-1]
         through = (lines[place] for place in strokes.query(mark, "dwithin", AT))
         return len(figures.query(end, "dwithin", FREE)) == 1 and not any(
-            other is not line and aside(other.spots, (end.x, end.y)) < FREE for other in through)
+            other is not line and distance_off_line(other.spots, (end.x, end.y)) < FREE for other in through)
 
     return [line for line in lines if leader(line)]
 
@@ -115,14 +267,14 @@ def same_paper(size: tuple[float, float], asked: tuple[float, float] | None) -> 
     return asked is None or all(math.isclose(*pair, rel_tol=SIZE_TOL) for pair in zip(size, asked, strict=True))
 
 
-def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], frames: Frames,
+def drawing_submission(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], frames: Frames,
             tips: Sequence[Spot] = (), leaders: Sequence[Trace] | None = None, millimetres: float = 0.0
             ) -> Submission:
     """A drawing as it was handed in: what is drawn twice is one thing, and letters are tied to their leaders.
 
     Fails with `Refused` where something lies on no sheet, there is too much of it, or nothing at all.
     """
-    once = list(dict.fromkeys(dotted(list(traces))))
+    once = list(dict.fromkeys(dots_to_points(list(traces))))
     Budget(path, TRACES, "points, lines and circles").spend(len(once))
     for trace in once:
         if not on_paper(*chain.from_iterable(trace.spots)):
@@ -131,7 +283,7 @@ def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], fra
     if not once:
         raise Refused(f"{path}", "it contains no point, line or circle", "give the drawing itself")
     sound = [word for word in words if word.size > 0 and on_paper(*word.at, word.size, word.long)]
-    letters, found = led(joined(sound), once, leaders)
+    letters, found = follow_leaders(join_words(sound), once, leaders)
     shows = frozenset({LINE, *(trace.kind for trace in found)})
     ends = tuple(tip for tip in tips if on_paper(*tip))
     return Submission(path.name, tuple(found), shows=shows, frames=frames, tips=ends, letters=tuple(letters[:WORDS]),

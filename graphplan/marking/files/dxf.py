@@ -18,8 +18,21 @@ from ezdxf.units import MM, conversion_factor
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.files.curves import SHORT, bow, curved, dot, full, pieces, reach, tips
-from graphplan.marking.files.drawing import NO_DRAWING, STATED, drawing, lettering, same_paper
+from graphplan.marking.files.drawing import (
+    NO_DRAWING,
+    SHORT,
+    STATED,
+    arc_spots,
+    chain_traces,
+    circle_trace,
+    dot_or_circle,
+    drawing_submission,
+    recognize_curve,
+    same_paper,
+    sharp_corners,
+    visible_stretch,
+    word_at,
+)
 from graphplan.marking.files.safe import MB, TRACES, Budget, contents
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import CAPS
@@ -41,22 +54,23 @@ STEPS = 48  # spots of an ellipse
 def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None) -> Submission:
     """The things drawn in the model space of a DXF file; on graphplan's own sheet of this size plans lie where its
     frames say."""
-    def of(document: Any) -> _DxfReader:
+    def read_model_space(document: Any) -> _DxfReader:
         reader = _DxfReader(path, document)
         reader.read(document.modelspace(), 0)
-        reader.endless()
+        reader.add_endless_lines()
         return reader
 
-    reader = of_document(path, contents(path, LARGEST), of)
+    reader = read_document(path, contents(path, LARGEST), read_model_space)
     known = frames if reader.own and same_paper(reader.size, size) else {}
-    return drawing(path, reader.traces, reader.words, known, reader.tips, reader.leaders if reader.own else None,
+    return drawing_submission(path, reader.traces, reader.words, known, reader.tips,
+                              reader.leaders if reader.own else None,
                    reader.millimetres)
 
 
-def of_document(path: Path, data: bytes, read_out: Callable[[Any], T]) -> T:
+def read_document(path: Path, data: bytes, read_out: Callable[[Any], T]) -> T:
     """What is read from a document as ezdxf has it; fails with `Refused` where it is damaged."""
     try:
-        return read_out(_document(_bounded(path, data)))
+        return read_out(_load_document(_check_size(path, data)))
     except Refused:
         raise
     except Exception as error:  # whatever ezdxf stumbles over in a stranger's file
@@ -64,7 +78,7 @@ def of_document(path: Path, data: bytes, read_out: Callable[[Any], T]) -> T:
         raise Refused(f"{path}", f"the drawing is damaged ({said})", "save it anew") from None
 
 
-def _document(data: bytes) -> Any:
+def _load_document(data: bytes) -> Any:
     """The file as ezdxf has it, repaired where it must be."""
     try:
         coding = dxf_stream_info(io.StringIO(data.decode("latin-1"))).encoding
@@ -73,7 +87,7 @@ def _document(data: bytes) -> Any:
         return read(io.BytesIO(data))[0]
 
 
-def _bounded(path: Path, data: bytes) -> bytes:
+def _check_size(path: Path, data: bytes) -> bytes:
     """The data, if they are a DXF as text that is read in a short time."""
     if data.startswith(b"AutoCAD Binary DXF"):
         raise Refused(f"{path}", "it is a binary DXF", "save it as DXF in text (ASCII)")
@@ -115,18 +129,18 @@ class _DxfReader:
             if entity.dxftype() == "INSERT":
                 self._block(entity, depth)
             elif entity.dxftype() in ("TEXT", "MTEXT", "ATTRIB"):
-                self._lettered(entity)
+                self._add_words(entity)
             elif entity.dxftype() == "SOLID":  # the last two of its corners come the other way round
                 first, second, *last = map(self._spot, entity.vertices())
-                self.tips += tips([first, second, *reversed(last)])
-            elif not (self.own and (known := self._known(entity, layer)) in NO_DRAWING):
+                self.tips += sharp_corners([first, second, *reversed(last)])
+            elif not (self.own and (known := self._own_layer(entity, layer)) in NO_DRAWING):
                 found = list(self._traces(entity))
                 self.budget.spend(len(found))
                 self.traces += found
             elif known == "letters" and entity.dxftype() == "LINE":
                 self.leaders += self._traces(entity)
 
-    def _known(self, entity: Any, layer: str) -> str:
+    def _own_layer(self, entity: Any, layer: str) -> str:
         """The layer of graphplan's own sheet: what of a step is no drawing bears it, all else is on it."""
         told = entity.get_xdata(OWN)[0].value if entity.has_xdata(OWN) else ""
         return told if told in NO_DRAWING else layer.removeprefix(SHEET).partition("-")[0]
@@ -146,27 +160,27 @@ class _DxfReader:
             case "POINT":
                 yield Trace(POINT, (self._spot(entity.dxf.location),))
             case "LINE":
-                yield from pieces([self._spot(entity.dxf.start), self._spot(entity.dxf.end)], self.short)
+                yield from chain_traces([self._spot(entity.dxf.start), self._spot(entity.dxf.end)], self.short)
             case "XLINE" | "RAY":
                 start, along = entity.dxf.start, entity.dxf.unit_vector
                 self.lines.append((complex(*self._spot(start)), complex(along.x, along.y)))
             case "CIRCLE":
-                yield full(self._spot(entity.ocs().to_wcs(entity.dxf.center)), entity.dxf.radius * self.mm)
+                yield circle_trace(self._spot(entity.ocs().to_wcs(entity.dxf.center)), entity.dxf.radius * self.mm)
             case "ARC":
                 yield self._arc(entity)
             case "ELLIPSE":
                 ends = entity.dxf.start_param, entity.dxf.end_param
                 sweep = (ends[1] - ends[0]) % math.tau or math.tau
                 at = [ends[0] + sweep * i / STEPS for i in range(STEPS + 1)]
-                yield from filter(None, [curved([self._spot(vertex) for vertex in entity.vertices(at)])])
+                yield from filter(None, [recognize_curve([self._spot(vertex) for vertex in entity.vertices(at)])])
             case "LWPOLYLINE" | "POLYLINE":
                 yield from self._polyline(entity)
             case "HATCH":
-                yield from self._filled(entity)
+                yield from self._filling_dots(entity)
             case "SPLINE":
                 self.budget.spend(len(entity.control_points) + len(entity.fit_points))
                 spots = [self._spot(vertex) for vertex in entity.construction_tool().approximate(STEPS)]
-                yield from filter(None, [curved(spots)])
+                yield from filter(None, [recognize_curve(spots)])
 
     def _arc(self, arc: Any) -> Trace:
         """An arc by its rim, also where it is seen from behind."""
@@ -174,49 +188,49 @@ class _DxfReader:
         start, end = arc.dxf.start_angle, arc.dxf.end_angle
         if arc.dxf.extrusion.z < 0:
             start, end = 180 - end, 180 - start
-        return Trace(CIRCLE, bow(centre, radius, start, end))
+        return Trace(CIRCLE, arc_spots(centre, radius, start, end))
 
     def _polyline(self, polyline: Any) -> Iterator[Trace]:
         """Straight pieces together, bulges as arcs."""
         self.budget.spend(len(polyline))
         if polyline.dxftype() == "LWPOLYLINE" and polyline.closed and [abs(bulge) for *_, bulge in polyline] == [1, 1]:
-            yield self._halves(*polyline.vertices_in_wcs())
+            yield self._circle_of_halves(*polyline.vertices_in_wcs())
             return
         chain: list[Spot] = []
         for part in polyline.virtual_entities():
             if part.dxftype() == "LINE":
                 ends = [self._spot(part.dxf.start), self._spot(part.dxf.end)]
                 if chain and chain[-1] != ends[0]:
-                    yield from pieces(chain, self.short)
+                    yield from chain_traces(chain, self.short)
                     chain = []
                 chain += ends[len(chain) > 0 :]
             elif part.dxftype() == "ARC":
                 yield self._arc(part)
-        yield from pieces(chain, self.short)
+        yield from chain_traces(chain, self.short)
 
-    def _halves(self, one: Any, other: Any) -> Trace:
+    def _circle_of_halves(self, one: Any, other: Any) -> Trace:
         """A circle of two halves, as rings and filled dots are drawn."""
         (x, y), (u, v) = self._spot(one), self._spot(other)
-        return full(((x + u) / 2, (y + v) / 2), math.hypot(u - x, v - y) / 2)
+        return circle_trace(((x + u) / 2, (y + v) / 2), math.hypot(u - x, v - y) / 2)
 
-    def _filled(self, hatch: Any) -> Iterator[Trace]:
+    def _filling_dots(self, hatch: Any) -> Iterator[Trace]:
         """The dots of a filling; anything larger has its outline."""
         for path in hatch.paths.rendering_paths(hatch.dxf.hatch_style):
             if hasattr(path, "vertices"):
                 corners = [self._spot(vertex) for vertex in [*path.vertices, *path.vertices[:1]]]
-                found = self._halves(*path.vertices) if len(path.vertices) == 2 else curved(corners)
+                found = self._circle_of_halves(*path.vertices) if len(path.vertices) == 2 else recognize_curve(corners)
             else:
                 rings = [edge for edge in path.edges if edge.type.name == "ARC" and len(path.edges) == 1]
-                found = full(self._spot(rings[0].center), rings[0].radius * self.mm) if rings else None
-            if found and (seen := dot(found)).kind == POINT:
+                found = circle_trace(self._spot(rings[0].center), rings[0].radius * self.mm) if rings else None
+            if found and (seen := dot_or_circle(found)).kind == POINT:
                 yield seen
 
-    def endless(self) -> None:
+    def add_endless_lines(self) -> None:
         """Lines without ends, as far as they lie beside the rest."""
         spots = [spot for trace in self.traces for spot in trace.spots]
-        self.traces += [Trace(LINE, ends) for at, along in self.lines if (ends := reach(at, along, spots))]
+        self.traces += [Trace(LINE, ends) for at, along in self.lines if (ends := visible_stretch(at, along, spots))]
 
-    def _lettered(self, entity: Any) -> None:
+    def _add_words(self, entity: Any) -> None:
         """Letters, by the place and the height that they have on paper."""
         if entity.dxftype() == "MTEXT":
             text = plain_mtext(HANGING.sub(r"_\1", RAISED.sub(r"\1", entity.text))).strip()
@@ -230,7 +244,7 @@ class _DxfReader:
             lower = 1.0 if "TOP" in align.name else 0.5 if "MIDDLE" in align.name else 0.0
         if high > 0 and "\n" not in text and not (self.own and x > self.size[0] + BESIDE):
             place = x, y - lower * high
-            self.words.append(lettering(text.replace("^ ", "_").replace("^", ""), place, high / CAPS, part))
+            self.words.append(word_at(text.replace("^ ", "_").replace("^", ""), place, high / CAPS, part))
 
     def _spot(self, vector: Any) -> Spot:
         return (vector[0] - self.origin[0]) * self.mm, (vector[1] - self.origin[1]) * self.mm

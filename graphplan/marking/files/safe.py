@@ -56,7 +56,7 @@ def text(path: Path, most: int) -> str:
         raise Refused(f"{path}", f"byte {error.start + 1} is not text", "save it as text in UTF-8") from None
 
 
-def unpacked(path: Path, data: bytes, name: str, most: int) -> bytes:
+def unpack(path: Path, data: bytes, name: str, most: int) -> bytes:
     """One member of a ZIP archive, if it has at most so many bytes; the others are not looked at."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:

@@ -20,8 +20,19 @@ from svgelements import Circle, Close, Ellipse, Line, Matrix, Move, Path, Polygo
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
-from graphplan.marking.files.curves import DOT, SHORT, curved, dot, pieces, tips
-from graphplan.marking.files.drawing import NO_DRAWING, STATED, drawing, lettering, same_paper
+from graphplan.marking.files.drawing import (
+    DOT,
+    NO_DRAWING,
+    SHORT,
+    STATED,
+    chain_traces,
+    dot_or_circle,
+    drawing_submission,
+    recognize_curve,
+    same_paper,
+    sharp_corners,
+    word_at,
+)
 from graphplan.marking.files.safe import DEEPEST, MB, TRACES, Budget, contents, on_paper, tree
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
 from graphplan.sheet.plates.pens import LEADER
@@ -48,9 +59,9 @@ class Viewport(NamedTuple):
 
     def __call__(self, element: Element, key: str, otherwise: float = 0.0) -> float:
         """A length of an element, along x or y by its attribute's name."""
-        return length(element.get(key), self.part(key), otherwise)
+        return length(element.get(key), self.side_length(key), otherwise)
 
-    def part(self, key: str) -> float:
+    def side_length(self, key: str) -> float:
         """What 100% of an attribute is."""
         if key == "r":
             return math.hypot(self.wide, self.high) / math.sqrt(2)
@@ -81,7 +92,7 @@ def paper(root: Element) -> tuple[Matrix, Viewport, tuple[float, float]]:
     stated = (None if "%" in (root.get(key) or "") else root.get(key) for key in ("width", "height"))
     wide, high = (length(written, otherwise=side) for written, side in zip(stated, sides, strict=True))
     px = MM["px"]
-    onto = fitted(root, wide, high) * Matrix(px, 0, 0, -px, 0, px * high)
+    onto = fit_view_box(root, wide, high) * Matrix(px, 0, 0, -px, 0, px * high)
     return onto, Viewport(*(sides if box else (wide, high))), (wide * px, high * px)
 
 
@@ -91,7 +102,7 @@ def view_box(element: Element) -> tuple[float, ...] | None:
     return numbers if len(numbers) == 4 and min(numbers[2:]) > 0 else None
 
 
-def fitted(element: Element, wide: float, high: float) -> Matrix:
+def fit_view_box(element: Element, wide: float, high: float) -> Matrix:
     """The view box of an element set into a window of this size, or of its own where a side is nothing."""
     box = view_box(element)
     return Matrix(Viewbox.viewbox_transform(0, 0, wide or box[2], high or box[3], *box, element.get(
@@ -133,7 +144,7 @@ def chains(drawn: Path, onto: Matrix) -> Iterator[tuple[bool, list[Spot]]]:
     """The chains of a path on paper, and whether curves join their spots: a new one wherever the pen is lifted, or goes
     over from straight pieces to curves."""
     parts = (part for part in drawn if not isinstance(part, Close) or part.start != part.end)
-    for smooth, group in groupby(parts, key=_curved):
+    for smooth, group in groupby(parts, key=_is_curve):
         chain = list(group)
         if smooth is not None:
             ends = [part.point(i / PARTS) if i < PARTS else part.end
@@ -141,7 +152,7 @@ def chains(drawn: Path, onto: Matrix) -> Iterator[tuple[bool, list[Spot]]]:
             yield smooth, [spot(onto, end) for end in (chain[0].start, *ends)]
 
 
-def _curved(segment: Any) -> bool | None:
+def _is_curve(segment: Any) -> bool | None:
     return None if isinstance(segment, Move) else not isinstance(segment, Line | Close)
 
 
@@ -150,23 +161,23 @@ class Looks:
     style."""
 
     def __init__(self, root: Element):
-        self.rules = {name: _declared(declared) for sheet in root.iter("style")
+        self.rules = {name: _style_entries(declared) for sheet in root.iter("style")
                       for name, declared in RULE.findall(sheet.text or "")}
 
-    def of(self, element: Element) -> dict[str, str]:
+    def look_of(self, element: Element) -> dict[str, str]:
         """What is said of an element itself."""
         look = dict(element.attrib)
         for name in element.get("class", "").split():
             look |= self.rules.get(name, {})
-        return look | _declared(element.get("style", ""))
+        return look | _style_entries(element.get("style", ""))
 
 
-def inherited(look: Look, above: Look) -> Look:
+def inherit_look(look: Look, above: Look) -> Look:
     """What an element hands on to those in it."""
     return {**above, **{key: value for key in INHERITED if (value := look.get(key, "inherit")) != "inherit"}}
 
 
-def _declared(style: str) -> dict[str, str]:
+def _style_entries(style: str) -> dict[str, str]:
     parts = (part.partition(":") for part in style.split(";"))
     return {name.strip(): value.strip() for name, _, value in parts if name.strip() in LOOKS}
 
@@ -196,43 +207,43 @@ class _Line:
 
 def words(element: Element, onto: Matrix, view: Viewport, look: Look, looks: Looks) -> Iterator[Lettering]:
     """The lines of a text element; `look` is what it has inherited, and its own."""
-    lines = [_begun(element, view, look, 0j)]
+    lines = [_begin_line(element, view, look, 0j)]
     lines[0].add(element.text, False)
     for span in element:
         if span.tag == "tspan":
-            _spanned(span, lines, view, look, looks, False)
+            _add_span(span, lines, view, look, looks, False)
         lines[-1].add(span.tail, lines[-1].drop > 0)
     for line in lines:
         if line.letters:
             size = line.size * abs(onto.determinant) ** 0.5
-            yield lettering("".join(line.letters), spot(onto, line.at), size, line.anchor)
+            yield word_at("".join(line.letters), spot(onto, line.at), size, line.anchor)
 
 
-def _spanned(span: Element, lines: list[_Line], view: Viewport, look: Look, looks: Looks, low: bool) -> None:
+def _add_span(span: Element, lines: list[_Line], view: Viewport, look: Look, looks: Looks, low: bool) -> None:
     """A span: it goes on in the line, lower or not, or begins another at its own place."""
-    own = looks.of(span)
-    look = inherited(own, look)
+    own = looks.look_of(span)
+    look = inherit_look(own, look)
     if span.get("x") is not None:
-        lines.append(_begun(span, view, look, lines[-1].at))
+        lines.append(_begin_line(span, view, look, lines[-1].at))
     else:
-        lines[-1].drop += length(_first(span.get("dy")), view.high)
+        lines[-1].drop += length(_first_length(span.get("dy")), view.high)
     line = lines[-1]
     low = low or line.drop > 0.05 * line.size or own.get("baseline-shift", "").startswith(("sub", "-"))
     line.add(span.text, low)
     for inner in span:
         if inner.tag == "tspan":
-            _spanned(inner, lines, view, look, looks, low)
+            _add_span(inner, lines, view, look, looks, low)
         lines[-1].add(inner.tail, low)
 
 
-def _begun(element: Element, view: Viewport, look: Look, otherwise: complex) -> _Line:
+def _begin_line(element: Element, view: Viewport, look: Look, otherwise: complex) -> _Line:
     """The line that begins with an element."""
-    x = length(_first(element.get("x")), view.wide, otherwise.real)
-    at = complex(x, length(_first(element.get("y")), view.high, otherwise.imag))
+    x = length(_first_length(element.get("x")), view.wide, otherwise.real)
+    at = complex(x, length(_first_length(element.get("y")), view.high, otherwise.imag))
     return _Line(at, length(look.get("font-size", SIZE)), ANCHORS.get(look.get("text-anchor", ""), 0.0))
 
 
-def _first(written: str | None) -> str | None:
+def _first_length(written: str | None) -> str | None:
     """The first of several lengths: letters may have one each."""
     return written.replace(",", " ").split()[0] if written and written.strip(" ,") else None
 
@@ -257,7 +268,8 @@ def read_svg(path: File, frames: Frames, size: tuple[float, float] | None = None
         raise Refused(f"{path}", f"this is XML of another kind ({root.tag[:20]})", "give an SVG drawing")
     reader = _SvgReader(path, root)
     known = frames if reader.own and same_paper(reader.size, size) else {}
-    return drawing(path, reader.traces, reader.words, known, reader.tips, reader.leaders if reader.own else None,
+    return drawing_submission(path, reader.traces, reader.words, known, reader.tips,
+                              reader.leaders if reader.own else None,
                    reader.millimetres)
 
 
@@ -289,7 +301,7 @@ class _SvgReader:
         self.own = any(element.get("class") == "layer-paper" for element in root)
         try:
             onto, view, self.size = paper(root)
-            place = _Place(onto, view, inherited(self.looks.of(root), {}))
+            place = _Place(onto, view, inherit_look(self.looks.look_of(root), {}))
             for child in root:
                 self._element(child, place)
         except (ValueError, OverflowError) as error:
@@ -301,7 +313,7 @@ class _SvgReader:
         if element.tag not in READ:
             return
         self.letters.spend(sum(map(len, element.attrib.values())))
-        look = self.looks.of(element)
+        look = self.looks.look_of(element)
         if look.get("display", "").strip() == "none":
             return
         if place.depth > DEEPEST:
@@ -310,7 +322,7 @@ class _SvgReader:
         if not on_paper(onto.a, onto.b, onto.c, onto.d, onto.e, onto.f):
             raise ValueError("a transform leads off the paper")
         drawn = place.drawn and element.get("class") not in NOT_DRAWN
-        here = _Place(onto, place.view, inherited(look, place.look), place.depth + 1, drawn)
+        here = _Place(onto, place.view, inherit_look(look, place.look), place.depth + 1, drawn)
         if element.tag in GROUPS:
             self._group(element, here)
         elif element.tag == "use":
@@ -326,9 +338,9 @@ class _SvgReader:
 
     def _group(self, element: Element, place: _Place) -> None:
         if element.tag == "svg":
-            view = Viewport(*(place.view(element, key, place.view.part(key)) for key in ("width", "height")))
+            view = Viewport(*(place.view(element, key, place.view.side_length(key)) for key in ("width", "height")))
             box = view_box(element)
-            onto = fitted(element, *view) * _shift(element, place.view) * place.onto
+            onto = fit_view_box(element, *view) * _shift_matrix(element, place.view) * place.onto
             place = replace(place, onto=onto, view=Viewport(*box[2:]) if box else view)
         for child in element:
             self._element(child, place)
@@ -339,7 +351,7 @@ class _SvgReader:
         if target is None:
             return
         read = self._group if target.tag == "symbol" else self._element
-        read(target, replace(place, onto=_shift(element, place.view) * place.onto))
+        read(target, replace(place, onto=_shift_matrix(element, place.view) * place.onto))
 
     def _shape(self, element: Element, place: _Place) -> None:
         """A shape's traces; without a stroke it is no more than a dot. Numerals for too many are not read at all."""
@@ -348,15 +360,15 @@ class _SvgReader:
         if element.tag == "polygon" and not stroked:
             corners = Polygon(points=element.get("points", "")).points
             self.things.spend(len(corners))
-            self.tips += tips([spot(place.onto, corner) for corner in corners])
+            self.tips += sharp_corners([spot(place.onto, corner) for corner in corners])
         leads = self.own and (element.get("stroke"), element.get("stroke-width")) == LEADING
-        for trace in map(dot, _traces(element, place.onto, place.view)):
+        for trace in map(dot_or_circle, _traces(element, place.onto, place.view)):
             self.things.spend()
             if stroked or trace.kind == POINT:
                 (self.leaders if leads else self.traces).append(trace)
 
 
-def _shift(element: Element, view: Viewport) -> Matrix:
+def _shift_matrix(element: Element, view: Viewport) -> Matrix:
     """By how much an element moves what is in it."""
     return Matrix(1, 0, 0, 1, view(element, "x"), view(element, "y"))
 
@@ -377,6 +389,6 @@ def _traces(element: Element, onto: Matrix, view: Viewport) -> Iterator[Trace]:
         shape = made(**sizes | ({"rx": radii[0] or radii[1], "ry": radii[1] or radii[0]} if "rx" in sizes else {}))
     for smooth, spots in chains(Path(shape), onto):
         if not smooth:
-            yield from pieces(spots, SHORT)
-        elif one := curved(spots):
+            yield from chain_traces(spots, SHORT)
+        elif one := recognize_curve(spots):
             yield one

@@ -22,13 +22,11 @@ from graphplan.accuracy.preference import Constructing, constructions, form_name
 from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.readings import Reading
-from graphplan.marking.judge.register import Pair, agreed, best, fitted
+from graphplan.marking.judge.readings import SheetReading, to_mm
+from graphplan.marking.judge.register import Pair, agreed_units, best_fit, fit_frame
 from graphplan.marking.judge.student_sheet import Fit
-from graphplan.marking.judge.units import in_mm
-from graphplan.marking.spelling import spelled
 from graphplan.marking.tolerances import LONGER
-from graphplan.marking.traces import PlanFrame, Submission, Trace
+from graphplan.marking.traces import PlanFrame, Submission, Trace, spell
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY, ResultKind
@@ -46,28 +44,28 @@ WRITTEN: Mapping[ResultKind, tuple[str, ...]] = {  # how the ends of a point's v
 }
 
 
-def seen_right_way(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil) -> Reading:
+def unmirror(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil) -> SheetReading:
     """The drawing as the task has it, in mm; mirrored, where only then more than two of the given points are in their
     places."""
-    submission, told = in_mm(drawing, composition, submission, pencil)
+    submission, told = to_mm(drawing, composition, submission, pencil)
     given = [(complex(*map(float, drawing.scene.points[trace.label])), complex(*trace.spots[0]))
              for trace in submission.traces if trace.kind == POINT and trace.label in drawing.scene.points]
     if len(given) > 2 and not submission.frames and not submission.page:
-        held, turned = (_held(pairs, best(pairs, pencil.point), pencil) for pairs in (
+        held, turned = (_marks_in_frame(pairs, best_fit(pairs, pencil.point), pencil) for pairs in (
             given, [(plan, sheet.conjugate()) for plan, sheet in given]))
         if len(turned) > max(2, len(held)):
             traces = tuple(replace(trace, spots=tuple((x, -y) for x, y in trace.spots)) for trace in submission.traces)
             tips = tuple((x, -y) for x, y in submission.tips)
             submission = replace(submission, traces=traces, tips=tips)
-            return Reading(drawing, composition, submission, (*told, said("a mirrored sheet")),
+            return SheetReading(drawing, composition, submission, (*told, said("a mirrored sheet")),
                            prior=measures.MIRRORED_ODDS)
-    return Reading(drawing, composition, submission, told)
+    return SheetReading(drawing, composition, submission, told)
 
 
-def _held(pairs: Sequence[Pair], fit: Fit | None, pencil: Pencil) -> list[Pair]:
+def _marks_in_frame(pairs: Sequence[Pair], fit: Fit | None, pencil: Pencil) -> list[Pair]:
     """The marks that a frame holds."""
     return [(plan, sheet) for plan, sheet in pairs
-            if fit and abs(fit.frame.onto(plan) - sheet) < 2 * measures.FRAME_SIGMAS * pencil.point]
+            if fit and abs(fit.frame.to_sheet(plan) - sheet) < 2 * measures.FRAME_SIGMAS * pencil.point]
 
 
 @dataclass(frozen=True)
@@ -87,7 +85,7 @@ class Proposer:
     """What a drawing may be meant as, other than as the task: `seen` are its marks with the letters that the task gave
     them, `frame` is where its mechanism lies."""
 
-    task: Reading
+    task: SheetReading
     seen: Submission
     frame: PlanFrame
     pencil: Pencil
@@ -95,33 +93,33 @@ class Proposer:
     inertia: str
     construct: Constructing
 
-    def proposed(self) -> Iterator[Reading]:
+    def readings(self) -> Iterator[SheetReading]:
         """The readings that something on the sheet speaks for."""
-        own = self._at_points()
+        own = self._readings_at_points()
         yield from own
         for reading in (replace(self.task, submission=self.seen), *own):
-            yield from self._numbered(reading)
+            yield from self._renumbered_readings(reading)
         if "polar" in (self.plan or "polar") and not self.seen.page:
-            yield from self._polar()
+            yield from self._polar_readings()
 
-    def with_all_ends(self) -> Reading | None:
+    def with_all_ends(self) -> SheetReading | None:
         """As the task has it, but every velocity that is marked ends in a mark of its own; None where steps are called
         by their numbers, which would be others then."""
         numbered = any(trace.label.isdigit() for trace in self.seen.traces)
         drawing = None if numbered else self.at_tempo(Fraction(1), self.seen)
         return replace(self.task, drawing=drawing, submission=self.seen) if drawing else None
 
-    def forms(self, reading: Reading) -> Iterator[Reading]:
+    def other_forms(self, reading: SheetReading) -> Iterator[SheetReading]:
         """A reading by the other forms of its loci, which have other marks."""
         drawing = reading.drawing
         plan = self.plan or ("orthogonal" if drawing.turned else "polar")
         for methods, other in constructions(drawing.scene, plan=plan, strict=drawing.strict, inertia=self.inertia,
                                             construct=self.construct):
-            if isinstance(other, Construction) and _keys(other) != _keys(drawing):
+            if isinstance(other, Construction) and _step_keys(other) != _step_keys(drawing):
                 yield replace(reading, drawing=other, prior=reading.prior + measures.OTHER_FORM_ODDS,
                               told=(*reading.told, said("drawn by the form {0}", form_name(methods))))
 
-    def _numbered(self, reading: Reading) -> Iterator[Reading]:
+    def _renumbered_readings(self, reading: SheetReading) -> Iterator[SheetReading]:
         """With the numbers at its marks in an order of the student's own, so that they tell nothing."""
         traces = reading.submission.traces
         if any(trace.label.isdigit() for trace in traces):
@@ -132,33 +130,33 @@ class Proposer:
 
     # ---- velocities drawn from their points ------------------------------------------------------------------------
 
-    def _at_points(self) -> list[Reading]:
+    def _readings_at_points(self) -> list[SheetReading]:
         """With the velocities at a scale of the student's own, turned the other way, or true at their points, where
         several of them agree on that; the likeliest first."""
         if not self.task.drawing.turned or self.seen.page:
             return []
         votes = []
         for point, velocity in self.task.drawing.velocity.items():
-            trace = self._end(point, "v{0}")
+            trace = self._find_end(point, "v{0}")
             drawn = 1j * velocity * self.task.drawing.kappa * self.frame.unit
             if trace is not None and abs(drawn) > measures.MIN_VECTOR_MM:
-                start = self.frame.onto(self._place(point))
+                start = self.frame.to_sheet(self._given_point(point))
                 sigma = math.hypot(2 * self.pencil.point, trace.blur) / abs(drawn)
                 votes.append(((complex(*trace.spots[0]) - start) / drawn, sigma))
-        found = (self._turned(ratio, sigma) for count, ratio, sigma in agreed(votes)
-                 if count > 1 or abs(_astray(ratio)) < measures.ROUND_SPEED_SIGMAS * sigma / abs(ratio))
+        found = (self._turned_reading(ratio, sigma) for count, ratio, sigma in agreed_units(votes)
+                 if count > 1 or abs(_angle_error(ratio)) < measures.ROUND_SPEED_SIGMAS * sigma / abs(ratio))
         return [reading for reading in found if reading]
 
-    def _turned(self, ratio: complex, sigma: float) -> Reading | None:
+    def _turned_reading(self, ratio: complex, sigma: float) -> SheetReading | None:
         """With velocities drawn as this ratio to those of the task has it, if they can be meant so."""
         quarters = round(cmath.phase(ratio) / (math.pi / 2)) % 4
-        if abs(_astray(ratio)) > measures.MAX_TURN_ERROR_RAD or quarters == 1:  # true ones would be reversed
+        if abs(_angle_error(ratio)) > measures.MAX_TURN_ERROR_RAD or quarters == 1:  # true ones would be reversed
             return None
-        size = self._meant(abs(ratio), sigma / abs(ratio))
+        size = self._meant_factor(abs(ratio), sigma / abs(ratio))
         if size == 1 and quarters == 0:
             return None
         told, prior = SENSES[quarters]
-        submission = self._turned_back() if quarters == 3 else self.seen
+        submission = self._turned_back_submission() if quarters == 3 else self.seen
         drawing = self.at_tempo(size * (-1 if quarters == 2 else 1), submission)
         return replace(
             self.task, drawing=drawing, submission=submission, told=(*self.task.told, *told),
@@ -171,12 +169,12 @@ class Proposer:
         """
         for tempo in (size, size * LONGER):
             with suppress(GraphplanError):
-                drawing = self._construct(_at_tempo(self.task.drawing, tempo))
-                if not orphans(drawing, submission):
+                drawing = self._construct(_scene_at_tempo(self.task.drawing, tempo))
+                if not find_orphans(drawing, submission):
                     return drawing
         return None
 
-    def _meant(self, size: float, sigma: float) -> Fraction:
+    def _meant_factor(self, size: float, sigma: float) -> Fraction:
         """The factor of a scale as it is meant: such that it is the task's, a round one, or that of a drive, if one is
         so near."""
         if abs(1 / size - 1) < measures.ROUND_SPEED_SIGMAS * sigma:
@@ -185,21 +183,21 @@ class Proposer:
         # k_v of the task
         speed = Fraction(abs(1 / (float(kappa) * self.frame.unit))).limit_denominator(measures.MAX_SPEED_DENOMINATOR)
         rates = [abs(Fraction(drive.rate)) * kappa for drive in self.task.drawing.scene.drives if drive.rate]
-        near = [*_round(size), *(speed / k_v for k_v in _round(float(speed) / size)),
-                *(part / rate for rate in rates for part in _round(size * float(rate)))]
+        near = [*_round_numbers(size), *(speed / k_v for k_v in _round_numbers(float(speed) / size)),
+                *(part / rate for rate in rates for part in _round_numbers(size * float(rate)))]
         nearest = min(near, key=lambda one: abs(math.log(float(one) / size)))
         return (nearest if abs(float(nearest) / size - 1) < measures.ROUND_SPEED_SIGMAS * sigma
                 else Fraction(size).limit_denominator(measures.MAX_SPEED_DENOMINATOR))
 
-    def _turned_back(self) -> Submission:
+    def _turned_back_submission(self) -> Submission:
         """With every velocity that is drawn at its point turned a quarter, as on the task's sheet."""
-        marks = {spelled(trace.label): complex(*trace.spots[0]) for trace in self.seen.traces
+        marks = {spell(trace.label): complex(*trace.spots[0]) for trace in self.seen.traces
                  if trace.kind == POINT and trace.label}
-        marks |= {point: self.frame.onto(self._place(point)) for point in self.task.drawing.scene.points}
+        marks |= {point: self.frame.to_sheet(self._given_point(point)) for point in self.task.drawing.scene.points}
         starts = {f"v{name.casefold()}": spot for name, spot in marks.items() if name[:1].isupper()}
 
         def turned(trace: Trace) -> Trace:
-            start = starts.get(_bare(trace.label)) if trace.kind == POINT else None
+            start = starts.get(_bare_label(trace.label)) if trace.kind == POINT else None
             if start is None:
                 return trace
             spot = start + 1j * (complex(*trace.spots[0]) - start)
@@ -209,7 +207,7 @@ class Proposer:
 
     # ---- velocities and accelerations from a pole ------------------------------------------------------------------
 
-    def _polar(self) -> Iterator[Reading]:
+    def _polar_readings(self) -> Iterator[SheetReading]:
         """On polar plans, which lie where their marks tell."""
         try:
             drawing = self._construct(self.task.drawing.scene, plan="polar")
@@ -217,7 +215,7 @@ class Proposer:
             return
         fits, submission, prior = dict[str, Fit](), self.seen, self.task.prior + measures.POLAR_PLAN_ODDS
         for kind, panel in ((VELOCITY, VELOCITY_PLAN), (ACCELERATION, ACCELERATION_PLAN)):
-            plan = max(self._from_pole(drawing, kind), key=lambda plan: plan.speaks, default=None)
+            plan = max(self._polar_plans(drawing, kind), key=lambda plan: plan.speaks, default=None)
             if plan:
                 fits[panel], prior = plan.fit, prior + plan.at_once
                 submission = replace(submission, traces=tuple(
@@ -233,7 +231,7 @@ class Proposer:
         """Whether every point of the sheet says what it is."""
         return all(trace.label and not trace.beside for trace in self.seen.traces if trace.kind == POINT)
 
-    def _from_pole(self, drawing: Construction, kind: ResultKind) -> Iterator[PolarPlan]:
+    def _polar_plans(self, drawing: Construction, kind: ResultKind) -> Iterator[PolarPlan]:
         """The polar plans that the ends of vectors agree on, by each way to write them."""
         steps, traces, ends = drawing.drawn.steps, self.seen.traces, dict[str, tuple[int, int]]()
         for reading in drawing.readings:
@@ -242,18 +240,18 @@ class Proposer:
                 ends[reading.of] = start, end
         for written in WRITTEN[kind] if ends else ():
             marks = {place: end for point, (_, end) in ends.items()
-                     if (place := self._named(point, written)) is not None}
+                     if (place := self._find_mark(point, written)) is not None}
             pole = next(iter(ends.values()))[0]
             poles = {place: pole for place, trace in enumerate(traces) if trace.kind == POINT
-                     and _bare(trace.label) in POLES and trace.label not in drawing.scene.points}
+                     and _bare_label(trace.label) in POLES and trace.label not in drawing.scene.points}
             known = marks | {place: pole for place, pole in poles.items() if place not in marks}
-            found = self._agreed({place: (complex(*drawing.values[mark]), complex(*traces[place].spots[0]))
+            found = self._agreed_frame({place: (complex(*drawing.values[mark]), complex(*traces[place].spots[0]))
                                   for place, mark in known.items()} if marks else {})
             if found:
                 names = {place: steps[mark].name for place, mark in known.items() if place in {*found.held, *marks}}
                 yield replace(found, names=names)
 
-    def _agreed(self, pairs: Mapping[int, Pair]) -> PolarPlan | None:
+    def _agreed_frame(self, pairs: Mapping[int, Pair]) -> PolarPlan | None:
         """The frame that holds most marks of a plan; None where too few agree on one.
 
         Three marks have no frame by chance, nor have two of which one lies the way it should from the other. What is
@@ -271,7 +269,7 @@ class Proposer:
                        + measures.POLAR_MARK_MM / abs(there - sheet) / 2)
             if len(near) + aligned > 2 and len(near) + aligned / 2 > speaks:
                 speaks, held = len(near) + aligned / 2, near
-        fit = fitted([pairs[place] for place in held], self.pencil.point) if held else None
+        fit = fit_frame([pairs[place] for place in held], self.pencil.point) if held else None
         if fit is None:
             return None
         turn = cmath.phase(fit.frame.unit / self.frame.unit)
@@ -280,26 +278,26 @@ class Proposer:
             return PolarPlan(speaks, fit, tuple(held), at_once=measures.ASKEW_PLAN_ODDS)
         unit = abs(fit.frame.unit) * self.frame.unit / abs(self.frame.unit)
         centre = 0j if quarters else fit.centre
-        fit = replace(fit, frame=PlanFrame(fit.frame.onto(centre) - unit * centre, unit), centre=centre)
+        fit = replace(fit, frame=PlanFrame(fit.frame.to_sheet(centre) - unit * centre, unit), centre=centre)
         return PolarPlan(speaks, fit, tuple(held),
                          at_once=measures.TURNED_PLAN_MARK_ODDS * (len(held) - 2) if quarters else 0.0)
 
     # ---- letters and constructions ---------------------------------------------------------------------------------
 
-    def _named(self, point: str, written: str) -> int | None:
+    def _find_mark(self, point: str, written: str) -> int | None:
         """The place of the mark that is called so for a point of the mechanism."""
         name = written.format(point.casefold())
         for place, trace in enumerate(self.seen.traces):
             if trace.kind == POINT and trace.label not in self.task.drawing.scene.points and (
-                    _bare(trace.label) == name):
+                    _bare_label(trace.label) == name):
                 return place
         return None
 
-    def _end(self, point: str, written: str) -> Trace | None:
-        place = self._named(point, written)
+    def _find_end(self, point: str, written: str) -> Trace | None:
+        place = self._find_mark(point, written)
         return None if place is None else self.seen.traces[place]
 
-    def _place(self, point: str) -> complex:
+    def _given_point(self, point: str) -> complex:
         return complex(*map(float, self.task.drawing.scene.points[point]))
 
     def _construct(self, scene: Scene, **how: Any) -> Construction:
@@ -308,37 +306,37 @@ class Proposer:
                                         "inertia": self.inertia} | how)
 
 
-def _keys(drawing: Construction) -> list[Any]:
+def _step_keys(drawing: Construction) -> list[Any]:
     """What makes two programs one."""
     return [step.key for step in drawing.drawn.steps]
 
 
-def orphans(drawing: Construction, submission: Submission) -> list[int]:
+def find_orphans(drawing: Construction, submission: Submission) -> list[int]:
     """The places of the marks that are called as ends of velocities for which the construction has no mark of its own,
     as they end in another point."""
-    own = {_bare(step.name) for step in drawing.drawn.steps if step.name}
+    own = {_bare_label(step.name) for step in drawing.drawn.steps if step.name}
     names = {f"v{point.casefold()}" for point in drawing.velocity} - own if drawing.turned else set()
     return [place for place, trace in enumerate(submission.traces)
-            if trace.kind == POINT and not trace.beside and _bare(trace.label) in names]
+            if trace.kind == POINT and not trace.beside and _bare_label(trace.label) in names]
 
 
-def _bare(label: str) -> str:
+def _bare_label(label: str) -> str:
     """A letter as it is compared: v_{A}, vA and v_a are one."""
-    return spelled(label.replace(" ", "")).replace("_", "").casefold()
+    return spell(label.replace(" ", "")).replace("_", "").casefold()
 
 
-def _astray(ratio: complex) -> float:
+def _angle_error(ratio: complex) -> float:
     """The angle, in radians, that a ratio of vectors is off the next right angle."""
     return cmath.phase(ratio * (-1j) ** round(cmath.phase(ratio) / (math.pi / 2)))
 
 
-def _round(size: float) -> Iterator[Fraction]:
+def _round_numbers(size: float) -> Iterator[Fraction]:
     """The round numbers next to a number."""
     power = Fraction(10) ** math.floor(math.log10(size))
     yield from (number * power * tens for number in measures.ROUND_SPEEDS for tens in (1, 10))
 
 
-def _at_tempo(drawing: Construction, factor: Fraction) -> Scene:
+def _scene_at_tempo(drawing: Construction, factor: Fraction) -> Scene:
     """The scene with velocities so many times as long; the other way round where that is negative."""
     k_v = 1 / (Fraction(drawing.tempo.kappa) * factor)
     return replace(drawing.scene, sheet=replace(drawing.scene.sheet, k_s=Fraction(1), k_v=k_v))

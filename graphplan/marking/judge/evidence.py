@@ -16,7 +16,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.mistakes import Mistake, value_of
-from graphplan.marking.judge.student_sheet import StudentSheet, apart, plain, sampled
+from graphplan.marking.judge.student_sheet import StudentSheet, distance_apart, measured_spots, plain_value
 from graphplan.marking.traces import Spot, Submission, Trace
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.view import clip_segment, interpolate
@@ -33,7 +33,7 @@ class KnownMarks:
     mistakes: Mapping[int, Mistake | Value]
 
 
-def wobbly(trace: Trace) -> Trace:
+def with_wobble(trace: Trace) -> Trace:
     """A trace of a picture, as sure as a line is straight that a hand draws."""
     return replace(trace, blur=math.hypot(trace.blur, measures.PENCIL_LINE_BLUR_MM))
 
@@ -55,30 +55,30 @@ class Evidence:
         """What a trace weighs at most."""
         return self.most[self.traces[place].kind]
 
-    def trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
+    def find_trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
         """What is there about an expected value, no further off than so many mm."""
-        places, off = self.near(step.op.gives, self.sheet.plan_of_step[step.index], plain(expected))
+        places, off = self.nearby_traces(step.op.gives, self.sheet.plan_of_step[step.index], plain_value(expected))
         return self.traces[places[off.argmin()]] if off.min(initial=math.inf) < within else None
 
-    def sought(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
+    def search(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
         """Where a stroke ends about an expected point that has no dot, as corners of force polygons have none."""
         if step.op.gives != POINT or not len(self._ends):
             return None
-        off = np.abs(self._ends - self.sheet.frame(step).onto(complex(*plain(expected))))
+        off = np.abs(self._ends - self.sheet.frame(step).to_sheet(complex(*plain_value(expected))))
         end = self._ends[off.argmin()]
         return Trace(POINT, ((float(end.real), float(end.imag)),)) if off.min() < within else None
 
-    def share(self, step: Step, value: Any, own: KnownMarks) -> float | None:
+    def visible_share(self, step: Step, value: Any, own: KnownMarks) -> float | None:
         """At how much of what a step would make something like it is to be seen; None where nothing could be seen."""
-        _, off = self.near(step.op.gives, self.sheet.plan_of_step[step.index], plain(value))
+        _, off = self.nearby_traces(step.op.gives, self.sheet.plan_of_step[step.index], plain_value(value))
         seen = step.op.gives in self.shows and step.index not in self.sheet.hidden
         return float(off.min(initial=math.inf) < measures.STROKE_NEAR_MM) if seen else None
 
-    def beyond(self, step: Step, value: Any) -> bool:
+    def is_beyond_panel(self, step: Step, value: Any) -> bool:
         """Whether a point would be off its panel, so that nothing can be drawn from it."""
         return False
 
-    def of(self, kind: str) -> list[int]:
+    def unlabelled_of(self, kind: str) -> list[int]:
         """The unlabelled traces of a kind."""
         return self._places.get(kind, [])
 
@@ -88,26 +88,29 @@ class Evidence:
         if place < self._read or trace.kind == POINT:
             return set()
         if place not in self._twins:
-            self._twins[place] = {other for other in self._places[trace.kind] if _same(trace, self.traces[other])}
+            self._twins[place] = {other
+                                  for other in self._places[trace.kind] if _is_same_stroke(trace, self.traces[other])}
         return self._twins[place]
 
-    def beside(self, place: int, panel: str, value: Sequence[float]) -> list[int]:
+    def neighbours(self, place: int, panel: str, value: Sequence[float]) -> list[int]:
         """The other traces that are so near to what one is that it could be they."""
-        places, off = self.near(self.traces[place].kind, panel, value)
+        places, off = self.nearby_traces(self.traces[place].kind, panel, value)
         return [other
                 for other, far in zip(places, off, strict=True) if far < measures.SIDE_BY_SIDE_MM and other != place]
 
-    def near(self, kind: str, panel: str, value: Sequence[float]) -> tuple[list[int], Any]:
+    def nearby_traces(self, kind: str, panel: str, value: Sequence[float]) -> tuple[list[int], Any]:
         """The traces of a kind that may lie on a plan, and how far each is from a value in mm at most."""
-        places = self.of(kind)
-        return places, apart(kind, value, self._on(kind, panel)) * self.sheet.mm(panel) if places else np.zeros(0)
+        places = self.unlabelled_of(kind)
+        return places, distance_apart(kind, value,
+                                      self._spots_on_plan(kind,
+                                                          panel)) * self.sheet.mm(panel) if places else np.zeros(0)
 
-    def _on(self, kind: str, panel: str) -> Any:
+    def _spots_on_plan(self, kind: str, panel: str) -> Any:
         """The spots of all traces of a kind in the units of a plan; nowhere where they are said to be on another."""
         if (kind, panel) not in self._cached:
             frame = self.sheet.fits[panel].frame
-            rows = [[frame.back(complex(*spot)) if self.traces[i].panel in ("", panel) else complex(math.inf)
-                     for spot in sampled(self.traces[i])] for i in self._places[kind]]
+            rows = [[frame.to_plan(complex(*spot)) if self.traces[i].panel in ("", panel) else complex(math.inf)
+                     for spot in measured_spots(self.traces[i])] for i in self._places[kind]]
             self._cached[kind, panel] = np.array(rows)
         return self._cached[kind, panel]
 
@@ -127,45 +130,46 @@ class ImageSearch(Evidence):
         """Less where it was found only by seeking it."""
         return super().weight(place) if place < self._read else measures.FAINT_ODDS[self.traces[place].kind]
 
-    def trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
-        value, reach = plain(expected), min(within, measures.MAX_SEARCH_MM)
-        spots = self._held(step, self._spots(step, value, own))
+    def find_trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
+        value, reach = plain_value(expected), min(within, measures.MAX_SEARCH_MM)
+        spots = self._spots_on_panel(step, self._spots(step, value, own))
         key = (step.index, *value, *(round(part) for spot in spots for part in spot))
         if key not in self._found:
-            found = self._near(step, value, spots, reach) if spots else None
-            self._found[key] = wobbly(found) if found else None
+            found = self._find_near(step, value, spots, reach) if spots else None
+            self._found[key] = with_wobble(found) if found else None
         return self._found[key]
 
-    def sought(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
-        return self.trace(step, expected, own, within)
+    def search(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
+        return self.find_trace(step, expected, own, within)
 
-    def share(self, step: Step, value: Any, own: KnownMarks) -> float | None:
+    def visible_share(self, step: Step, value: Any, own: KnownMarks) -> float | None:
         """At nothing off its panel; None where print hides most, or where it is too small to see."""
-        spots = self._spots(step, plain(value), own, measures.ARC_MM / 2)
-        held = self._held(step, spots)
-        return self.page.share(step.op.gives, held, measures.STROKE_NEAR_MM) if held else 0.0 if spots else None
+        spots = self._spots(step, plain_value(value), own, measures.ARC_MM / 2)
+        held = self._spots_on_panel(step, spots)
+        return self.page.visible_share(step.op.gives, held, measures.STROKE_NEAR_MM) if held else 0.0 if spots else None
 
-    def beyond(self, step: Step, value: Any) -> bool:
-        return step.op.gives == POINT and not self._panel(step).holds(self._onto(step, complex(*plain(value)[:2])))
+    def is_beyond_panel(self, step: Step, value: Any) -> bool:
+        return (step.op.gives == POINT
+                and not self._panel(step).holds(self._sheet_spot(step, complex(*plain_value(value)[:2]))))
 
     def _spots(self, step: Step, value: Value, own: KnownMarks, struck: float = measures.ARC_MM) -> list[Spot]:
         """Spots on the sheet of what a step makes, there where it would be drawn."""
         if step.op.gives == LINE:
-            ends = self._stretch(step, value, own)
+            ends = self._line_stretch(step, value, own)
             return [interpolate(*ends, k / measures.STROKE_SPOTS) for k in range(measures.STROKE_SPOTS + 1)]
         if step.op.gives == POINT:
-            return [self._onto(step, complex(*value[:2]))]
-        return self._arc(step, value, self._marks(step, value, own), struck)
+            return [self._sheet_spot(step, complex(*value[:2]))]
+        return self._arc(step, value, self._marks_on(step, value, own), struck)
 
-    def _held(self, step: Step, spots: Sequence[Spot]) -> list[Spot]:
+    def _spots_on_panel(self, step: Step, spots: Sequence[Spot]) -> list[Spot]:
         """Those of some spots that are on the step's panel."""
         return list(filter(self._panel(step).holds, spots))
 
     def _panel(self, step: Step) -> Rect:
         return self.panels[self.sheet.plan_of_step[step.index]]
 
-    def _onto(self, step: Step, z: complex) -> Spot:
-        spot = self.sheet.frame(step).onto(z)
+    def _sheet_spot(self, step: Step, z: complex) -> Spot:
+        spot = self.sheet.frame(step).to_sheet(z)
         return spot.real, spot.imag
 
     def _arc(self, step: Step, value: Value, marks: Sequence[complex], struck: float) -> list[Spot]:
@@ -175,52 +179,52 @@ class ImageSearch(Evidence):
         if radius * mm < measures.ARC_MM:
             return []
         turn = 2 * struck / mm / radius / measures.STROKE_SPOTS
-        return [self._onto(step, centre + cmath.rect(radius, cmath.phase(z - centre) + k * turn)) for z in marks
+        return [self._sheet_spot(step, centre + cmath.rect(radius, cmath.phase(z - centre) + k * turn)) for z in marks
                 for k in range(-measures.STROKE_SPOTS // 2, measures.STROKE_SPOTS // 2 + 1)]
 
-    def _stretch(self, step: Step, line: Value, own: KnownMarks) -> tuple[Spot, Spot]:
+    def _line_stretch(self, step: Step, line: Value, own: KnownMarks) -> tuple[Spot, Spot]:
         """Where a line would be drawn, as far as it is on its panel: between the outermost of its marks, or about its
         only one."""
         a, b, c = line
         mm = abs(self.sheet.frame(step).unit)
         way, foot = complex(b, -a) / math.hypot(a, b), -complex(a, b) * c / (a * a + b * b)
-        along = [((z - foot) * way.conjugate()).real for z in self._marks(step, line, own)] or [0.0]
+        along = [((z - foot) * way.conjugate()).real for z in self._marks_on(step, line, own)] or [0.0]
         spare = measures.LONE_LINE_MM / mm if max(along) - min(along) < measures.LONE_LINE_MM / mm else 0.0
-        start, end = (self._onto(step, foot + way * far) for far in (min(along) - spare, max(along) + spare))
+        start, end = (self._sheet_spot(step, foot + way * far) for far in (min(along) - spare, max(along) + spare))
         inside = clip_segment(self._panel(step), start, end) or (0.0, 1.0)
         return interpolate(start, end, inside[0]), interpolate(start, end, inside[1])
 
-    def _near(self, step: Step, value: Value, spots: Sequence[Spot], within: float) -> Trace | None:
+    def _find_near(self, step: Step, value: Value, spots: Sequence[Spot], within: float) -> Trace | None:
         if step.op.gives == LINE:
-            return self.page.near(spots[0], spots[-1], within)
+            return self.page.find_line(spots[0], spots[-1], within)
         if step.op.gives == POINT:
-            return self.page.dot(spots[0], within)
+            return self.page.find_dot(spots[0], within)
         radius = math.sqrt(value[2]) * abs(self.sheet.frame(step).unit)
-        return self.page.rim(self._onto(step, complex(*value[:2])), radius, spots, within)
+        return self.page.find_arc(self._sheet_spot(step, complex(*value[:2])), radius, spots, within)
 
-    def _marks(self, step: Step, value: Value, own: KnownMarks) -> list[complex]:
+    def _marks_on(self, step: Step, value: Value, own: KnownMarks) -> list[complex]:
         """Where the marks on a line or an arc are: those that are drawn, and where those to come would follow."""
         known: dict[int, Value | None] = {step.index: value}
-        found = [self._value(index, known, own) for index in self.sheet.marks_on.get(step.index, ())]
+        found = [self._value_at(index, known, own) for index in self.sheet.marks_on.get(step.index, ())]
         return [complex(*spot[:2]) for spot in found if spot and np.all(np.isfinite(spot))]
 
-    def _value(self, index: int, known: dict[int, Value | None], own: KnownMarks) -> Value | None:
+    def _value_at(self, index: int, known: dict[int, Value | None], own: KnownMarks) -> Value | None:
         """What a step makes, or a mistake at it, of those that are known; None where it cannot be drawn."""
         if index not in known:
             mistake, step = own.mistakes.get(index), self.sheet.drawing.drawn.steps[index]
             if index < len(own.values):
-                known[index] = plain(own.values[index])
+                known[index] = plain_value(own.values[index])
             elif isinstance(mistake, tuple):  # what it makes
                 known[index] = mistake
             else:
                 args = mistake.reads if mistake else step.args
-                read = {arg: self._value(arg, known, own) for arg in args}
+                read = {arg: self._value_at(arg, known, own) for arg in args}
                 known[index] = None if None in read.values() else value_of(
                     mistake.step if mistake else step, read, mistake)
         return known[index]
 
 
-def unexplained(traces: Sequence[Trace], explained: Sequence[Trace]) -> list[Trace]:
+def unexplained_traces(traces: Sequence[Trace], explained: Sequence[Trace]) -> list[Trace]:
     """Of the traces of a picture those that are no part of the strokes that steps explain: half of a stroke, or a dot,
     lies beside them."""
     about = union_all([LineString(trace.spots).buffer(measures.STROKE_NEAR_MM)
@@ -230,7 +234,7 @@ def unexplained(traces: Sequence[Trace], explained: Sequence[Trace]) -> list[Tra
             if not (shape.within(about) or shape.intersection(about).length > shape.length / 2)]
 
 
-def _same(one: Trace, other: Trace) -> bool:
+def _is_same_stroke(one: Trace, other: Trace) -> bool:
     """Whether a line, or a rim, lies upon another of its kind, and beside no more than half of it."""
     whole = LineString(other.spots)
     return bool(whole.intersection(LineString(one.spots).buffer(measures.TWIN_MM)).length > whole.length / 2)

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from graphplan.kernel.program import Program
-from graphplan.marking.judge.asked import results
 from graphplan.marking.judge.score import GROUPS, KINDS, Score
 from graphplan.marking.judge.verdict import (
     FOLLOWS,
@@ -22,8 +21,9 @@ from graphplan.marking.judge.verdict import (
     Judgement,
     NumberVerdict,
     Verdict,
+    asked_results,
 )
-from graphplan.marking.traces import Number
+from graphplan.marking.traces import StudentNumber
 from graphplan.methods.kinds import WORDS
 from graphplan.methods.panels import reactions_named
 from graphplan.phrases import Said, arrange, coordinates, digits, join, phrase, said, unit
@@ -37,7 +37,7 @@ VERDICT = said("Verdict")
 KEY = 11.0  # mm: where the words of the legend begin
 
 
-def counted(judgement: Judgement) -> Said:
+def count_words(judgement: Judgement) -> Said:
     """The same in words, with the marks that no step asks for."""
     told = [arrange("{0} {1}", count, STATES[state]()) for state, count in judgement.counts.items() if count]
     if judgement.spare:
@@ -46,7 +46,7 @@ def counted(judgement: Judgement) -> Said:
 
 
 @dataclass(frozen=True, order=True)
-class Called:
+class StepName:
     """What a step is called, in whatever construction: its number as it is printed, 0 for what is given, its mark."""
 
     number: int
@@ -58,53 +58,53 @@ class Called:
         return str(self.number) if self.number else self.mark
 
     @property
-    def named(self) -> Said:
+    def words(self) -> Said:
         """In words: a step by its number, a point of the pose by its name."""
         return said("step {0}", self.number) if self.number else said("the given point {0}", self.mark)
 
     @property
-    def told(self) -> Said:
+    def words_with_mark(self) -> Said:
         """The same with the mark, as another construction may have another step of this number."""
-        return join((self.named, self.mark)) if self.number else self.named
+        return join((self.words, self.mark)) if self.number else self.words
 
 
-def called(drawn: Program, index: int) -> Called:
+def step_name(drawn: Program, index: int) -> StepName:
     """What a step of a construction is called."""
-    return Called(max(drawn.number(index), 0), drawn.text(index))
+    return StepName(max(drawn.number(index), 0), drawn.text(index))
 
 
-def named(drawn: Program, index: int) -> Said:
+def step_words(drawn: Program, index: int) -> Said:
     """A step of a construction in words."""
-    return called(drawn, index).named
+    return step_name(drawn, index).words
 
 
 def opinion(judgement: Judgement) -> Said:
     """What matters most: the first wrong step, or else result, or that there is none, or nothing at all."""
-    first, drawn = judgement.first, judgement.drawing.drawn
+    first, drawn = judgement.first_wrong, judgement.drawing.drawn
     if first is not None:
-        return said("First wrong is {0}: {1}.", named(drawn, first.at_fault), remark(judgement, first))
-    if judgement.blank:
+        return said("First wrong is {0}: {1}.", step_words(drawn, first.at_fault), remark(judgement, first))
+    if judgement.is_blank:
         return said("The sheet is blank: nothing that was asked for is on it.")
     if wrong := wrong_numbers(judgement):
-        return miss(judgement, wrong[0])
-    if not (judgement.drawn or judgement.numbers):
+        return wrong_number(judgement, wrong[0])
+    if not (judgement.has_drawn or judgement.numbers):
         return said("Nothing that was asked for is recognized: look at the sheet.")
     return said("No step is wrong.")
 
 
-def read_as(judgement: Judgement) -> list[Said]:
+def reading_lines(judgement: Judgement) -> list[Said]:
     """As what a drawing was read; nothing where it is drawn as the task's own sheet is."""
     return [said("Read as {0}.", judgement.reading)] if judgement.reading else []
 
 
-def summary(judgement: Judgement) -> list[Said]:
+def summary_lines(judgement: Judgement) -> list[Said]:
     """How many steps there are of each verdict, by which pencil, where the drawing tells it, and what is there twice,
     or is not counted.
     """
-    told = [arrange("{0:capital}.", counted(judgement))]
+    told = [arrange("{0:capital}.", count_words(judgement))]
     if judgement.pencil is not None:
         told.append(said("Pencil read off the drawing: {0}.", judgement.pencil.description))
-    told += [twice(judgement, number) for number in judgement.numbers if number.again]
+    told += [repeated_number(judgement, number) for number in judgement.numbers if number.again]
     if judgement.unasked:
         told.append(said("Not asked for, and not counted: {0}.", join(
             [result_named(judgement, number.kind, number.of) for number in judgement.unasked])))
@@ -113,18 +113,18 @@ def summary(judgement: Judgement) -> list[Said]:
     return told
 
 
-def asked(judgement: Judgement) -> list[Said]:
+def first_wrong_sentence(judgement: Judgement) -> list[Said]:
     """What the first wrong step asks for, in its own words; nothing where there is none."""
-    drawn, guilty = judgement.drawing.drawn, judgement.guilty
-    return [] if guilty is None else [arrange("{0:capital}: {1}", named(drawn, guilty), drawn.sentence(guilty))]
+    drawn, guilty = judgement.drawing.drawn, judgement.first_wrong_step
+    return [] if guilty is None else [arrange("{0:capital}: {1}", step_words(drawn, guilty), drawn.sentence(guilty))]
 
 
-def look_at(judgement: Judgement) -> list[Said]:
+def look_at_lines(judgement: Judgement) -> list[Said]:
     """The steps of which nothing can be told, and those missing, and the results; nothing where there are none."""
     told = []
-    if unsure := lacking(judgement, UNSURE):
+    if unsure := step_numbers(judgement, UNSURE):
         told.append(said("Unclear steps, to be looked at: {0}.", unsure))
-    if missing := lacking(judgement, MISSING):
+    if missing := step_numbers(judgement, MISSING):
         told.append(arrange("{0:capital}: {1}.", STATES[MISSING](), missing))
     if absent := not_handed_in(judgement):
         told.append(said("Results that are not handed in: {0}.", join(absent)))
@@ -133,7 +133,7 @@ def look_at(judgement: Judgement) -> list[Said]:
 
 def not_handed_in(judgement: Judgement) -> list[Said]:
     """The results that were asked for, and are neither drawn nor in a table."""
-    absent = (result for result in results(judgement) if result.state == MISSING)
+    absent = (result for result in asked_results(judgement) if result.state == MISSING)
     return [result_named(judgement, result.kind, result.of) for result in absent]
 
 
@@ -144,7 +144,8 @@ def wrong_numbers(judgement: Judgement) -> list[NumberVerdict]:
 
 def complaint(judgement: Judgement, verdict: Verdict) -> Said:
     """What is wrong with a step: where, what was probably done, how far off it is, and how far it may be."""
-    return arrange("{0:capital}: {1}", named(judgement.drawing.drawn, verdict.at_fault), remark(judgement, verdict))
+    return arrange("{0:capital}: {1}", step_words(judgement.drawing.drawn, verdict.at_fault),
+                   remark(judgement, verdict))
 
 
 def remark(judgement: Judgement, verdict: Verdict) -> Said:
@@ -157,13 +158,13 @@ def remark(judgement: Judgement, verdict: Verdict) -> Said:
         return sizes
     if verdict.at_fault == verdict.step:
         return join((verdict.mistake, sizes))
-    return said("{0}, seen at {1}: {2}", verdict.mistake, named(judgement.drawing.drawn, verdict.step), sizes)
+    return said("{0}, seen at {1}: {2}", verdict.mistake, step_words(judgement.drawing.drawn, verdict.step), sizes)
 
 
-def lacking(judgement: Judgement, state: str = MISSING) -> str:
+def step_numbers(judgement: Judgement, state: str = MISSING) -> str:
     """The numbers of the steps of a state, as `3, 7-9`."""
     drawn = judgement.drawing.drawn
-    numbers = [drawn.number(verdict.step) for verdict in judgement.judged if verdict.state == state]
+    numbers = [drawn.number(verdict.step) for verdict in judgement.counting_verdicts if verdict.state == state]
     parts: list[list[int]] = []
     for number in numbers:
         if parts and parts[-1][-1] == number - 1:
@@ -178,7 +179,7 @@ def result_named(judgement: Judgement, kind: str, of: str) -> Said:
     return join((WORDS.get(kind, kind), reactions_named(judgement.drawing.scene).get(of, of)), " ")
 
 
-def miss(judgement: Judgement, verdict: NumberVerdict) -> Said:
+def wrong_number(judgement: Judgement, verdict: NumberVerdict) -> Said:
     """What is wrong with a number: by how much, in the scene's units, and what was probably done."""
     sizes = digits(verdict.off, FIGURES), digits(verdict.tolerance, FIGURES)
     what = result_named(judgement, verdict.number.kind, verdict.number.of)
@@ -186,76 +187,78 @@ def miss(judgement: Judgement, verdict: NumberVerdict) -> Said:
     return said("Wrong result: {0}.", join(parts if verdict.mistake is None else [*parts, verdict.mistake]))
 
 
-def twice(judgement: Judgement, verdict: NumberVerdict) -> Said:
+def repeated_number(judgement: Judgement, verdict: NumberVerdict) -> Said:
     """That a result is written down more than once, and what counts."""
-    number, others = verdict.number, join(map(written, verdict.again))
+    number, others = verdict.number, join(map(number_words, verdict.again))
     return said("{0} is written down twice: {1} counts, not {2}.", result_named(judgement, number.kind, number.of),
-                written(number), others)
+                number_words(number), others)
 
 
-def record(judgement: Judgement, score: Score) -> dict[str, Any]:
+def judgement_record(judgement: Judgement, score: Score) -> dict[str, Any]:
     """Everything that was judged, step by step and number by number; lengths are mm of paper."""
-    first = judgement.first
+    first = judgement.first_wrong
     return {
         "title": judgement.drawing.scene.title,
         "drawing": judgement.name,
         "reading": str(judgement.reading),
         "pencil": None if judgement.pencil is None else judgement.pencil.record,
-        "first_wrong": None if first is None else _complaint(judgement, first),
-        "steps": [_step(judgement, verdict) for verdict in judgement.verdicts],
-        "numbers": [_number(verdict) for verdict in judgement.numbers],
+        "first_wrong": None if first is None else _complaint_record(judgement, first),
+        "steps": [_step_record(judgement, verdict) for verdict in judgement.verdicts],
+        "numbers": [_number_record(verdict) for verdict in judgement.numbers],
         "not_asked": [{"kind": number.kind, "of": number.of} for number in judgement.unasked],
         "left_out": list(judgement.left_out),
         "not_needed": len(judgement.spare),
-        "results": [{"kind": result.kind, "of": result.of, "verdict": result.state} for result in results(judgement)],
-        "blank": judgement.blank,
+        "results": [{"kind": result.kind, "of": result.of, "verdict": result.state}
+                    for result in asked_results(judgement)],
+        "blank": judgement.is_blank,
         "score": {"total": score.total, **score.groups},
         "costs": dict(score.costs),
         "counts": judgement.counts,
     }
 
 
-def _step(judgement: Judgement, verdict: Verdict) -> dict[str, Any]:
+def _step_record(judgement: Judgement, verdict: Verdict) -> dict[str, Any]:
     """One step, with how far off it is where it can be seen."""
-    sizes = {f"{size}_mm": _finite(getattr(verdict, size)) if judgement.measured(verdict) else None
+    sizes = {f"{size}_mm": _finite_or_none(getattr(verdict, size)) if judgement.is_measured(verdict) else None
              for size in ("off", "tolerance", "astray")}
-    return {**_mark(judgement, verdict.step), "verdict": verdict.state,
-            "confidence": round(verdict.confidence, 3), **sizes, "mistake": _told(verdict)}
+    return {**_mark_record(judgement, verdict.step), "verdict": verdict.state,
+            "confidence": round(verdict.confidence, 3), **sizes, "mistake": _mistake_text(verdict)}
 
 
-def _mark(judgement: Judgement, index: int) -> dict[str, Any]:
+def _mark_record(judgement: Judgement, index: int) -> dict[str, Any]:
     """A step by its number and its mark."""
-    name = called(judgement.drawing.drawn, index)
+    name = step_name(judgement.drawing.drawn, index)
     return {"step": name.number, "mark": name.mark}
 
 
-def _complaint(judgement: Judgement, verdict: Verdict) -> dict[str, Any]:
+def _complaint_record(judgement: Judgement, verdict: Verdict) -> dict[str, Any]:
     """The first wrong step, and the one that shows it: a later one where it is not to be seen itself."""
-    guilty = _mark(judgement, verdict.at_fault)
+    guilty = _mark_record(judgement, verdict.at_fault)
     return {
         **guilty, "sentence": str(judgement.drawing.drawn.sentence(verdict.at_fault)),
-        "off_mm": _finite(verdict.off), "tolerance_mm": _finite(verdict.tolerance), "mistake": _told(verdict),
+        "off_mm": _finite_or_none(verdict.off), "tolerance_mm": _finite_or_none(verdict.tolerance),
+        "mistake": _mistake_text(verdict),
         "kind": verdict.kind or None, "confidence": round(verdict.confidence, 3), "guilty": guilty,
-        "seen": _mark(judgement, verdict.step),
+        "seen": _mark_record(judgement, verdict.step),
     }  # fmt: skip
 
 
-def _number(verdict: NumberVerdict) -> dict[str, Any]:
+def _number_record(verdict: NumberVerdict) -> dict[str, Any]:
     """One number of the table, beside the true one, in the scene's units."""
     number = verdict.number
     return {
         "kind": number.kind, "of": number.of, "value": list(number.value), "unit": number.unit,
-        "verdict": verdict.state, "true": list(verdict.true), "off": _finite(verdict.off),
-        "tolerance": _finite(verdict.tolerance), "mistake": _told(verdict),
+        "verdict": verdict.state, "true": list(verdict.true), "off": _finite_or_none(verdict.off),
+        "tolerance": _finite_or_none(verdict.tolerance), "mistake": _mistake_text(verdict),
         "again": [{"value": list(other.value), "unit": other.unit} for other in verdict.again],
     }  # fmt: skip
 
 
-def _told(verdict: Verdict | NumberVerdict) -> str | None:
+def _mistake_text(verdict: Verdict | NumberVerdict) -> str | None:
     return None if verdict.mistake is None else str(verdict.mistake)
 
 
-def _finite(size: float) -> float | None:
+def _finite_or_none(size: float) -> float | None:
     """A size as JSON takes it: what cannot be drawn from the student's marks is off by nothing that could be told."""
     return size if math.isfinite(size) else None
 
@@ -281,10 +284,10 @@ class Remarks(SheetWords):
 
     def _verdict(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:
         yield from self.paragraph(judgement.name, wide)
-        for line in read_as(judgement):
+        for line in reading_lines(judgement):
             yield from self.paragraph(line, wide)
         yield from self.paragraph(opinion(judgement), wide)
-        for line in summary(judgement):
+        for line in summary_lines(judgement):
             yield from self.paragraph(line, wide)
 
     def _legend(self, wide: float) -> Iterator[TextRow]:
@@ -311,35 +314,35 @@ class Remarks(SheetWords):
         yield self._heading(said("Results"))
         table = [[self._runs(text) for text in ("", said("handed in"), said("true"), OFF(), ALLOWED())]]
         for one in judgement.numbers:
-            cells = written(one.number), figures(one.true), figures((one.off,)), figures((one.tolerance,))
+            cells = number_words(one.number), *map(number_text, (one.true, (one.off,), (one.tolerance,)))
             what = result_named(judgement, one.number.kind, one.number.of)
             table.append([self._runs(what), *map(self._runs, cells)])
         yield from table_rows(table)
         for one in judgement.numbers:
             if one.state == WRONG:
-                yield from self.paragraph(miss(judgement, one), wide)
+                yield from self.paragraph(wrong_number(judgement, one), wide)
 
     def _wrong(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:
         """The wrong steps one by one, and the numbers of those that are missing or not to be seen."""
         drawn = judgement.drawing.drawn
-        wrong = [verdict for verdict in judgement.judged if verdict.state == WRONG]
+        wrong = [verdict for verdict in judgement.counting_verdicts if verdict.state == WRONG]
         if wrong:
             yield self._heading(said("Wrong steps"))
         for verdict in wrong:
             sentence = arrange("{0} {1:capital}.", drawn.sentence(verdict.at_fault), remark(judgement, verdict))
-            yield from self.paragraph(sentence, wide, verdict.step, called(drawn, verdict.at_fault).short)
-        for told in look_at(judgement):
+            yield from self.paragraph(sentence, wide, verdict.step, step_name(drawn, verdict.at_fault).short)
+        for told in look_at_lines(judgement):
             yield from self.paragraph(told, wide)
 
     def _runs(self, text: str) -> Runs:
         return sentence_runs(self.plans.tongue(text), self.names)
 
 
-def written(number: Number) -> Said:
+def number_words(number: StudentNumber) -> Said:
     """A number as it was handed in, with its unit."""
-    return join((figures(number.value), *map(unit, filter(None, [number.unit]))), " ")
+    return join((number_text(number.value), *map(unit, filter(None, [number.unit]))), " ")
 
 
-def figures(numbers: Sequence[float]) -> Said:
+def number_text(numbers: Sequence[float]) -> Said:
     """A number, or the components of a vector, as they are told."""
     return digits(numbers[0]) if len(numbers) == 1 else coordinates(numbers)

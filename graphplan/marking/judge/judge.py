@@ -17,22 +17,20 @@ from graphplan.accuracy.preference import Constructing
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.conventions import Proposer, orphans, seen_right_way
-from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained, wobbly
-from graphplan.marking.judge.exchanged import exchanged, told
-from graphplan.marking.judge.labels import labelled, sure
-from graphplan.marking.judge.lettering import lettered
+from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
+from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained_traces, with_wobble
+from graphplan.marking.judge.labels import is_sure, labelled_steps
+from graphplan.marking.judge.lettering import name_marks
 from graphplan.marking.judge.matching import Match, Matching
-from graphplan.marking.judge.readings import Reading
-from graphplan.marking.judge.register import Register
+from graphplan.marking.judge.numbers import judge_numbers
+from graphplan.marking.judge.readings import SheetReading, to_mm
+from graphplan.marking.judge.register import FrameFinder
 from graphplan.marking.judge.search import Search
-from graphplan.marking.judge.seen_pencil import as_measured, assumed, blurred, seen_pencil
+from graphplan.marking.judge.seen_pencil import assumed_pencil, blur_marks, seen_pencil, with_measured_points
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
-from graphplan.marking.judge.units import in_mm
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, WRONG, Judgement
-from graphplan.marking.judge.verdicts import judged, verdicts
-from graphplan.marking.spelling import mark
-from graphplan.marking.traces import PlanFrame, Submission, Trace
+from graphplan.marking.judge.verdicts import exchanged_pairs, verdicts, with_exchanged
+from graphplan.marking.traces import PlanFrame, Submission, Trace, mark_name
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
@@ -46,41 +44,42 @@ def judge(drawing: Construction, composition: Composition, submission: Submissio
 
     Fails with `Refused` where the mechanism is not to be found on it, or a size of an error is 0.
     """
-    submission, unit = in_mm(drawing, composition, submission, pencil)
-    return Judge(Reading(drawing, composition, submission, unit), assumed(pencil, submission)).steadied.judgement
+    submission, unit = to_mm(drawing, composition, submission, pencil)
+    return Judge(SheetReading(drawing, composition, submission, unit),
+                 assumed_pencil(pencil, submission)).with_seen_pencil.judgement
 
 
 class Judge:
     """One reading of a drawing, judged by its construction."""
 
-    def __init__(self, reading: Reading, hand: SeenPencil):
+    def __init__(self, reading: SheetReading, hand: SeenPencil):
         self.hand, pencil = hand, hand.pencil
         if not all(size > 0 for size in pencil.model.values()):
             raise Refused(f"--pencil {pencil.description}", "a size is 0", "give sizes greater than 0")
         self.reading, self.drawing, self.pencil = reading, reading.drawing, pencil
-        self.named = lettered(self.drawing, reading.task, reading.submission, pencil)
-        self.submission = blurred(self.named, hand)
+        self.named = name_marks(self.drawing, reading.task, reading.submission, pencil)
+        self.submission = blur_marks(self.named, hand)
         plan_of_step = StudentSheet(self.drawing, {}, pencil).plan_of_step
         self.sought: dict[tuple[Any, ...], Trace | None] = {}  # what was found in a picture by seeking it
         traces = self.submission.traces
-        self.traces = [wobbly(trace) for trace in traces] if self.submission.page else list(traces)
-        self.labels = labelled(self.drawing.drawn, plan_of_step, traces)
-        self.orphans = orphans(self.drawing, self.submission)
-        taken = {*self.orphans, *(place for place in self.labels.values() if sure(traces[place]))}
+        self.traces = [with_wobble(trace) for trace in traces] if self.submission.page else list(traces)
+        self.labels = labelled_steps(self.drawing.drawn, plan_of_step, traces)
+        self.orphaned_marks = find_orphans(self.drawing, self.submission)
+        taken = {*self.orphaned_marks, *(place for place in self.labels.values() if is_sure(traces[place]))}
         self.unlabelled = [place for place, trace in enumerate(traces) if place not in taken and not (
             self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < measures.MIN_PICTURE_LINE_MM)]
 
     @cached_property
     def fits(self) -> dict[str, Fit]:
         """Where every plan lies."""
-        return self._frames()
+        return self._find_frames()
 
     @cached_property
     def likeliest(self) -> Matching:
         """The way through in the frames that fit best, with the mistakes that make it likelier, letters that marks have
         of each other being put right."""
         matching = self.matching(self.fits, measures.MAX_MISTAKES)
-        self._exchanged = list(exchanged(matching))
+        self._exchanged = list(exchanged_pairs(matching))
         if self._exchanged:
             self.labels |= {step: self.labels[other] for pair in self._exchanged
                             for step, other in (pair, pair[::-1])}
@@ -88,7 +87,7 @@ class Judge:
         return matching
 
     @property
-    def steadied(self) -> Judge:
+    def with_seen_pencil(self) -> Judge:
         """The same reading, judged by the pencil that the drawing shows: pictures' traces have their own blur, and what
         a program draws is finer than any pencil."""
         if self.submission.page:
@@ -104,24 +103,25 @@ class Judge:
         needed = matching.used | matching.over
         spare = [trace for place, trace in enumerate(self.submission.traces) if place not in needed]
         if self.submission.page:
-            spare = unexplained(spare, [matching.traces[place] for place in needed])
-        numbers, unasked = judged(matching, self.submission.numbers)
-        found = told(verdicts(matching, numbers), self._exchanged, matching)
+            spare = unexplained_traces(spare, [matching.traces[place] for place in needed])
+        numbers, unasked = judge_numbers(matching, self.submission.numbers)
+        found = with_exchanged(verdicts(matching, numbers), self._exchanged, matching)
         return Judgement(
             self.submission.name, self.drawing, self.reading.composition,
             {panel: fit.frame for panel, fit in self.fits.items()}, tuple(found), tuple(spare), numbers,
-            join(self._told()), self.hand if self.hand.marks else None, unasked, self.submission.left_out)
+            join(self._reading_words()), self.hand if self.hand.marks else None, unasked, self.submission.left_out)
 
     @property
-    def lacks(self) -> bool:
+    def has_faults(self) -> bool:
         """Whether something is wrong or missing, or cannot be judged."""
-        return bool(self.orphans) or any(verdict.state in (WRONG, MISSING) for verdict in self.judgement.verdicts)
+        return bool(self.orphaned_marks) or any(verdict.state in (WRONG, MISSING)
+                                                for verdict in self.judgement.verdicts)
 
     @property
-    def unexplained(self) -> bool:
+    def needs_other_readings(self) -> bool:
         """Whether more than a single wrong mark speaks against the construction."""
         states = Counter(verdict.state for verdict in self.judgement.verdicts)
-        return self.lacks and bool(states[MISSING] or self.judgement.spare or states[WRONG] > 1)
+        return self.has_faults and bool(states[MISSING] or self.judgement.spare or states[WRONG] > 1)
 
     @property
     def weight(self) -> float:
@@ -130,13 +130,13 @@ class Judge:
         wrong = [verdict.kind for verdict in found.verdicts if verdict.state == WRONG]
         numbers = sum(measures.NUMBER_ODDS if number.state != WRONG else -measures.NUMBER_ODDS
                       for number in found.numbers)
-        strange = sum(trace.kind == POINT and bool(mark(trace.label)) for trace in found.spare)
-        return (self._prior + likelihood(self.likeliest) + numbers + measures.TORN_ODDS * torn(self.likeliest)
+        strange = sum(trace.kind == POINT and bool(mark_name(trace.label)) for trace in found.spare)
+        return (self._prior + likelihood(self.likeliest) + numbers + measures.TORN_ODDS * is_torn(self.likeliest)
                 + measures.STRANGE_LETTER_ODDS * strange
                 + sum(measures.KNOWN_MISTAKE_ODDS if kind else measures.UNNAMED_MISTAKE_ODDS for kind in wrong))
 
     @property
-    def glance(self) -> float:
+    def quick_weight(self) -> float:
         """What may speak for it, as far as that is seen without looking for mistakes: every wrong mark may be one."""
         matching = self.matching(self.fits)
         wrong = sum(match.state == WRONG for match in matching.matches)
@@ -153,14 +153,14 @@ class Judge:
         return self.reading.prior + measures.OWN_FRAME_ODDS * (len(free) + turned)
 
     @cached_property
-    def hidden(self) -> set[int]:
+    def hidden_steps(self) -> set[int]:
         """The steps that the task's own sheet does not show; another construction is not laid out for it."""
         task = self.reading.task
         return {drawn.index for plate in task.plates
                 for drawn in plate.hidden_marks} if self.drawing is task.plans.drawing \
             else set()
 
-    def _told(self) -> Iterator[Said]:
+    def _reading_words(self) -> Iterator[Said]:
         """How the drawing was interpreted, and its scale."""
         yield from self.reading.told
         if self.reading.scaled:
@@ -170,59 +170,59 @@ class Judge:
 
     # ---- frames ----------------------------------------------------------------------------------------------------
 
-    def _frames(self) -> dict[str, Fit]:
+    def _find_frames(self) -> dict[str, Fit]:
         """Where every plan lies, plan by plan: as on the task's sheet, unless another frame explains more."""
         if not self.submission.traces:  # numbers alone: as on the task's sheet
             return {panel: Fit(PlanFrame(complex(*view.origin), view.scale))
                     for panel, view in self.reading.composition.views.items()}
         seen = replace(self.reading, submission=self.submission)
-        register = Register(seen, as_measured(self.pencil, self.submission), self.labels)
+        register = FrameFinder(seen, with_measured_points(self.pencil, self.submission), self.labels)
         if self.submission.frames.keys() >= set(register.panels):
             return {panel: Fit(self.submission.frames[panel]) for panel in register.panels}
         mechanism = register.mechanism()
         if self.unlabelled:
-            register.follow(self._alone(mechanism, register.panels))
-        expected = {panel: register.expected(panel, mechanism) for panel in register.panels[1:]}
+            register.expect_after(self._match_mechanism(mechanism, register.panels))
+        expected = {panel: register.expected_fits(panel, mechanism) for panel in register.panels[1:]}
         fits = {MECHANISM: mechanism} | {panel: found[0] for panel, found in expected.items()}
         for panel, found in expected.items():
             if len(found) > 1:
-                fits[panel] = self._likeliest(fits, panel, found)
-        if begun := register.begins(fits):
-            self._label(begun)
-            fits |= {panel: register.expected(panel, mechanism)[0] for panel in register.panels[1:]}
-        return self._relaid(fits, register)
+                fits[panel] = self._likeliest_fit(fits, panel, found)
+        if begun := register.find_origins(fits):
+            self._take_labels(begun)
+            fits |= {panel: register.expected_fits(panel, mechanism)[0] for panel in register.panels[1:]}
+        return self._with_rivals(fits, register)
 
-    def _relaid(self, fits: dict[str, Fit], register: Register) -> dict[str, Fit]:
+    def _with_rivals(self, fits: dict[str, Fit], register: FrameFinder) -> dict[str, Fit]:
         """The frames of the plans whose steps are wrong in the expected ones, as rivals have it that explain them."""
-        plan_of_step, start = register.plan_of_step, self._start(fits)
+        plan_of_step, start = register.plan_of_step, self._start_matching(fits)
         known = self.submission.frames.keys() | self.reading.fits.keys()
         for panel in [panel for panel in register.panels[1:] if panel not in known]:
             end = len(plan_of_step) - plan_of_step[::-1].index(panel)
-            start = start.fork(self._start(fits)).until(plan_of_step.index(panel))
-            matching = start.fork().until(end)
-            wrong, best = float(_wrong(matching, panel)), fits[panel]
-            for fit, weight in register.rivals(panel, matching) if wrong else ():
-                other = start.fork(self._start({**fits, panel: fit})).until(end)
-                if _wrong(other, panel) + weight < wrong:
-                    wrong, best = _wrong(other, panel) + weight, fit
+            start = start.fork(self._start_matching(fits)).match_until(plan_of_step.index(panel))
+            matching = start.fork().match_until(end)
+            wrong, best = float(_count_wrong(matching, panel)), fits[panel]
+            for fit, weight in register.rival_fits(panel, matching) if wrong else ():
+                other = start.fork(self._start_matching({**fits, panel: fit})).match_until(end)
+                if _count_wrong(other, panel) + weight < wrong:
+                    wrong, best = _count_wrong(other, panel) + weight, fit
             fits[panel] = best
         return fits
 
-    def _likeliest(self, fits: Mapping[str, Fit], panel: str, found: Sequence[Fit]) -> Fit:
+    def _likeliest_fit(self, fits: Mapping[str, Fit], panel: str, found: Sequence[Fit]) -> Fit:
         """The frame of a plan in which a drawing is likeliest, with the likeliest mistakes if it needs any."""
         ways = [(self.matching({**fits, panel: fit}), fit) for fit in found]
         ways.sort(key=lambda way: -way[0].weight)
-        if sum(min(match.weight, 0.0) for match in _on(ways[0][0], panel)) > measures.MIN_PLAN_ODDS:
+        if sum(min(match.weight, 0.0) for match in _matches_on(ways[0][0], panel)) > measures.MIN_PLAN_ODDS:
             return ways[0][1]
         return max((fit for _, fit in ways[:measures.FRAMES_LOOKED_AT]),
                    key=lambda fit: self.matching({**fits, panel: fit}, 1).weight)
 
-    def _alone(self, mechanism: Fit, panels: Sequence[str]) -> Matching:
+    def _match_mechanism(self, mechanism: Fit, panels: Sequence[str]) -> Matching:
         """The way through with the mechanism alone; the other plans are as good as nowhere."""
         nowhere = Fit(PlanFrame(complex(measures.NOWHERE_MM), 1.0))
         return self.matching({panel: mechanism if panel == MECHANISM else nowhere for panel in panels})
 
-    def _label(self, found: Mapping[int, int]) -> None:
+    def _take_labels(self, found: Mapping[int, int]) -> None:
         """Take loose traces for what they were found to be."""
         self.labels |= found
         self.unlabelled = [place for place in self.unlabelled if place not in found.values()]
@@ -231,29 +231,29 @@ class Judge:
 
     def matching(self, fits: Mapping[str, Fit], mistakes: int = 0) -> Matching:
         """The way through the construction, with the mistakes, not more than so many, that make it likelier."""
-        matching = self._start(fits)
+        matching = self._start_matching(fits)
         search = Search(matching.fork())
-        found = search.found(mistakes) if mistakes and self.unlabelled else {}
+        found = search.find_mistakes(mistakes) if mistakes and self.unlabelled else {}
         matching.odds = search.odds
-        return matching.until(len(matching.steps), found)
+        return matching.match_until(len(matching.steps), found)
 
-    def _start(self, fits: Mapping[str, Fit]) -> Matching:
+    def _start_matching(self, fits: Mapping[str, Fit]) -> Matching:
         """Before the first step, in these frames."""
-        sheet = StudentSheet(self.drawing, fits, self.pencil, self.hidden)
+        sheet = StudentSheet(self.drawing, fits, self.pencil, self.hidden_steps)
         what = sheet, self.submission, self.traces, self.unlabelled
         panels = self.reading.composition.arrangement.panels if self.submission.page else {}
         evidence = ImageSearch(*what, panels, self.sought) if self.submission.page else Evidence(*what)
         return Matching(evidence, self.labels, measures.FALSE_ALARM_CHANCE / max(1, len(self.drawing.drawn)))
 
 
-def _on(matching: Matching, panel: str) -> Iterator[Match]:
+def _matches_on(matching: Matching, panel: str) -> Iterator[Match]:
     """What the steps of a plan were taken for."""
     return (match for match in matching.matches if matching.sheet.plan_of_step[match.step.index] == panel)
 
 
-def _wrong(matching: Matching, panel: str) -> int:
+def _count_wrong(matching: Matching, panel: str) -> int:
     """How many steps of a plan are wrong on the way through."""
-    return sum(match.state == WRONG for match in _on(matching, panel))
+    return sum(match.state == WRONG for match in _matches_on(matching, panel))
 
 
 def likelihood(matching: Matching) -> float:
@@ -272,7 +272,7 @@ def likelihood(matching: Matching) -> float:
     return found - sum(measures.MISSED_MARK_COST * (1 + math.log(count)) for count in left_out.values())
 
 
-def torn(matching: Matching) -> bool:
+def is_torn(matching: Matching) -> bool:
     """Whether some marks follow from a wrong one, and others from where that should be: nobody draws from both."""
     rest: set[int] = set()
     for match in matching.matches:
@@ -289,26 +289,27 @@ def judge_any_method(drawing: Construction, composition: Composition, submission
     Other readings are thought of only where a mark is wrong or missing: velocities of another scale or sense, and
     unless `plan` names one, other plans; other forms of each. Fails as :func:`judge` does.
     """
-    best = first = Judge(seen_right_way(drawing, composition, submission, pencil), assumed(pencil, submission)).steadied
-    if best.lacks:
+    best = first = Judge(unmirror(drawing, composition, submission, pencil),
+                         assumed_pencil(pencil, submission)).with_seen_pencil
+    if best.has_faults:
         seen = replace(best.named, letters=())
         proposer = Proposer(best.reading, seen, best.fits[MECHANISM].frame, pencil, plan, inertia, construct)
-        if best.orphans and (own := proposer.with_all_ends()):
+        if best.orphaned_marks and (own := proposer.with_all_ends()):
             best = Judge(own, best.hand)
-        task, best = best, _likelier(best, proposer.proposed())
-        if best.unexplained:
+        task, best = best, _likelier_judge(best, proposer.readings())
+        if best.needs_other_readings:
             readings = [best.reading] if best is task else [best.reading, task.reading]
-            best = _likelier(best, (form for reading in readings for form in proposer.forms(reading)))
-    return (best if best is first else best.steadied).judgement
+            best = _likelier_judge(best, (form for reading in readings for form in proposer.other_forms(reading)))
+    return (best if best is first else best.with_seen_pencil).judgement
 
 
-def _likelier(best: Judge, readings: Iterable[Reading]) -> Judge:
+def _likelier_judge(best: Judge, readings: Iterable[SheetReading]) -> Judge:
     """The likeliest of some readings; only those that promise something at a glance are looked at closely."""
     others: list[tuple[float, int, Judge]] = []
     for reading in readings:
         with suppress(Refused):
             other = Judge(reading, best.hand)
-            others.append((other.glance, len(others), other))
+            others.append((other.quick_weight, len(others), other))
     for glance, _, other in sorted(others, reverse=True, key=lambda one: one[:2])[:measures.READINGS_LOOKED_AT]:
         if glance + measures.CLOSER_LOOK_ODDS > best.weight and other.weight > best.weight:
             best = other

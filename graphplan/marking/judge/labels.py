@@ -1,23 +1,30 @@
-"""Which step a label on a student's sheet speaks of: the letters of the sheet, or the number of the step."""
+"""Letters and marks: which step a label speaks of, which letters and marks belong together at the least cost, and where
+strokes cross or end near letters, so that a mark may be meant that has no dot.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import cmath
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
 
-from graphplan.kernel.kinds import POINT, Movement
+from shapely import Polygon, STRtree
+
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.program import Program
+from graphplan.marking.files.drawing import circle_through
 from graphplan.marking.judge import measures
-from graphplan.marking.spelling import spelled
-from graphplan.marking.traces import Trace
+from graphplan.marking.traces import Trace, spell
 from graphplan.phrases import Said
 
 
-def labelled(program: Program, plan_of_step: Sequence[str], traces: Sequence[Trace]) -> dict[int, int]:
+def labelled_steps(program: Program, plan_of_step: Sequence[str], traces: Sequence[Trace]) -> dict[int, int]:
     """For each step that a trace is labelled as, the place of that trace; of several that which says it best, or first.
 
     A number beside a line may be that of a link, or of the line next to it: unless the plan is named it tells nothing.
     """
-    names, found, told = Names(program, plan_of_step), dict[int, int](), set[int]()
+    names, found, told = LabelTable(program, plan_of_step), dict[int, int](), set[int]()
     for loosely in range(measures.MAX_LOOSENESS + 1):
         for place, trace in enumerate(traces):
             numbered = trace.kind != POINT and not trace.panel and trace.label.isdigit()
@@ -27,32 +34,32 @@ def labelled(program: Program, plan_of_step: Sequence[str], traces: Sequence[Tra
     return found
 
 
-def sure(trace: Trace) -> bool:
+def is_sure(trace: Trace) -> bool:
     """Whether a label is certainly that of its trace: beside a mark of a drawing may stand the letter of another."""
     return bool(trace.panel) or (trace.kind == POINT and not trace.beside)
 
 
-class Names:
+class LabelTable:
     """What the marks of a construction may be called."""
 
     def __init__(self, program: Program, plan_of_step: Sequence[str]):
-        self._steps = _names(program, plan_of_step)
+        self._steps = _label_table(program, plan_of_step)
 
     def step(self, kind: str, panel: str, label: str, loosely: int) -> int | None:
         """The step that makes a thing of this kind and label, by the label as it stands, or more loosely read: without
         the subscript's mark, and in small letters."""
-        read = spelled(label.replace(" ", ""))
+        read = spell(label.replace(" ", ""))
         text = (read, read.replace("_", ""), read.replace("_", "").casefold())[loosely]
         return self._steps.get((kind, panel, text), self._steps.get((kind, "", text)))
 
 
-def _names(program: Program, plan_of_step: Sequence[str]) -> dict[tuple[str, str, str], int]:
+def _label_table(program: Program, plan_of_step: Sequence[str]) -> dict[tuple[str, str, str], int]:
     """All that a mark may be called, by its kind and plan or on any plan: what is clearer comes first."""
     found: dict[tuple[str, str, str], int] = {}
     loosely: dict[tuple[str, str, str], set[int]] = {}
     for step in program.steps:
         kind, text = step.op.gives, program.text(step.index)
-        letters = [spelled(step.name), "" if isinstance(text, Said) else spelled(text)]
+        letters = [spell(step.name), "" if isinstance(text, Said) else spell(text)]
         number = str(program.number(step.index))
         for panel in (plan_of_step[step.index], ""):
             for letter in filter(None, letters):
@@ -65,3 +72,149 @@ def _names(program: Program, plan_of_step: Sequence[str]) -> dict[tuple[str, str
         if len(steps) == 1:  # what may be said of two is said of neither
             found.setdefault(spelling, *steps)
     return found
+
+
+# ---- pairing --------------------------------------------------------------------------------------------------------
+
+
+Costs = Mapping[int, float]  # of a letter's candidates
+
+
+def assign_labels(wishes: Sequence[Costs], nothing: float, shared: float) -> list[int | None]:
+    """The candidate of each letter, None where none is worth it, so that all together cost least: `nothing` is the
+    cost of a letter that names no candidate, `shared` that of a candidate's second letter, of its third twice as much.
+    """
+    found: list[int | None] = [None] * len(wishes)
+    for crowd in _letter_crowds(wishes):
+        if len(crowd) > measures.MAX_CROWD:
+            for letter in crowd:
+                best = min(wishes[letter], key=wishes[letter].__getitem__)
+                found[letter] = best if wishes[letter][best] < nothing else None
+            continue
+        named = sorted({one for letter in crowd for one in wishes[letter]})
+        copies = min(3, len(crowd))
+        table = [[wishes[letter].get(one, math.inf) + shared * copy for copy in range(copies) for one in named]
+                 + [nothing] * len(crowd) for letter in crowd]
+        for letter, column in zip(crowd, cheapest_columns(table), strict=True):
+            found[letter] = named[column % len(named)] if column < copies * len(named) else None
+    return found
+
+
+def _letter_crowds(wishes: Sequence[Costs]) -> Iterator[list[int]]:
+    """The letters that have candidates, in groups that share none with each other."""
+    group = list(range(len(wishes)))
+
+    def root(letter: int) -> int:
+        while group[letter] != letter:
+            group[letter] = letter = group[group[letter]]
+        return letter
+
+    first: dict[int, int] = {}
+    for letter, costs in enumerate(wishes):
+        for one in costs:
+            group[root(letter)] = root(first.setdefault(one, letter))
+    crowds: dict[int, list[int]] = {}
+    for letter, costs in enumerate(wishes):
+        if costs:
+            crowds.setdefault(root(letter), []).append(letter)
+    yield from crowds.values()
+
+
+def cheapest_columns(table: Sequence[Sequence[float]]) -> list[int]:
+    """The column of each row, no two the same, at the least sum: by shortest augmenting paths (Jonker and Volgenant,
+    Computing 38, 1987). There are at least as many columns as rows, and some way of finite cost."""
+    rows, columns = len(table), len(table[0]) if table else 0
+    price, spare = [0.0] * columns, [0.0] * rows  # of the dual problem
+    holder: list[int] = [-1] * columns
+    for row in range(rows):
+        least, before = [math.inf] * columns, [-1] * columns
+        done = [False] * columns
+        here, column, far = row, -1, 0.0
+        while True:
+            for other in range(columns):
+                if not done[other]:
+                    length = far + table[here][other] - spare[here] - price[other]
+                    if length < least[other]:
+                        least[other], before[other] = length, column
+            column = min((other for other in range(columns) if not done[other]), key=least.__getitem__)
+            far, done[column] = least[column], True
+            if holder[column] < 0:
+                break
+            here = holder[column]
+        spare[row] += far
+        for other in range(columns):
+            if done[other] and other != column:
+                spare[holder[other]] += far - least[other]
+                price[other] -= far - least[other]
+        while column >= 0:
+            last = before[column]
+            holder[column] = holder[last] if last >= 0 else row
+            column = last
+    found = [-1] * rows
+    for column, row in enumerate(holder):
+        if row >= 0:
+            found[row] = column
+    return found
+
+
+# ---- crossings ------------------------------------------------------------------------------------------------------
+
+
+def stroke_meetings(box: Polygon, reach: float, traces: Sequence[Trace], figures: STRtree) -> tuple[list[Trace],
+                                                                                                    list[Trace]]:
+    """Points where strokes cross about a box of letters, as sure as these are drawn; and where lines end."""
+    strokes = [traces[place] for place in figures.query(box, "dwithin", reach)
+               if traces[place].kind != POINT][:measures.STROKES_NEAR_LETTER]
+    left, bottom, right, top = box.bounds
+
+    def near(z: complex) -> bool:
+        return math.hypot(max(left - z.real, 0.0, z.real - right), max(bottom - z.imag, 0.0, z.imag - top)) < reach
+
+    found: list[complex] = []
+    crossed, ends = list[Trace](), list[Trace]()
+    for one, other in combinations(strokes, 2):
+        for z, sine in _stroke_crossings(one, other):
+            if near(z) and all(abs(z - before) > measures.SAME_CROSSING_MM for before in found):
+                found.append(z)
+                crossed.append(Trace(POINT, ((z.real, z.imag),), blur=measures.CROSSING_BLUR_MM / sine, crossed=True))
+    for z in (complex(*spot) for one in strokes if one.kind == LINE for spot in one.spots):
+        if near(z) and all(abs(z - before) > measures.SAME_CROSSING_MM for before in found):
+            found.append(z)
+            ends.append(Trace(POINT, ((z.real, z.imag),), crossed=True))
+    return crossed, ends
+
+
+def _stroke_crossings(one: Trace, other: Trace) -> Iterator[tuple[complex, float]]:
+    """Where two strokes, lines as long as they are drawn, cross, and the sine of the angle."""
+    if one.kind == other.kind == LINE:
+        a, b, c, d = (complex(*spot) for spot in (*one.spots, *other.spots))
+        u, v = b - a, d - c
+        sine = (u.conjugate() * v).imag
+        if abs(sine) > measures.MIN_CROSSING_SINE * abs(u) * abs(v):
+            s, t = ((c - a).conjugate() * v).imag / sine, ((c - a).conjugate() * u).imag / sine
+            if all(-measures.SAME_CROSSING_MM <= part * abs(way) <= abs(way) + measures.SAME_CROSSING_MM
+                   for part, way in ((s, u), (t, v))):
+                yield a + s * u, abs(sine) / (abs(u) * abs(v))
+    elif CIRCLE in (one.kind, other.kind):
+        line, arc = (one, other) if other.kind == CIRCLE else (other, one)
+        found = circle_through(*arc.spots[:3])
+        if found is None:
+            return
+        centre, radius = complex(*found[0]), found[1]
+        if line.kind == LINE:
+            a, b = (complex(*spot) for spot in line.spots)
+            way = (b - a) / abs(b - a)
+            foot = a + ((centre - a) * way.conjugate()).real * way
+            half = radius**2 - abs(foot - centre) ** 2
+            ends = [foot + sign * math.sqrt(half) * way for sign in (1, -1)] if half > 0 else []
+            sine = max(measures.MIN_CROSSING_SINE, math.sqrt(max(half, 0.0)) / radius)
+            yield from ((z, sine) for z in ends if -measures.SAME_CROSSING_MM <= ((z - a) * way.conjugate()).real
+                        <= abs(b - a) + measures.SAME_CROSSING_MM)
+        elif (second := circle_through(*line.spots[:3])) is not None:
+            apart = complex(*second[0]) - centre
+            if not 0 < abs(radius - second[1]) < abs(apart) < radius + second[1]:
+                return
+            along = (abs(apart) ** 2 + radius**2 - second[1] ** 2) / (2 * abs(apart))
+            turn = math.acos(min(1.0, max(-1.0, along / radius)))
+            sine = max(measures.MIN_CROSSING_SINE, math.sin(turn) * abs(apart) / second[1])
+            yield from ((centre + cmath.rect(radius, cmath.phase(apart) + sign * turn), sine) for sign in (1, -1))

@@ -22,12 +22,9 @@ from shapely import Point, STRtree
 from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.assignment import assigned
-from graphplan.marking.judge.crossings import meetings
-from graphplan.marking.judge.labels import Names, labelled
-from graphplan.marking.judge.student_sheet import apart, plain, sampled
-from graphplan.marking.spelling import lined
-from graphplan.marking.traces import Lettering, PlanFrame, Submission, Trace
+from graphplan.marking.judge.labels import LabelTable, assign_labels, labelled_steps, stroke_meetings
+from graphplan.marking.judge.student_sheet import distance_apart, measured_spots, plain_value
+from graphplan.marking.traces import Lettering, PlanFrame, Submission, Trace, can_name_line
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.composition import Composition
@@ -37,7 +34,7 @@ Wish = dict[int, float]  # what letters may name, and what that costs
 
 
 @dataclass(frozen=True)
-class Lettered:
+class LetteredWord:
     """Letters, and the steps that they may speak of, by the kind of thing that those make."""
 
     word: Lettering
@@ -46,9 +43,9 @@ class Lettered:
     wish: Wish  # by nearness alone
 
 
-def lettered(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil) -> Submission:
+def name_marks(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil) -> Submission:
     """A drawing with its letters at the marks that they name; a thing of several names is several traces."""
-    return Letters(drawing, composition, submission, pencil).told() if submission.letters else submission
+    return Letters(drawing, composition, submission, pencil).named_submission() if submission.letters else submission
 
 
 class Letters:
@@ -64,39 +61,40 @@ class Letters:
         self.traces: Sequence[Trace] = submission.traces
         self.ends: set[int] = set()  # of the traces, those where lines end
         self.alone: dict[int, Lettering] = {}  # and those of which there is nothing but letters
-        names = Names(drawing.drawn, self.plan_of_step)
-        self.sure = labelled(drawing.drawn, self.plan_of_step, self.traces)
-        steps = _spoken(names, [word.names[0] for word in submission.letters if word.names], self.sure)
+        names = LabelTable(drawing.drawn, self.plan_of_step)
+        self.sure = labelled_steps(drawing.drawn, self.plan_of_step, self.traces)
+        steps = _spoken_steps(names, [word.names[0] for word in submission.letters if word.names], self.sure)
         words = [(word, name, steps[name]) for word in submission.letters if word.names and (name := word.names[0])]
-        self._undotted([word for word, _, steps in words if POINT in steps])
-        self.words = [Lettered(word, word.names, steps, self._near(word, name, steps)) for word, name, steps in words]
+        self._add_undotted([word for word, _, steps in words if POINT in steps])
+        self.words = [LetteredWord(word, word.names, steps, self._naming_costs(word, name, steps))
+                      for word, name, steps in words]
 
     # ---- what is near ----------------------------------------------------------------------------------------------
 
     @cached_property
-    def _things(self) -> STRtree:
+    def _figures(self) -> STRtree:
         return STRtree([trace.figure for trace in self.traces])
 
-    def _undotted(self, words: Sequence[Lettering]) -> None:
+    def _add_undotted(self, words: Sequence[Lettering]) -> None:
         """Add where strokes cross about the letters of points, if most of those can have no dot."""
         points = sum(trace.kind == POINT for trace in self.traces)
         if 2 * points < len(words):
-            figures = self._things
-            met = [meetings(word.box, _reach(word), self.submission.traces, figures)
+            figures = self._figures
+            met = [stroke_meetings(word.box, _letter_reach(word), self.submission.traces, figures)
                    for word in words[:measures.MAX_UNDOTTED_LETTERS]]
             crossed, ends = (list(dict.fromkeys(spot for found in met for spot in found[k])) for k in (0, 1))
             self.traces = (*self.traces, *crossed, *ends)
             self.ends.update(range(len(self.traces) - len(ends), len(self.traces)))
             self.alone = dict(enumerate(words, len(self.traces)))
-            self.traces = (*self.traces, *map(_alone, words))
-            del self._things
+            self.traces = (*self.traces, *map(_letters_as_mark, words))
+            del self._figures
 
-    def _near(self, word: Lettering, name: str, steps: Mapping[str, int]) -> Wish:
+    def _naming_costs(self, word: Lettering, name: str, steps: Mapping[str, int]) -> Wish:
         """What letters may name, and what their distance costs: those of points name points, Greek ones lines."""
         box = Point(*word.leads) if word.leads else word.box
-        places = self._things.query(box, "dwithin", measures.LEADER_TIP_MM if word.leads else _reach(word))
-        gaps = shapely.distance(self._things.geometries[places], box)
-        named = LINE in steps or (not steps and lined(name))
+        places = self._figures.query(box, "dwithin", measures.LEADER_TIP_MM if word.leads else _letter_reach(word))
+        gaps = shapely.distance(self._figures.geometries[places], box)
+        named = LINE in steps or (not steps and can_name_line(name))
         nearest = np.argsort(gaps, kind="stable")[:measures.THINGS_NEAR_LETTER]
         found: list[tuple[float, int]] = []
         for gap, place in zip(gaps[nearest].tolist(), places[nearest].tolist(), strict=True):
@@ -123,20 +121,21 @@ class Letters:
             for panel in dict.fromkeys(self.plan_of_step):
                 tied = unit * float(self.multiples.get(panel, 1))
                 if panel not in known and (
-                        found := agreed(self._candidates(panel), (tied,), self.within, abs(tied), not self.ends)):
+                        found := agreed_frame(self._plan_candidates(panel), (tied,), self.within, abs(tied),
+                                              not self.ends)):
                     known[panel] = found
         return known
 
     @cached_property
     def mechanism(self) -> PlanFrame | None:
         """Where the mechanism lies, by its given points or else by all that are lettered."""
-        given = self._candidates(MECHANISM, self.drawing.drawn.givens)
+        given = self._plan_candidates(MECHANISM, self.drawing.drawn.givens)
         # where strokes cross beside two letters, some two always do
         few = self.ends and len(given) < measures.MIN_GIVEN_POINTS
-        return (None if few else agreed(given, (), self.within, self.task)) or agreed(
-            self._candidates(MECHANISM), (), self.within, self.task)
+        return (None if few else agreed_frame(given, (), self.within, self.task)) or agreed_frame(
+            self._plan_candidates(MECHANISM), (), self.within, self.task)
 
-    def _candidates(self, panel: str, before: int | None = None) -> list[Candidates]:
+    def _plan_candidates(self, panel: str, before: int | None = None) -> list[Candidates]:
         """The lettered points of a plan: where each truly is, and the points on the sheet that it may be."""
         points = {step: [(complex(*self.traces[place].spots[0]), 0.0)] for step, place in self.sure.items()
                   if self.traces[place].kind == POINT}
@@ -144,40 +143,42 @@ class Letters:
             if (step := one.steps.get(POINT)) is not None:
                 points[step] = [(complex(*self.traces[place].spots[0]), cost) for place, cost in one.wish.items()
                                 if self.traces[place].kind == POINT and place not in self.alone]
-        return [Candidates(complex(*plain(self.drawing.values[step])[:2]), spots) for step, spots in points.items()
+        return [Candidates(complex(*plain_value(self.drawing.values[step])[:2]), spots)
+                for step, spots in points.items()
                 if spots and self.plan_of_step[step] == panel and (before is None or step < before)]
 
-    def _off(self, step: int, trace: Trace) -> float:
+    def _distance_off(self, step: int, trace: Trace) -> float:
         """How far a trace is from what a step truly makes, in mm; infinite where its plan is not known to lie."""
         frame = self.frames.get(self.plan_of_step[step])
         if frame is None:
             return math.inf
-        spots = np.array([frame.back(complex(*spot)) for spot in sampled(trace)])
-        return float(apart(trace.kind, plain(self.drawing.values[step]), spots)) * abs(frame.unit)
+        spots = np.array([frame.to_plan(complex(*spot)) for spot in measured_spots(trace)])
+        return float(distance_apart(trace.kind, plain_value(self.drawing.values[step]), spots)) * abs(frame.unit)
 
     @cached_property
-    def _claimed(self) -> dict[int, int]:
+    def _claimed_points(self) -> dict[int, int]:
         """The points that are where a step should make one, which no letters name; by place."""
         named = {step for one in self.words for step in one.steps.values()}
         found = {}
         for step in self.drawing.drawn.steps:
             frame = self.frames.get(self.plan_of_step[step.index])
             if step.op.gives == POINT and step.index not in named and frame:
-                at = frame.onto(complex(*plain(self.drawing.values[step.index])[:2]))
-                for place in self._things.query(Point(at.real, at.imag), "dwithin", self.within / 2):
+                at = frame.to_sheet(complex(*plain_value(self.drawing.values[step.index])[:2]))
+                for place in self._figures.query(Point(at.real, at.imag), "dwithin", self.within / 2):
                     if self.traces[place].kind == POINT:
                         found[int(place)] = step.index
         return found
 
     # ---- who names what --------------------------------------------------------------------------------------------
 
-    def told(self) -> Submission:
+    def named_submission(self) -> Submission:
         """The drawing with the names of its marks."""
-        found = assigned([self._weighed(one) for one in self.words], measures.NAMELESS_COST, measures.SECOND_NAME_COST)
+        found = assign_labels([self._weigh(one) for one in self.words], measures.NAMELESS_COST,
+                              measures.SECOND_NAME_COST)
         names: dict[int, list[tuple[str, bool]]] = {}
         for one, place in zip(self.words, found, strict=True):
             if place is not None:
-                beside = not self._sure(one, place, found)
+                beside = not self._is_certain(one, place, found)
                 names.setdefault(place, []).extend((name, beside) for name in one.names)
         first = [replace(trace, label=names[place][0][0], beside=names[place][0][1]) if place in names else trace
                  for place, trace in enumerate(self.traces) if place < len(self.submission.traces) or place in names]
@@ -185,57 +186,58 @@ class Letters:
                 for name, beside in several[1:]]
         return replace(self.submission, traces=(*first, *more))
 
-    def _weighed(self, one: Lettered) -> Wish:
+    def _weigh(self, one: LetteredWord) -> Wish:
         """What letters may name, and what it costs by nearness and by where the construction has it."""
         found = {}
         for place, cost in one.wish.items():
             trace = self.traces[place]
-            off = self._off(one.steps[trace.kind], trace) if trace.kind in one.steps else math.inf
-            if place >= len(self.submission.traces) and not self._meant(one, place, off):
+            off = self._distance_off(one.steps[trace.kind], trace) if trace.kind in one.steps else math.inf
+            if place >= len(self.submission.traces) and not self._may_mean(one, place, off):
                 continue
             astray = measures.MISPLACED_COST / (1 + (measures.HALF_COST_MM / off) ** 2) if off else 0.0
-            found[place] = cost + astray + (measures.CLAIMED_COST if place in self._claimed
+            found[place] = cost + astray + (measures.CLAIMED_COST if place in self._claimed_points
                                             and off > measures.HALF_COST_MM else 0.0)
         return found
 
-    def _meant(self, one: Lettered, place: int, off: float) -> bool:
+    def _may_mean(self, one: LetteredWord, place: int, off: float) -> bool:
         """Whether letters may mean a place without a dot: where the mark should be; or a crossing, if they do not stand
         there. Letters alone are a mark about where they stand; numbers only where that should be."""
         step = one.steps.get(POINT)
         if step is None or place in self.alone:
-            return step is not None and (off < _reach(one.word) or not one.names[0].isdigit())
+            return step is not None and (off < _letter_reach(one.word) or not one.names[0].isdigit())
         frame = self.frames.get(self.plan_of_step[step])
         if off < measures.HALF_COST_MM or frame is None:
             return off < measures.HALF_COST_MM or place not in self.ends
-        at = frame.onto(complex(*plain(self.drawing.values[step])[:2]))
-        return place not in self.ends and one.word.box.distance(Point(at.real, at.imag)) > _reach(one.word)
+        at = frame.to_sheet(complex(*plain_value(self.drawing.values[step])[:2]))
+        return place not in self.ends and one.word.box.distance(Point(at.real, at.imag)) > _letter_reach(one.word)
 
-    def _sure(self, one: Lettered, place: int, found: Sequence[int | None]) -> bool:
+    def _is_certain(self, one: LetteredWord, place: int, found: Sequence[int | None]) -> bool:
         """Whether letters are certainly those of a point: no other is nearly as near, nor has it other letters; a
         number may be one of the student's own."""
         if self.traces[place].kind != POINT or POINT not in one.steps or found.count(place) > 1 or (
                 place >= len(self.submission.traces)):
             return False
-        if one.names[0].isdigit() and self._off(one.steps[POINT], self.traces[place]) > 2 * measures.HALF_COST_MM:
+        if one.names[0].isdigit() and self._distance_off(one.steps[POINT],
+                                                         self.traces[place]) > 2 * measures.HALF_COST_MM:
             return False
         least = min((cost for other, cost in one.wish.items() if other != place and self.traces[other].kind == POINT),
                     default=math.inf)
         return (one.wish[place] < measures.CLEAR_COST and least - one.wish[place] > measures.CLEAR_COST
-                and place not in self._claimed)
+                and place not in self._claimed_points)
 
 
-def _alone(word: Lettering) -> Trace:
+def _letters_as_mark(word: Lettering) -> Trace:
     """A mark that has no ink of its own, about where its letters stand."""
     at = word.box.centroid
     return Trace(POINT, ((at.x, at.y),), blur=math.hypot(measures.LETTERS_ALONE_MM, word.long / 4), crossed=True)
 
 
-def _reach(word: Lettering) -> float:
+def _letter_reach(word: Lettering) -> float:
     """How far off a mark may be from its letters, in mm."""
     return max(measures.LETTER_REACH_MM, measures.LETTER_REACH_SIZES * word.size)
 
 
-def _spoken(names: Names, called: Sequence[str], sure: Container[int]) -> dict[str, dict[str, int]]:
+def _spoken_steps(names: LabelTable, called: Sequence[str], sure: Container[int]) -> dict[str, dict[str, int]]:
     """The steps that letters may speak of, by kind; as loosely as they must be read, if none says it better."""
     found: dict[str, dict[str, int]] = {name: {} for name in called}
     told: dict[int, int] = {}
@@ -257,7 +259,8 @@ class Candidates:
     spots: list[tuple[complex, float]]
 
 
-def agreed(marks: Sequence[Candidates], units: Sequence[complex], within: float, usual: float, any_unit: bool = True
+def agreed_frame(marks: Sequence[Candidates], units: Sequence[complex], within: float, usual: float,
+                 any_unit: bool = True
            ) -> PlanFrame | None:
     """The frame on which most marks agree, by one of their spots each; None where no two do.
 
@@ -280,7 +283,7 @@ def agreed(marks: Sequence[Candidates], units: Sequence[complex], within: float,
         held = np.clip(1.0 - off**2, 0.0, None) * weights
         return np.maximum.reduceat(held, starts, axis=1).sum(axis=1)
 
-    tied, free = _proposed(at, owner, spots, units)
+    tied, free = _propose_frames(at, owner, spots, units)
     best: tuple[float, complex, complex] | None = None
     for unit, origin in (tied, free) if any_unit else (tied,):
         if len(unit):
@@ -293,10 +296,11 @@ def agreed(marks: Sequence[Candidates], units: Sequence[complex], within: float,
                 best = float(votes[top]), complex(unit[top]), complex(origin[top])
     if best is None or best[0] < min(measures.MIN_FRAME_VOTES, len(marks)) - 0.5:
         return None
-    return _refined(at, owner, spots, best[1], best[2], within)
+    return _refine_frame(at, owner, spots, best[1], best[2], within)
 
 
-def _proposed(at: Any, owner: Any, spots: Any, units: Sequence[complex]) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+def _propose_frames(at: Any, owner: Any, spots: Any, units: Sequence[complex]) -> tuple[tuple[Any, Any],
+                                                                                        tuple[Any, Any]]:
     """Units and origins of frames: with the expected unit through every spot, and any through two of two marks."""
     tied = np.repeat(np.array(units, dtype=complex), len(spots))
     origins = np.tile(spots, len(units)) - tied * np.tile(at[owner], len(units))
@@ -310,7 +314,7 @@ def _proposed(at: Any, owner: Any, spots: Any, units: Sequence[complex]) -> tupl
     return (tied, origins), (free, spots[i] - free * at[owner[i]])
 
 
-def _refined(at: Any, owner: Any, spots: Any, unit: complex, origin: complex, within: float) -> PlanFrame:
+def _refine_frame(at: Any, owner: Any, spots: Any, unit: complex, origin: complex, within: float) -> PlanFrame:
     """The frame of least squares through the spots that a frame holds, of each mark the nearest; marks that lie close
     together turn and stretch nothing."""
     off = np.abs(origin + unit * at[owner] - spots)

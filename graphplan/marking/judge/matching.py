@@ -21,9 +21,9 @@ from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import Evidence, KnownMarks
-from graphplan.marking.judge.labels import sure
+from graphplan.marking.judge.labels import is_sure
 from graphplan.marking.judge.mistakes import Mistake
-from graphplan.marking.judge.student_sheet import Residual, StudentSheet, plain, weighed
+from graphplan.marking.judge.student_sheet import Residual, StudentSheet, plain_value, weigh_mark
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
 from graphplan.marking.traces import Trace
 
@@ -81,27 +81,27 @@ class Matching:
         return self.sheet.drawing.drawn.steps
 
     @property
-    def next(self) -> Step:
+    def next_step(self) -> Step:
         return self.steps[len(self.own)]
 
-    def until(self, end: int, found: Mapping[int, int | Mistake] | None = None) -> Matching:
+    def match_until(self, end: int, found: Mapping[int, int | Mistake] | None = None) -> Matching:
         """Go on before the step of this place, taking every trace that fits, what steps were found to be mistaken for,
         and no others."""
         self.found = found or {}
         while len(self.own) < end:
-            self.go(self.found.get(len(self.own)))
+            self.match_next(self.found.get(len(self.own)))
         return self
 
-    def go(self, found: int | Mistake | None) -> Matching:
+    def match_next(self, found: int | Mistake | None) -> Matching:
         """Take the next step for what it was found to be, else for what fits it."""
         if isinstance(found, Mistake):
-            return self.mistake(found)
-        place = self.find() if found is None else found
+            return self.take_mistake(found)
+        place = self.find_place() if found is None else found
         return self.take(None if place == UNMARKED else place)
 
-    def repeat(self, other: Matching) -> bool:
+    def try_repeat(self, other: Matching) -> bool:
         """Take the next step as another way did, if nothing differs that it follows from and its trace is free."""
-        step, match = self.next, other.matches[len(self.own)]
+        step, match = self.next_step, other.matches[len(self.own)]
         if any(mine[arg] is not its[arg] for arg in step.args
                for mine, its in ((self.own, other.own), (self.mended, other.mended))):
             return False
@@ -110,56 +110,56 @@ class Matching:
                 or not self.used.isdisjoint({match.place, *self.evidence.twins(match.place)})):
             return False
         self.dead |= other.dead & {step.index}
-        self._go_on(match, other.own[step.index], other.mended[step.index])
+        self._append(match, other.own[step.index], other.mended[step.index])
         return True
 
     # ---- one step --------------------------------------------------------------------------------------------------
 
-    def find(self) -> int | None:
+    def find_place(self) -> int | None:
         """The trace of the next step: the one that bears its label, else a loose one that fits."""
-        step = self.next
+        step = self.next_step
         lettered = self.labels.get(step.index)
-        if lettered is not None and (sure(self.traces[lettered]) or self._fits(step, lettered)):
+        if lettered is not None and (is_sure(self.traces[lettered]) or self._fits_label(step, lettered)):
             return lettered
         if step.op.movement is Movement.BEGUN and self.evidence.picture:
             return None  # it is printed
-        for expected, drawn in self._asked(step):
+        for expected, drawn in self._expected_values(step):
             begun = step.op.movement is Movement.BEGUN
-            best = self._begun(step, expected, drawn) if begun else self._drawn(step, expected, drawn)
+            best = self._find_origin(step, expected, drawn) if begun else self._find_drawn(step, expected, drawn)
             if best is not None:
                 return best
-        return None if lettered is None or self._by_chance(step, lettered) else lettered
+        return None if lettered is None or self._may_cross_by_chance(step, lettered) else lettered
 
-    def _by_chance(self, step: Step, place: int) -> bool:
+    def _may_cross_by_chance(self, step: Step, place: int) -> bool:
         """Whether strokes that cross beside a letter, not far from its mark, need not be that mark."""
         return self.traces[place].crossed and any(
-            self.residual(step, expected, place, drawn).size < measures.CHANCE_CROSSING_MM
-            for expected, drawn in self._asked(step))
+            self.residual(step, expected, place, drawn).distance < measures.CHANCE_CROSSING_MM
+            for expected, drawn in self._expected_values(step))
 
-    def _begun(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
+    def _find_origin(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """The dot, or else the end of a stroke, where the frame of a plan has its beginning: it is free, so that no
         slip of the hand makes it wrong."""
-        places, off = self.evidence.near(POINT, self.sheet.plan_of_step[step.index], plain(expected))
+        places, off = self.evidence.nearby_traces(POINT, self.sheet.plan_of_step[step.index], plain_value(expected))
         within = measures.ORIGIN_SIGMAS * self.sheet.pencil.point
         if off.min(initial=math.inf) < within:
             return int(places[off.argmin()])
-        trace = self.evidence.sought(step, expected, self._way(drawn), within)
-        return self._added(trace) if trace else None
+        trace = self.evidence.search(step, expected, self._known_marks(drawn), within)
+        return self._add_trace(trace) if trace else None
 
-    def _added(self, trace: Trace) -> int:
+    def _add_trace(self, trace: Trace) -> int:
         """The place of a trace that was found by seeking it."""
         if trace not in self.traces:
             self.traces.append(trace)
         return self.traces.index(trace)
 
-    def _drawn(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
+    def _find_drawn(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """What is drawn about an expected value, and fits it."""
-        best = self._fitting(step, expected, drawn)
+        best = self._find_fitting(step, expected, drawn)
         if best is None and step.op.gives != OPENING:
-            best = self._seeking(step, expected, drawn)
+            best = self._search(step, expected, drawn)
         if best is None or not self.evidence.picture:
             return best
-        if self.evidence.share(step, expected, self._way(drawn)) is not None:
+        if self.evidence.visible_share(step, expected, self._known_marks(drawn)) is not None:
             return best
         off = self.residual(step, expected, best, drawn)  # where most is printed already, pieces tell little
         if step.op.gives != LINE and off.square < len(off.off) + 1:
@@ -167,58 +167,60 @@ class Matching:
         self.over.add(best)
         return None
 
-    def _fits(self, step: Step, place: int) -> bool:
+    def _fits_label(self, step: Step, place: int) -> bool:
         """Whether a trace is as a step should have made it."""
         return any(self.residual(step, expected, place, drawn).fits(self.chance)
-                   for expected, drawn in self._asked(step))
+                   for expected, drawn in self._expected_values(step))
 
-    def _seeking(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
+    def _search(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """What a picture shows about an expected value, or where a stroke of a file ends, if it fits it."""
         if step.op.movement is Movement.GIVEN:
             return None
-        trace = self.evidence.sought(step, expected, self._way(drawn), measures.SEARCH_SIGMAS * self.sheet.pencil.point)
+        trace = self.evidence.search(step, expected, self._known_marks(drawn),
+                                     measures.SEARCH_SIGMAS * self.sheet.pencil.point)
         if trace is None or not self.sheet.residual(
                 step, expected, self.sheet.spots(step.index, trace), drawn).fits(self.chance):
             return None
-        return self._added(trace)
+        return self._add_trace(trace)
 
-    def _way(self, drawn: Sequence[Any]) -> KnownMarks:
+    def _known_marks(self, drawn: Sequence[Any]) -> KnownMarks:
         """What is known of the marks to come."""
         return KnownMarks(drawn, {index: one for index, one in self.found.items() if isinstance(one, Mistake)})
 
-    def _fitting(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
+    def _find_fitting(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """The loose trace that fits an expected value best, if any does."""
-        places, off = self.evidence.near(step.op.gives, self.sheet.plan_of_step[step.index], plain(expected))
+        places, off = self.evidence.nearby_traces(step.op.gives, self.sheet.plan_of_step[step.index],
+                                                  plain_value(expected))
         best: tuple[bool, bool, float, int] | None = None
         for k in np.argsort(off)[:measures.TRACES_TRIED] if len(places) else ():
             if not off[k] < measures.MAX_ASTRAY_MM:
                 break
             residual = self.residual(step, expected, places[k], drawn)
             if residual.fits(self.chance):  # rather one that is free yet, and that reaches its marks
-                found = places[k] in self.used, not self._reaches(step, places[k]), residual.square, places[k]
+                found = places[k] in self.used, not self._reaches_points(step, places[k]), residual.square, places[k]
                 best = min(best, found) if best else found
             elif step.op.gives == POINT and off[k] > measures.MAX_TOLERANCES_OFF * residual.tolerance(self.chance):
                 break
         return best[3] if best else None
 
-    def _reaches(self, step: Step, place: int) -> bool:
+    def _reaches_points(self, step: Step, place: int) -> bool:
         """Whether a line was drawn as far as to the points that it goes through."""
         if step.op.gives != LINE:
             return True
         frame = self.sheet.frame(step)
-        start, end = (frame.back(complex(*spot)) for spot in self.traces[place].spots[:2])
+        start, end = (frame.to_plan(complex(*spot)) for spot in self.traces[place].spots[:2])
         way, spare = (end - start) / (abs(end - start) or 1.0), measures.LINE_END_MM / abs(frame.unit)
         on = [step.args[claim[1]] for claim in step.op.claims if claim[0] == "on"]
-        along = [((complex(*plain(self.own[arg])[:2]) - start) * way.conjugate()).real for arg in on]
+        along = [((complex(*plain_value(self.own[arg])[:2]) - start) * way.conjugate()).real for arg in on]
         return all(-spare <= far <= abs(end - start) + spare for far in along)
 
-    def _asked(self, step: Step) -> Sequence[tuple[Any, Sequence[Any]]]:
+    def _expected_values(self, step: Step) -> Sequence[tuple[Any, Sequence[Any]]]:
         """What the next step should make of the student's own marks, and once they erred, of the mended ones."""
         if self._now is None:
             self._now = []
             for drawn in (self.own, self.mended) if self.erred else (self.own,):
                 with suppress(Undrawable):
-                    self._now.append((self.sheet.expected(step, drawn), drawn))
+                    self._now.append((self.sheet.expected_value(step, drawn), drawn))
         return self._now
 
     def residual(self, step: Step, expected: Any, place: int, drawn: Sequence[Any]) -> Residual:
@@ -231,92 +233,94 @@ class Matching:
 
     def take(self, place: int | None) -> Matching:
         """Take a trace, or none, for what the next step made, and judge it."""
-        step = self.next
-        asked = list(self._asked(step)) or [(self.sheet.drawing.values[step.index], self.sheet.drawing.values)]
+        step = self.next_step
+        asked = (list(self._expected_values(step))
+                 or [(self.sheet.drawing.values[step.index], self.sheet.drawing.values)])
         own, mended = asked[0][0], asked[-1][0]
         if place is None:
             shown = step.op.gives in self.evidence.shows and not (step.op.free or step.index in self.sheet.hidden)
-            return self._go_on(Match(step, MISSING if shown else UNSEEN, own, weight=self._missed(own)), own, mended)
+            return self._append(Match(step, MISSING if shown else UNSEEN, own, weight=self._missed_weight(own)), own,
+                                mended)
         spots = self.sheet.spots(step.index, self.traces[place])
         found = [self.residual(step, value, place, drawn) for value, drawn in asked]
         fits = [step.op.movement is Movement.BEGUN or residual.fits(self.chance) for residual in found]
-        if not any(fits) and (told := self._as_told(step)):
+        if not any(fits) and (told := self._protocol_value(step)):
             asked.append(told)
             found.append(self.sheet.residual(step, told[0], spots, told[1]))
             fits.append(found[-1].fits(self.chance))
         state = WRONG if not any(fits) else FOLLOWS if not fits[-1] else RIGHT
         by = fits.index(True) if any(fits) else 0
-        seen = self.sheet.seen(step, own, spots, steady=state == WRONG or not self.traces[place].blur)
-        weight = self._weighed(place, found[by] if any(fits) else None, seen)
-        if not (any(fits) or self.labels.get(step.index) == place or all(map(self._clearly, found))):
+        seen = self.sheet.value_of_trace(step, own, spots, steady=state == WRONG or not self.traces[place].blur)
+        weight = self._weigh_trace(place, found[by] if any(fits) else None, seen)
+        if not (any(fits) or self.labels.get(step.index) == place or all(map(self._is_clear_mistake, found))):
             weight = -math.inf
-        return self._go_on(Match(step, state, asked[by][0], place, found[by], weight=weight),
+        return self._append(Match(step, state, asked[by][0], place, found[by], weight=weight),
                            seen, seen if fits[-1] else mended)
 
-    def _as_told(self, step: Step) -> tuple[Any, Sequence[Any]] | None:
+    def _protocol_value(self, step: Step) -> tuple[Any, Sequence[Any]] | None:
         """Where the length leads that the protocol tells for a step, laid off from the student's own mark."""
         if step.op.gives != POINT or step.op.root is None:
             return None
         root, drawn = step.args[step.op.root], list(self.sheet.drawing.values)
         drawn[root] = self.own[root]
         with suppress(Undrawable):
-            return self.sheet.expected(step, drawn), drawn
+            return self.sheet.expected_value(step, drawn), drawn
         return None
 
-    def mistake(self, mistake: Mistake) -> Matching:
+    def take_mistake(self, mistake: Mistake) -> Matching:
         """Take a mistake for what was done at the next step: what is drawn where it leads, or a mark that is not to be
         seen, but from which others follow."""
-        step, asked = self.next, self._asked(self.next)
+        step, asked = self.next_step, self._expected_values(self.next_step)
         made = self.sheet.hand.add_slips(step, mistake.value(self.sheet.domain, self.own),
                                          self.sheet.errors(step.index))
         mended = asked[0][0] if asked else made
-        place = self._drawn(step, made, self.own)
+        place = self._find_drawn(step, made, self.own)
         if place is None:
-            weight = self._missed(made) + measures.UNSEEN_MISTAKE_ODDS
-            unclear = step.op.gives == POINT and not self._clearly(
+            weight = self._missed_weight(made) + measures.UNSEEN_MISTAKE_ODDS
+            unclear = step.op.gives == POINT and not self._is_clear_mistake(
                 self.sheet.residual(step, mended, [made], self.own))
             if unclear or not self.dead.isdisjoint(step.args):
                 weight = -math.inf
-            return self._go_on(Match(step, WRONG, mended, mistake=mistake, weight=weight), made, mended)
+            return self._append(Match(step, WRONG, mended, mistake=mistake, weight=weight), made, mended)
         spots = self.sheet.spots(step.index, self.traces[place])
         off = self.sheet.residual(step, mended, spots, self.own)
-        seen = self.sheet.seen(step, made, spots, steady=not self.traces[place].blur)
-        weight = self._weighed(place, self.sheet.residual(step, made, spots, self.own),
+        seen = self.sheet.value_of_trace(step, made, spots, steady=not self.traces[place].blur)
+        weight = self._weigh_trace(place, self.sheet.residual(step, made, spots, self.own),
                                seen) or measures.UNSEEN_MISTAKE_ODDS
-        if not self._clearly(off):
+        if not self._is_clear_mistake(off):
             weight = -math.inf
-        return self._go_on(Match(step, WRONG, mended, place, off, mistake, weight), seen, mended)
+        return self._append(Match(step, WRONG, mended, place, off, mistake, weight), seen, mended)
 
-    def _weighed(self, place: int, residual: Residual | None, seen: Any) -> float:
+    def _weigh_trace(self, place: int, residual: Residual | None, seen: Any) -> float:
         """What a trace speaks for this way; one that is wrong is as far off as it is."""
         kind = self.traces[place].kind
         if not self.used.isdisjoint({place, *self.evidence.twins(place)}):
             return measures.SHARED_ODDS
         part = self.evidence.picture and kind != POINT
-        share = self.evidence.share(self.next, seen, self._way(self.own)) if part else None
-        return weighed(self.evidence.weight(place), measures.ABSENT_ODDS[kind], residual,
+        share = self.evidence.visible_share(self.next_step, seen, self._known_marks(self.own)) if part else None
+        return weigh_mark(self.evidence.weight(place), measures.ABSENT_ODDS[kind], residual,
                        1.0 if share is None else share)
 
-    def _clearly(self, residual: Residual) -> bool:
+    def _is_clear_mistake(self, residual: Residual) -> bool:
         """Whether a trace is so far off that it is a mistake: what is hardly off is hardly read."""
-        return residual.size > measures.CLEAR_TOLERANCES_OFF * residual.tolerance(self.chance)
+        return residual.distance > measures.CLEAR_TOLERANCES_OFF * residual.tolerance(self.chance)
 
-    def _missed(self, expected: Any) -> float:
+    def _missed_weight(self, expected: Any) -> float:
         """What it speaks against this way that nothing is found."""
-        step = self.next
-        asked = self._asked(step)
+        step = self.next_step
+        asked = self._expected_values(step)
         if not asked or asked[0][1] is not self.own or not self.dead.isdisjoint(step.args):
             self.dead.add(step.index)
             return 0.0
         printed = self.evidence.picture or step.op.movement is Movement.GIVEN
         if step.op.gives == OPENING or (step.op.free and printed):
             return 0.0
-        if self.evidence.beyond(step, expected):
+        if self.evidence.is_beyond_panel(step, expected):
             self.dead.add(step.index)
-        return 0.0 if self.evidence.share(step, expected,
-                                          self._way(self.own)) is None else measures.ABSENT_ODDS[step.op.gives]
+        return 0.0 if self.evidence.visible_share(step, expected,
+                                          self._known_marks(self.own)) is None else measures.ABSENT_ODDS[step.op.gives]
 
-    def _go_on(self, match: Match, own: Any, mended: Any) -> Matching:
+    def _append(self, match: Match, own: Any, mended: Any) -> Matching:
         self.matches.append(match)
         self.own.append(own)
         self.mended.append(mended)

@@ -49,7 +49,7 @@ class Mistake:
         """What it makes of these marks; fails as the step's rule does."""
         made = self.step.op.rule(domain, *[values[arg] for arg in self.step.args], **self.step.params)
         if self.mirror:
-            return (_line_mirrored if self.step.op.gives == LINE else _mirrored)(
+            return (_mirror_line if self.step.op.gives == LINE else _mirror_point)(
                 domain, made, *(values[arg] for arg in self.mirror))
         if self.factor == 1.0 and not self.radii:
             return made
@@ -57,7 +57,8 @@ class Mistake:
             return *made[:2], made[2] * abs(self.factor) ** 2
         root = self.step.root if self.start is None else self.start
         assert root is not None, f"{self.step.op.name} lays nothing off"
-        start, ratio = values[root], _ratio(domain, *(values[mark] for mark in self.radii)) if self.radii else 1.0
+        start, ratio = values[root], _distance_ratio(domain,
+                                                     *(values[mark] for mark in self.radii)) if self.radii else 1.0
         dx, dy, c, s = made[0] - start[0], made[1] - start[1], self.factor.real * ratio, self.factor.imag * ratio
         return start[0] + c * dx - s * dy, start[1] + s * dx + c * dy
 
@@ -72,7 +73,7 @@ def value_of(step: Step, values: Sequence[Any] | Mapping[int, Any], mistake: Mis
     return None
 
 
-def _mirrored(domain: Domain, point: Any, P: Any, Q: Any) -> Any:
+def _mirror_point(domain: Domain, point: Any, P: Any, Q: Any) -> Any:
     """A point on the other side of the line PQ."""
     u, w = (Q[0] - P[0], Q[1] - P[1]), (point[0] - P[0], point[1] - P[1])
     size = domain.nonzero(u[0] * u[0] + u[1] * u[1], 1.0, "points-coincide", "the two points coincide")
@@ -80,15 +81,15 @@ def _mirrored(domain: Domain, point: Any, P: Any, Q: Any) -> Any:
     return P[0] + 2 * along * u[0] - w[0], P[1] + 2 * along * u[1] - w[1]
 
 
-def _line_mirrored(domain: Domain, line: Any, P: Any, Q: Any) -> Any:
+def _mirror_line(domain: Domain, line: Any, P: Any, Q: Any) -> Any:
     """A line through P on the other side of the line PQ."""
     away = P[0] + line[1], P[1] - line[0]
-    x, y = _mirrored(domain, away, P, Q)
+    x, y = _mirror_point(domain, away, P, Q)
     a, b = P[1] - y, x - P[0]
     return a, b, -(a * P[0] + b * P[1])
 
 
-def _ratio(domain: Domain, P: Any, Q: Any, R: Any, S: Any) -> Any:
+def _distance_ratio(domain: Domain, P: Any, Q: Any, R: Any, S: Any) -> Any:
     """The distance PQ over the distance RS."""
     one, two = ((B[0] - A[0]) * (B[0] - A[0]) + (B[1] - A[1]) * (B[1] - A[1]) for A, B in ((P, Q), (R, S)))
     return domain.sqrt(one / domain.nonzero(two, 1.0, "points-coincide", "the two points coincide"), "", "")
@@ -101,7 +102,7 @@ THINGS = {NORMAL_VECTOR: phrase("normal acceleration"), CORIOLIS_VECTOR: phrase(
 
 
 @dataclass(frozen=True)
-class Vector:
+class LaidOffVector:
     """A vector that steps lay off: of which kind it is and of which points, and the mark at which it begins."""
 
     words: Phrase
@@ -109,12 +110,12 @@ class Vector:
     start: int | None
 
     @property
-    def named(self) -> Said:
+    def text(self) -> Said:
         """The vector in mechanics' words."""
         return self.words(*self.of)
 
 
-def vector_of(program: Program, step: Step, plan_of_step: Sequence[str]) -> Vector:
+def vector_of(program: Program, step: Step, plan_of_step: Sequence[str]) -> LaidOffVector:
     """What a step lays off, whole or in part, as the steps of its stage say that are drawn on the same plan."""
     alike = [other for other in program.steps if other.index == step.index or (
         step.stage is not None and other.stage is step.stage
@@ -125,11 +126,11 @@ def vector_of(program: Program, step: Step, plan_of_step: Sequence[str]) -> Vect
                 start, parts = step.root, {one.index for one in alike}
                 while start in parts and (root := program.steps[start].root) is not None:
                     start = root
-                return Vector(words, other.why.put, start)
+                return LaidOffVector(words, other.why.put, start)
     equations = step.stage(()).equations if step.stage and step.name else ()
     if equations and equations[0].vectors:
-        return Vector(STAGE_VECTOR, (equations[0].vectors[0].name,), step.root)
-    return Vector(VECTOR, (), step.root)
+        return LaidOffVector(STAGE_VECTOR, (equations[0].vectors[0].name,), step.root)
+    return LaidOffVector(VECTOR, (), step.root)
 
 
 @dataclass(frozen=True)
@@ -141,18 +142,19 @@ class Occasion:
     program: Program
     step: Step
     plan_of_step: Sequence[str]
-    vector: Vector | None = None
+    vector: LaidOffVector | None = None
 
     def text(self, place: int = 0) -> str:
         """What the step reads at a place, by its letters."""
         return self.program.text(self.step.args[place])
 
-    def made(self, told: Said, factor: complex = 1.0, mirror: tuple[int, int] | None = None, start: int | None = None,
+    def mistaken_step(self, told: Said, factor: complex = 1.0, mirror: tuple[int, int] | None = None,
+                      start: int | None = None,
              radii: tuple[int, int, int, int] | None = None, **changed: Any) -> Mistake:
         """The step as it is drawn by mistake, with something changed."""
         return Mistake(self.kind, told, self.step.but(**changed), factor, mirror, start, radii)
 
-    def given(self, name: str) -> int | None:
+    def given_point(self, name: str) -> int | None:
         """The given point of this name."""
         return next((step.index for step in self.program.steps[:self.program.givens] if step.name == name), None)
 
@@ -163,7 +165,7 @@ class Occasion:
         pairs = (step.args for step in self.program.steps if step.op.spans or step.op.root is not None)
         return list(dict.fromkeys((args[0], args[1]) for args in pairs if len(args) > 1 and max(args[:2]) < givens))
 
-    def instead(self, told: Phrase, *places: int) -> Iterator[Mistake]:
+    def with_other_marks(self, told: Phrase, *places: int) -> Iterator[Mistake]:
         """The step with another mark, of the same kind and plan, read at a place, told by the names of both."""
         step = self.step
         for place in places:
@@ -171,7 +173,7 @@ class Occasion:
             for other in self.program.steps[:step.index]:
                 if other.op.gives == kind and self.plan_of_step[other.index] == home and other.index not in step.args:
                     args = (*step.args[:place], other.index, *step.args[place + 1:])
-                    yield self.made(told(self.program.text(other.index), self.text(place)), args=args)
+                    yield self.mistaken_step(told(self.program.text(other.index), self.text(place)), args=args)
 
 
 Rule = Callable[[Occasion], Iterable[Mistake]]
@@ -190,7 +192,7 @@ class MistakeKind:
 MISTAKES: dict[str, MistakeKind] = {}
 
 
-def mistake(kind: str, words: Callable[[], Said], at: Operations) -> Callable[[Rule], Rule]:
+def enter_mistake(kind: str, words: Callable[[], Said], at: Operations) -> Callable[[Rule], Rule]:
     """Enter the decorated rule in the table."""
 
     def enter(rule: Rule) -> Rule:
@@ -200,44 +202,46 @@ def mistake(kind: str, words: Callable[[], Said], at: Operations) -> Callable[[R
     return enter
 
 
-def by(*movements: Movement) -> Operations:
+def for_movements(*movements: Movement) -> Operations:
     """The operations of some movements."""
     return lambda op: op.movement in movements
 
 
-def laid_off(op: Primitive) -> bool:
+def lays_off_vector(op: Primitive) -> bool:
     """The operations that lay a vector off."""
     return op.root is not None and op.movement is not Movement.DROPPED
 
 
-def mistakes(program: Program, step: Step, plan_of_step: Sequence[str]) -> Iterator[Mistake]:
+def possible_mistakes(program: Program, step: Step, plan_of_step: Sequence[str]) -> Iterator[Mistake]:
     """All the mistakes of the table that can be made at a step."""
-    vector = vector_of(program, step, plan_of_step) if laid_off(step.op) else None
+    vector = vector_of(program, step, plan_of_step) if lays_off_vector(step.op) else None
     for kind, entry in MISTAKES.items():
         if entry.at(step.op):
             yield from entry.rule(Occasion(kind, program, step, plan_of_step, vector))
 
 
-ALIGNED = by(Movement.PARALLEL, Movement.PERPENDICULAR)
+ALIGNED = for_movements(Movement.PARALLEL, Movement.PERPENDICULAR)
 
 
-@mistake("perpendicular missed", phrase("parallel instead of perpendicular"), by(Movement.PERPENDICULAR))
+@enter_mistake("perpendicular missed", phrase("parallel instead of perpendicular"),
+               for_movements(Movement.PERPENDICULAR))
 def _(at: Occasion) -> Iterable[Mistake]:
-    return [at.made(said("parallel to {0}, not perpendicular", at.text()), op=made_by(Movement.PARALLEL))]
+    return [at.mistaken_step(said("parallel to {0}, not perpendicular", at.text()), op=made_by(Movement.PARALLEL))]
 
 
-@mistake("parallel missed", phrase("perpendicular instead of parallel"), by(Movement.PARALLEL))
+@enter_mistake("parallel missed", phrase("perpendicular instead of parallel"), for_movements(Movement.PARALLEL))
 def _(at: Occasion) -> Iterable[Mistake]:
-    return [at.made(said("perpendicular to {0}, not parallel", at.text()), op=made_by(Movement.PERPENDICULAR))]
+    return [at.mistaken_step(said("perpendicular to {0}, not parallel", at.text()), op=made_by(Movement.PERPENDICULAR))]
 
 
-@mistake("wrong side", phrase("the other of the two crossings"), lambda op: op.crossing and bool(op.reversal))
+@enter_mistake("wrong side", phrase("the other of the two crossings"), lambda op: op.crossing and bool(op.reversal))
 def _(at: Occasion) -> Iterable[Mistake]:
-    return [at.made(said("the other of the two crossings"), params=at.step.op.reverse_parameters(at.step.params))]
+    return [at.mistaken_step(said("the other of the two crossings"),
+                             params=at.step.op.reverse_parameters(at.step.params))]
 
 
-@mistake("mirrored figure", phrase("the figure is mirrored"),
-         by(Movement.MET, Movement.PARALLEL, Movement.PERPENDICULAR))
+@enter_mistake("mirrored figure", phrase("the figure is mirrored"),
+         for_movements(Movement.MET, Movement.PARALLEL, Movement.PERPENDICULAR))
 def _(at: Occasion) -> Iterable[Mistake]:
     """The third corner of a figure, or a side to it, on the other side of the line of the two others."""
     corners = [at.step] if at.step.op.gives == POINT else [
@@ -247,7 +251,7 @@ def _(at: Occasion) -> Iterable[Mistake]:
         lines.sort(key=lambda line: line.index != at.step.index)
         through = [line.args[-1] for line in lines]
         if len(set(through)) == 2 and max(through) < at.step.index:
-            yield at.made(said("the figure is mirrored"), mirror=(through[0], through[1]))
+            yield at.mistaken_step(said("the figure is mirrored"), mirror=(through[0], through[1]))
 
 
 DEEDS: dict[str, tuple[Phrase, tuple[complex, ...]]] = {
@@ -259,7 +263,7 @@ DEEDS: dict[str, tuple[Phrase, tuple[complex, ...]]] = {
 }
 
 
-def _enter(words: Phrase | None, deed: str) -> None:
+def _enter_deed(words: Phrase | None, deed: str) -> None:
     """Enter in the table what may be done to the vectors of a law, or to those of none."""
     told, factors = DEEDS[deed]
     thing = THINGS[words] if words else phrase("a vector")
@@ -268,86 +272,88 @@ def _enter(words: Phrase | None, deed: str) -> None:
         assert at.vector is not None
         if (at.vector.words if at.vector.words in THINGS else None) is words:
             for factor in factors:
-                yield at.made(told(at.vector.named), factor, start=at.vector.start)
+                yield at.mistaken_step(told(at.vector.text), factor, start=at.vector.start)
 
-    mistake(f"{thing()} {deed}" if words else deed, lambda: told(thing()), laid_off)(rule)
+    enter_mistake(f"{thing()} {deed}" if words else deed, lambda: told(thing()), lays_off_vector)(rule)
 
 
 for _words in (*THINGS, None):
     for _deed in DEEDS:
-        _enter(_words, _deed)
+        _enter_deed(_words, _deed)
 
 
-@mistake("wrong scale", phrase("a vector of the wrong length"), laid_off)
+@enter_mistake("wrong scale", phrase("a vector of the wrong length"), lays_off_vector)
 def _(at: Occasion) -> Iterable[Mistake]:
     assert at.vector is not None
-    return [at.made(said("{0} is {1} times as long as it should be", at.vector.named, digits(factor, 2)), factor,
+    return [at.mistaken_step(said("{0} is {1} times as long as it should be", at.vector.text, digits(factor, 2)),
+                             factor,
                     start=at.vector.start) for factor in measures.SCALE_FACTORS]
 
 
-@mistake("wrong radius", phrase("a normal acceleration over the wrong radius"), laid_off)
+@enter_mistake("wrong radius", phrase("a normal acceleration over the wrong radius"), lays_off_vector)
 def _(at: Occasion) -> Iterable[Mistake]:
     """The square of the velocity over the length of another link."""
     assert at.vector is not None
-    ends = [at.given(name) for name in at.vector.of] if at.vector.words is NORMAL_VECTOR else []
+    ends = [at.given_point(name) for name in at.vector.of] if at.vector.words is NORMAL_VECTOR else []
     if len(ends) == 2 and None not in ends:
         one, other = (end for end in ends if end is not None)
         for P, Q in at.sides:
             if {P, Q} != {one, other}:
-                told = said("{0} with the radius {1}{2} instead of {3}{4}", at.vector.named, *map(
+                told = said("{0} with the radius {1}{2} instead of {3}{4}", at.vector.text, *map(
                     at.program.text, (P, Q)), *at.vector.of)
-                yield at.made(told, start=at.vector.start, radii=(one, other, P, Q))
+                yield at.mistaken_step(told, start=at.vector.start, radii=(one, other, P, Q))
 
 
-@mistake("wrong line", phrase("parallel or perpendicular to the wrong line"), ALIGNED)
+@enter_mistake("wrong line", phrase("parallel or perpendicular to the wrong line"), ALIGNED)
 def _(at: Occasion) -> Iterable[Mistake]:
-    return at.instead(phrase("parallel to {0} instead of {1}") if at.step.op.movement is Movement.PARALLEL
+    return at.with_other_marks(phrase("parallel to {0} instead of {1}") if at.step.op.movement is Movement.PARALLEL
                       else phrase("perpendicular to {0} instead of {1}"), 0)
 
 
-@mistake("wrong point", phrase("drawn through the wrong point"),
-         by(Movement.PARALLEL, Movement.PERPENDICULAR, Movement.RULED, Movement.DROPPED))
+@enter_mistake("wrong point", phrase("drawn through the wrong point"),
+         for_movements(Movement.PARALLEL, Movement.PERPENDICULAR, Movement.RULED, Movement.DROPPED))
 def _(at: Occasion) -> Iterable[Mistake]:
     places = (place for place, kind in enumerate(at.step.op.reads) if kind == POINT)
-    return at.instead(phrase("drawn through {0} instead of {1}"), *places)
+    return at.with_other_marks(phrase("drawn through {0} instead of {1}"), *places)
 
 
-@mistake("wrong crossing", phrase("the wrong lines crossed"), lambda op: op.crossing)
+@enter_mistake("wrong crossing", phrase("the wrong lines crossed"), lambda op: op.crossing)
 def _(at: Occasion) -> Iterable[Mistake]:
-    return at.instead(phrase("marked on {0} instead of {1}"), *range(len(at.step.args)))
+    return at.with_other_marks(phrase("marked on {0} instead of {1}"), *range(len(at.step.args)))
 
 
-@mistake("wrong start", phrase("laid off from the wrong point"), laid_off)
+@enter_mistake("wrong start", phrase("laid off from the wrong point"), lays_off_vector)
 def _(at: Occasion) -> Iterable[Mistake]:
-    return at.instead(phrase("laid off from {0} instead of {1}"), at.step.op.root or 0)
+    return at.with_other_marks(phrase("laid off from {0} instead of {1}"), at.step.op.root or 0)
 
 
-@mistake("wrong vector", phrase("the wrong vector carried over"),
-         lambda op: op.movement is Movement.HALVED or (laid_off(op) and op.instrument == DIVIDERS))
+@enter_mistake("wrong vector", phrase("the wrong vector carried over"),
+         lambda op: op.movement is Movement.HALVED or (lays_off_vector(op) and op.instrument == DIVIDERS))
 def _(at: Occasion) -> Iterable[Mistake]:
-    return at.instead(phrase("taken from {0} instead of {1}"), 0, 1)
+    return at.with_other_marks(phrase("taken from {0} instead of {1}"), 0, 1)
 
 
-@mistake("wrong centre", phrase("struck about the wrong centre"), by(Movement.STRUCK))
+@enter_mistake("wrong centre", phrase("struck about the wrong centre"), for_movements(Movement.STRUCK))
 def _(at: Occasion) -> Iterable[Mistake]:
-    return at.instead(phrase("struck about {0} instead of {1}"), 0)
+    return at.with_other_marks(phrase("struck about {0} instead of {1}"), 0)
 
 
-@mistake("wrong opening", phrase("struck with the wrong opening"), by(Movement.STRUCK))
+@enter_mistake("wrong opening", phrase("struck with the wrong opening"), for_movements(Movement.STRUCK))
 def _(at: Occasion) -> Iterable[Mistake]:
     for factor in (2.0, 0.5):
-        yield at.made(said("the radius is {0} times as large as it should be", digits(factor, 2)), factor)
-    yield from at.instead(phrase("struck with {0} instead of {1}"), 1)
+        yield at.mistaken_step(said("the radius is {0} times as large as it should be", digits(factor, 2)), factor)
+    yield from at.with_other_marks(phrase("struck with {0} instead of {1}"), 1)
 
 
-@mistake("exchanged coordinates", phrase("coordinates exchanged, or of the wrong sign"), by(Movement.GIVEN))
+@enter_mistake("exchanged coordinates", phrase("coordinates exchanged, or of the wrong sign"),
+               for_movements(Movement.GIVEN))
 def _(at: Occasion) -> Iterable[Mistake]:
     x, y = (at.step.params[name] for name in "xy")
-    for told, (u, v) in exchanges(x, y):
-        yield at.made(told, params={"x": u, "y": v})
+    for told, (u, v) in exchanged_coordinates(x, y):
+        yield at.mistaken_step(told, params={"x": u, "y": v})
 
 
-def exchanges(x: float, y: float) -> Sequence[tuple[Said, tuple[float, float]]]:
+def exchanged_coordinates(x: float, y: float) -> Sequence[tuple[Said, tuple[float, float]]]:
     """What two coordinates are mistaken for."""
     return [(said("x and y are exchanged"), (y, x)), (said("x has the wrong sign"), (-x, y)),
             (said("y has the wrong sign"), (x, -y))]

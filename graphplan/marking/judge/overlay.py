@@ -19,8 +19,8 @@ from shapely import Geometry, LineString, Point, STRtree
 from graphplan.kernel.elementary import foot
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.marking.files.curves import circle
-from graphplan.marking.judge.findings import VERDICT, LegendRow, Remarks, called, complaint, opinion
+from graphplan.marking.files.drawing import circle_through
+from graphplan.marking.judge.findings import VERDICT, LegendRow, Remarks, complaint, opinion, step_name
 from graphplan.marking.judge.score import Score
 from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNSURE, WRONG, Judgement, Verdict
 from graphplan.marking.traces import Trace
@@ -67,10 +67,11 @@ def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     apart = (*arrangement.columns, arrangement.title)
     around = [item for item in solution.items if item.layer in BESIDE and not lies_in(item, apart)]
     empty = [item for item in around if not lies_in(item, arrangement.panels.values())]
-    over = [faint(item) for item in solution.items if item.layer not in (*BESIDE, RESULTS)]
+    over = [faint_item(item) for item in solution.items if item.layer not in (*BESIDE, RESULTS)]
     student = StudentStrokes(judgement)
     over += student.items()
-    over += [item for panel, view in composition.views.items() for item in told(student, panel, view.rect, over)]
+    over += [item for panel, view in composition.views.items()
+             for item in plan_remarks(student, panel, view.rect, over)]
     words = arrangement.set(lambda wide: Remarks(composition.plans).lines(wide, judgement, score))
     about, pages = replace(solution, description=tongue(opinion(judgement))), paginate_tightly(words, arrangement)
     sheets = []
@@ -81,7 +82,7 @@ def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     return sheets
 
 
-def faint(item: Item) -> Item:
+def faint_item(item: Item) -> Item:
     """An item of the true drawing: thin and grey."""
     pen = item.pen
     if isinstance(item, Text):
@@ -90,22 +91,22 @@ def faint(item: Item) -> Item:
     return replace(item, pen=Pen(min(pen.width, THIN), FAINT, pen.dash, fill))
 
 
-def told(student: StudentStrokes, panel: str, rect: Rect, items: Sequence[Item]) -> Iterator[Item]:
+def plan_remarks(student: StudentStrokes, panel: str, rect: Rect, items: Sequence[Item]) -> Iterator[Item]:
     """On one plan, in its rectangle: the first wrong step called out, the others by their numbers."""
     judgement, here = student.judgement, list(items)
     drawn = judgement.drawing.drawn
     letters = judgement.composition.arrangement.letters
-    wrong = [(verdict, student.at(verdict)) for verdict in judgement.verdicts
+    wrong = [(verdict, student.verdict_spot(verdict)) for verdict in judgement.verdicts
              if verdict.state == WRONG and student.panel(verdict) == panel]
     for verdict, at in wrong:
-        if verdict is judgement.first:
+        if verdict is judgement.first_wrong:
             names = tuple(step.name for step in drawn.steps if step.name)
             sentence = judgement.composition.plans.tongue(complaint(judgement, verdict))
             here += (boxed := [*callout(sentence, names, at, here, rect, CALLED, letters.text)])
             yield from boxed
-    wishes = [Wish((TextRun(called(drawn, verdict.at_fault).short),), (at,), SIZES[WRONG], True,
+    wishes = [Wish((TextRun(step_name(drawn, verdict.at_fault).short),), (at,), SIZES[WRONG], True,
                    Pen(0.0, RED, fill=RED),
-                   bold=True) for verdict, at in wrong if verdict is not judgement.first]
+                   bold=True) for verdict, at in wrong if verdict is not judgement.first_wrong]
     yield from place_letters(wishes, here, [at for _, at in wrong], rect, letters)
 
 
@@ -114,13 +115,13 @@ def _remarks(page: Sequence[Placed]) -> Iterator[Item]:
     for row, x, y in page:
         yield from row_items([(row, x, y)])
         if isinstance(row, LegendRow):
-            yield from sample(row.state, (x + row.cells[0].x / 2 - 0.5, y + LIFT - 0.3))
+            yield from legend_sample(row.state, (x + row.cells[0].x / 2 - 0.5, y + LIFT - 0.3))
 
 
 def callout(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[Item], rect: Rect,
             pen: Pen, size: float = SIZE) -> Iterator[Item]:
     """The box with its leader, in letters of a size; `items` are what it should not cover."""
-    box, words = boxed(sentence, names, spot, items, rect, pen, size)
+    box, words = boxed_words(sentence, names, spot, items, rect, pen, size)
     nearest = min(max(spot[0], box.left), box.right), min(max(spot[1], box.bottom), box.top)
     leader = offset(spot, unit_vector(spot, nearest), RING)
     yield Circle(pen.with_fill("none"), LAYER, None, spot, RING)
@@ -128,7 +129,7 @@ def callout(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[I
     yield from words
 
 
-def boxed(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[Item], rect: Rect,
+def boxed_words(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[Item], rect: Rect,
           pen: Pen, size: float = SIZE) -> tuple[Rect, list[Item]]:
     """A box near a spot, and the box with its words."""
     room = min(WIDEST, rect.width - 4 * PAD)
@@ -147,7 +148,7 @@ def _box(wide: float, high: float, spot: Spot, items: Sequence[Item], rect: Rect
     gaps = np.hypot(*np.maximum(np.maximum(boxes[:, :2] - spot, spot - boxes[:, 2:]), 0.0).T)
     if (gaps >= CLEAR).any():
         boxes, gaps = boxes[gaps >= CLEAR], gaps[gaps >= CLEAR]
-    touched, _ = STRtree([_outline(item) for item in items]).query(shapely.box(*boxes.T), "intersects")
+    touched, _ = STRtree([_ink_outline(item) for item in items]).query(shapely.box(*boxes.T), "intersects")
     cost = np.bincount(touched, minlength=len(boxes)) + FAR * gaps
     left, bottom, right, top = map(float, boxes[int(np.argmin(cost))])
     return Rect(left, bottom, right, top)
@@ -161,7 +162,7 @@ def _grid(wide: float, high: float, rect: Rect) -> Array:
     return np.stack([x, y, x + wide, y + high], axis=1)
 
 
-def _outline(item: Item) -> Geometry:
+def _ink_outline(item: Item) -> Geometry:
     """Where an item has ink; lettering is as solid as its box."""
     match item:
         case Polyline(spots=spots) | Polygon(spots=spots):
@@ -189,7 +190,7 @@ class StudentMark:
     grown: float
 
     @property
-    def at(self) -> Spot:
+    def label_spot(self) -> Spot:
         """Where on paper a verdict is to be told: at the mark, or the middle of its stroke within the panel."""
         spots, rect = self.spots, self.wanted.view.rect
         inside = clip_segment(rect, spots[0], spots[-1]) if self.trace.kind == LINE else None
@@ -201,12 +202,12 @@ class StudentMark:
     def items(self) -> Iterator[Item]:
         """What was drawn, over where it should be if it is wrong."""
         if self.verdict.state == WRONG and all(map(math.isfinite, self.wanted.value)):
-            yield self._wanted()
-        yield from _drawn(self.trace, self.spots, self.verdict.state, self.verdict.step)
+            yield self._wanted_item()
+        yield from _trace_items(self.trace, self.spots, self.verdict.state, self.verdict.step)
 
-    def _wanted(self) -> Item:
+    def _wanted_item(self) -> Item:
         """Where a wrong mark should be."""
-        step, wanted, here = self.verdict.step, self.wanted, self.at
+        step, wanted, here = self.verdict.step, self.wanted, self.label_spot
         if wanted.kind == POINT:
             return Polyline(WANTED, LAYER, step, (here, wanted.spot))
         if wanted.kind == LINE:
@@ -254,26 +255,27 @@ class StudentStrokes:
     def items(self) -> Iterator[Item]:
         """What is spare, then the marks, wrong ones over the others, then tolerances, cut off at the panel's edge."""
         for trace in self.judgement.spare:
-            if panel := self._under(trace):
-                spare = _drawn(trace, self.spots(trace, panel), None)
-                yield from _clipped(spare, self.judgement.composition.views[panel])
+            if panel := self._panel_of(trace):
+                spare = _trace_items(trace, self.spots(trace, panel), None)
+                yield from _clip_items(spare, self.judgement.composition.views[panel])
         for mark in sorted(self.marks, key=lambda mark: mark.verdict.state == WRONG):
-            yield from _clipped(mark.items(), mark.wanted.view)
+            yield from _clip_items(mark.items(), mark.wanted.view)
         for mark in self.marks:
-            yield from _clipped(mark.tolerance(), mark.wanted.view)
+            yield from _clip_items(mark.tolerance(), mark.wanted.view)
         for verdict in self.judgement.verdicts:
             if verdict.state == UNSURE and verdict.trace is None:
-                yield from _point(self.about(verdict), UNSURE, verdict.step)
+                yield from _point_items(self.expected_spot(verdict), UNSURE, verdict.step)
 
     def panel(self, verdict: Verdict) -> str:
         """The plan of a step."""
         return self.judgement.composition.plates.steps[verdict.step].panel
 
-    def at(self, verdict: Verdict) -> Spot:
+    def verdict_spot(self, verdict: Verdict) -> Spot:
         """Where on paper a verdict is to be told: at the mark, or where it should be."""
-        return next((mark.at for mark in self.marks if mark.verdict is verdict), None) or self.about(verdict)
+        return next((mark.label_spot for mark in self.marks if mark.verdict is verdict),
+                    None) or self.expected_spot(verdict)
 
-    def about(self, verdict: Verdict) -> Spot:
+    def expected_spot(self, verdict: Verdict) -> Spot:
         """Where what is not to be seen should be: a point, or the middle of the marks on a line or an arc, or the foot
         on it from the middle of its panel; an opening is anywhere."""
         plates = self.judgement.composition.plates
@@ -290,10 +292,10 @@ class StudentStrokes:
     def spots(self, trace: Trace, panel: str) -> tuple[Spot, ...]:
         """A trace on paper, where its plan is known to lie."""
         frame, window = self.judgement.frames[panel], self.judgement.composition.views[panel]
-        found = (frame.back(complex(*spot)) for spot in trace.spots)
+        found = (frame.to_plan(complex(*spot)) for spot in trace.spots)
         return tuple(window((z.real, z.imag)) for z in found)
 
-    def _under(self, trace: Trace) -> str | None:
+    def _panel_of(self, trace: Trace) -> str | None:
         """The plan that a trace lies on: the one it is said to lie on, else the first whose panel holds it."""
         if trace.panel in self.judgement.frames:
             return trace.panel
@@ -302,34 +304,34 @@ class StudentStrokes:
                      if any(map(views[panel].rect.holds, self.spots(trace, panel)))), None)
 
 
-def _clipped(items: Iterable[Item], view: View) -> Iterator[Item]:
+def _clip_items(items: Iterable[Item], view: View) -> Iterator[Item]:
     """What of some items lies on a panel; what is left whole is there if its centre is."""
     for item in items:
         if not isinstance(item, Circle) or view.rect.holds(item.centre):
             yield from clip_item(item, view.rect)
 
 
-def sample(state: str | None, spot: Spot) -> Iterator[Item]:
+def legend_sample(state: str | None, spot: Spot) -> Iterator[Item]:
     """How marks of a verdict look, for a legend: a stroke with a point on it; what is spare without a verdict."""
     x, y = spot
     yield Polyline(PENS.get(state, SPARE), LAYER, None, ((x - 4.0, y), (x + 4.0, y)))
     if state == UNSURE:  # its ring is wider than a row is high
         yield Circle(PENS[UNSURE].with_fill("none"), LAYER, None, spot, SIZES[WRONG])
     else:
-        yield from _point(spot, state, None)
+        yield from _point_items(spot, state, None)
 
 
-def _drawn(trace: Trace, spots: Sequence[Spot], state: str | None, step: int | None = None) -> Iterator[Item]:
+def _trace_items(trace: Trace, spots: Sequence[Spot], state: str | None, step: int | None = None) -> Iterator[Item]:
     """A trace as it was drawn: a point by its shape, a stroke from end to end, an arc as far as it goes."""
     if trace.kind == POINT:
-        yield from _point(spots[0], state, step)
+        yield from _point_items(spots[0], state, step)
     elif trace.kind == CIRCLE:
         yield _arc(spots, PENS.get(state, SPARE), step)
     else:
         yield Polyline(PENS.get(state, SPARE), LAYER, step, tuple(spots[:2]))
 
 
-def _point(spot: Spot, state: str | None, step: int | None) -> Iterator[Item]:
+def _point_items(spot: Spot, state: str | None, step: int | None) -> Iterator[Item]:
     """A ring; a square if it is right after a mistake, a cross if it is wrong; a wide ring where it cannot be told."""
     (x, y), pen, size = spot, PENS.get(state, SPARE), SIZES.get(state, 0.6)
     firm = Pen(min(pen.width, 0.5), pen.colour, fill=PAPER)
@@ -347,7 +349,7 @@ def _point(spot: Spot, state: str | None, step: int | None) -> Iterator[Item]:
 def _arc(spots: Sequence[Spot], pen: Pen, step: int | None) -> Item:
     """The arc through the first, the middle and the last spot; a whole circle where the four are a quarter apart."""
     first, middle, last = spots[0], spots[len(spots) // 2], spots[-1]
-    found = circle(first, middle, last)
+    found = circle_through(first, middle, last)
     if found is None:
         return Polyline(pen, LAYER, step, tuple(spots))
     centre, radius = found

@@ -20,8 +20,8 @@ from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT, Movement
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.matching import Matching
-from graphplan.marking.judge.readings import Reading
-from graphplan.marking.judge.student_sheet import Fit, plain
+from graphplan.marking.judge.readings import SheetReading
+from graphplan.marking.judge.student_sheet import Fit, plain_value
 from graphplan.marking.traces import PlanFrame
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.sheet.plates.plans import Plans
@@ -29,10 +29,10 @@ from graphplan.sheet.plates.plans import Plans
 Pair = tuple[complex, complex]  # where a mark is on its plan, and where on the sheet
 
 
-class Register:
+class FrameFinder:
     """The frames of a sheet: given ones, those of labelled marks, or those that loose marks agree on."""
 
-    def __init__(self, reading: Reading, pencil: Pencil, labels: Mapping[int, int]):
+    def __init__(self, reading: SheetReading, pencil: Pencil, labels: Mapping[int, int]):
         self.reading, self.drawing, self.submission = reading, reading.drawing, reading.submission
         self.pencil = pencil
         plans = Plans(self.drawing)
@@ -46,10 +46,11 @@ class Register:
         if MECHANISM in self.submission.frames:
             return Fit(self.submission.frames[MECHANISM])
         steps = self.drawing.drawn.steps
-        given = [pair for index, pair in self._pairs(MECHANISM) if index < self.drawing.drawn.givens]
-        sigma = self._sigma
-        found = best(given, sigma, self._usual) or best([pair for _, pair in self._pairs(MECHANISM)], sigma)
-        found = found or self._sought([complex(*self.drawing.values[step.index]) for step in steps[:len(
+        given = [pair for index, pair in self._labelled_pairs(MECHANISM) if index < self.drawing.drawn.givens]
+        sigma = self._label_deviation
+        found = best_fit(given, sigma,
+                         self._task_scale) or best_fit([pair for _, pair in self._labelled_pairs(MECHANISM)], sigma)
+        found = found or self._search_mechanism([complex(*self.drawing.values[step.index]) for step in steps[:len(
             self.drawing.scene.points)] if step.op.movement is Movement.GIVEN])
         if found is None:
             names = ", ".join(list(self.drawing.scene.points)[:4])
@@ -59,24 +60,24 @@ class Register:
         return found
 
     @property
-    def _usual(self) -> float:
+    def _task_scale(self) -> float:
         """The scale of the mechanism on the task's sheet."""
         views = self.reading.task.views
         return views[MECHANISM].scale if MECHANISM in views else 0.0
 
     @property
-    def _sigma(self) -> float:
+    def _label_deviation(self) -> float:
         """How far off a labelled point is: the more, the less squarely strokes cross in those without dots."""
         traces = (self.submission.traces[place] for place in self.labels.values())
         blurs = [trace.blur for trace in traces if trace.crossed and trace.blur < measures.MAX_FRAME_BLUR_MM]
         return math.hypot(self.pencil.point, *(blur / math.sqrt(len(blurs)) for blur in blurs))
 
-    def follow(self, matching: Matching) -> None:
+    def expect_after(self, matching: Matching) -> None:
         """Expect on the other plans what follows from the marks on the mechanism, and there no marks of it."""
         self.taken |= matching.used
-        self.values = self.drawing.values, [plain(value) for value in matching.own]
+        self.values = self.drawing.values, [plain_value(value) for value in matching.own]
 
-    def expected(self, panel: str, mechanism: Fit) -> list[Fit]:
+    def expected_fits(self, panel: str, mechanism: Fit) -> list[Fit]:
         """The frame of another plan as the task's sheet has it, laid on its beginning or else on any mark of it; where
         no mark is labelled, the frames that loose marks agree on."""
         if panel in self.submission.frames:
@@ -84,18 +85,19 @@ class Register:
         if panel in self.reading.fits:
             return [self.reading.fits[panel]]
         unit = mechanism.frame.unit * float(self.reading.composition.scales.multiples.get(panel, 1))
-        if anchor := self._anchor(panel):
-            return [self._tied(anchor[1] - unit * anchor[0], unit)]
-        return [replace(self._tied(origin, unit), shift=2 * self.pencil.point) for origin in self._voted(panel, unit)]
+        if anchor := self._plan_anchor(panel):
+            return [self._tied_fit(anchor[1] - unit * anchor[0], unit)]
+        return [replace(self._tied_fit(origin, unit), shift=2 * self.pencil.point)
+                for origin in self._voted_origins(panel, unit)]
 
-    def rivals(self, panel: str, matching: Matching) -> Iterator[tuple[Fit, float]]:
+    def rival_fits(self, panel: str, matching: Matching) -> Iterator[tuple[Fit, float]]:
         """Other frames of a plan, laid on its beginning, and what it weighs that they are not the expected one: those
         in which some of the vectors that were carried over to it are as they should be.
 
         Reads a way through the drawing in the expected frame: what is carried over does not rest on that.
         """
-        expected, (plan, sheet) = matching.sheet.fits[panel], self._anchor(panel) or (0j, 0j)
-        for _, unit, sigma in agreed(list(self._carried(panel, matching))):
+        expected, (plan, sheet) = matching.sheet.fits[panel], self._plan_anchor(panel) or (0j, 0j)
+        for _, unit, sigma in agreed_units(list(self._carried_units(panel, matching))):
             ratio = unit / expected.frame.unit
             along = abs(ratio.imag) < 3 * sigma + measures.SAME_DIRECTION_SINE
             if panel == VELOCITY_PLAN and abs(ratio.real) < (3 * sigma + measures.SAME_DIRECTION_SINE) * abs(ratio):
@@ -103,15 +105,15 @@ class Register:
             yield Fit(PlanFrame(sheet - unit * plan, unit), sigma, 0.0,
                       plan), measures.RESCALED_STEPS if along else measures.REDIRECTED_STEPS
 
-    def _anchor(self, panel: str) -> Pair | None:
+    def _plan_anchor(self, panel: str) -> Pair | None:
         """The labelled beginning of a plan, or else any labelled mark of it."""
-        pairs, steps = self._pairs(panel), self.drawing.drawn.steps
+        pairs, steps = self._labelled_pairs(panel), self.drawing.drawn.steps
         begins = (pair for index, pair in pairs if steps[index].op.movement is Movement.BEGUN)
         return next(begins, pairs[0][1] if pairs else None)
 
-    def _carried(self, panel: str, matching: Matching) -> Iterator[tuple[complex, float]]:
+    def _carried_units(self, panel: str, matching: Matching) -> Iterator[tuple[complex, float]]:
         """What a unit of the plan is by each vector on it that was brought from another plan, and how sure it is."""
-        spots = dict(self._pairs(panel))
+        spots = dict(self._labelled_pairs(panel))
         for index, (_, end) in spots.items():
             start = matching.steps[index].root
             if start in spots:
@@ -119,10 +121,10 @@ class Register:
                 if vector is not None and vector[0] and end != spots[start][1]:  # nothing has no scale
                     yield (end - spots[start][1]) / vector[0], vector[1] / abs(vector[0])
 
-    def _tied(self, origin: complex, unit: complex) -> Fit:
+    def _tied_fit(self, origin: complex, unit: complex) -> Fit:
         return Fit(PlanFrame(origin, unit), 0.0, 0.0, 0j, MECHANISM)
 
-    def _pairs(self, panel: str) -> list[tuple[int, Pair]]:
+    def _labelled_pairs(self, panel: str) -> list[tuple[int, Pair]]:
         """The labelled points of a plan, by step: where each truly is, and where on the sheet."""
         return [(index, (complex(*self.drawing.values[index][:2]), complex(*self.submission.traces[place].spots[0])))
                 for index, place in sorted(self.labels.items())
@@ -131,29 +133,29 @@ class Register:
 
     # ---- unlabelled sheets -----------------------------------------------------------------------------------------
 
-    def _loose(self) -> list[complex]:
+    def _unlabelled_spots(self) -> list[complex]:
         """The spots, none twice, that may be marks: unlabelled points, and the ends of lines."""
         taken = set(self.labels.values())
         spots = [complex(*spot) for place, trace in enumerate(self.submission.traces)
                  if place not in taken and trace.kind in (POINT, LINE) for spot in trace.spots[:2]]
         return list({(round(z.real, 2), round(z.imag, 2)): z for z in spots}.values())[:measures.MAX_ANCHORS]
 
-    def _points(self) -> list[complex]:
+    def _unlabelled_points(self) -> list[complex]:
         """The unlabelled points of a sheet that are not yet known."""
         return [complex(*trace.spots[0]) for place, trace in enumerate(self.submission.traces)
                 if place not in self.taken and trace.kind == POINT]
 
-    def _crossings(self) -> list[complex]:
+    def _points_or_crossings(self) -> list[complex]:
         """The points of a sheet, or where it has none but labelled ones, where its lines cross."""
-        if points := self._points():
+        if points := self._unlabelled_points():
             return points
         unlabelled = [trace for place, trace in enumerate(self.submission.traces) if place not in self.taken]
         lines = [tuple(complex(*spot) for spot in trace.spots[:2]) for trace in unlabelled if trace.kind == LINE]
-        return [z for one, two in combinations(lines, 2) if (z := _crossing(one, two)) is not None]
+        return [z for one, two in combinations(lines, 2) if (z := _line_crossing(one, two)) is not None]
 
-    def _sought(self, given: Sequence[complex]) -> Fit | None:
+    def _search_mechanism(self, given: Sequence[complex]) -> Fit | None:
         """The frame in which most of the given points have a loose spot."""
-        unlabelled, points = np.array(self._loose()), np.array(list(dict.fromkeys(given)))
+        unlabelled, points = np.array(self._unlabelled_spots()), np.array(list(dict.fromkeys(given)))
         if len(unlabelled) < 2 or len(points) < 2:
             return None
         best_score, held, sigma = (min(3, len(points)) - 1, math.inf), list[Pair](), 4 * self.pencil.point
@@ -168,21 +170,21 @@ class Register:
                 if units[k, l] and score > best_score:
                     best_score = score
                     held = list(zip(points[near < sigma].tolist(), nearest[near < sigma].tolist(), strict=True))
-        chance = measures.ANCHOR_PAIRS * len(unlabelled) ** 2 * _filled(unlabelled, sigma) ** (best_score[0] - 2)
-        return best(held, self.pencil.point) if held and chance < measures.CHANCE_MECHANISMS else None
+        chance = measures.ANCHOR_PAIRS * len(unlabelled) ** 2 * _sheet_share(unlabelled, sigma) ** (best_score[0] - 2)
+        return best_fit(held, self.pencil.point) if held and chance < measures.CHANCE_MECHANISMS else None
 
-    def _voted(self, panel: str, unit: complex) -> list[complex]:
+    def _voted_origins(self, panel: str, unit: complex) -> list[complex]:
         """The origins of a plan for which most of its marks are where loose ones are; a loose one must be where the
         plan begins."""
         steps = [step for step, home in zip(self.drawing.drawn.steps, self.plan_of_step, strict=True)
                  if home == panel and step.op.gives == POINT]
-        unlabelled = np.array(self._crossings())
+        unlabelled = np.array(self._points_or_crossings())
         if not len(unlabelled):
             return [0j]
         begin = next((step for step in steps if step.op.movement is Movement.BEGUN), None)
         marks = [np.array([complex(*values[step.index][:2]) for step in steps]) for values in self.values]
-        if begin is None or not self._points():
-            return self._heaped((unlabelled[:, None] - unit * np.concatenate(marks)[None, :]).ravel())
+        if begin is None or not self._unlabelled_points():
+            return self._heaped_origins((unlabelled[:, None] - unit * np.concatenate(marks)[None, :]).ravel())
         origins = unlabelled - unit * complex(*self.drawing.values[begin.index][:2])
 
         def met(spots: Any) -> Any:
@@ -193,31 +195,31 @@ class Register:
         votes = np.max([sum(met(origins + unit * mark) for mark in plan) for plan in marks], axis=0)
         return [complex(origins[k]) for k in np.argsort(-votes, kind="stable")[:measures.MAX_ORIGINS]]
 
-    def _heaped(self, origins: Any) -> list[complex]:
+    def _heaped_origins(self, origins: Any) -> list[complex]:
         """The origins that most marks vote for."""
         cell = measures.VOTE_SIGMAS * self.pencil.point
-        heaps = sorted((heap for wide in (cell, 3 * cell) for heap in _heaps(origins, wide)), reverse=True)
+        heaps = sorted((heap for wide in (cell, 3 * cell) for heap in _vote_heaps(origins, wide)), reverse=True)
         told: list[complex] = []
         for _, x, y in heaps:
             if all(abs(complex(x, y) - other) > 4 * cell for other in told):
                 told.append(complex(x, y))
         return told[:measures.MAX_ORIGINS]
 
-    def begins(self, fits: Mapping[str, Fit]) -> dict[int, int]:
+    def find_origins(self, fits: Mapping[str, Fit]) -> dict[int, int]:
         """The loose points that are the beginnings of plans, by step."""
         found = {}
         points = [(place, complex(*trace.spots[0])) for place, trace in enumerate(self.submission.traces)
                   if trace.kind == POINT and place not in self.labels.values()]
         for step in self.drawing.drawn.steps:
             if step.op.movement is Movement.BEGUN and step.index not in self.labels and points:
-                here = fits[self.plan_of_step[step.index]].frame.onto(complex(*self.drawing.values[step.index][:2]))
+                here = fits[self.plan_of_step[step.index]].frame.to_sheet(complex(*self.drawing.values[step.index][:2]))
                 place, spot = min(points, key=lambda point: abs(point[1] - here))
                 if abs(spot - here) < measures.VOTE_SIGMAS * self.pencil.point:
                     found[step.index] = place
         return found
 
 
-def _heaps(spots: Any, cell: float) -> Iterator[tuple[int, float, float]]:
+def _vote_heaps(spots: Any, cell: float) -> Iterator[tuple[int, float, float]]:
     """The cells of a grid with some spots in them: how many, and where their middle is."""
     for shift in (0, 0.5 + 0.5j, 0.5, 0.5j):  # a heap may lie across the cells of one grid
         cells = np.floor(spots.real / cell + shift.real) + 1j * np.floor(spots.imag / cell + shift.imag)
@@ -227,13 +229,13 @@ def _heaps(spots: Any, cell: float) -> Iterator[tuple[int, float, float]]:
             yield int(counts[heap]), float(np.median(here.real)), float(np.median(here.imag))
 
 
-def _filled(spots: Any, sigma: float) -> float:
+def _sheet_share(spots: Any, sigma: float) -> float:
     """The part of the sheet on which a spot would be taken for one of these."""
     wide, high = np.ptp(spots.real) + sigma, np.ptp(spots.imag) + sigma
     return float(min(1.0, len(spots) * math.pi * sigma**2 / (wide * high)))
 
 
-def _crossing(one: Sequence[complex], two: Sequence[complex]) -> complex | None:
+def _line_crossing(one: Sequence[complex], two: Sequence[complex]) -> complex | None:
     """Where two lines cross, unless they are almost parallel."""
     u, v = one[1] - one[0], two[1] - two[0]
     sine = (u.conjugate() * v).imag
@@ -242,7 +244,7 @@ def _crossing(one: Sequence[complex], two: Sequence[complex]) -> complex | None:
     return one[0] + ((two[0] - one[0]).conjugate() * v).imag / sine * u
 
 
-def agreed(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[int, complex, float]]:
+def agreed_units(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[int, complex, float]]:
     """How many units agree on one, that one and how sure it is, each weighed by how sure it is; of most first."""
     groups = []
     for unit, sigma in units:
@@ -258,7 +260,7 @@ def agreed(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[int, comple
             yield count, unit, sigma
 
 
-def best(pairs: Sequence[Pair], sigma: float, usual: float = 0.0) -> Fit | None:
+def best_fit(pairs: Sequence[Pair], sigma: float, usual: float = 0.0) -> Fit | None:
     """The frame on which most marks agree, each `sigma` mm off in x and in y; None where no two lie apart.
 
     Every two marks propose one; of those that hold equally many the one that misses them least is taken, of those that
@@ -276,10 +278,10 @@ def best(pairs: Sequence[Pair], sigma: float, usual: float = 0.0) -> Fit | None:
                 missed = abs(math.log(abs(unit) / usual))
             if len(kept) > most or (len(kept) == most > 1 and missed < least):
                 most, least, held = len(kept), missed, [pairs[place] for place in kept]
-    return fitted(held, sigma) if held else None
+    return fit_frame(held, sigma) if held else None
 
 
-def fitted(pairs: Sequence[Pair], sigma: float) -> Fit | None:
+def fit_frame(pairs: Sequence[Pair], sigma: float) -> Fit | None:
     """The frame of least squares."""
     here = sum(plan for plan, _ in pairs) / len(pairs)
     there = sum(sheet for _, sheet in pairs) / len(pairs)

@@ -13,10 +13,9 @@ from graphplan.accuracy.hand import decimal, read_settings
 from graphplan.errors import Refused
 from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.asked import results
-from graphplan.marking.judge.exchanged import EXCHANGED, WORDS
 from graphplan.marking.judge.mistakes import MISTAKES
-from graphplan.marking.judge.verdict import IMPLIED, UNSEEN, UNSURE, WRONG, Judgement
+from graphplan.marking.judge.verdict import IMPLIED, UNSEEN, UNSURE, WRONG, Judgement, asked_results
+from graphplan.marking.judge.verdicts import EXCHANGED, WORDS
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
 from graphplan.phrases import Phrase, Said, arrange, join, phrase, said
@@ -48,7 +47,7 @@ class Weights:
     costs: Mapping[str, float] = field(default_factory=lambda: {
         kind: measures.SLIP_POINTS if kind in SLIPS else measures.MECHANICS_POINTS for kind in KINDS})
 
-    def of(self, state: str) -> float:
+    def earned_by(self, state: str) -> float:
         """What is implied earns as if it were drawn; what cannot be told earns nothing."""
         return 0.0 if state == UNSURE else float(getattr(self, "right" if state == IMPLIED else state))
 
@@ -56,10 +55,10 @@ class Weights:
 VERDICTS = "right", "follows", "missing", "wrong", "numbers"
 
 
-def weights(text: str) -> Weights:
+def parse_weights(text: str) -> Weights:
     """The weights that a text such as `follows=0.5,numbers=3,reversed=30` speaks of; what it leaves out stays as it is
     by default."""
-    told = read_settings("--weights", text, [*VERDICTS, *KINDS], "nothing of this name is weighed", _size)
+    told = read_settings("--weights", text, [*VERDICTS, *KINDS], "nothing of this name is weighed", _parse_weight)
     right, follows, missing, wrong, numbers = (told.get(name, float(getattr(Weights, name))) for name in VERDICTS)
     costs = {kind: told.get(kind, cost) for kind, cost in Weights().costs.items()}
     found = Weights(right, follows, missing, wrong, numbers, costs)
@@ -68,7 +67,7 @@ def weights(text: str) -> Weights:
     return found
 
 
-def _size(name: str, text: str) -> float:
+def _parse_weight(name: str, text: str) -> float:
     """A weight, within bounds in which sums of many stay what they are; or the points that a mistake costs."""
     size, least, most = decimal(text), measures.MIN_WEIGHTS.get(name, -measures.MAX_WEIGHT), measures.MAX_WEIGHT
     if name in KINDS:
@@ -78,7 +77,7 @@ def _size(name: str, text: str) -> float:
     return size
 
 
-def percent(earned: float, most: float) -> float:
+def share_in_percent(earned: float, most: float) -> float:
     """What was earned out of 100."""
     return measures.FULL_SCORE * min(max(earned / most, 0.0), 1.0)
 
@@ -96,10 +95,10 @@ class Score:
         """Out of 100, of everything together; none where there was nothing to judge."""
         if not self.shares:
             return None
-        return max(percent(*map(sum, zip(*self.shares.values(), strict=True))) - sum(self.costs.values()), 0.0)
+        return max(share_in_percent(*map(sum, zip(*self.shares.values(), strict=True))) - sum(self.costs.values()), 0.0)
 
     @property
-    def told(self) -> Said:
+    def text(self) -> Said:
         """In words, group by group, and what mistakes cost."""
         if self.total is None:
             return arrange("{0:capital}.", UNJUDGED())
@@ -110,7 +109,7 @@ class Score:
     @property
     def groups(self) -> dict[str, float]:
         """Out of 100, group by group."""
-        return {group: percent(*share) for group, share in self.shares.items()}
+        return {group: share_in_percent(*share) for group, share in self.shares.items()}
 
 
 def score(judgement: Judgement, weighed: Weights | None = None) -> Score:
@@ -118,26 +117,26 @@ def score(judgement: Judgement, weighed: Weights | None = None) -> Score:
     weighed = weighed or Weights()
     earned: dict[str, list[float]] = {group: [] for group in GROUPS}
     most = dict.fromkeys(GROUPS, 0.0)
-    for group, state, count in _counted(judgement, weighed):
-        earned[group].append(count * weighed.of(state))
+    for group, state, count in _weighed_states(judgement, weighed):
+        earned[group].append(count * weighed.earned_by(state))
         most[group] += count * weighed.right
     return Score({group: (math.fsum(earned[group]), most[group]) for group in GROUPS if most[group]},
-                 dict(_costs(judgement, weighed, sum(most.values()))))
+                 dict(_mistake_costs(judgement, weighed, sum(most.values()))))
 
 
-def _counted(judgement: Judgement, weighed: Weights) -> Iterator[tuple[str, str, float]]:
+def _weighed_states(judgement: Judgement, weighed: Weights) -> Iterator[tuple[str, str, float]]:
     """Group, state and count of everything that is to be judged: of a table alone its numbers are, each as one."""
-    groups = served(judgement.drawing)
-    for verdict in judgement.judged if judgement.drawn or not judgement.numbers else ():
+    groups = groups_of_steps(judgement.drawing)
+    for verdict in judgement.counting_verdicts if judgement.has_drawn or not judgement.numbers else ():
         if verdict.state != UNSEEN:
             yield groups[verdict.step], verdict.state, 1.0
-    for result in results(judgement):
+    for result in asked_results(judgement):
         yield RESULTS, result.state, weighed.numbers
 
 
-def _costs(judgement: Judgement, weighed: Weights, most: float) -> Iterator[tuple[str, float]]:
+def _mistake_costs(judgement: Judgement, weighed: Weights, most: float) -> Iterator[tuple[str, float]]:
     """What the first mistake of each kind costs beside the share of its step, or of its number."""
-    wrong = [(verdict.kind or OTHER, 1.0) for verdict in judgement.judged if verdict.state == WRONG]
+    wrong = [(verdict.kind or OTHER, 1.0) for verdict in judgement.counting_verdicts if verdict.state == WRONG]
     wrong += [(number.kind or OTHER, weighed.numbers) for number in judgement.numbers if number.state == WRONG]
     firsts = dict[str, float]()
     for kind, count in wrong if most else ():
@@ -148,7 +147,7 @@ def _costs(judgement: Judgement, weighed: Weights, most: float) -> Iterator[tupl
             yield kind, beyond
 
 
-def served(drawing: Construction) -> list[str]:
+def groups_of_steps(drawing: Construction) -> list[str]:
     """For every step the group that it belongs to: the first of its kinds of result that it serves, or the pose.
 
     All that serves neither velocities nor accelerations serves forces, if there are any.

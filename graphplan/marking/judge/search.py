@@ -20,8 +20,8 @@ from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import KnownMarks
 from graphplan.marking.judge.matching import UNMARKED, Match, Matching
-from graphplan.marking.judge.mistakes import Mistake, mistakes, value_of
-from graphplan.marking.judge.student_sheet import apart, plain, weighed
+from graphplan.marking.judge.mistakes import Mistake, possible_mistakes, value_of
+from graphplan.marking.judge.student_sheet import distance_apart, plain_value, weigh_mark
 from graphplan.marking.judge.verdict import WRONG
 
 Value = tuple[float, ...]
@@ -47,23 +47,23 @@ class Search:
         self.gone = 0  # how many steps were gone through
         self.odds: dict[int, float] = {}  # what speaks for each mistake that was found
 
-    def found(self, most: int) -> Found:
+    def find_mistakes(self, most: int) -> Found:
         """What up to so many steps were mistaken for; empty where nothing speaks for a mistake."""
         found: Found = {}
         for _ in range(most):
-            more = self._more(found)
+            more = self._next_mistake(found)
             if more is None:
                 break
             found[more.index] = more.one
             self.odds[more.index] = more.odds
         return found
 
-    def _more(self, found: Found) -> Guess | None:
+    def _next_mistake(self, found: Found) -> Guess | None:
         """One more mistake, if the way is likelier with it."""
         forks, matching = [], self.start.fork()
         for step in matching.steps:
             forks.append(matching.fork())
-            matching.until(step.index + 1, found)
+            matching.match_until(step.index + 1, found)
         mistaken = any(matching.matches[index].state == WRONG for index in found)
         best, most = None, matching.weight + (measures.FURTHER_MISTAKE_ODDS if mistaken
                                               else measures.FIRST_MISTAKE_ODDS)
@@ -72,24 +72,25 @@ class Search:
             if (guess.promise < measures.QUICK_SHARE * (most - matching.weight) - measures.PROMISE_SPREAD_ODDS
                 or self.gone - before > enough):
                 break
-            weight = self._weight(matching, forks, found, guess, most)
+            weight = self._way_weight(matching, forks, found, guess, most)
             if weight > most:
                 best, most = replace(guess, odds=weight - matching.weight), weight
         return best
 
-    def _weight(self, matching: Matching, forks: Sequence[Matching], found: Found, guess: Guess, least: float) -> float:
+    def _way_weight(self, matching: Matching, forks: Sequence[Matching], found: Found, guess: Guess,
+                    least: float) -> float:
         """The weight of a way with one more mistake; less than everything as soon as it cannot come to the least."""
-        touched, picture = self._touched(guess.index), matching.evidence.picture
+        touched, picture = self._touched_steps(guess.index), matching.evidence.picture
         other = forks[min(touched)].fork()
         other.found = {**found, guess.index: guess.one}
-        hope = guess.prior + sum(self._hope(match, touched) for match in matching.matches[len(other.own):])
+        hope = guess.prior + sum(self._best_weight(match, touched) for match in matching.matches[len(other.own):])
         for match in matching.matches[len(other.own):]:
             index = match.step.index
-            hope -= self._hope(match, touched)
+            hope -= self._best_weight(match, touched)
             try:
                 anew = index in touched and (picture or index == guess.index)  # files show strokes as far as drawn
-                if anew or index in other.found or not other.repeat(matching):
-                    other.go(other.found.get(index))
+                if anew or index in other.found or not other.try_repeat(matching):
+                    other.match_next(other.found.get(index))
                     self.gone += 1
             except Undrawable:
                 return -math.inf
@@ -101,7 +102,7 @@ class Search:
                 return -math.inf
         return other.weight + hope
 
-    def _touched(self, index: int) -> set[int]:
+    def _touched_steps(self, index: int) -> set[int]:
         """The steps that a mistake may change: what follows from it, and the strokes to the marks that do."""
         moved = {index}
         for step in self.start.steps[index + 1:]:
@@ -109,7 +110,7 @@ class Search:
                 moved.add(step.index)
         return moved | {stroke for stroke, marks in self.start.sheet.marks_on.items() if not moved.isdisjoint(marks)}
 
-    def _hope(self, match: Match, touched: set[int]) -> float:
+    def _best_weight(self, match: Match, touched: set[int]) -> float:
         """What a step may speak for a way at most."""
         settled = match.step.index not in touched and match.place is not None
         return match.weight if settled else max(match.weight, self.start.evidence.most.get(match.step.op.gives, 0.0))
@@ -123,16 +124,16 @@ class Search:
             if match.step.index in found:
                 continue
             if match.place is not None and (match.step.index in lost or uses[match.place] > 1):
-                yield from self._others(matching, match)
-            right = clear(match) and uses[match.place] == 1
+                yield from self._other_traces(matching, match)
+            right = is_clear(match) and uses[match.place] == 1
             if not right and match.step.index not in matching.labels and not match.step.op.free:
-                yield from self._mistakes(matching, quick, match)
+                yield from self._mistake_guesses(matching, quick, match)
 
-    def _others(self, matching: Matching, match: Match) -> Iterator[Guess]:
+    def _other_traces(self, matching: Matching, match: Match) -> Iterator[Guess]:
         """The traces that fit a step as well as the one beside them that was taken; or that none of them is its."""
         step, home = match.step, matching.sheet.plan_of_step[match.step.index]
         assert match.place is not None
-        for place in matching.evidence.beside(match.place, home, plain(matching.own[step.index])):
+        for place in matching.evidence.neighbours(match.place, home, plain_value(matching.own[step.index])):
             if matching.residual(step, match.expected, place, matching.own).fits(matching.chance):
                 yield Guess(step.index, place, measures.FIRST_MISTAKE_ODDS - measures.NEIGHBOUR_ODDS,
                             measures.NEIGHBOUR_PROMISE)
@@ -140,45 +141,46 @@ class Search:
             yield Guess(step.index, UNMARKED, measures.FIRST_MISTAKE_ODDS - measures.NEIGHBOUR_ODDS,
                         measures.NEIGHBOUR_PROMISE)
 
-    def _mistakes(self, matching: Matching, quick: QuickScore, match: Match) -> Iterator[Guess]:
+    def _mistake_guesses(self, matching: Matching, quick: QuickScore, match: Match) -> Iterator[Guess]:
         """The mistakes that a step may be, those of the table and others: kinds are equally likely, and so is what is
         of one kind."""
         step = match.step
-        table = list(mistakes(matching.sheet.drawing.drawn, step, matching.sheet.plan_of_step))
+        table = list(possible_mistakes(matching.sheet.drawing.drawn, step, matching.sheet.plan_of_step))
         alike = Counter(mistake.kind for mistake in table)
         for mistake in table:
             prior = measures.MISTAKE_ODDS - math.log(len(alike)) - math.log(alike[mistake.kind])
-            promise = quick.by(mistake) + prior
+            promise = quick.gain_of(mistake) + prior
             if promise > measures.MIN_PROMISE_ODDS:
                 yield Guess(step.index, mistake, prior, promise)
         faint = match.place is None or matching.evidence.weight(match.place) < measures.CLEAR_ODDS
-        for place, value in unmatched(matching, step) if faint and match.weight < measures.CLEAR_ODDS else ():
+        for place, value in unmatched_traces(matching, step) if faint and match.weight < measures.CLEAR_ODDS else ():
             yield Guess(step.index, place, measures.UNNAMED_MISTAKE_ODDS,
                         quick.gain(step, value) + measures.UNNAMED_MISTAKE_ODDS)
 
 
-def clear(match: Match) -> bool:
+def is_clear(match: Match) -> bool:
     """Whether a step is so clearly right that no mistake is thought of."""
     off = match.residual
     return (off is not None and match.weight >= measures.CLEAR_ODDS
             and off.square - len(off.off) < measures.CLEAR_SQUARES)
 
 
-def unmatched(matching: Matching, step: Step) -> Iterator[tuple[int, tuple[float, ...]]]:
+def unmatched_traces(matching: Matching, step: Step) -> Iterator[tuple[int, tuple[float, ...]]]:
     """The traces that no step needs, a line through one of the points that a step names, or a point anywhere near; with
     what the step would have made. `walk` has gone through."""
     sheet, kind = matching.sheet, step.op.gives
     mm = abs(sheet.frame(step).unit)
-    on = [plain(matching.own[step.args[claim[1]]]) for claim in step.op.claims if claim[0] == "on"]
-    for place in matching.evidence.of(kind) if kind in (POINT, LINE) else ():
+    on = [plain_value(matching.own[step.args[claim[1]]]) for claim in step.op.claims if claim[0] == "on"]
+    for place in matching.evidence.unlabelled_of(kind) if kind in (POINT, LINE) else ():
         if place in matching.used or matching.traces[place].panel not in ("", sheet.plan_of_step[step.index]):
             continue
         spots = sheet.spots(step.index, matching.traces[place])
-        value = plain(sheet.seen(step, matching.own[step.index], spots, steady=True))
+        value = plain_value(sheet.value_of_trace(step, matching.own[step.index], spots, steady=True))
         if kind == POINT:
-            near = math.dist(value, plain(matching.own[step.index])) * mm < measures.MAX_ASTRAY_MM
+            near = math.dist(value, plain_value(matching.own[step.index])) * mm < measures.MAX_ASTRAY_MM
         else:
-            off = min((float(apart(LINE, value, np.array([complex(*thing[:2])]))) for thing in on), default=math.inf)
+            off = min((float(distance_apart(LINE, value, np.array([complex(*thing[:2])]))) for thing in on),
+                      default=math.inf)
             near = off * mm < measures.CLAIM_SIGMAS * max(sheet.pencil.point, sheet.pencil.edge)
         if near:
             yield place, value
@@ -189,9 +191,9 @@ class QuickScore:
 
     def __init__(self, matching: Matching, mistakes: Mapping[int, Mistake]):
         self.matching, self.mistakes = matching, mistakes
-        self.own = [plain(value) for value in matching.own]
+        self.own = [plain_value(value) for value in matching.own]
 
-    def by(self, mistake: Mistake) -> float:
+    def gain_of(self, mistake: Mistake) -> float:
         """What is won if a mistake was made; less than everything where it could not be."""
         wrong = value_of(mistake.step, self.own, mistake)
         return -math.inf if wrong is None else self.gain(mistake.step, wrong)
@@ -201,8 +203,9 @@ class QuickScore:
         matching, at = self.matching, mistaken.index
         values, moved, dead = list(self.own), set[int](), set[int]()
         gain = seen = 0.0
-        for arg in _strokes(matching, at):
-            weight, _ = self._seen(matching.steps[arg], self.own[arg], KnownMarks(self.own[:arg], {at: wrong}))
+        for arg in _strokes_of(matching, at):
+            weight, _ = self._visible_weight(matching.steps[arg], self.own[arg],
+                                             KnownMarks(self.own[:arg], {at: wrong}))
             gain, seen = gain + weight - measures.QUICK_SHARE * matching.matches[arg].weight, seen + weight
         for step in matching.steps[at:]:
             if dead.isdisjoint(step.args) and (step.index == at or not moved.isdisjoint(step.args)):
@@ -210,30 +213,31 @@ class QuickScore:
                 if made is None:
                     dead.add(step.index)
                     continue
-                if not self._differs(step, made):
+                if not self._differs_visibly(step, made):
                     continue
                 moved.add(step.index)
-                weight, values[step.index] = self._seen(step, made, KnownMarks(values[:step.index], self.mistakes))
+                weight, values[step.index] = self._visible_weight(step, made,
+                                                                  KnownMarks(values[:step.index], self.mistakes))
                 gain, seen = gain + weight - matching.matches[step.index].weight, seen + weight
-                if matching.evidence.beyond(step, made):
+                if matching.evidence.is_beyond_panel(step, made):
                     dead.add(step.index)
-                if seen < measures.HOPELESS_ODDS or (step.index == at and not self._possible(step, weight)):
+                if seen < measures.HOPELESS_ODDS or (step.index == at and not self._is_possible(step, weight)):
                     return -math.inf
             elif not dead.isdisjoint(step.args):
                 dead.add(step.index)
         return gain - sum(matching.matches[index].weight for index in dead)
 
-    def _possible(self, step: Step, weight: float) -> bool:
+    def _is_possible(self, step: Step, weight: float) -> bool:
         """Whether a step may be drawn so, by what is seen of it: lines are seen, and nobody draws those printed."""
         evidence, known = self.matching.evidence, KnownMarks(self.own, self.mistakes)
-        printed = evidence.picture and evidence.share(step, self.own[step.index], known) is None
+        printed = evidence.picture and evidence.visible_share(step, self.own[step.index], known) is None
         return step.op.gives != LINE or weight > (0.0 if printed else -1.0)
 
-    def _differs(self, step: Step, made: Value) -> bool:
+    def _differs_visibly(self, step: Step, made: Value) -> bool:
         """Whether a value is another to the eye than what the step was taken for."""
         own, home = self.own[step.index], self.matching.sheet.plan_of_step[step.index]
         if step.op.gives == LINE:
-            off = max(abs(_aside(own, z) - _aside(made, z)) for z in self._about[home])
+            off = max(abs(_line_offset(own, z) - _line_offset(made, z)) for z in self._plan_corners[home])
         elif step.op.gives == OPENING:
             return True
         else:
@@ -242,7 +246,7 @@ class QuickScore:
         return off * self.matching.sheet.mm(home) > measures.DIFFERENT_MM
 
     @cached_property
-    def _about(self) -> dict[str, list[complex]]:
+    def _plan_corners(self) -> dict[str, list[complex]]:
         """The corners of what is drawn on each plan."""
         found: dict[str, list[complex]] = {}
         for step, home, value in zip(self.matching.steps, self.matching.sheet.plan_of_step, self.own, strict=True):
@@ -251,28 +255,29 @@ class QuickScore:
         return {home: [complex(pick(z.real for z in spots), also(z.imag for z in spots))
                        for pick in (min, max) for also in (min, max)] for home, spots in found.items()}
 
-    def _seen(self, step: Step, value: Value, known: KnownMarks) -> tuple[float, Value]:
+    def _visible_weight(self, step: Step, value: Value, known: KnownMarks) -> tuple[float, Value]:
         """What speaks for a value, and the value as it is seen to be drawn: a point may have drifted."""
         kind, evidence = step.op.gives, self.matching.evidence
-        share = None if kind == OPENING else evidence.share(step, value, known)
+        share = None if kind == OPENING else evidence.visible_share(step, value, known)
         if share is None:
             return 0.0, value
         if kind != POINT:
-            return measures.QUICK_SHARE * weighed(evidence.most[kind], measures.ABSENT_ODDS[kind], None, share), value
-        trace = evidence.trace(step, value, known, measures.DRIFT_MM)
+            return measures.QUICK_SHARE * weigh_mark(evidence.most[kind], measures.ABSENT_ODDS[kind], None,
+                                                     share), value
+        trace = evidence.find_trace(step, value, known, measures.DRIFT_MM)
         if trace is None:
             return measures.QUICK_SHARE * measures.ABSENT_ODDS[kind], value
-        spot = self.matching.sheet.frame(step).back(complex(*trace.spots[0]))
+        spot = self.matching.sheet.frame(step).to_plan(complex(*trace.spots[0]))
         return measures.QUICK_SHARE * evidence.most[kind], (spot.real, spot.imag)
 
 
-def _strokes(matching: Matching, index: int) -> list[int]:
+def _strokes_of(matching: Matching, index: int) -> list[int]:
     """The lines and arcs on which the mark of a step lies: they are drawn as far as where it is thought to be."""
     step = matching.steps[index]
     return [arg for arg in step.args if step.op.gives == POINT and matching.steps[arg].op.gives in (LINE, CIRCLE)]
 
 
-def _aside(line: Sequence[float], z: complex) -> float:
+def _line_offset(line: Sequence[float], z: complex) -> float:
     """How far a point lies off a line, to its left."""
     a, b, c = line
     return (a * z.real + b * z.imag + c) / math.hypot(a, b)

@@ -30,7 +30,7 @@ SCALES, READ, PARTS = (np.geomspace(*tried) for tried in (
 Sample = tuple[Any, Any, Any]  # how far off, the covariance from the hand, and from reading
 
 
-def assumed(stated: Pencil, submission: Submission) -> SeenPencil:
+def assumed_pencil(stated: Pencil, submission: Submission) -> SeenPencil:
     """The stated pencil, and the reading that is usual where nobody states how finely marks were measured."""
     return SeenPencil(stated, 1.0, measures.RULER_MM if submission.measured and not submission.stated else 0.0)
 
@@ -38,7 +38,7 @@ def assumed(stated: Pencil, submission: Submission) -> SeenPencil:
 def seen_pencil(matching: Matching, now: SeenPencil, submission: Submission) -> SeenPencil | None:
     """The pencil that a drawing shows, from a way through it that was judged by another; None where too few marks tell
     it."""
-    samples = list(_samples(matching))
+    samples = list(_pencil_samples(matching))
     if len(samples) < measures.MIN_SAMPLES:
         return None
     rounding = max(0.0, min((trace.blur**2 for trace in submission.traces), default=0.0))
@@ -51,7 +51,8 @@ def seen_pencil(matching: Matching, now: SeenPencil, submission: Submission) -> 
         read, parts = READ, (READ**2 + rounding) / (now.reading**2 + rounding)
         odds = odds - np.log(READ / measures.RULER_MM)[None, :] ** 2 / (2 * measures.READING_SIGMA**2)
     for width in (1, 2, 3):
-        odds = odds + _likelihood([sample for sample in samples if len(sample[0]) == width], SCALES / now.scale, parts)
+        odds = odds + _sample_likelihood([sample for sample in samples if len(sample[0]) == width], SCALES / now.scale,
+                                         parts)
     weights = np.exp(odds - odds.max())
     weights /= weights.sum()
     scale, found, part = (math.sqrt(float(np.sum(weights * size**2)))
@@ -59,7 +60,7 @@ def seen_pencil(matching: Matching, now: SeenPencil, submission: Submission) -> 
     return SeenPencil(now.stated, scale, found, len(samples), part)
 
 
-def _likelihood(samples: Sequence[Sample], scales: Any, reads: Any) -> Any:
+def _sample_likelihood(samples: Sequence[Sample], scales: Any, reads: Any) -> Any:
     """The logarithm of how likely these samples are, by every scale of the hand and every part of reading."""
     if not samples:
         return 0.0
@@ -74,7 +75,7 @@ def _likelihood(samples: Sequence[Sample], scales: Any, reads: Any) -> Any:
                          + measures.MISTAKE_SHARE / measures.MISTAKE_SPREAD_MM**wide), axis=-1)
 
 
-def _samples(matching: Matching) -> Iterator[Sample]:
+def _pencil_samples(matching: Matching) -> Iterator[Sample]:
     """What the marks are off, with what the hand and the reading of a unit each add to it."""
     sheet, seen = matching.sheet, set[int]()
     for match in matching.matches:
@@ -85,30 +86,30 @@ def _samples(matching: Matching) -> Iterator[Sample]:
             continue
         seen.add(match.place)
         partials = residual.partials
-        read = partials[:, sheet.reads[:partials.shape[1]]]
+        read = partials[:, sheet.reading_errors[:partials.shape[1]]]
         reading = read @ read.T
-        left = 1.0 - _held(sheet, match, matching.traces[match.place])
+        left = 1.0 - _held_share(sheet, match, matching.traces[match.place])
         if left > 1.0 - measures.MAX_HELD_SHARE:
             share = left / (2.0 - left)  # what the frame was laid through follows it, and does not shake beside it
             yield residual.off, (residual.covariance - reading) * share, reading * share
 
 
-def _held(sheet: StudentSheet, match: Match, trace: Trace) -> float:
+def _held_share(sheet: StudentSheet, match: Match, trace: Trace) -> float:
     """How much a given point takes the frame of the mechanism along that was laid through it."""
     fit = sheet.fits[sheet.plan_of_step[match.step.index]]
     if match.step.op.movement is not Movement.GIVEN or not fit.shift:
         return 0.0
-    arm = abs(fit.frame.back(complex(*trace.spots[0])) - fit.centre) * abs(fit.frame.unit)
+    arm = abs(fit.frame.to_plan(complex(*trace.spots[0])) - fit.centre) * abs(fit.frame.unit)
     return min(1.0, (math.hypot(fit.turn * arm, fit.shift) / math.hypot(sheet.pencil.point, trace.blur)) ** 2)
 
 
-def as_measured(pencil: Pencil, submission: Submission) -> Pencil:
+def with_measured_points(pencil: Pencil, submission: Submission) -> Pencil:
     """The pencil with points as far off as they are when they have been measured."""
     blurs = [trace.blur for trace in submission.traces] if submission.measured else []
     return replace(pencil, point=math.hypot(pencil.point, statistics.median(blurs))) if blurs else pencil
 
 
-def blurred(submission: Submission, hand: SeenPencil) -> Submission:
+def blur_marks(submission: Submission, hand: SeenPencil) -> Submission:
     """The marks of a drawing as finely as they were read, beside how they were rounded."""
     if not hand.reading and hand.share_shown == 1.0:
         return submission

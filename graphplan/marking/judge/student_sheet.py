@@ -39,7 +39,7 @@ SURVIVAL: dict[int, Callable[[float], float]] = {  # how often a sum of n square
 
 
 @cache
-def bound(freedoms: int, chance: float) -> float:
+def squares_bound(freedoms: int, chance: float) -> float:
     """The sum of as many squares of normal deviates that is only so seldom surpassed."""
     low, high = 0.0, measures.BOUND_LIMIT
     while high - low > BOUND_TOL:
@@ -60,7 +60,7 @@ class Residual:
     coarse: float = 1.0  # how many times as large the variance is as that of the usual pencil
 
     @cached_property
-    def _parts(self) -> tuple[Any, Any]:
+    def _axes_and_deviations(self) -> tuple[Any, Any]:
         """The variances along the axes of the covariance, none of them nothing, and the deviation along them."""
         if len(self.off) == 1:
             return np.maximum(self.covariance[0], NONE), self.off
@@ -70,40 +70,40 @@ class Residual:
     @property
     def square(self) -> float:
         """The sum of squares of the deviation in its own standard deviations."""
-        variances, parts = self._parts
+        variances, parts = self._axes_and_deviations
         with np.errstate(over="ignore"):  # what has no tolerance is off without end
             return float(np.sum(parts**2 / variances))
 
     @property
-    def size(self) -> float:
+    def distance(self) -> float:
         """How far off it is at most, in mm; of a point's two coordinates their distance."""
         return float(np.max(np.abs(self.off)))
 
     def tolerance(self, chance: float) -> float:
         """How far off it might be this way, in mm; of no deviation, on the average."""
-        most, square = bound(len(self.off), chance), self.square
-        if square > VARIANCE_TOL and self.size > 0:
-            allowed = self.size * math.sqrt(most / square)
+        most, square = squares_bound(len(self.off), chance), self.square
+        if square > VARIANCE_TOL and self.distance > 0:
+            allowed = self.distance * math.sqrt(most / square)
         else:
-            allowed = math.sqrt(most * float(np.mean(self._parts[0])))
+            allowed = math.sqrt(most * float(np.mean(self._axes_and_deviations[0])))
         return min(allowed, max(self.most, allowed / math.sqrt(self.coarse)))
 
     def vague(self, sharp: float) -> float:
         """How much less it tells to be there than within so many mm: by how much larger its tolerance is, as a
         logarithm."""
-        return float(np.sum(np.log(np.maximum(self._parts[0] / sharp**2, 1.0)))) / 2
+        return float(np.sum(np.log(np.maximum(self._axes_and_deviations[0] / sharp**2, 1.0)))) / 2
 
     def fits(self, chance: float) -> bool:
         """Whether it is a slip of the pencil, however coarse that is."""
-        most, square = bound(len(self.off), chance), self.square
-        return square <= most and (self.size <= self.most or self.coarse * square <= most)
+        most, square = squares_bound(len(self.off), chance), self.square
+        return square <= most and (self.distance <= self.most or self.coarse * square <= most)
 
 
 class PointResidual(Residual):
     """Of a point: its two coordinates."""
 
     @property
-    def size(self) -> float:
+    def distance(self) -> float:
         return float(np.hypot(*self.off)) if len(self.off) == 2 else float(abs(self.off[0]))
 
 
@@ -163,7 +163,7 @@ class StudentSheet:
         return Gradients(self._starts[-1] + measures.FRAME_ERRORS * len(self.fits))
 
     @cached_property
-    def reads(self) -> Any:
+    def reading_errors(self) -> Any:
         """Which errors are those of reading a trace, by their places."""
         found = np.zeros(self._starts[-1] + measures.FRAME_ERRORS * len(self.fits), dtype=bool)
         for start in self._starts[1:]:
@@ -175,42 +175,42 @@ class StudentSheet:
         start = self._starts[index]
         return [self.domain.error(start + i, size) for i, size in enumerate(self.hand.slips[index])]
 
-    def expected(self, step: Step, drawn: Sequence[Any]) -> Any:
+    def expected_value(self, step: Step, drawn: Sequence[Any]) -> Any:
         """What a step should make of these marks, with the errors of the hand; fails as its rule does."""
         return self.hand.draw_step(step, self.domain, drawn, self.errors)
 
     def laid_off(self, step: Step, start: int, drawn: Sequence[Any]) -> tuple[complex, float] | None:
         """The vector that a step lays off from a mark, and its standard deviation; None where it cannot be drawn."""
         try:
-            end = self.expected(step, drawn)
+            end = self.expected_value(step, drawn)
         except Undrawable:
             return None
         parts = [end[i] - drawn[start][i] for i in (0, 1)]
         partials = np.array([self.domain.partials(part) for part in parts])
-        return complex(*plain(parts)), float(np.sqrt(np.sum(partials**2) / 2))
+        return complex(*plain_value(parts)), float(np.sqrt(np.sum(partials**2) / 2))
 
     # ---- what is seen ----------------------------------------------------------------------------------------------
 
     @cached_property
-    def _spots(self) -> dict[tuple[int, Trace], Spots]:
+    def _spots(self) -> dict[tuple[int, Trace], ReadSpots]:
         """What was read off so far."""
         return {}
 
-    def spots(self, index: int, trace: Trace) -> Spots:
+    def spots(self, index: int, trace: Trace) -> ReadSpots:
         """The spots of a step's trace on its plan, with the errors of the frame and of reading them."""
         if (index, trace) not in self._spots:
-            self._spots[index, trace] = Spots(self._read(index, trace))
+            self._spots[index, trace] = ReadSpots(self._read_spots(index, trace))
         return self._spots[index, trace]
 
-    def _read(self, index: int, trace: Trace) -> Iterator[tuple[Any, Any]]:
+    def _read_spots(self, index: int, trace: Trace) -> Iterator[tuple[Any, Any]]:
         panel, panels = self.plan_of_step[index], list(self.fits)
         fit, first = self.fits[panel], self._starts[index] + len(self.hand.slips[index])
         lead, own = (self._starts[-1] + measures.FRAME_ERRORS * panels.index(name)
                      for name in (fit.tied or panel, panel))
         turn, mm = self.fits[fit.tied or panel].turn, self.mm(panel)
         shift, blur = fit.shift / mm, trace.blur / mm
-        for k, spot in enumerate(sampled(trace)):
-            z = fit.frame.back(complex(*spot))
+        for k, spot in enumerate(measured_spots(trace)):
+            z = fit.frame.to_plan(complex(*spot))
             arm, here = (z - fit.centre) * turn, first + 2 * k
             x = (lead, arm.real), (lead + 1, -arm.imag), (own + 2, shift), (here, blur)
             y = (lead, arm.imag), (lead + 1, arm.real), (own + 3, shift), (here + 1, blur)
@@ -221,17 +221,17 @@ class StudentSheet:
         domain, kind = self.domain, step.op.gives
         if step.op.movement is Movement.PICKED:  # any point of the line will do
             line = drawn[step.args[0]]
-            parts = [_off_line(domain, line, spots[0]) - _off_line(domain, line, expected)]
+            parts = [_offset_from_line(domain, line, spots[0]) - _offset_from_line(domain, line, expected)]
         elif kind == POINT:
             parts = [spots[0][0] - expected[0], spots[0][1] - expected[1]]
         elif kind == LINE:
-            parts = [_off_line(domain, expected, spot) for spot in spots]
+            parts = [_offset_from_line(domain, expected, spot) for spot in spots]
         else:
-            parts = [_off_circle(domain, expected, spot) for spot in spots]
+            parts = [_offset_from_circle(domain, expected, spot) for spot in spots]
         scale = abs(self.frame(step).unit)
         partials = np.array([domain.partials(part) for part in parts]) * scale
-        off = np.array([_plain(part) for part in parts]) * scale
-        most = self.most(step) if self.coarse > 1.0 else math.inf
+        off = np.array([_plain_number(part) for part in parts]) * scale
+        most = self.max_hidden_error(step) if self.coarse > 1.0 else math.inf
         found = PointResidual if kind == POINT else Residual
         return found(off, partials @ partials.T, partials, most, self.coarse)
 
@@ -241,7 +241,7 @@ class StudentSheet:
         usual = Pencil().model
         return max(1.0, *((size / usual[name]) ** 2 for name, size in self.pencil.model.items()))
 
-    def most(self, step: Step) -> float:
+    def max_hidden_error(self, step: Step) -> float:
         """The most that a coarse pencil hides at a step, mm: a share of its plan."""
         home = self.plan_of_step[step.index]
         spots = np.array([complex(*value[:2]) for other, value, plan in zip(
@@ -251,51 +251,52 @@ class StudentSheet:
         return min(max(measures.MIN_COARSE_ERROR_MM, measures.COARSE_ERROR_SHARE * across * self.mm(home)),
                    measures.MAX_COARSE_ERROR_MM)
 
-    def seen(self, step: Step, expected: Any, spots: Spots, steady: bool) -> Any:
+    def value_of_trace(self, step: Step, expected: Any, spots: ReadSpots, steady: bool) -> Any:
         """The value of a trace as a step's: a line runs the way it should, and where its spots are not `steady` enough
         to tell, a short arc has the centre that it should."""
         if step.op.gives == POINT:
             return spots[0]
         if step.op.gives == LINE:
             return spots.line(expected)
-        told = steady or _span(expected, spots) > measures.SHORT_ARC_RAD
-        return spots.rim if told and len({plain(spot) for spot in spots}) == 3 else _about(expected, spots)
+        told = steady or _angle_span(expected, spots) > measures.SHORT_ARC_RAD
+        return spots.rim if told and len({plain_value(spot) for spot in spots}) == 3 else _circle_about(expected, spots)
 
 
-class Spots(list[tuple[Any, Any]]):
+class ReadSpots(list[tuple[Any, Any]]):
     """The spots of a trace on its plan, and what goes through them, made once: a value that is the same thing on two
     ways through a drawing needs no second look."""
 
     def line(self, expected: Any) -> Any:
         """The line through two, running as the expected one does."""
-        a, b, _ = line = self._through
-        return line if _plain(a) * _plain(expected[0]) + _plain(b) * _plain(expected[1]) >= 0 else self._back
+        a, b, _ = line = self._forward_line
+        return (line if _plain_number(a) * _plain_number(expected[0])
+                + _plain_number(b) * _plain_number(expected[1]) >= 0 else self._backward_line)
 
     @cached_property
-    def _through(self) -> tuple[Any, Any, Any]:
+    def _forward_line(self) -> tuple[Any, Any, Any]:
         P, Q = self
         a, b = P[1] - Q[1], Q[0] - P[0]
         return a, b, -(a * P[0] + b * P[1])
 
     @cached_property
-    def _back(self) -> tuple[Any, Any, Any]:
-        a, b, c = self._through
+    def _backward_line(self) -> tuple[Any, Any, Any]:
+        a, b, c = self._forward_line
         return -a, -b, -c
 
     @cached_property
     def rim(self) -> Any:
         """The circle through three."""
-        return _around(*self)
+        return _circle_through(*self)
 
 
-def sampled(trace: Trace) -> tuple[tuple[float, float], ...]:
+def measured_spots(trace: Trace) -> tuple[tuple[float, float], ...]:
     """The spots by which a trace is measured: of an arc its ends and its middle."""
     if trace.kind == CIRCLE:
         return trace.spots[0], trace.spots[len(trace.spots) // 2], trace.spots[-1]
     return trace.spots[:2] if trace.kind == LINE else trace.spots[:1]
 
 
-def apart(kind: str, value: Sequence[float], spots: Any) -> Any:
+def distance_apart(kind: str, value: Sequence[float], spots: Any) -> Any:
     """How far some spots, an array, are from a thing at most, on its plan; of rows of spots row by row."""
     if kind == LINE:
         a, b, c = value
@@ -304,39 +305,39 @@ def apart(kind: str, value: Sequence[float], spots: Any) -> Any:
     return np.max(np.abs(off - radius), axis=-1)
 
 
-def plain(value: Sequence[Any]) -> tuple[float, ...]:
+def plain_value(value: Sequence[Any]) -> tuple[float, ...]:
     """A value without its errors."""
-    return tuple(map(_plain, value))
+    return tuple(map(_plain_number, value))
 
 
-def _plain(number: Any) -> float:
+def _plain_number(number: Any) -> float:
     return float(getattr(number, "value", number))
 
 
-def _off_line(domain: Gradients, line: Any, spot: tuple[Any, Any]) -> Any:
+def _offset_from_line(domain: Gradients, line: Any, spot: tuple[Any, Any]) -> Any:
     a, b, c = line
     return (a * spot[0] + b * spot[1] + c) / domain.sqrt(a * a + b * b, "", "")
 
 
-def _off_circle(domain: Gradients, circle: Any, spot: tuple[Any, Any]) -> Any:
+def _offset_from_circle(domain: Gradients, circle: Any, spot: tuple[Any, Any]) -> Any:
     x, y, r2 = circle
     u, v = spot[0] - x, spot[1] - y
     return domain.sqrt(u * u + v * v, "", "") - domain.sqrt(r2, "", "")
 
 
-def _span(circle: Any, spots: Sequence[tuple[Any, Any]]) -> float:
+def _angle_span(circle: Any, spots: Sequence[tuple[Any, Any]]) -> float:
     """The angle between the outer spots, seen from a centre."""
-    ways = [complex(*plain(spot)) - complex(*plain(circle[:2])) for spot in (spots[0], spots[-1])]
+    ways = [complex(*plain_value(spot)) - complex(*plain_value(circle[:2])) for spot in (spots[0], spots[-1])]
     return abs(cmath.phase(ways[0].conjugate() * ways[1]))
 
 
-def _about(circle: Any, spots: Sequence[tuple[Any, Any]]) -> Any:
+def _circle_about(circle: Any, spots: Sequence[tuple[Any, Any]]) -> Any:
     """The circle about a known centre that passes best through some spots."""
     x, y = circle[:2]
     return x, y, sum((u - x) * (u - x) + (v - y) * (v - y) for u, v in spots) / len(spots)
 
 
-def _around(P: tuple[Any, Any], Q: tuple[Any, Any], R: tuple[Any, Any]) -> Any:
+def _circle_through(P: tuple[Any, Any], Q: tuple[Any, Any], R: tuple[Any, Any]) -> Any:
     """The circle through three spots."""
     u, v = (Q[0] - P[0], Q[1] - P[1]), (R[0] - P[0], R[1] - P[1])
     uu, vv, cross = u[0] * u[0] + u[1] * u[1], v[0] * v[0] + v[1] * v[1], 2 * (u[0] * v[1] - u[1] * v[0])
@@ -344,7 +345,7 @@ def _around(P: tuple[Any, Any], Q: tuple[Any, Any], R: tuple[Any, Any]) -> Any:
     return P[0] + p, P[1] + q, p * p + q * q
 
 
-def weighed(most: float, none: float, residual: Residual | None, share: float = 1.0) -> float:
+def weigh_mark(most: float, none: float, residual: Residual | None, share: float = 1.0) -> float:
     """The weight, from none to most, of a mark that is so far off, and of whose stroke a share is to be seen."""
     part = min(max((share - measures.ABSENT_SHARE) / (measures.PRESENT_SHARE - measures.ABSENT_SHARE), 0.0), 1.0)
     beyond = max(0.0, residual.square - len(residual.off)) / 2 if residual else 0.0

@@ -1,14 +1,17 @@
-"""What is said of a student's drawing, step by step."""
+"""The judgement of a drawing: a verdict on every step and number, and the state of every result that is asked for."""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 from graphplan.accuracy.hand import SeenPencil
 from graphplan.kernel.kinds import Movement
-from graphplan.marking.traces import Frames, Number, Trace
+from graphplan.marking.traces import Frames, StudentNumber, Trace
 from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import CYCLE, ResultKind
+from graphplan.methods.recorded import Reading
 from graphplan.phrases import Said, join, phrase
 from graphplan.sheet.layout.composition import Composition
 
@@ -74,14 +77,14 @@ class NumberVerdict:
     """What is said of one number of the table: `off` and `tolerance` in the scene's units, and the true value; `again`
     are the numbers that are written down for the same result after it, and not judged."""
 
-    number: Number
+    number: StudentNumber
     state: str
     off: float
     tolerance: float
     true: tuple[float, ...]
     mistake: Said | None = None
     kind: str = ""
-    again: tuple[Number, ...] = ()
+    again: tuple[StudentNumber, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -102,11 +105,11 @@ class Judgement:
     numbers: tuple[NumberVerdict, ...] = ()
     reading: Said = AS_THE_TASK
     pencil: SeenPencil | None = None
-    unasked: tuple[Number, ...] = ()
+    unasked: tuple[StudentNumber, ...] = ()
     left_out: tuple[str, ...] = ()
 
     @property
-    def judged(self) -> list[Verdict]:
+    def counting_verdicts(self) -> list[Verdict]:
         """The verdicts that count: what is given counts only where it is wrong, and a plan may begin anywhere."""
         steps = self.drawing.drawn.steps
         return [verdict for verdict in self.verdicts if verdict.state == WRONG or not steps[verdict.step].op.free]
@@ -114,30 +117,71 @@ class Judgement:
     @property
     def counts(self) -> dict[str, int]:
         """How many steps there are of each verdict."""
-        found = Counter(verdict.state for verdict in self.judged)
+        found = Counter(verdict.state for verdict in self.counting_verdicts)
         return {state: found[state] for state in STATES}
 
-    def measured(self, verdict: Verdict) -> bool:
+    def is_measured(self, verdict: Verdict) -> bool:
         """Whether a step can be seen and has a place of its own: a plan may begin anywhere."""
         return verdict.trace is not None and self.drawing.drawn.steps[verdict.step].op.movement is not Movement.BEGUN
 
     @property
-    def drawn(self) -> bool:
+    def has_drawn(self) -> bool:
         """Whether any step was drawn: what is given is there before."""
-        return any(verdict.trace is not None for verdict in self.judged)
+        return any(verdict.trace is not None for verdict in self.counting_verdicts)
 
     @property
-    def blank(self) -> bool:
+    def is_blank(self) -> bool:
         """Whether nothing was handed in: no step and no number, nor anything else that the task does not give."""
-        return not (self.drawn or self.numbers or self.spare or self.unasked or self.first)
+        return not (self.has_drawn or self.numbers or self.spare or self.unasked or self.first_wrong)
 
     @property
-    def first(self) -> Verdict | None:
+    def first_wrong(self) -> Verdict | None:
         """What shows the first wrong step, in drawing order; None where there is none."""
         wrong = (verdict for verdict in self.verdicts if verdict.state == WRONG)
         return min(wrong, key=lambda verdict: verdict.at_fault, default=None)
 
     @property
-    def guilty(self) -> int | None:
+    def first_wrong_step(self) -> int | None:
         """The first wrong step itself, by its place in the drawn program: a later one that is seen may show it."""
-        return None if self.first is None else self.first.at_fault
+        return None if self.first_wrong is None else self.first_wrong.at_fault
+
+
+# ---- the results that a task asks for -------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class AskedResult:
+    """A result that is asked for and its state: that of its number, if there is one, else what its marks show."""
+
+    kind: ResultKind
+    of: str
+    state: str
+
+
+def result_marks(drawing: Construction, reading: Reading) -> frozenset[int]:
+    """The steps that show a result: points of the pose and beginnings of plans show nothing by themselves."""
+    found = (drawing.drawn.wanted[place] for place in reading.marks)
+    return frozenset(mark for mark in found if not drawing.drawn.steps[mark].op.free)
+
+
+def asked_results(judgement: Judgement) -> Iterator[AskedResult]:
+    """All of them. What only given points show is asked for in a table alone; what is too small to be drawn, and what
+    is prescribed, is not asked for: a wrong number of it counts nevertheless."""
+    numbers = {(verdict.number.kind, verdict.number.of): verdict.state for verdict in judgement.numbers}
+    states = {verdict.step: verdict.state for verdict in judgement.verdicts}
+    for reading in judgement.drawing.readings:
+        state = numbers.get((reading.kind, reading.of))
+        if state is None:
+            shown = {states[mark] for mark in result_marks(judgement.drawing, reading)}
+            state = _state_of_marks(shown) if judgement.has_drawn else MISSING
+        if state != UNSEEN and (reading.given is None or state == WRONG):
+            yield AskedResult(reading.kind, reading.of, state)
+    for kind, of in numbers:
+        if kind in CYCLE:  # asked for as far as it is handed in
+            yield AskedResult(CYCLE[kind], of, numbers[kind, of])
+
+
+def _state_of_marks(states: Collection[str]) -> str:
+    """What marks say together; that one of them is wrong was held against it already."""
+    worst = next((state for state in (MISSING, UNSURE, UNSEEN) if state in states), None if states else UNSEEN)
+    return worst or (RIGHT if {WRONG, FOLLOWS}.isdisjoint(states) else FOLLOWS)

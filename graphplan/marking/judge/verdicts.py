@@ -1,42 +1,222 @@
-"""From the matching of a drawing to what is said of it: every step and number with how far it is off, and may be.
+"""From the matching of a drawing to what is said of each step: its state, how sure that is, how far off it is and may
+be; of a wrong step what was probably done there, or at one before it that is not to be seen itself.
 
-Of a wrong step what was probably done there, or at one before it that is not to be seen itself. Numbers of a
-result table are judged by what the student's own drawing says, and by the truth: what is read off a drawing is as
-uncertain as its marks, and as the reading of lengths; so a number has its own tolerance, in its own unit.
+Matching weighs every mark in logarithms of odds. A faint mark is sure all the same where others go on rightly from it,
+and one that is not to be seen at all is implied there; what is rather not there than there cannot be told.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.first_order import readings
 from graphplan.accuracy.hand import Errors
 from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import LINE, POINT, Movement
+from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
 from graphplan.kernel.stages import Known
 from graphplan.marking.judge import measures
+from graphplan.marking.judge.evidence import KnownMarks, unexplained_traces
 from graphplan.marking.judge.matching import Match, Matching
-from graphplan.marking.judge.mistakes import MISTAKES, Mistake, exchanges, mistakes
-from graphplan.marking.judge.states import States
-from graphplan.marking.judge.student_sheet import PointResidual, Residual, apart, bound, plain
-from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNSURE, WRONG, Ellipse, NumberVerdict, Verdict
-from graphplan.marking.spelling import bare
-from graphplan.marking.tables.results import in_scene_units, scene_unit
-from graphplan.marking.tolerances import FIGURE_TOL
-from graphplan.marking.traces import Number
-from graphplan.mechanism.units import HEADING
-from graphplan.methods.recorded import Reading
-from graphplan.phrases import Said, digits, said
+from graphplan.marking.judge.mistakes import MISTAKES, Mistake, possible_mistakes
+from graphplan.marking.judge.student_sheet import Residual, distance_apart, plain_value, squares_bound
+from graphplan.marking.judge.verdict import (
+    EARNED,
+    FOLLOWS,
+    IMPLIED,
+    MISSING,
+    RIGHT,
+    UNSEEN,
+    UNSURE,
+    WRONG,
+    Ellipse,
+    NumberVerdict,
+    Verdict,
+    result_marks,
+)
+from graphplan.marking.traces import Trace
+from graphplan.phrases import Said, phrase, said
 
-Key = tuple[str, str]
+# ---- states ---------------------------------------------------------------------------------------------------------
+
+
+class States:
+    """The states of the steps of a drawing; a number that is right shows its result as a drawn mark does."""
+
+    def __init__(self, matching: Matching, numbers: Iterable[NumberVerdict] = ()):
+        self.matching = matching
+        right = {(one.number.kind, one.number.of) for one in numbers if one.state in EARNED}
+        self.told, self.asked = set[int](), set[int]()  # the marks of results with such a number, and of others
+        for reading in matching.sheet.drawing.readings:
+            if reading.given is None:
+                shown = result_marks(matching.sheet.drawing, reading)
+                (self.told if (reading.kind, reading.of) in right else self.asked).update(shown)
+
+    def state_of(self, match: Match) -> tuple[str, float]:
+        """The state of a step, and how sure that is, from 0 to 1."""
+        odds = self.odds[match.step.index]
+        if match.state == WRONG:
+            return WRONG, sureness(self._wrong_odds(match))
+        if match.step.op.free or (odds == -math.inf and self._is_unasked(match)):
+            return match.state, sureness(-match.weight if match.place is None else odds)
+        if odds > -math.inf:
+            state = match.state if match.place is not None else IMPLIED
+            # it could be seen, and something else is there
+            elsewhere = match.weight < 0.0 and self.unexplained_near(match)
+            return UNSURE if odds < 0.0 or elsewhere else state, sureness(odds)
+        if self.drawn_steps[match.step.index] and match.step.index not in self.unreadable_marks:
+            return UNSEEN, sureness(-match.weight)
+        return UNSURE if self._is_hidden(match) or self.unexplained_near(match) else MISSING, sureness(-match.weight)
+
+    def _is_unasked(self, match: Match) -> bool:
+        """Whether nobody asks for a step's mark: it is too small to draw, or there are but numbers."""
+        return match.step.index in self.matching.sheet.hidden or not self.matching.traces
+
+    def _is_hidden(self, match: Match) -> bool:
+        """Whether print hides where a step's mark should be in a picture."""
+        known = KnownMarks(self.matching.own, {})
+        return self.matching.evidence.picture and match.step.op.gives != OPENING and (
+            match.step.index not in self.matching.dead
+            and self.matching.evidence.visible_share(match.step, match.expected, known) is None)
+
+    def unexplained_near(self, match: Match) -> Trace | None:
+        """The nearest ink of its kind that no step explains, beside where a step's mark should be."""
+        if match.place is not None or match.step.op.gives == OPENING:
+            return None
+        home = self.matching.sheet.plan_of_step[match.step.index]
+        places, off = self.matching.evidence.nearby_traces(match.step.op.gives, home, plain_value(match.expected))
+        near = [place for far, place in sorted(zip(off, places, strict=True)) if far < measures.MISSING_NEAR_MM]
+        free = [self.matching.traces[place] for place in near if place not in self.matching.used]
+        return next(iter(unexplained_traces(free, self._explained_traces)), None)
+
+    @cached_property
+    def _explained_traces(self) -> list[Trace]:
+        """The traces that steps are taken for."""
+        return [self.matching.traces[place] for place in self.matching.used]
+
+    # ---- what speaks for it ----------------------------------------------------------------------------------------
+
+    @cached_property
+    def odds(self) -> list[float]:
+        """For each step what speaks for its having been drawn as it should be: its own mark, or the surest of those
+        that rest on it, themselves or through others that are not to be seen; less than everything where none is."""
+        found = [self._own_odds(match) for match in self.matching.matches]
+        for match in reversed(self.matching.matches):
+            index, seen = match.step.index, match.place is not None or match.state == WRONG
+            if index in self.unreadable_marks:
+                found[index] = -math.inf
+            for arg in match.step.args if match.state in EARNED or not seen else ():
+                found[arg] = max(found[arg], found[index])
+        return found
+
+    def _own_odds(self, match: Match) -> float:
+        """What a step's own mark speaks for it; or a number, or the strokes that cross there."""
+        if match.place is not None:
+            return match.weight if match.state in EARNED else -math.inf
+        if match.step.index in self.told:
+            return measures.MAX_SURE_ODDS
+        strokes = [self.matching.matches[arg] for arg in match.step.args]
+        seen = [stroke.weight for stroke in strokes if stroke.place is not None and stroke.state in EARNED]
+        crossed = match.step.op.crossing and match.state != WRONG and seen and (
+            len(seen) == len(strokes) or self._is_hidden(match))
+        return min(seen) if crossed else -math.inf
+
+    @cached_property
+    def unreadable_marks(self) -> set[int]:
+        """The marks of results that are asked for, and cannot be read off where they are not marked: they are missing,
+        whatever rests on them. Those need no mark that lie on strokes, and in a picture, where dots are lost, none."""
+        if self.matching.evidence.picture:
+            return set()
+        sheet, matches = self.matching.sheet, self.matching.matches
+        strokes = [match.step.index for match in matches if match.place is not None and match.state in EARNED]
+        legible = {mark for stroke in strokes for mark in sheet.marks_on.get(stroke, ())}
+        seen = {match.step.index for match in matches if match.place is not None}
+        return self.asked - self.told - legible - seen - set(sheet.hidden)
+
+    @cached_property
+    def drawn_steps(self) -> list[bool]:
+        """For each step whether it is seen, or a mark that rests on it is: then it was drawn somehow."""
+        found = [match.place is not None for match in self.matching.matches]
+        for step in reversed(self.matching.steps):
+            for arg in step.args if found[step.index] else ():
+                found[arg] = True
+        return found
+
+    def _wrong_odds(self, match: Match) -> float:
+        """What speaks for a wrong mark's being wrong: the odds of the way with its mistake, or else how far off it is
+        beyond what a pencil may be, if it is its mark at all."""
+        if match.step.index in self.matching.odds:
+            return self.matching.odds[match.step.index]
+        if match.residual is None or match.place is None:
+            return match.weight
+        beyond = (match.residual.square - squares_bound(len(match.residual.off), self.matching.chance)) / 2
+        return min(beyond, self.matching.evidence.weight(match.place))
+
+
+def sureness(odds: float) -> float:
+    """A logarithm of odds as a probability."""
+    return 1 / (1 + math.exp(-min(max(odds, -measures.MAX_SURE_ODDS), measures.MAX_SURE_ODDS)))
+
+
+# ---- exchanged letters: one mistake, and none about mechanics -------------------------------------------------------
+
+
+EXCHANGED, WORDS = "exchanged letters", phrase("letters of two marks exchanged")
+Pair = tuple[int, int]
+
+
+def exchanged_pairs(matching: Matching) -> Iterator[Pair]:
+    """The steps whose marks bear each other's letters: one is wrong, and either is where the other should be."""
+    told = set[int]()
+    for match in matching.matches:
+        step, labels = match.step.index, matching.labels
+        if match.state != WRONG or match.step.op.gives != POINT or labels.get(step) != match.place:
+            continue
+        for other in labels:
+            if told.isdisjoint((step, other)) and other != step and _bears_letters_of(matching, step,
+                                                                                      other) and _bears_letters_of(
+                    matching, other, step):
+                told |= {step, other}
+                yield min(step, other), max(step, other)
+
+
+def _bears_letters_of(matching: Matching, index: int, other: int) -> bool:
+    """Whether the mark that bears the letters of another step, on the same plan, is where one should be."""
+    step, homes = matching.steps[index], matching.sheet.plan_of_step
+    if matching.steps[other].op.gives != step.op.gives or homes[index] != homes[other]:
+        return False
+    spots = matching.sheet.spots(index, matching.traces[matching.labels[other]])
+    return matching.sheet.residual(step, matching.mended[index], spots, matching.mended).fits(matching.chance)
+
+
+def with_exchanged(verdicts: Iterable[Verdict], pairs: Iterable[Pair], matching: Matching) -> Iterator[Verdict]:
+    """The verdicts on a drawing that was judged with letters put right: the first of each pair is wrong for all that.
+    """
+    first, second = dict(pairs), {other: one for one, other in pairs}
+    for verdict in verdicts:
+        index = verdict.step
+        if index in first and verdict.trace:
+            step, other = matching.steps[index], first[index]
+            trace, name = matching.traces[matching.labels[other]], matching.sheet.drawing.drawn.text
+            spots = matching.sheet.spots(index, trace)
+            off = matching.sheet.residual(step, matching.mended[index], spots, matching.mended)
+            yield replace(verdict, state=WRONG, off=off.distance, tolerance=off.tolerance(matching.chance), trace=trace,
+                          kind=EXCHANGED, guilty=index,
+                          mistake=said("the letters of {0} and {1} are exchanged", name(index), name(other)))
+        elif index in second and verdict.state == RIGHT:
+            yield replace(verdict, state=FOLLOWS)
+        else:
+            yield verdict
+
+
+# ---- verdicts -------------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -48,14 +228,14 @@ class Suspect:
     rank: float = 0.0
 
 
-def explained(matching: Matching, match: Match) -> Suspect | None:
+def explain_mark(matching: Matching, match: Match) -> Suspect | None:
     """The mistake that explains a wrong trace best, if one does."""
     step = match.step
     assert match.place is not None
     spots = matching.sheet.spots(step.index, matching.traces[match.place])
     best, least = None, math.inf
-    for suspect in _closest(matching, step, np.array([complex(*plain(spot)) for spot in spots])):
-        made = _carried(matching, step, matching.own, suspect, matching.sheet.domain, matching.sheet.errors)
+    for suspect in _closest_suspects(matching, step, np.array([complex(*plain_value(spot)) for spot in spots])):
+        made = _carry_mistake(matching, step, matching.own, suspect, matching.sheet.domain, matching.sheet.errors)
         if made is None:
             continue
         residual = matching.sheet.residual(step, made, spots, matching.own)
@@ -64,27 +244,27 @@ def explained(matching: Matching, match: Match) -> Suspect | None:
     return best
 
 
-def _closest(matching: Matching, step: Step, spots: Any) -> list[Suspect]:
+def _closest_suspects(matching: Matching, step: Step, spots: Any) -> list[Suspect]:
     """The mistakes that lead nearest to what was drawn."""
-    floats, hand = [plain(value) for value in matching.own[:step.index]], matching.sheet.hand
+    floats, hand = [plain_value(value) for value in matching.own[:step.index]], matching.sheet.hand
     found: list[tuple[float, int, Suspect]] = []
     for suspect in _suspects(matching, step):
-        made = _carried(matching, step, floats, suspect, Floats(), lambda index: [0.0] * len(hand.slips[index]))
+        made = _carry_mistake(matching, step, floats, suspect, Floats(), lambda index: [0.0] * len(hand.slips[index]))
         if made is not None and all(map(math.isfinite, made)):
-            found.append((apart(step.op.gives, made, spots), len(found), suspect))
+            found.append((distance_apart(step.op.gives, made, spots), len(found), suspect))
     return [suspect for _, _, suspect in sorted(found)[:measures.MISTAKES_LOOKED_AT]]
 
 
 def _suspects(matching: Matching, step: Step) -> Iterator[Suspect]:
     """Every mistake at the step, and at those before that cannot be seen."""
     order = {kind: place for place, kind in enumerate(MISTAKES)}
-    for far, source in enumerate(_unseen(matching, step)):
-        for mistake in mistakes(matching.sheet.drawing.drawn, source, matching.sheet.plan_of_step):
+    for far, source in enumerate(_unseen_steps(matching, step)):
+        for mistake in possible_mistakes(matching.sheet.drawing.drawn, source, matching.sheet.plan_of_step):
             yield Suspect(mistake, source,
                           measures.STEP_BACK_SQUARES * far + measures.TABLE_ROW_SQUARES * order[mistake.kind])
 
 
-def _unseen(matching: Matching, step: Step) -> list[Step]:
+def _unseen_steps(matching: Matching, step: Step) -> list[Step]:
     """The step and those before it on whose marks it rests without their being seen, the last first."""
     found, front = {step.index}, [step.index]
     while front:
@@ -95,7 +275,7 @@ def _unseen(matching: Matching, step: Step) -> list[Step]:
     return [matching.steps[index] for index in sorted(found, reverse=True)]
 
 
-def _carried(matching: Matching, step: Step, values: Sequence[Any], suspect: Suspect, domain: Domain,
+def _carry_mistake(matching: Matching, step: Step, values: Sequence[Any], suspect: Suspect, domain: Domain,
              errors: Errors) -> Any:
     """What the step becomes where a slip was made, and all that is unseen follows from it; None where nothing does."""
     drawn, source, hand = list(values), suspect.source.index, matching.sheet.hand
@@ -117,34 +297,34 @@ def verdicts(matching: Matching, numbers: Iterable[NumberVerdict] = ()) -> Itera
     """What is said of every step."""
     states = States(matching, numbers)
     for match in matching.matches:
-        state, confidence = states.of(match)
-        found = replace(_verdict(matching, match, state), confidence=confidence)
-        yield replace(found, trace=states.beside(match)) if state == UNSURE and not found.trace else found
+        state, confidence = states.state_of(match)
+        found = replace(_verdict_on(matching, match, state), confidence=confidence)
+        yield replace(found, trace=states.unexplained_near(match)) if state == UNSURE and not found.trace else found
 
 
-def _verdict(matching: Matching, match: Match, state: str) -> Verdict:
+def _verdict_on(matching: Matching, match: Match, state: str) -> Verdict:
     """The verdict on a trace, or on a mark that is not to be seen, but from which all that follows is: of those only a
     point is somewhere."""
     step, sheet, seen, chance = match.step, matching.sheet, match.place is not None, matching.chance
-    reason = explained(matching, match) if state == WRONG and seen and not match.mistake else None
+    reason = explain_mark(matching, match) if state == WRONG and seen and not match.mistake else None
     mistake = reason.mistake if reason else match.mistake
-    turned = off_locus(matching, match) if state == WRONG and seen and mistake is None else None
+    turned = missed_locus(matching, match) if state == WRONG and seen and mistake is None else None
     guilty = reason.source.index if reason else step.index if state == WRONG else None
     if mistake and mistake.mirror and step.op.gives == POINT:  # wrong from the first of its lines on that is unseen
         guilty = next((line for line in sorted(mistake.step.args) if matching.matches[line].place is None), guilty)
-    found = Verdict(step.index, state, own=plain(match.expected), mistake=mistake.told if mistake else turned,
+    found = Verdict(step.index, state, own=plain_value(match.expected), mistake=mistake.told if mistake else turned,
                     kind=mistake.kind if mistake else "", guilty=guilty)
     if not seen and (not mistake or step.op.gives != POINT):
         return replace(found, off=math.inf, tolerance=math.inf, astray=math.inf) if mistake else found
     trace, true = None if match.place is None else matching.traces[match.place], sheet.drawing.values
-    spots = sheet.spots(step.index, trace) if trace else [(x, y) for x, y in [plain(matching.own[step.index])]]
+    spots = sheet.spots(step.index, trace) if trace else [(x, y) for x, y in [plain_value(matching.own[step.index])]]
     residual = match.residual or sheet.residual(step, match.expected, spots, matching.own)
-    return replace(found, off=residual.size, tolerance=residual.tolerance(chance), trace=trace,
-                   astray=sheet.residual(step, true[step.index], spots, true).size,
-                   ellipse=_ellipse(residual, step, chance) if trace else None)
+    return replace(found, off=residual.distance, tolerance=residual.tolerance(chance), trace=trace,
+                   astray=sheet.residual(step, true[step.index], spots, true).distance,
+                   ellipse=_tolerance_ellipse(residual, step, chance) if trace else None)
 
 
-def off_locus(matching: Matching, match: Match) -> Said | None:
+def missed_locus(matching: Matching, match: Match) -> Said | None:
     """Which vector has not the direction that it should, of a mark that lies on one of its two loci alone; None where
     it lies on both or none, or where no stage says whose direction a locus is."""
     step, sheet, program = match.step, matching.sheet, matching.sheet.drawing.drawn
@@ -152,9 +332,9 @@ def off_locus(matching: Matching, match: Match) -> Said | None:
     if not step.op.crossing or len(lines) != 2 or match.place is None or match.residual is None or step.stage is None:
         return None
     spot, = sheet.spots(step.index, matching.traces[match.place])
-    at = np.array([complex(*plain(spot))])
+    at = np.array([complex(*plain_value(spot))])
     allowed = match.residual.tolerance(matching.chance) / sheet.mm(sheet.plan_of_step[step.index])
-    off = [line for line in lines if apart(LINE, plain(matching.own[line.index]), at) > allowed]
+    off = [line for line in lines if distance_apart(LINE, plain_value(matching.own[line.index]), at) > allowed]
     if len(off) != 1:
         return None
     side = program.text((off[0] if off[0].op.movement is Movement.RULED else program.steps[off[0].args[0]]).index)
@@ -163,133 +343,10 @@ def off_locus(matching: Matching, match: Match) -> Said | None:
     return said("{0} is not perpendicular to {1}", vector, side) if vector else None
 
 
-def _ellipse(residual: Residual, step: Step, chance: float) -> Ellipse | None:
+def _tolerance_ellipse(residual: Residual, step: Step, chance: float) -> Ellipse | None:
     """The tolerance of a point, if it has any two ways."""
     if step.op.gives != POINT or len(residual.off) < 2 or step.op.movement is Movement.BEGUN:
         return None
     variances, axes = np.linalg.eigh(residual.covariance)
-    minor, major = (math.sqrt(max(variance, 0.0) * bound(2, chance)) for variance in variances)
+    minor, major = (math.sqrt(max(variance, 0.0) * squares_bound(2, chance)) for variance in variances)
     return Ellipse(major, minor, math.degrees(math.atan2(axes[1, 1], axes[0, 1])))
-
-
-# ---- numbers -------------------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Expected:
-    """What a number should be: its parts with their errors, and the standard deviation of reading one of them."""
-
-    parts: tuple[Any, ...]
-    reading: float
-
-    def rounded(self, rounding: float) -> Expected:
-        """The same as it was written down."""
-        return Expected(self.parts, math.hypot(self.reading, rounding))
-
-    def residual(self, matching: Matching, value: Sequence[float]) -> Residual:
-        """How far a value is from it, in its own unit."""
-        partials = np.array([matching.sheet.domain.partials(part) for part in self.parts])
-        steady = np.array(plain(self.parts))
-        rounded = FIGURE_TOL * float(np.max(np.abs(steady)))
-        covariance = partials @ partials.T + (self.reading**2 + rounded**2) * np.eye(len(steady))
-        return (PointResidual if len(steady) == 2 else Residual)(np.array(value) - steady, covariance)
-
-
-def judged(matching: Matching, numbers: Sequence[Number]) -> tuple[tuple[NumberVerdict, ...], tuple[Number, ...]]:
-    """What is said of every number of a table, once of each: one that is written again is told beside the first; and
-    the numbers that are not asked for."""
-    if not numbers:
-        return (), ()
-    own, true = _expected(matching, matching.own), _expected(matching, matching.sheet.drawing.values)
-    plainly = {key: plain(expected.parts) for key, expected in true.items()}
-    written: dict[Key | None, list[Number]] = {}
-    for number in numbers:
-        written.setdefault(_asked(number, own), []).append(number)
-    unasked = tuple(written.pop(None, ()))
-    return tuple(replace(_judged(matching, first, key, own, plainly), again=tuple(again))
-                 for key, (first, *again) in written.items() if key), unasked
-
-
-def _asked(number: Number, own: Mapping[Key, Expected]) -> Key | None:
-    """Which result a number is: the one of its name, or the only one of whose name it is another spelling; None where
-    it is not asked for."""
-    key = number.kind, number.of
-    alike = [(kind, of) for kind, of in own if kind == number.kind and bare(of) == bare(number.of)]
-    return key if key in own else alike[0] if len(alike) == 1 else None
-
-
-def _expected(matching: Matching, values: Sequence[Any]) -> dict[Key, Expected]:
-    """Every number that a drawing says."""
-    drawing, found = matching.sheet.drawing, dict[Key, Expected]()
-    for reading, marks, value in readings(drawing, values, matching.sheet.domain):
-        parts = value if isinstance(value, tuple) else (value,)
-        found[reading.kind, reading.of] = Expected(parts, _read(matching, reading, [plain(mark) for mark in marks]))
-    return found
-
-
-def _read(matching: Matching, reading: Reading, marks: Sequence[Any]) -> float:
-    """The standard deviation of reading one part of a number off its last mark; nothing of what is given."""
-    if not marks:
-        return 0.0
-    if reading.kind.dimension == HEADING:
-        return math.radians(matching.sheet.pencil.angle)
-    home = matching.sheet.plan_of_step[matching.sheet.drawing.drawn.wanted[reading.marks[-1]]]
-    length = measures.LENGTH_READING_ERRORS * matching.sheet.pencil.point / matching.sheet.mm(home)
-    shaken = [_difference(matching, reading, marks, shift) for shift in ((length, 0.0), (0.0, length))]
-    return math.hypot(*shaken) / math.sqrt(1 if reading.kind.single else 2)
-
-
-def _difference(matching: Matching, reading: Reading, marks: Sequence[Any], shift: tuple[float, float]) -> float:
-    """How much a reading changes as its last mark is shifted."""
-    def value(last: tuple[float, ...]) -> Any:
-        found = matching.sheet.drawing.value(reading, [*marks[:-1], last], Floats())
-        return complex(*found) if isinstance(found, tuple) else found
-
-    x, y, *rest = marks[-1]
-    line = rest and (x, y, rest[0] - x * shift[0] - y * shift[1])
-    shifted = line or (x + shift[0], y + shift[1])
-    return float(abs(value(shifted) - value(marks[-1])))
-
-
-def _judged(matching: Matching, number: Number, key: Key, own: Mapping[Key, Expected],
-            true: Mapping[Key, tuple[float, ...]]) -> NumberVerdict:
-    """The verdict on one number: right by the student's own drawing, after a mistake if that is astray."""
-    units, chance = matching.sheet.drawing.scene.units, matching.chance
-    value, rounding = in_scene_units(number, units), number.rounding * scene_unit(number, units)
-    own = {other: one.rounded(rounding) for other, one in own.items()}
-    expected, truth = own[key], true[key]
-    residual = expected.residual(matching, value)
-    straight = Expected(truth, expected.reading).residual(matching, plain(expected.parts))
-    astray = matching.erred and not Residual(straight.off, residual.covariance).fits(chance)
-    right = residual.fits(chance)
-    reason = None if right else _reason(matching, value, key, own)
-    tolerance = residual.tolerance(chance) if residual.covariance.any() else 0.0  # none of a zero that is given
-    return NumberVerdict(number, (FOLLOWS if astray else RIGHT) if right else WRONG, residual.size, tolerance, truth,
-                         reason[1] if reason else None, reason[0] if reason else "")
-
-
-def _reason(matching: Matching, value: Sequence[float], key: Key, own: Mapping[Key, Expected]
-            ) -> tuple[str, Said] | None:
-    """The mistake that makes a number out of the right one."""
-    for kind, told, undone, which in _mistakes(value, key, own):
-        if own[which].residual(matching, undone).fits(matching.chance):
-            return kind, told
-    return None
-
-
-def _mistakes(value: Sequence[float], key: Key, own: Mapping[Key, Expected]
-              ) -> Iterator[tuple[str, Said, tuple[float, ...], Key]]:
-    """What a number becomes as each mistake is undone, and which number it should then be."""
-    yield "reversed", said("the sign is reversed"), tuple(-part for part in value), key
-    if len(value) == 2:
-        x, y = value
-        for turned in ((y, -x), (-y, x)):
-            yield "turned the wrong way", said("the vector is a quarter turn off"), turned, key
-        for told, exchanged in exchanges(x, y):
-            yield "exchanged coordinates", told, exchanged, key
-    for factor in measures.NUMBER_FACTORS:
-        told = said("the number is {0} times as large as it should be", digits(factor, 3))
-        yield "wrong scale", told, tuple(part / factor for part in value), key
-    for kind, of in own:
-        if kind == key[0] and of != key[1]:
-            yield "another's number", said("this is the number of {0}", of), tuple(value), (kind, of)

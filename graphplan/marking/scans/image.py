@@ -30,23 +30,23 @@ SIZED = re.compile(rb"[\xc0-\xc3\xc5-\xc7\xc9-\xcb\xcd-\xcf]")  # the segments o
 DO = "hand in a scan of 200 dpi or a sharp photo of the whole sheet, as PNG, JPEG or PDF"
 
 
-def pictures(path: Path) -> Iterator[Grey]:
+def read_pictures(path: Path) -> Iterator[Grey]:
     """The picture in a file, or those of a document's pages, one by one.
 
     Fails with `Refused` where there is none, or where it is too large to be opened.
     """
     data = contents(path, measures.MAX_FILE_BYTES)
     if data.startswith(PDF):
-        yield from _pages(path, data)
+        yield from _pdf_pages(path, data)
     elif data.startswith(PNG):
-        yield _decoded(path, data, _png_size(data))
+        yield _decode(path, data, _png_size(data))
     elif data.startswith(JPEG):
-        yield _decoded(path, data, _jpeg_size(data))
+        yield _decode(path, data, _jpeg_size(data))
     else:
         raise Refused(f"{path}", "not a PNG, JPEG or PDF file", DO)
 
 
-def _bounded(path: Path, size: tuple[int, int] | None) -> None:
+def _check_size(path: Path, size: tuple[int, int] | None) -> None:
     """Refuse a picture that is too large, too small, or does not say how large it is."""
     if size is None:
         raise Refused(f"{path}", "the picture is damaged: it does not say how large it is", DO)
@@ -77,9 +77,9 @@ def _jpeg_size(data: bytes) -> tuple[int, int] | None:
     return None
 
 
-def _decoded(path: Path, data: bytes, size: tuple[int, int] | None) -> Grey:
+def _decode(path: Path, data: bytes, size: tuple[int, int] | None) -> Grey:
     """The picture itself, upright as the camera was held."""
-    _bounded(path, size)
+    _check_size(path, size)
     half = size is not None and size[0] * size[1] > measures.MAX_WHOLE_PX
     try:
         with _silence():
@@ -113,17 +113,17 @@ def count(path: Path) -> int:
     """
     if not _is_document(path):
         return 1
-    with _opened(path, path) as document:
+    with _open_document(path, path) as document:
         return len(document)
 
 
-def picture(path: Path, number: int) -> Grey:
+def page_picture(path: Path, number: int) -> Grey:
     """One picture of a file, counted from 1; of a document, which may be large, no other page is drawn. Fails as
     `pictures` does."""
     if not _is_document(path):
-        return next(pictures(path))
-    with _opened(path, path) as document:
-        return _drawn(path, document, number - 1)
+        return next(read_pictures(path))
+    with _open_document(path, path) as document:
+        return _draw_page(path, document, number - 1)
 
 
 def _is_document(path: Path) -> bool:
@@ -135,15 +135,15 @@ def _is_document(path: Path) -> bool:
         return False
 
 
-def _pages(path: Path, data: bytes) -> Iterator[Grey]:
+def _pdf_pages(path: Path, data: bytes) -> Iterator[Grey]:
     """The pages of a document, each drawn in turn."""
-    with _opened(path, data) as document:
+    with _open_document(path, data) as document:
         for number in range(min(len(document), measures.MAX_PAGES)):
-            yield _drawn(path, document, number)
+            yield _draw_page(path, document, number)
 
 
 @contextmanager
-def _opened(path: Path, source: bytes | Path) -> Iterator[Any]:
+def _open_document(path: Path, source: bytes | Path) -> Iterator[Any]:
     """The document in a file, or in its bytes."""
     try:
         import pypdfium2 as pdfium
@@ -158,36 +158,36 @@ def _opened(path: Path, source: bytes | Path) -> Iterator[Any]:
         yield document
 
 
-def _drawn(path: Path, document: Any, number: int) -> Grey:
+def _draw_page(path: Path, document: Any, number: int) -> Grey:
     """One page of a document, whose pictures are not too large either."""
     import pypdfium2 as pdfium
 
     try:
         page = document[number]
         scale = measures.PDF_DPI / measures.POINTS_PER_INCH
-        _bounded(path, (round(page.get_width() * scale), round(page.get_height() * scale)))
+        _check_size(path, (round(page.get_width() * scale), round(page.get_height() * scale)))
         for picture in page.get_objects(filter=[pdfium.raw.FPDF_PAGEOBJ_IMAGE], max_depth=2):
             wide, high = picture.get_px_size()
-            _bounded(path, (max(wide, measures.MIN_SIDE_PX), max(high, measures.MIN_SIDE_PX)))
+            _check_size(path, (max(wide, measures.MIN_SIDE_PX), max(high, measures.MIN_SIDE_PX)))
         return np.array(page.render(scale=scale, grayscale=True).to_numpy(), np.uint8).squeeze()
     except pdfium.PdfiumError as error:
         raise Refused(f"{path}", f"page {number + 1} is broken", DO) from error
 
 
-def contrast(image: Grey, name: str) -> None:
+def require_contrast(image: Grey, name: str) -> None:
     """Refuse a picture on which nothing is dark, or nothing light: noise is neither, from afar."""
-    dark, light = np.percentile(smaller(image, measures.CONTRAST_PX), measures.CONTRAST_PERCENTILES)
+    dark, light = np.percentile(shrink(image, measures.CONTRAST_PX), measures.CONTRAST_PERCENTILES)
     if light - dark < measures.MIN_CONTRAST_SHADES:
         raise Refused(name, "the picture is blank", DO)
 
 
-def deviation(off: NDArray[np.floating]) -> float:
+def median_deviation(off: NDArray[np.floating]) -> float:
     """How far off things are, most of them by mere noise, as a standard deviation: by the median, which strays do not
     move."""
     return float(np.median(np.abs(off))) / measures.MEDIAN_SIGMAS
 
 
-def smaller(image: Grey, pixels: float) -> Grey:
+def shrink(image: Grey, pixels: float) -> Grey:
     """The picture with no more than so many pixels."""
     shrink = (pixels / image.size) ** 0.5
     if shrink >= 1:
@@ -195,6 +195,6 @@ def smaller(image: Grey, pixels: float) -> Grey:
     return np.asarray(cv2.resize(image, None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA), np.uint8)
 
 
-def jpeg(image: Grey, quality: int) -> bytes:
+def encode_jpeg(image: Grey, quality: int) -> bytes:
     """A picture as a JPEG file, kept so well, of 100."""
     return bytes(cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, quality])[1])

@@ -22,11 +22,21 @@ from shapely import LineString, STRtree, points
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.scans import measures, strokes
-from graphplan.marking.scans.dots import Ring, dots, marked, ringed, rings
-from graphplan.marking.scans.image import Grey, Light, contrast, pictures, smaller
-from graphplan.marking.scans.pencil_pixels import Ink, Ridges, clear, pencil_ink, ridges
-from graphplan.marking.scans.printed_ink import picture
-from graphplan.marking.scans.straighten import Registered, Warp, straighten
+from graphplan.marking.scans.image import Grey, Light, read_pictures, require_contrast, shrink
+from graphplan.marking.scans.pencil_pixels import (
+    PencilInk,
+    Ridges,
+    Ring,
+    clear_ridges,
+    dots_beyond_strokes,
+    find_dots,
+    find_ridges,
+    find_rings,
+    pencil_ink,
+    ring_point,
+)
+from graphplan.marking.scans.printed_ink import print_picture
+from graphplan.marking.scans.straighten import RegisteredWarp, Warp, straighten
 from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.marking.traces import Frames, Spot, Submission, Trace
 from graphplan.sheet.plates.display import Sheet
@@ -41,15 +51,15 @@ def read_scan(path: Path, printed: Sheet, frames: Frames, code: int | None = Non
 
     Fails with `Refused` where the file is no picture, or not one of this page.
     """
-    return _drawn(read_page(path, printed, code), f"{path}", frames)
+    return _page_submission(read_page(path, printed, code), f"{path}", frames)
 
 
 def read_picture(image: Grey, name: str, printed: Sheet, frames: Frames, code: int | None = None) -> Submission:
     """The same of a picture. Fails as `read_scan`."""
-    return _drawn(_page(image, printed, code, name), name, frames)
+    return _page_submission(_pencil_page(image, printed, code, name), name, frames)
 
 
-def _drawn(page: PencilPage, name: str, frames: Frames) -> Submission:
+def _page_submission(page: PencilPage, name: str, frames: Frames) -> Submission:
     """What was drawn on a page: dots alone are no drawing, but specks on a blank one."""
     if all(trace.kind == POINT for trace in page.traces):
         return Submission(Path(name).name, (), shows=SHOWS, frames=frames)
@@ -59,26 +69,26 @@ def _drawn(page: PencilPage, name: str, frames: Frames) -> Submission:
 def read_page(path: Path, printed: Sheet, code: int | None = None) -> PencilPage:
     """The pencil on a printed page, which can be asked for what is expected on it. Fails as `read_scan`."""
     refused: Refused | None = None
-    for image in pictures(path):
+    for image in read_pictures(path):
         try:
-            return _page(image, printed, code, f"{path}")
+            return _pencil_page(image, printed, code, f"{path}")
         except Refused as this:
             refused = this
     raise refused or Refused(f"{path}", "the document has no pages", "hand in a scan of the sheet")
 
 
-def _page(image: Grey, printed: Sheet, code: int | None, name: str) -> PencilPage:
+def _pencil_page(image: Grey, printed: Sheet, code: int | None, name: str) -> PencilPage:
     """One picture of a page."""
-    contrast(image, name)
+    require_contrast(image, name)
     scale = min(measures.PAGE_PX_PER_MM, (measures.MAX_PAGE_PX / (printed.width * printed.height)) ** 0.5)
-    light = picture(printed, scale)
-    straight, found = _straight(smaller(image, measures.MAX_PAGE_PX), printed, light, scale, code, name)
+    light = print_picture(printed, scale)
+    straight, found = _straighten_either_way(shrink(image, measures.MAX_PAGE_PX), printed, light, scale, code, name)
     pencil = pencil_ink(straight, printed, light, scale)
-    return PencilPage(pencil, ridges(pencil), found.error, found.warp)
+    return PencilPage(pencil, find_ridges(pencil), found.error, found.warp)
 
 
-def _straight(image: Grey, printed: Sheet, light: Light, scale: float, code: int | None, name: str
-              ) -> tuple[Light, Registered]:
+def _straighten_either_way(image: Grey, printed: Sheet, light: Light, scale: float, code: int | None, name: str
+              ) -> tuple[Light, RegisteredWarp]:
     """The picture laid over the sheet, as it is or mirrored, as a sheet is that was scanned from its back."""
     try:
         return straighten(image, printed, light, scale, code, name)
@@ -98,7 +108,7 @@ class PencilPage:
     """The pencil on a page, its crests, how unsure their places are, as a standard deviation in mm, and how the picture
     shows the sheet."""
 
-    ink: Ink
+    ink: PencilInk
     found: Ridges
     error: float
     warp: Warp
@@ -106,21 +116,23 @@ class PencilPage:
     @cached_property
     def traces(self) -> tuple[Trace, ...]:
         """Everything that is found without knowing what is expected, but what may be parts of letters."""
-        alone = [dot for dot in self._marked(measures.SURE_DOT_RATIOS)
-                 if not self._about(self.ink.hidden, dot.spots[0], measures.DOT_CLEAR_MM).any()
-                 and self._blob(dot.spots[0], measures.DOT_SEARCH_MM) < measures.MAX_DOT_MM]
-        dotted = 2 * sum(map(self._run, self._ringed)) < len(alone)  # a hand that marks points by dots rings none
-        ringed = [dot for dot, ring in zip(self._rings, self._ringed, strict=True) if not dotted and self._sure(ring)]
-        return tuple(self._blurred(trace) for trace in (*self._drawn, *ringed, *alone))
+        alone = [dot for dot in self._darker_dots(measures.SURE_DOT_RATIOS)
+                 if not self._picture_about(self.ink.hidden, dot.spots[0], measures.DOT_CLEAR_MM).any()
+                 and self._piece_size(dot.spots[0], measures.DOT_SEARCH_MM) < measures.MAX_DOT_MM]
+        # a hand that marks points by dots rings none
+        dotted = 2 * sum(map(self._has_stroke_through, self._rings)) < len(alone)
+        ringed = [dot for dot, ring in zip(self._ring_points, self._rings, strict=True) if not dotted
+                  and self._is_no_letter(ring)]
+        return tuple(self._with_page_error(trace) for trace in (*self._strokes, *ringed, *alone))
 
-    def share(self, kind: str, spots: Sequence[Spot], within: float) -> float | None:
+    def visible_share(self, kind: str, spots: Sequence[Spot], within: float) -> float | None:
         """The share of some spots, of those that print leaves open, that have a crest, or a dot, so near; None where
         it leaves hardly any."""
-        far = self._away[kind == POINT][self.ink.cells(np.array(spots))]
+        far = self._distances[kind == POINT][self.ink.cells(np.array(spots))]
         seen = far[far >= 0]
         return float((seen < within).mean()) if len(seen) > (1 - measures.MAX_HIDDEN_SHARE) * len(far) else None
 
-    def near(self, one: Spot, two: Spot, within: float, angle: float = 4.0) -> Trace | None:
+    def find_line(self, one: Spot, two: Spot, within: float, angle: float = 4.0) -> Trace | None:
         """The line with most crests, no further than `within` mm from the middle of an expected one, and turned by no
         more than this angle, in degrees."""
         ends = np.array([one, two], float)
@@ -134,51 +146,51 @@ class PencilPage:
                               & (np.abs(off) < within + np.abs(along) * steep)
                               & (np.abs(self.found.normals @ normal)
                                  > math.cos(math.radians(measures.CREST_TURN_DEGREES + angle))))
-        lying = _aligned(along[near], off[near], self.found.strength[near], within, steep)
+        lying = _align(along[near], off[near], self.found.strength[near], within, steep)
         if lying is None:
             return None
         slope, level, which = lying
         turned = math.atan(slope)
         aside = normal * math.cos(turned) - way * math.sin(turned)
         crests = strokes.crest_row(self.found, middle + level * normal, aside, near[which])
-        stretch = _whole(crests, self.ink, long / 2)
-        return None if stretch is None else self._blurred(strokes.line(crests, stretch))
+        stretch = _whole_stretch(crests, self.ink, long / 2)
+        return None if stretch is None else self._with_page_error(strokes.line_trace(crests, stretch))
 
-    def rim(self, centre: Spot, radius: float, spots: Sequence[Spot], within: float) -> Trace | None:
+    def find_arc(self, centre: Spot, radius: float, spots: Sequence[Spot], within: float) -> Trace | None:
         """The rim with most crests, near spots of an expected one, no further than `within` mm from it."""
         middle, at = np.array(centre), np.asarray(spots, float)
         aim = math.atan2(*(at.mean(axis=0) - middle)[::-1])
         out = self.found.spots - middle
         far = np.maximum(np.hypot(out[:, 0], out[:, 1]), MIN_DIVISOR)
-        along = strokes.turned(out, aim) * radius
-        reach = np.abs(strokes.turned(at - middle, aim)).max() * radius + measures.BEYOND_ENDS_MM
+        along = strokes.angles_from(out, aim) * radius
+        reach = np.abs(strokes.angles_from(at - middle, aim)).max() * radius + measures.BEYOND_ENDS_MM
         square = (np.abs((out * self.found.normals).sum(axis=1)) > math.cos(math.radians(measures.CREST_TURN_DEGREES))
                   * far)
         near = np.flatnonzero((np.abs(far - radius) < within) & (np.abs(along) < reach) & square)
         steep = within / max(reach, within)
-        lying = _aligned(along[near], far[near] - radius, self.found.strength[near], within, steep)
+        lying = _align(along[near], far[near] - radius, self.found.strength[near], within, steep)
         if lying is None:
             return None
         slope, level, which = lying
         own = near[which]
         if np.ptp(along[own]) > math.radians(measures.MIN_CENTRE_DEGREES) * radius:
-            rim = strokes.grown(self.found, near, own, self.ink)
+            rim = strokes.grow_rim(self.found, near, own, self.ink)
         else:
-            rim = _short(self, middle, radius, aim, along[own], far[own] - radius, slope, level)
-        return None if rim is None or rim.stretch.long < measures.MIN_ARC_MM else self._blurred(rim.trace())
+            rim = _short_arc(self, middle, radius, aim, along[own], far[own] - radius, slope, level)
+        return None if rim is None or rim.stretch.long < measures.MIN_ARC_MM else self._with_page_error(rim.trace())
 
-    def dot(self, spot: Spot, within: float) -> Trace | None:
+    def find_dot(self, spot: Spot, within: float) -> Trace | None:
         """The dot nearest to where one is expected."""
-        off = np.abs(self._spots - complex(*spot))
-        return self._faint[int(off.argmin())] if off.min(initial=math.inf) < within else None
+        off = np.abs(self._possible_dot_spots - complex(*spot))
+        return self._possible_dots[int(off.argmin())] if off.min(initial=math.inf) < within else None
 
     @cached_property
-    def _away(self) -> list[NDArray[np.float32]]:
+    def _distances(self) -> list[NDArray[np.float32]]:
         """How far every pixel is from the next strong crest, and from the next dot, in mm; less than nothing where
         print hides it."""
         found = []
         for spots in (self.found.spots[self.found.strength > measures.CLEAR_SIGMAS],
-                      self._spots.view(float).reshape(-1, 2)):
+                      self._possible_dot_spots.view(float).reshape(-1, 2)):
             bare = np.ones(self.ink.dark.shape, np.uint8)
             bare[self.ink.cells(spots)] = 0
             far = np.asarray(cv2.distanceTransform(bare, cv2.DIST_L2, 3), np.float32) / np.float32(self.ink.scale)
@@ -186,39 +198,39 @@ class PencilPage:
         return found
 
     @cached_property
-    def _drawn(self) -> list[Trace]:
+    def _strokes(self) -> list[Trace]:
         """The lines and rims."""
-        return strokes.strokes(self._clear, self.ink)
+        return strokes.find_strokes(self._clear_ridges, self.ink)
 
     @cached_property
-    def _smooth(self) -> NDArray[np.float32]:
+    def _smoothed(self) -> NDArray[np.float32]:
         """The pencil blurred by half a dot."""
         return np.asarray(cv2.GaussianBlur(self.ink.dark, (0, 0), measures.HALF_DOT_MM * self.ink.scale), np.float32)
 
     @cached_property
-    def _own(self) -> list[float]:
+    def _stroke_darkness(self) -> list[float]:
         """How dark each blurred stroke is along its crest, where print leaves it open."""
         found, size = [], 2 * round(measures.DARKNESS_REACH_MM * self.ink.scale) + 1
-        crests = cv2.dilate(self._smooth, np.ones((size, size), np.uint8))
-        for trace in self._drawn:
+        crests = cv2.dilate(self._smoothed, np.ones((size, size), np.uint8))
+        for trace in self._strokes:
             ends = np.array(trace.spots)
             along = np.linspace(*measures.DARKNESS_SHARES, measures.DARKNESS_PLACES)[:, None]
             at = ends[0] + along * (ends[1] - ends[0]) if trace.kind == LINE else ends
             rows, columns = self.ink.cells(at)
             dark = crests[rows, columns][~self.ink.hidden[rows, columns]]
-            found.append(max(measures.MIN_DOT_DARKNESS, float(np.median(dark))) if len(dark) else self._grey)
+            found.append(max(measures.MIN_DOT_DARKNESS, float(np.median(dark))) if len(dark) else self._clear_darkness)
         return found
 
     @cached_property
-    def _usual(self) -> float:
+    def _usual_darkness(self) -> float:
         """How dark the blurred strokes are."""
-        return float(np.median(self._own)) if self._drawn else 1.0
+        return float(np.median(self._stroke_darkness)) if self._strokes else 1.0
 
     @cached_property
-    def _blobs(self) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+    def _pieces_beside_strokes(self) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
         """What is drawn beside all long strokes, piece by piece, and how large each is, in mm; letters, mostly."""
-        dark = np.asarray(self._smooth > self._usual / 2, np.uint8)
-        for line in self._long.geometries:
+        dark = np.asarray(self._smoothed > self._usual_darkness / 2, np.uint8)
+        for line in self._long_strokes.geometries:
             spots = np.rint(self.ink.pixels(np.array(line.coords))).astype(np.int32)
             cv2.polylines(dark, [spots], False, 0, max(1, round(measures.STROKE_WIDTH_MM * self.ink.scale)))
         _, which, sizes, _ = cv2.connectedComponentsWithStats(dark, connectivity=measures.PIXEL_NEIGHBOURS)
@@ -226,87 +238,89 @@ class PencilPage:
         large[0] = 0.0
         return np.asarray(which, np.int32), np.asarray(large, np.float64)
 
-    def _blob(self, spot: Spot, reach: float) -> float:
+    def _piece_size(self, spot: Spot, reach: float) -> float:
         """How large the largest piece is that is so near to a spot, in mm."""
-        which, large = self._blobs
-        return float(large[self._about(which, spot, reach)].max())
+        which, large = self._pieces_beside_strokes
+        return float(large[self._picture_about(which, spot, reach)].max())
 
     def _darkness(self, spot: Spot) -> float:
         """How dark it is near a spot."""
-        return float(self._about(self._smooth, spot, measures.DOT_SEARCH_MM).max())
+        return float(self._picture_about(self._smoothed, spot, measures.DOT_SEARCH_MM).max())
 
-    def _marked(self, least: Sequence[float]) -> list[Trace]:
+    def _darker_dots(self, least: Sequence[float]) -> list[Trace]:
         """The dots that are so much darker than their strokes."""
-        return list(marked(self._dots, self._drawn, self._own, self._usual, self._darkness, least))
+        return list(dots_beyond_strokes(self._dark_dots, self._strokes, self._stroke_darkness, self._usual_darkness,
+                                        self._darkness, least))
 
-    def _about(self, picture: NDArray[Any], spot: Spot, reach: float) -> NDArray[Any]:
+    def _picture_about(self, picture: NDArray[Any], spot: Spot, reach: float) -> NDArray[Any]:
         """The piece of a picture about a spot, so many mm to each side."""
         (row,), (column,) = self.ink.cells(np.array([spot]))
         far = math.ceil(reach * self.ink.scale)
         return picture[max(0, row - far) : row + far + 1, max(0, column - far) : column + far + 1]
 
     @cached_property
-    def _spots(self) -> NDArray[np.complex128]:
-        return np.array([complex(*dot.spots[0]) for dot in self._faint], np.complex128)
+    def _possible_dot_spots(self) -> NDArray[np.complex128]:
+        return np.array([complex(*dot.spots[0]) for dot in self._possible_dots], np.complex128)
 
     @cached_property
-    def _faint(self) -> list[Trace]:
+    def _possible_dots(self) -> list[Trace]:
         """The dots that may be points."""
-        return [self._blurred(dot) for dot in (*self._rings, *self._marked(measures.FAINT_DOT_RATIOS))]
+        return [self._with_page_error(dot)
+                for dot in (*self._ring_points, *self._darker_dots(measures.FAINT_DOT_RATIOS))]
 
     @cached_property
-    def _rings(self) -> list[Trace]:
+    def _ring_points(self) -> list[Trace]:
         """The points that are ringed."""
-        return [ringed(ring, self._drawn) for ring in self._ringed]
+        return [ring_point(ring, self._strokes) for ring in self._rings]
 
     @cached_property
-    def _ringed(self) -> list[Ring]:
-        return rings(self._clear, self.ink, self._grey)
+    def _rings(self) -> list[Ring]:
+        return find_rings(self._clear_ridges, self.ink, self._clear_darkness)
 
     @cached_property
-    def _grey(self) -> float:
+    def _clear_darkness(self) -> float:
         """How dark the pencil is on all that is clear."""
-        dark = self.ink.dark[self.ink.cells(self._clear.spots)]
+        dark = self.ink.dark[self.ink.cells(self._clear_ridges.spots)]
         return float(np.median(dark)) if len(dark) else 1.0
 
     @cached_property
-    def _clear(self) -> Ridges:
-        return clear(self.found, self.ink)
+    def _clear_ridges(self) -> Ridges:
+        return clear_ridges(self.found, self.ink)
 
-    def _sure(self, ring: Ring) -> bool:
+    def _is_no_letter(self, ring: Ring) -> bool:
         """Whether a ring is no part of a letter: a stroke runs through it, or else it stands alone where others mark
         points by rings."""
-        return self._run(ring) or (self._points_ringed and self._blob(
+        return self._has_stroke_through(ring) or (self._marks_points_by_rings and self._piece_size(
             (float(ring.middle[0]), float(ring.middle[1])),
             ring.radius + measures.HALF_RIM_MM) < 2 * ring.radius + measures.LETTER_EXCESS_MM)
 
     @cached_property
-    def _points_ringed(self) -> bool:
+    def _marks_points_by_rings(self) -> bool:
         """Whether strokes run through most rings, as they do where a hand marks points by rings."""
-        return 2 * sum(map(self._run, self._ringed)) > len(self._ringed)
+        return 2 * sum(map(self._has_stroke_through, self._rings)) > len(self._rings)
 
-    def _run(self, ring: Ring) -> bool:
+    def _has_stroke_through(self, ring: Ring) -> bool:
         """Whether a long stroke runs through the middle of a ring."""
-        return bool(len(self._long.query(points(ring.middle), "dwithin", ring.radius / 2)))
+        return bool(len(self._long_strokes.query(points(ring.middle), "dwithin", ring.radius / 2)))
 
     @cached_property
-    def _long(self) -> STRtree:
+    def _long_strokes(self) -> STRtree:
         """The strokes that are too long for a letter's."""
-        lines = (LineString(trace.spots) for trace in self._drawn)
+        lines = (LineString(trace.spots) for trace in self._strokes)
         return STRtree([line for line in lines if line.length > measures.MIN_LONG_STROKE_MM])
 
     @cached_property
-    def _dots(self) -> list[Trace]:
+    def _dark_dots(self) -> list[Trace]:
         """What is dark and in no ring."""
-        return [dot for dot in dots(self.ink, self._smooth, self._usual) if all(
-            math.dist(dot.spots[0], ring.middle) > ring.radius + measures.HALF_DOT_MM for ring in self._ringed)]
+        return [dot for dot in find_dots(self.ink, self._smoothed, self._usual_darkness) if all(
+            math.dist(dot.spots[0], ring.middle) > ring.radius + measures.HALF_DOT_MM for ring in self._rings)]
 
-    def _blurred(self, trace: Trace) -> Trace:
+    def _with_page_error(self, trace: Trace) -> Trace:
         """With what the page itself is unsure by."""
         return replace(trace, blur=math.hypot(trace.blur, self.error))
 
 
-def _aligned(along: Values, off: Values, strength: Values, within: float,
+def _align(along: Values, off: Values, strength: Values, within: float,
              steep: float) -> tuple[float, float, NDArray[np.intp]] | None:
     """The slope and the level, at most so steep and so far off, that most crests share, and which do."""
     if len(along) < measures.MIN_CRESTS:
@@ -332,17 +346,17 @@ def _aligned(along: Values, off: Values, strength: Values, within: float,
     return slope, level, which
 
 
-def _whole(crests: strokes.CrestRow, ink: Ink, half: float) -> strokes.Stretch | None:
+def _whole_stretch(crests: strokes.CrestRow, ink: PencilInk, half: float) -> strokes.CrestStretch | None:
     """All the stretches of a row between the expected ends as one, where enough of it is seen."""
-    drawn = [stretch for stretch in crests.drawn(ink)
+    drawn = [stretch for stretch in crests.drawn_stretches(ink)
              if stretch.seen >= measures.MIN_FAINT_SHARE and stretch.long >= 1.0 and stretch.start < half
              and stretch.end > -half]
     if sum(stretch.long for stretch in drawn) < measures.MIN_FAINT_MM:
         return None
-    return strokes.Stretch(drawn[0].start, drawn[-1].end, measures.MIN_FAINT_SHARE)
+    return strokes.CrestStretch(drawn[0].start, drawn[-1].end, measures.MIN_FAINT_SHARE)
 
 
-def _short(page: PencilPage, centre: Values, radius: float, aim: float, along: Values, off: Values, slope: float,
+def _short_arc(page: PencilPage, centre: Values, radius: float, aim: float, along: Values, off: Values, slope: float,
            level: float) -> strokes.Rim | None:
     """A short arc: it is as far off the expected one, and as askew, as its crests are."""
     turned = math.atan(slope)
@@ -350,7 +364,8 @@ def _short(page: PencilPage, centre: Values, radius: float, aim: float, along: V
     across = np.array([-side[1], side[0]])
     moved = centre + across * radius * math.sin(turned) + side * radius * (1 - math.cos(turned))
 
-    seen = strokes.stretches(along, lambda at: page.ink.crossed(strokes.on_rim(centre, radius + level, aim, at)))
+    seen = strokes.crest_stretches(along, lambda at: page.ink.are_hidden_or_dark(strokes.rim_spots(centre, radius
+                                                                                                   + level, aim, at)))
     drawn = [stretch for stretch in seen if stretch.seen >= measures.MIN_FAINT_SHARE]
     if not drawn:
         return None

@@ -1,13 +1,13 @@
-"""A picture of a sheet made straight: found by its coded marks, or by its frame, the largest dark rectangle;
-laid on the printed one; then lens and paper taken out.
+"""A picture of a sheet made straight: found by its coded marks, or by its frame, the largest dark rectangle; laid on
+the printed one; then lens and paper taken out.
 
 What is printed is known, so each piece of it says how far off it is seen. Across every straight piece of print the
 lightness is read off in the picture and in the sheet as it should be; how far one must be shifted to fit the other is
-one equation for the polynomial that bends the sheet. Pieces that a pencil has crossed are outweighed."""
+one equation for the polynomial that bends the sheet. Pieces that a pencil has crossed are outweighed.
+"""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
@@ -18,11 +18,11 @@ from shapely import LinearRing
 
 from graphplan.errors import Refused
 from graphplan.marking.scans import measures
-from graphplan.marking.scans.image import Grey, Light, Spots, deviation
-from graphplan.marking.scans.printed_ink import Pieces, pieces
+from graphplan.marking.scans.image import Grey, Light, Spots, encode_jpeg, median_deviation, shrink
+from graphplan.marking.scans.printed_ink import Pieces, find_marks, print_pieces, signed_area
 from graphplan.marking.tolerances import MIN_DIVISOR
-from graphplan.sheet.frames.frame import corner_numbers, corner_rects
-from graphplan.sheet.plates.display import Rect, Sheet
+from graphplan.sheet.frames.frame import WHITE, corner_rects
+from graphplan.sheet.plates.display import Photograph, Rect, Sheet
 
 
 @dataclass(frozen=True)
@@ -36,11 +36,11 @@ class Warp:
     bend: Spots = field(default_factory=lambda: np.zeros((1, 2)))
 
     def __call__(self, spots: Spots) -> Spots:
-        return projected(self.plane, spots + self.moved(spots))
+        return project(self.plane, spots + self.displacement(spots))
 
-    def moved(self, spots: Spots) -> Spots:
+    def displacement(self, spots: Spots) -> Spots:
         """By how much paper and lens move spots of the sheet, in mm."""
-        return terms(spots, self.size, self.degree) @ self.bend
+        return polynomial_terms(spots, self.size, self.degree) @ self.bend
 
     def maps(self, scale: float) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Columns and rows in the picture for every pixel of the sheet, at so many pixels per mm, the top first."""
@@ -49,7 +49,7 @@ class Warp:
                                     np.arange(0, high + measures.WARP_GRID_PX, measures.WARP_GRID_PX))
         spots = np.column_stack([(columns.ravel() + 0.5) / scale, self.size[1] - (rows.ravel() + 0.5) / scale])
         seen = self(spots).reshape(*columns.shape, 2)
-        return _between(seen[..., 0], wide, high), _between(seen[..., 1], wide, high)
+        return _interpolate_grid(seen[..., 0], wide, high), _interpolate_grid(seen[..., 1], wide, high)
 
     def fineness(self) -> float:
         """Pixels per mm in the middle of the sheet."""
@@ -58,78 +58,31 @@ class Warp:
         return float(min(np.hypot(*(seen[1] - seen[0])), np.hypot(*(seen[3] - seen[2]))) / measures.FINENESS_MM)
 
 
-def projected(plane: Spots, spots: Spots) -> Spots:
+def project(plane: Spots, spots: Spots) -> Spots:
     """Spots through a projective map."""
     seen = np.column_stack([spots, np.ones(len(spots))]) @ plane.T
     return np.asarray(seen[:, :2] / seen[:, 2:])
 
 
-def enclosed(rim: Spots) -> float:
-    """The area within a rim, by Gauss's formula: positive in the sense of the clock where rows count down."""
-    ahead = np.roll(rim, -1, axis=0)
-    return float((rim[:, 0] * ahead[:, 1] - ahead[:, 0] * rim[:, 1]).sum() / 2)
-
-
-def terms(spots: Spots, size: tuple[float, float], degree: int) -> Spots:
+def polynomial_terms(spots: Spots, size: tuple[float, float], degree: int) -> Spots:
     """The terms of a polynomial at spots, by Chebyshev, from -1 to 1 over the sheet."""
     across, up = (np.polynomial.chebyshev.chebvander(2 * spots[:, i] / size[i] - 1, degree) for i in range(2))
-    return np.column_stack([across[:, i] * up[:, j] for i, j in powers(degree)])
+    return np.column_stack([across[:, i] * up[:, j] for i, j in term_powers(degree)])
 
 
-def powers(degree: int) -> list[tuple[int, int]]:
+def term_powers(degree: int) -> list[tuple[int, int]]:
     """The powers of x and y in each term of a polynomial, up to this degree in all."""
     return [(total - j, j) for total in range(degree + 1) for j in range(total + 1)]
 
 
-def _between(coarse: Spots, wide: int, high: int) -> NDArray[np.float32]:
+def _interpolate_grid(coarse: Spots, wide: int, high: int) -> NDArray[np.float32]:
     """Values at every pixel from those at every `GRID`th."""
     grow = np.array([[measures.WARP_GRID_PX, 0, 0], [0, measures.WARP_GRID_PX, 0]], float)
     return np.asarray(cv2.warpAffine(coarse.astype(np.float32), grow, (wide, high), flags=cv2.INTER_LINEAR,
                                      borderMode=cv2.BORDER_REPLICATE), np.float32)
 
 
-def find(image: Grey, code: int | None, name: str) -> dict[int, Spots]:
-    """The marks of the sheet with this code, or where none is asked for, those that a sheet has: by their corner, each
-    as its own four corners in pixels, upper left, upper right, lower right, lower left as it was printed.
-
-    Fails with `Refused` where the marks are those of another sheet.
-    """
-    seen = detected(image)
-    if code is None:
-        small_first = sorted(seen, key=lambda mark: abs(enclosed(mark[1])))  # what looks like a mark by chance is small
-        return {number >> measures.CORNER_BITS: rim for number, rim in small_first}
-    own = {number: corner for corner, number in enumerate(corner_numbers(code))}
-    found = {own[number]: corners for number, corners in seen if number in own}
-    if not found and _of_one_sheet([(number >> measures.CORNER_BITS, corners) for number, corners in seen]):
-        raise Refused(name, "the marks in its corners are those of another task",
-                      "verify it against its own scene, plan and paper")
-    return found
-
-
-def detected(image: Grey) -> list[tuple[int, Spots]]:
-    """Every mark in the picture with its number, its corners to a part of a pixel."""
-    settings = cv2.aruco.DetectorParameters()
-    settings.minMarkerPerimeterRate = measures.MIN_MARK_RIM_PX / max(image.shape)
-    (settings.adaptiveThreshWinSizeMin, settings.adaptiveThreshWinSizeMax,
-     settings.adaptiveThreshWinSizeStep) = measures.THRESHOLD_WINDOWS_PX
-    settings.perspectiveRemovePixelPerCell = measures.CELL_PX
-    settings.perspectiveRemoveIgnoredMarginPerCell = measures.CELL_RIM_SHARE
-    settings.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
-    settings.relativeCornerRefinmentWinSize = measures.CORNER_WINDOW_SHARE
-    words = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_ARUCO_ORIGINAL)
-    corners, found, _ = cv2.aruco.ArucoDetector(words, settings).detectMarkers(image)
-    known = [] if found is None else found.ravel()
-    return [(int(number), np.asarray(rim, float).reshape(4, 2)) for number, rim in zip(known, corners, strict=True)]
-
-
-def _of_one_sheet(marks: list[tuple[int, Spots]]) -> bool:
-    """Whether the large ones among marks are those of several corners; print may look like a small mark by chance."""
-    sizes = [math.sqrt(abs(enclosed(rim))) for _, rim in marks]
-    return len({corner for (corner, _), size in zip(marks, sizes, strict=True)
-                if size * measures.MARK_SIZE_RATIO > max(sizes)}) > 1
-
-
-def by_frame(image: Grey, sheet: Sheet, light: Light) -> list[Warp]:
+def warps_by_frame(image: Grey, sheet: Sheet, light: Light) -> list[Warp]:
     """The planes in which the printed frame may be seen, the largest first, each turned so that the print fits."""
     size = round(sheet.width * measures.PRINT_PX_PER_MM), round(sheet.height * measures.PRINT_PX_PER_MM)
     small = cv2.resize(light, size, interpolation=cv2.INTER_AREA)
@@ -137,14 +90,14 @@ def by_frame(image: Grey, sheet: Sheet, light: Light) -> list[Warp]:
     found = []
     for rim in _rectangles(image):
         turned = [np.roll(rim, turn, axis=0) for turn in range(4)]
-        tried = [_plane(corners, seen, sheet) for corners in _outlines(sheet) for seen in turned]
-        found.append(max(tried, key=lambda warp: _alike(image, warp, ideal)))
+        tried = [_plane_warp(corners, seen, sheet) for corners in _outlines(sheet) for seen in turned]
+        found.append(max(tried, key=lambda warp: _correlation(image, warp, ideal)))
     return found
 
 
 def _outlines(sheet: Sheet) -> list[Spots]:
     """The frame's corners, and those of all straight print, which may go beyond it."""
-    ink = pieces(sheet)
+    ink = print_pieces(sheet)
     half = ink.along * ink.halves[:, None]
     ends = np.concatenate([ink.middles - half, ink.middles + half])
     (left, bottom), (right, top) = ends.min(axis=0), ends.max(axis=0)
@@ -165,7 +118,7 @@ def _rectangles(image: Grey) -> Iterator[Spots]:
         hull = cv2.convexHull(rim)
         four = cv2.approxPolyDP(hull, measures.FRAME_CORNER_SHARE * cv2.arcLength(rim, True),
                                 True).reshape(-1, 2).astype(float)
-        corners = _sharp(hull.reshape(-1, 2).astype(float), four) if len(four) == 4 else None
+        corners = _side_corners(hull.reshape(-1, 2).astype(float), four) if len(four) == 4 else None
         if corners is None or any(np.abs(corners - other).max() < measures.SAME_RIM_SHARE * measures.FRAME_SEARCH_PX
                                   for other in known):
             continue
@@ -175,13 +128,13 @@ def _rectangles(image: Grey) -> Iterator[Spots]:
             return
 
 
-def _sharp(hull: Spots, four: Spots) -> Spots | None:
+def _side_corners(hull: Spots, four: Spots) -> Spots | None:
     """The corners of a rectangle, in the sense in which a frame's go round, from the middles of its sides: whatever
     its corners themselves have lost."""
-    around = four if enclosed(four) < 0 else four[::-1]
+    around = four if signed_area(four) < 0 else four[::-1]
     around = np.roll(around, -int(around.sum(axis=1).argmin()), axis=0)
     rim = np.array(LinearRing(hull).segmentize(1.0).coords)
-    sides = [_side(rim, one, two) for one, two in zip(around, np.roll(around, -1, axis=0), strict=True)]
+    sides = [_side_line(rim, one, two) for one, two in zip(around, np.roll(around, -1, axis=0), strict=True)]
     if any(side is None for side in sides):
         return None
     lines = np.array(sides)
@@ -189,7 +142,7 @@ def _sharp(hull: Spots, four: Spots) -> Spots | None:
                      for one, two in zip(np.roll(lines, 1, axis=0), lines, strict=True)])
 
 
-def _side(rim: Spots, one: Spots, two: Spots) -> tuple[float, float, float] | None:
+def _side_line(rim: Spots, one: Spots, two: Spots) -> tuple[float, float, float] | None:
     """The line along the middle of a side: its unit normal, and how far it is from the origin."""
     long = np.hypot(*(two - one))
     ahead = (two - one) / long
@@ -202,7 +155,7 @@ def _side(rim: Spots, one: Spots, two: Spots) -> tuple[float, float, float] | No
     return float(normal[0]), float(normal[1]), float(normal @ at)
 
 
-def _alike(image: Grey, warp: Warp, ideal: NDArray[np.float32]) -> float:
+def _correlation(image: Grey, warp: Warp, ideal: NDArray[np.float32]) -> float:
     """The correlation of a picture, straightened, with the print."""
     columns, rows = warp.maps(measures.PRINT_PX_PER_MM)
     seen = cv2.GaussianBlur(cv2.remap(image, columns, rows, cv2.INTER_LINEAR), (0, 0),
@@ -212,7 +165,7 @@ def _alike(image: Grey, warp: Warp, ideal: NDArray[np.float32]) -> float:
 
 
 @dataclass(frozen=True)
-class Registered:
+class RegisteredWarp:
     """A warp that fits the print; `error` is what is left, as a standard deviation in mm, `share` how much of the
     print was found where it should be, and `own` of what only this task has; of a drawing that was not made on it the
     rest may be another."""
@@ -223,19 +176,19 @@ class Registered:
     own: float
 
 
-def registered(image: Grey, start: Warp, light: Light, scale: float, pieces: Pieces) -> Registered:
+def register_warp(image: Grey, start: Warp, light: Light, scale: float, pieces: Pieces) -> RegisteredWarp:
     """The warp by which a picture shows a sheet; `light` is the sheet as printed, at `scale` pixels per mm."""
     warp, error, near = start, measures.PROFILE_REACH_MM, np.zeros(0, bool)
     ideal = _profiles(light, lambda spots: np.column_stack([spots[:, 0], start.size[1] - spots[:, 1]]) * scale - 0.5,
                       pieces, measures.PROFILE_REACH_MM)
     seen = ideal.std(axis=1) > measures.MIN_PRINT_CONTRAST
-    pieces, ideal = pieces.only(seen), ideal[seen]
+    pieces, ideal = pieces.selected(seen), ideal[seen]
     for reach, degree in measures.WARP_ROUNDS if len(ideal) >= measures.MIN_BENT_PIECES else measures.WARP_ROUNDS[:1]:
-        shift, match = _shifts(ideal, _profiles(image, warp, pieces, measures.PROFILE_REACH_MM + reach))
-        warp, error, near = _fitted(warp, pieces, shift, match > measures.MIN_CORRELATION, degree, reach / 4)
-    share, mine = float(near.sum() / max(1, len(ideal))), pieces.only(pieces.own)
-    own = near[pieces.own] | _overdrawn(ideal[pieces.own], _profiles(image, warp, mine, measures.PROFILE_REACH_MM))
-    return Registered(warp, error, share, float(own.mean()) if len(own) else share)
+        shift, match = _profile_shifts(ideal, _profiles(image, warp, pieces, measures.PROFILE_REACH_MM + reach))
+        warp, error, near = _fit_warp(warp, pieces, shift, match > measures.MIN_CORRELATION, degree, reach / 4)
+    share, mine = float(near.sum() / max(1, len(ideal))), pieces.selected(pieces.own)
+    own = near[pieces.own] | _are_overdrawn(ideal[pieces.own], _profiles(image, warp, mine, measures.PROFILE_REACH_MM))
+    return RegisteredWarp(warp, error, share, float(own.mean()) if len(own) else share)
 
 
 def _profiles(image: Grey | Light, warp: Callable[[Spots], Spots], pieces: Pieces, reach: float) -> NDArray[np.float32]:
@@ -255,7 +208,7 @@ def _profiles(image: Grey | Light, warp: Callable[[Spots], Spots], pieces: Piece
     return np.asarray(values.mean(axis=1), np.float32)
 
 
-def _shifts(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> tuple[Spots, Spots]:
+def _profile_shifts(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> tuple[Spots, Spots]:
     """How far each profile is off, in mm, and how well it fits there: the peak of the correlation."""
     wide = ideal.shape[1]
     pattern = ideal - ideal.mean(axis=1, keepdims=True)
@@ -270,21 +223,21 @@ def _shifts(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> tuple[Spot
     return (best + np.clip(part, -1, 1) - match.shape[1] // 2) * measures.PROFILE_STEP_MM, top
 
 
-def _overdrawn(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> NDArray[np.bool_]:
+def _are_overdrawn(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> NDArray[np.bool_]:
     """Which profiles are as dark as print wherever print is: a pencil drawn along it hides its pattern, not its ink."""
     ink = ideal.max(axis=1, keepdims=True, initial=0.0) - ideal
     light = (ink * seen).sum(axis=1) / np.maximum(ink.sum(axis=1), MIN_DIVISOR)
     return np.asarray(light < measures.BLACK_SHARE * seen.max(axis=1, initial=0.0))
 
 
-def _fitted(warp: Warp, pieces: Pieces, shift: Spots, good: NDArray[np.bool_],
+def _fit_warp(warp: Warp, pieces: Pieces, shift: Spots, good: NDArray[np.bool_],
             degree: int, allowed: float) -> tuple[Warp, float, NDArray[np.bool_]]:
     """The warp bent to what the pieces say; also what is left, and which pieces agree."""
     side = np.column_stack([-pieces.along[:, 1], pieces.along[:, 0]])
-    wanted = shift + (warp.moved(pieces.middles) * side).sum(axis=1)
-    base = terms(pieces.middles, warp.size, degree)
+    wanted = shift + (warp.displacement(pieces.middles) * side).sum(axis=1)
+    base = polynomial_terms(pieces.middles, warp.size, degree)
     design = np.hstack([base * side[:, :1], base * side[:, 1:]])
-    hold = np.tile([0.0 if i + j < 2 else 1.0 for i, j in powers(degree)], 2)
+    hold = np.tile([0.0 if i + j < 2 else 1.0 for i, j in term_powers(degree)], 2)
     trust = good * pieces.halves
     weight, left = trust, np.zeros(len(shift))
     for _ in range(measures.WARP_ITERATIONS):
@@ -294,63 +247,63 @@ def _fitted(warp: Warp, pieces: Pieces, shift: Spots, good: NDArray[np.bool_],
         left = wanted - design @ solution
         weight = trust * np.clip(1 - (left / allowed) ** 2, 0, None) ** 2
     near = good & (np.abs(left) < allowed)
-    error = deviation(left[near]) if near.any() else measures.PROFILE_REACH_MM
+    error = median_deviation(left[near]) if near.any() else measures.PROFILE_REACH_MM
     return replace(warp, degree=degree, bend=solution.reshape(2, -1).T), error, near
 
 
 def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int | None, name: str
-               ) -> tuple[NDArray[np.float32], Registered]:
+               ) -> tuple[NDArray[np.float32], RegisteredWarp]:
     """The picture laid over the printed sheet, of which `light` is the picture at `scale` pixels per mm: its lightness
     0..255, the top first, and the warp by which it shows the sheet.
 
     Fails with `Refused` where the sheet is not found, is another one, is cut off, or too coarse.
     """
-    result = _laid(image, sheet, light, scale, find(image, code, name))
+    result = _lay_sheet(image, sheet, light, scale, find_marks(image, code, name))
     if result is None:
         raise Refused(name, "neither the corner marks nor the frame of this task was found",
                       "photograph the whole sheet with its four corner marks, lying flat, in even light")
     if result.own < measures.OWN_PRINT_SHARE:
         raise Refused(name, "the print of this task was not found on it",
                       "verify it against its own scene, plan and paper, and photograph the sheet lying flat")
-    _whole(result.warp, image, sheet, name)
+    _require_whole(result.warp, image, sheet, name)
     columns, rows = result.warp.maps(scale)
     straight = cv2.remap(image, columns, rows, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
     return straight.astype(np.float32), result
 
 
-def _laid(image: Grey, sheet: Sheet, light: Light, scale: float, found: dict[int, Spots]) -> Registered | None:
+def _lay_sheet(image: Grey, sheet: Sheet, light: Light, scale: float, found: dict[int, Spots]) -> RegisteredWarp | None:
     """The sheet laid by its marks, or where some are lost, by its frame, whichever fits the print."""
-    best, ink = None, pieces(sheet)
-    for start in _starts(image, sheet, light, found):
-        result = registered(image, start, light, scale, ink)
+    best, ink = None, print_pieces(sheet)
+    for start in _first_warps(image, sheet, light, found):
+        result = register_warp(image, start, light, scale, ink)
         best = result if best is None or result.share > best.share else best
         if best.share > measures.SURE_PRINT_SHARE:
             break
     return best
 
 
-def _starts(image: Grey, sheet: Sheet, light: Light, found: dict[int, Spots]) -> Iterator[Warp]:
+def _first_warps(image: Grey, sheet: Sheet, light: Light, found: dict[int, Spots]) -> Iterator[Warp]:
     """The ways to lay the sheet, the surest first."""
     if len(found) >= measures.MIN_MARKS:
-        yield _by_marks(found, sheet)
+        yield _warp_by_marks(found, sheet)
     if len(found) < measures.ALL_MARKS:
-        yield from by_frame(image, sheet, light)
+        yield from warps_by_frame(image, sheet, light)
 
 
-def _by_marks(found: dict[int, Spots], sheet: Sheet) -> Warp:
+def _warp_by_marks(found: dict[int, Spots], sheet: Sheet) -> Warp:
     """The plane through the corners of the marks."""
     rects = corner_rects(sheet.width, sheet.height, sheet.frame)
     printed = [spot for corner in found for spot in rects[corner].corners[::-1]]
     seen = np.concatenate([found[corner] for corner in found])
-    return _plane(np.array(printed), seen, sheet)
+    return _plane_warp(np.array(printed), seen, sheet)
 
 
-def _plane(printed: Spots, seen: Spots, sheet: Sheet) -> Warp:
+def _plane_warp(printed: Spots, seen: Spots, sheet: Sheet) -> Warp:
     """The plane in which spots of the sheet are seen."""
     return Warp(np.asarray(cv2.findHomography(printed, seen)[0], float), (sheet.width, sheet.height))
 
 
-def _whole(warp: Warp, image: Grey, sheet: Sheet, name: str) -> None:
+def _require_whole(warp: Warp, image: Grey, sheet: Sheet, name: str) -> None:
     """Refuse a picture that is too coarse, or that does not show all the plans."""
     dpi = warp.fineness() * measures.INCH_MM
     if dpi < measures.MIN_DPI:
@@ -361,3 +314,39 @@ def _whole(warp: Warp, image: Grey, sheet: Sheet, name: str) -> None:
                                         measures.PANEL_MARGIN_MM).corners))
         if (seen < 0).any() or (seen > [wide - 1, high - 1]).any():
             raise Refused(name, f"the {panel} is cut off", "scan or photograph the whole sheet")
+
+
+# ---- to be drawn on: a sheet laid straight, or as it is -------------------------------------------------------------
+
+
+LAYER = "scan"
+
+
+def straight_picture(image: Grey, warp: Warp) -> Grey:
+    """The sheet in a picture, laid straight, at `FINE` pixels per mm."""
+    columns, rows = warp.maps(measures.FACSIMILE_PX_PER_MM)
+    return np.asarray(cv2.remap(shrink(image, measures.MAX_PAGE_PX), columns, rows, cv2.INTER_AREA, borderValue=255),
+                      np.uint8)
+
+
+def sheet_photograph(sheet: Grey) -> Photograph:
+    """A straight sheet, or a piece of it, as it lies on paper."""
+    high, wide = sheet.shape
+    return Photograph(WHITE, LAYER, None,
+                      Rect(0.0, 0.0, wide / measures.FACSIMILE_PX_PER_MM, high / measures.FACSIMILE_PX_PER_MM),
+                      encode_jpeg(sheet, measures.FACSIMILE_JPEG_QUALITY), (wide, high))
+
+
+def whole_photograph(image: Grey, longest: float = measures.A4_LONG_MM) -> Photograph:
+    """A whole picture, on paper whose longer side is so many mm."""
+    small = shrink(image, (longest * measures.FACSIMILE_PX_PER_MM) ** 2 * min(image.shape) / max(image.shape))
+    shown, (high, wide) = sheet_photograph(small), image.shape
+    size = Rect(0.0, 0.0, longest * wide / max(image.shape), longest * high / max(image.shape))
+    return replace(shown, rect=size)
+
+
+def cut_out(sheet: Grey, rect: Rect) -> Photograph:
+    """A piece of a straight sheet, at the origin."""
+    left, right = (round(side * measures.FACSIMILE_PX_PER_MM) for side in (rect.left, rect.right))
+    low, high = (sheet.shape[0] - round(side * measures.FACSIMILE_PX_PER_MM) for side in (rect.bottom, rect.top))
+    return sheet_photograph(np.ascontiguousarray(sheet[max(0, high) : low, max(0, left) : right]))

@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from graphplan.kernel.kinds import CIRCLE, LINE
 from graphplan.marking.scans import measures
 from graphplan.marking.scans.image import Spots
-from graphplan.marking.scans.pencil_pixels import Ink, Ridges
+from graphplan.marking.scans.pencil_pixels import PencilInk, Ridges
 from graphplan.marking.traces import Trace
 
 
 @dataclass(frozen=True)
-class Stretch:
+class CrestStretch:
     """From where to where something was drawn, in mm along it, and the share of it that is seen."""
 
     start: float
@@ -33,8 +33,8 @@ class Stretch:
         return self.end - self.start
 
 
-def stretches(along: NDArray[np.float64], hidden: Callable[[NDArray[np.float64]], NDArray[np.bool_]]
-              ) -> Iterator[Stretch]:
+def crest_stretches(along: NDArray[np.float64], hidden: Callable[[NDArray[np.float64]], NDArray[np.bool_]]
+              ) -> Iterator[CrestStretch]:
     """The stretches that crests at these places make; where print hides a line, it may well go on."""
     low = float(along.min())
     count = int((float(along.max()) - low) / measures.STROKE_CELL_MM) + 1
@@ -47,7 +47,7 @@ def stretches(along: NDArray[np.float64], hidden: Callable[[NDArray[np.float64]]
     for first, last in zip([0, *(breaks + 1)], [*breaks, len(marked) - 1], strict=True):
         start, end = int(marked[first]), int(marked[last])
         share = (last - first + 1) / max(1, int(open_[start : end + 1].sum()))
-        yield Stretch(low + start * measures.STROKE_CELL_MM, low + (end + 1) * measures.STROKE_CELL_MM, share)
+        yield CrestStretch(low + start * measures.STROKE_CELL_MM, low + (end + 1) * measures.STROKE_CELL_MM, share)
 
 
 @dataclass(frozen=True)
@@ -67,11 +67,11 @@ class CrestRow:
         return np.asarray(self.at + np.multiply.outer(along, self.way)
                           + np.multiply.outer(off + np.zeros(len(along)), self.normal))
 
-    def drawn(self, ink: Ink) -> Iterator[Stretch]:
+    def drawn_stretches(self, ink: PencilInk) -> Iterator[CrestStretch]:
         """The stretches of it that were drawn."""
-        return stretches(self.along, lambda along: ink.crossed(self.spots(along)))
+        return crest_stretches(self.along, lambda along: ink.are_hidden_or_dark(self.spots(along)))
 
-    def part(self, stretch: Stretch) -> NDArray[np.bool_]:
+    def in_stretch(self, stretch: CrestStretch) -> NDArray[np.bool_]:
         """Which of its crests a run has."""
         return (stretch.start <= self.along) & (self.along <= stretch.end)
 
@@ -82,7 +82,7 @@ def crest_row(found: Ridges, at: Spots, normal: Spots, which: NDArray[np.intp]) 
     return CrestRow(at, way, normal, which, out @ way, out @ normal)
 
 
-def row(found: Ridges, left: NDArray[np.intp], angle: float, shift: float) -> CrestRow | None:
+def crests_near_line(found: Ridges, left: NDArray[np.intp], angle: float, shift: float) -> CrestRow | None:
     """The crests, of those that are left, near the line whose normal has this angle, so many mm from the origin."""
     normal = np.array([math.cos(angle), math.sin(angle)])
     at, which = normal * shift, left
@@ -100,9 +100,9 @@ def row(found: Ridges, left: NDArray[np.intp], angle: float, shift: float) -> Cr
     return crest_row(found, at, normal, chosen)
 
 
-def line(crests: CrestRow, stretch: Stretch) -> Trace:
+def line_trace(crests: CrestRow, stretch: CrestStretch) -> Trace:
     """A run of a row as its two ends; it is as unsure as its crests are rough, the less the longer it is."""
-    on = crests.part(stretch)
+    on = crests.in_stretch(stretch)
     slope, level = np.polyfit(crests.along[on], crests.off[on], 1)
     ends = np.array([stretch.start, stretch.end])
     (x, y), (u, v) = crests.spots(ends, slope * ends + level).tolist()
@@ -110,9 +110,9 @@ def line(crests: CrestRow, stretch: Stretch) -> Trace:
     return Trace(LINE, ((x, y), (u, v)), blur=rough / math.sqrt(max(1.0, stretch.long)))
 
 
-def bends(crests: CrestRow, stretch: Stretch) -> bool:
+def is_bent(crests: CrestRow, stretch: CrestStretch) -> bool:
     """Whether the crests of a run follow a bow rather than a line."""
-    on = crests.part(stretch)
+    on = crests.in_stretch(stretch)
     along, off = crests.along[on] - crests.along[on].mean(), crests.off[on]
     bow = np.polyfit(along, off, 2)
     sag = abs(bow[0]) * (stretch.long / 2) ** 2
@@ -127,7 +127,7 @@ class Rim:
     centre: Spots
     radius: float
     zero: float
-    stretch: Stretch
+    stretch: CrestStretch
     which: NDArray[np.intp]
     rough: float
 
@@ -135,31 +135,31 @@ class Rim:
         """The rim as spots of it, as far as it was drawn."""
         count = max(measures.MIN_RIM_SPOTS,
                     math.ceil(math.degrees(self.stretch.long / self.radius) / measures.RIM_SPOTS_DEGREES))
-        spots = on_rim(self.centre, self.radius, self.zero, np.linspace(self.stretch.start, self.stretch.end, count))
+        spots = rim_spots(self.centre, self.radius, self.zero, np.linspace(self.stretch.start, self.stretch.end, count))
         blur = self.rough / math.sqrt(max(1.0, self.stretch.long))
         return Trace(CIRCLE, tuple((float(x), float(y)) for x, y in spots), blur=blur)
 
 
-def on_rim(centre: Spots, radius: float, zero: float, along: NDArray[np.float64]) -> Spots:
+def rim_spots(centre: Spots, radius: float, zero: float, along: NDArray[np.float64]) -> Spots:
     """Spots of a circle, so many mm along it from the side `zero`."""
     turns = zero + along / radius
     return np.asarray(centre + radius * np.column_stack([np.cos(turns), np.sin(turns)]))
 
 
-def turned(out: Spots, zero: float) -> NDArray[np.float64]:
+def angles_from(out: Spots, zero: float) -> NDArray[np.float64]:
     """Angles of spots about a centre, from the side `zero`."""
     return np.asarray((np.arctan2(out[:, 1], out[:, 0]) - zero + math.pi) % (2 * math.pi) - math.pi)
 
 
-def grown(found: Ridges, left: NDArray[np.intp], seed: NDArray[np.intp], ink: Ink) -> Rim | None:
+def grow_rim(found: Ridges, left: NDArray[np.intp], seed: NDArray[np.intp], ink: PencilInk) -> Rim | None:
     """The circle that some crests begin and others, of those that are left, carry on; None where they make none."""
     rim, chosen = None, seed
     for _ in range(measures.RIM_ROUNDS):
-        centre, radius = through(found.spots[chosen])
+        centre, radius = fit_circle(found.spots[chosen])
         if not measures.MIN_RIM_RADIUS_MM < radius < measures.MAX_RIM_RADIUS_MM:
             return None
         middle = found.spots[seed].mean(axis=0) - centre
-        larger = _around(found, left, centre, radius, math.atan2(middle[1], middle[0]), ink)
+        larger = _crests_on_circle(found, left, centre, radius, math.atan2(middle[1], middle[0]), ink)
         if larger is None or (rim is not None and len(larger.which) <= len(rim.which)):
             break
         rim, chosen = larger, larger.which
@@ -167,7 +167,7 @@ def grown(found: Ridges, left: NDArray[np.intp], seed: NDArray[np.intp], ink: In
             else None)
 
 
-def through(spots: Spots) -> tuple[Spots, float]:
+def fit_circle(spots: Spots) -> tuple[Spots, float]:
     """The centre and the radius of the circle of least squares (I. Kåsa, 1976)."""
     middle = spots.mean(axis=0)
     x, y = (spots - middle).T
@@ -175,7 +175,8 @@ def through(spots: Spots) -> tuple[Spots, float]:
     return middle + np.array([u, v]), math.sqrt(max(w + u**2 + v**2, 0.0))
 
 
-def _around(found: Ridges, left: NDArray[np.intp], centre: Spots, radius: float, zero: float, ink: Ink) -> Rim | None:
+def _crests_on_circle(found: Ridges, left: NDArray[np.intp], centre: Spots, radius: float, zero: float,
+                      ink: PencilInk) -> Rim | None:
     """The run of crests on a circle that has this side of it."""
     out = found.spots[left] - centre
     far = np.hypot(out[:, 0], out[:, 1])
@@ -183,8 +184,8 @@ def _around(found: Ridges, left: NDArray[np.intp], centre: Spots, radius: float,
     near = (np.abs(far - radius) < measures.RIM_REACH_MM) & square
     if not near.any():
         return None
-    along = turned(out[near], zero) * radius
-    drawn = stretches(along, lambda at: ink.crossed(on_rim(centre, radius, zero, at)))
+    along = angles_from(out[near], zero) * radius
+    drawn = crest_stretches(along, lambda at: ink.are_hidden_or_dark(rim_spots(centre, radius, zero, at)))
     own = [stretch for stretch in drawn if stretch.start <= 1.0 and stretch.end >= -1.0]
     if not own:
         return None
@@ -236,24 +237,24 @@ class Vote:
         return np.asarray(votes, np.float64)
 
 
-def strokes(found: Ridges, ink: Ink) -> list[Trace]:
+def find_strokes(found: Ridges, ink: PencilInk) -> list[Trace]:
     """The lines and rims among crests, the longest lines first; what is taken is no longer there."""
     vote, left, traces = Vote(found), np.ones(len(found), bool), list[Trace]()
     for _ in range(measures.MAX_LINES):
         peak = vote.peak()
         if peak is None:
             break
-        crests = row(found, np.flatnonzero(left), *peak)
-        for stretch in crests.drawn(ink) if crests else ():
+        crests = crests_near_line(found, np.flatnonzero(left), *peak)
+        for stretch in crests.drawn_stretches(ink) if crests else ():
             assert crests
-            own = crests.which[crests.part(stretch)]
+            own = crests.which[crests.in_stretch(stretch)]
             own = own[left[own]]
             if (stretch.long >= measures.MIN_LINE_MM and stretch.seen >= measures.MIN_STROKE_SHARE
                 and len(own) >= measures.MIN_CRESTS):
-                rim = grown(found, np.flatnonzero(left), own, ink) if bends(crests, stretch) else None
+                rim = grow_rim(found, np.flatnonzero(left), own, ink) if is_bent(crests, stretch) else None
                 if rim and rim.stretch.long < measures.RIM_RATIO * stretch.long:
                     rim = None  # a hand that wobbles bends lines, too, but no further than they go
-                traces.append(rim.trace() if rim else line(crests, stretch))
+                traces.append(rim.trace() if rim else line_trace(crests, stretch))
                 taken = rim.which if rim else own
                 left[taken] = False
                 vote.remove(taken)

@@ -15,12 +15,20 @@ from typing import Any, NamedTuple
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.files.curves import SHORT, circle, ring
+from graphplan.marking.files.drawing import SHORT, circle_spots, circle_through
+from graphplan.marking.files.quantities import (
+    UNIFORM,
+    WrittenNumber,
+    entry_hint,
+    last_digit_unit,
+    parse_number,
+    polar_vector,
+    rounding_deviation,
+    student_number,
+    toml_float,
+)
 from graphplan.marking.files.safe import MB, TRACES, Budget, on_paper, text
-from graphplan.marking.spelling import spelled
-from graphplan.marking.tables.results import entry, turned, wanted
-from graphplan.marking.tables.written import UNIFORM, Written, rounding, toml_float, unit_of, written
-from graphplan.marking.traces import Number, PlanFrame, Spot, Submission, Trace
+from graphplan.marking.traces import PlanFrame, Spot, StudentNumber, Submission, Trace, spell
 
 LARGEST_CSV, LARGEST_TOML = 4 * MB, MB // 2
 DOTS = 3000  # in a line of TOML, or as many squared: the time that dotted keys take grows so
@@ -37,7 +45,7 @@ def read_csv(path: Path, panels: Collection[str]) -> Submission:
     return _CsvReader(path, panels).read()
 
 
-class Answer(NamedTuple):
+class TableAnswer(NamedTuple):
     """A single number of a table of answers: what it is, and of what, its unit, the standard deviation of its rounding,
     and where it stands."""
 
@@ -49,22 +57,22 @@ class Answer(NamedTuple):
     where: str
 
 
-def read_answers(path: Path) -> list[Answer]:
+def read_answers(path: Path) -> list[TableAnswer]:
     """The answers of a table with the columns quantity, of, value and unit; size and angle are two answers."""
-    return [answer for where, row in _CsvReader(path, ()).rows({"quantity"}) for answer in _answers(where, row)]
+    return [answer for where, row in _CsvReader(path, ()).rows({"quantity"}) for answer in _row_answers(where, row)]
 
 
-def _answers(where: str, row: Mapping[str, str]) -> Iterator[Answer]:
+def _row_answers(where: str, row: Mapping[str, str]) -> Iterator[TableAnswer]:
     """The numbers of a row, none where it is not filled in."""
     for column, quantity, unit in (("value", row["quantity"], row["unit"]), ("size", row["quantity"], row["unit"]),
                                    ("angle", "angle", "")):
         if row[column]:
             try:
-                value = written(row[column])
+                value = parse_number(row[column])
             except ValueError as error:
                 raise Refused(f"{where}: {column}", str(error), "a decimal number such as 12.5") from None
-            yield Answer(" ".join(quantity.casefold().split()), " ".join(row["of"].split()), float(value), unit,
-                         unit_of(value) / UNIFORM, where)
+            yield TableAnswer(" ".join(quantity.casefold().split()), " ".join(row["of"].split()), float(value), unit,
+                         last_digit_unit(value) / UNIFORM, where)
 
 
 def read_toml(path: Path, panels: Collection[str]) -> Submission:
@@ -81,7 +89,7 @@ def read_toml(path: Path, panels: Collection[str]) -> Submission:
     return _TomlReader(path, panels).read(tables)
 
 
-def _short(panel: str) -> str:
+def _plan_key(panel: str) -> str:
     """A plan's name as it is compared: `Mechanism plan`, `mechanism`."""
     return " ".join(panel.casefold().split()).removesuffix(" plan")
 
@@ -90,7 +98,7 @@ class _Reader:
     """One file; what is checked alike however it is written. `where` is an entry's place in it."""
 
     def __init__(self, path: Path, panels: Collection[str]):
-        self.path, self.panels = path, {_short(panel): panel for panel in panels}
+        self.path, self.panels = path, {_plan_key(panel): panel for panel in panels}
         self.read_off: list[float] = []  # all coordinates and radii, as they were written
         self.left_out: list[str] = []  # arcs that are too small to be seen
 
@@ -101,7 +109,7 @@ class _Reader:
     def number(self, where: str, value: Any) -> float:
         if isinstance(value, bool) or not isinstance(value, int | float) or not -1e300 < value < 1e300:
             raise self.fault(where, "not a number", "a decimal number such as 12.5")
-        return value if isinstance(value, Written) else float(value)
+        return value if isinstance(value, WrittenNumber) else float(value)
 
     def length(self, where: str, value: Any) -> float:
         found = self.number(where, value)
@@ -120,17 +128,17 @@ class _Reader:
         return blur
 
     def label(self, where: str, name: str, why: str) -> str:
-        label = spelled(name)
+        label = spell(name)
         if len(label) > LONGEST or not label.isprintable():
             raise self.fault(where, f"{why} no name of a mark", "its letters, such as v_b")
         return label
 
     def panel(self, where: str, name: str, do: str = "one of them") -> str:
         """The plan that is meant, or nothing where none is named."""
-        if name.strip() and _short(name) not in self.panels:
+        if name.strip() and _plan_key(name) not in self.panels:
             known = ", ".join(self.panels.values())
             raise self.fault(where, f"the construction has no plan {name.strip()[:40]!r}, but {known}", do)
-        return self.panels[_short(name)] if name.strip() else ""
+        return self.panels[_plan_key(name)] if name.strip() else ""
 
     def spots(self, where: str, kind: str, value: Any, fault: Refused) -> tuple[Spot, ...]:
         """Where a mark lies, by its coordinates, a circle's with the radius, or by those of several spots."""
@@ -140,36 +148,38 @@ class _Reader:
             numbers = [self.length(where, part) for part in value]
             self.read_off += numbers
             if kind == CIRCLE and len(numbers) == 3 and numbers[2] >= SHORT:
-                return ring((numbers[0], numbers[1]), numbers[2])
+                return circle_spots((numbers[0], numbers[1]), numbers[2])
             value = [numbers] if kind == POINT else []
         else:
             self.read_off += [part for spot in value for part in self.pair(where, spot)]
         spots = [(float(x), float(y)) for x, y in (self.pair(where, spot) for spot in value)]
-        good = {POINT: len(spots) == 1, LINE: len(spots) == 2 and math.dist(*spots) >= SHORT, CIRCLE: _bent(spots)}
+        good = {POINT: len(spots) == 1, LINE: len(spots) == 2 and math.dist(*spots) >= SHORT,
+                CIRCLE: _shows_circle(spots)}
         if not good[kind]:
             raise fault
         return tuple(spots)
 
-    def rounded(self, traces: Sequence[Trace]) -> tuple[Trace, ...]:
+    def with_precision(self, traces: Sequence[Trace]) -> tuple[Trace, ...]:
         """The marks with the precision that is stated, or else that with which they were written down."""
-        blur = rounding(self.read_off)
+        blur = rounding_deviation(self.read_off)
         return tuple(trace if trace.blur else replace(trace, blur=blur) for trace in traces)
 
     def result(self, where: str, quantity: str, of: str, parts: Sequence[float], unit: str, do: str, *,
-               polar: bool = False) -> Number:
+               polar: bool = False) -> StudentNumber:
         """A result by its components or its only number, or by its size and angle."""
-        last = max(map(unit_of, parts))
+        last = max(map(last_digit_unit, parts))
         if polar:
-            last = max(unit_of(parts[0]), abs(parts[0]) * math.radians(unit_of(parts[1])))
+            last = max(last_digit_unit(parts[0]), abs(parts[0]) * math.radians(last_digit_unit(parts[1])))
         try:
-            return entry(quantity, of, turned(*parts) if polar else tuple(map(float, parts)), unit, last / UNIFORM)
+            value = polar_vector(*parts) if polar else tuple(map(float, parts))
+            return student_number(quantity, of, value, unit, last / UNIFORM)
         except ValueError as error:
             raise self.fault(where, str(error), do) from None
 
 
-def _bent(spots: list[Spot]) -> bool:
+def _shows_circle(spots: list[Spot]) -> bool:
     """Whether spots show a circle by their first, middle and last, by which it is measured."""
-    found = circle(spots[0], spots[len(spots) // 2], spots[-1]) if len(spots) >= 3 else None
+    found = circle_through(spots[0], spots[len(spots) // 2], spots[-1]) if len(spots) >= 3 else None
     return found is not None and found[1] >= SHORT
 
 
@@ -181,9 +191,9 @@ class _CsvReader(_Reader):
     def read(self) -> Submission:
         header, rows = self._table()
         if {"mark", "x", "y"} <= set(header):
-            traces = [trace for where, row in rows if (trace := self._marked(where, row))]
+            traces = [trace for where, row in rows if (trace := self._mark_trace(where, row))]
             stated = any(trace.blur for trace in traces)
-            return Submission(self.path.name, self.rounded(traces), shows=_shown(traces), measured=True,
+            return Submission(self.path.name, self.with_precision(traces), shows=_shown_kinds(traces), measured=True,
                               stated=stated, left_out=tuple(self.left_out))
         if "quantity" in header:
             numbers = [found for where, row in rows if (found := self._result(where, row))]
@@ -235,17 +245,17 @@ class _CsvReader(_Reader):
                                  "as many; decimal commas need ; or tabs between columns")
             yield where, defaultdict(str, zip(header, cells, strict=False))
 
-    def _numbers(self, where: str, row: Mapping[str, str], *columns: str) -> list[Written]:
+    def _numbers(self, where: str, row: Mapping[str, str], *columns: str) -> list[WrittenNumber]:
         """The numbers in these columns; none where all are empty."""
         found = []
         for column in columns if any(row[column] for column in columns) else ():
             try:
-                found.append(written(row[column] if self.separator == "," else row[column].replace(",", ".", 1)))
+                found.append(parse_number(row[column] if self.separator == "," else row[column].replace(",", ".", 1)))
             except ValueError as error:
                 raise self.fault(f"{where}: {column}", str(error), "a decimal number such as 12.5") from None
         return found
 
-    def _marked(self, where: str, row: Mapping[str, str]) -> Trace | None:
+    def _mark_trace(self, where: str, row: Mapping[str, str]) -> Trace | None:
         """The mark in a row; None where it is not measured, as is no line between two marks that are one, and no arc
         about one of them through the other."""
         at, end = self._numbers(where, row, "x", "y"), self._numbers(where, row, "x2", "y2")
@@ -264,7 +274,7 @@ class _CsvReader(_Reader):
                            f"mm that paper shows ({SHORT:g} at least)")
         return Trace(kind, self.spots(where, kind, value, fault), label, panel, unsure)
 
-    def _result(self, where: str, row: Mapping[str, str]) -> Number | None:
+    def _result(self, where: str, row: Mapping[str, str]) -> StudentNumber | None:
         """The result in a row; None where it is not filled in."""
         x, value = self._numbers(where, row, "x", "y"), self._numbers(where, row, "value")
         polar = self._numbers(where, row, "size", "angle")
@@ -272,11 +282,11 @@ class _CsvReader(_Reader):
         if len(given) > 1:
             raise self.fault(where, "the result is given twice", "x and y, or size and angle, or value")
         quantity, of, unit = row["quantity"], row["of"], row["unit"]
-        do = wanted(quantity, of)
+        do = entry_hint(quantity, of)
         return self.result(where, quantity, of, given[0], unit, do, polar=bool(polar)) if given else None
 
 
-def _shown(traces: Iterable[Trace]) -> frozenset[str]:
+def _shown_kinds(traces: Iterable[Trace]) -> frozenset[str]:
     """Points, and whatever else was measured."""
     return frozenset({POINT, *(trace.kind for trace in traces)})
 
@@ -296,8 +306,8 @@ class _TomlReader(_Reader):
                    for number in self._results(kind, self._table(f"results.{kind}", table))]
         frames = {self.panel("frames", panel): self._frame(f"frames.{panel}", table)
                   for panel, table in self._table("frames", tables.get("frames", {})).items()}
-        shown = _shown(traces) if traces else frozenset()
-        return Submission(self.path.name, self.rounded(traces), tuple(numbers), shown, frames,
+        shown = _shown_kinds(traces) if traces else frozenset()
+        return Submission(self.path.name, self.with_precision(traces), tuple(numbers), shown, frames,
                           measured=True, stated="precision" in tables)
 
     def _table(self, where: str, value: Any) -> Mapping[str, Any]:
@@ -316,7 +326,7 @@ class _TomlReader(_Reader):
                 spots = self.spots(at, kind, value, self.fault(at, f"not a {kind}", SHAPES[kind]))
                 yield Trace(kind, spots, self.label(where, name, "it has an entry that is"), panel, self.blur)
 
-    def _results(self, kind: str, table: Mapping[str, Any]) -> Iterable[Number]:
+    def _results(self, kind: str, table: Mapping[str, Any]) -> Iterable[StudentNumber]:
         """The results of one kind: components, one number, or size and angle; `unit` is that of all."""
         unit = table.get("unit", "")
         for of, value in table.items():

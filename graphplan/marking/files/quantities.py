@@ -1,7 +1,9 @@
-"""Results as a student states them: vectors by components or by size and angle, single numbers.
+"""Numbers and results as students write them: their values, how finely they are written, their quantities and units.
 
-Units are as students write them, `mm/s²`, `m s^-1`, `kN·m`, `rpm`, and in the letters of the languages that graphplan
-speaks, `мм/с`; here they become the scene's own.
+A number that is written 12.5 was anything from 12.45 to 12.55. What all numbers of a table have in common tells more:
+where every one ends in a half or in an even digit, the scale was read so coarsely. Units are as students write them,
+`mm/s²`, `m s^-1`, `kN·m`, `rpm`, and in the letters of the languages that graphplan speaks, `мм/с`; here they become
+the scene's own.
 """
 
 from __future__ import annotations
@@ -9,16 +11,78 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from decimal import Decimal
 from functools import cache
+from typing import Self
 
-from graphplan.marking.spelling import LOW
-from graphplan.marking.traces import Number
+from graphplan.marking.files.safe import number
+from graphplan.marking.traces import LOW, StudentNumber
 from graphplan.mechanism.model import Units
 from graphplan.mechanism.units import INERTIA, KILOGRAMS, METRES, MOMENT, NEWTONS, Dimension
 from graphplan.methods.kinds import CYCLE, KINDS
 from graphplan.phrases import UNITS
 from graphplan.words import LANGUAGES
 from graphplan.words.tongue import catalogue
+
+# ---- numbers --------------------------------------------------------------------------------------------------------
+
+
+POWER = re.compile(r"\s*[·×x*⋅]\s*10\s*\^?\s*\(?([+-]?\d{1,3})\)?$")
+SIGNED_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺−", "0123456789-+-")
+ENOUGH, COARSER = 12, (5, 2)  # so many numbers that are multiples of these, in units of the last digit, are so by plan
+UNIFORM = math.sqrt(12.0)  # the width of a uniform distribution over its standard deviation
+
+
+class WrittenNumber(float):
+    """A number that knows what one of its last digit is."""
+
+    unit: float
+
+    def __new__(cls, value: float, unit: float) -> Self:
+        self = super().__new__(cls, value)
+        self.unit = unit
+        return self
+
+
+def parse_number(text: str) -> WrittenNumber:
+    """The number that a text says, as 12.5, 12,5, 1.25e1 or 1,25·10^1 do; of a comma that no decimal point follows
+    only where three digits do not make it one between thousands.
+
+    Fails with `ValueError` where it is none.
+    """
+    bare = text.strip().translate(SIGNED_RAISED)
+    if power := POWER.search(bare):
+        bare = f"{bare[:power.start()]}e{int(power[1])}"
+    if re.fullmatch(r"[+-]?\d+,(\d{1,2}|\d{4,})([eE][+-]?\d+)?", bare):
+        bare = bare.replace(",", ".")
+    value = number(bare)
+    exponent = Decimal(bare).as_tuple().exponent
+    assert isinstance(exponent, int)
+    return WrittenNumber(value, 10.0 ** max(min(exponent, 99), -99))
+
+
+def toml_float(text: str) -> float:
+    """A number of a TOML file, which knows how finely it was written."""
+    value = float(text)
+    return parse_number(text.replace("_", "")) if math.isfinite(value) else value
+
+
+def last_digit_unit(value: float) -> float:
+    """Unit of the last written digit (1 for integers)."""
+    return value.unit if isinstance(value, WrittenNumber) else 1.0
+
+
+def rounding_deviation(values: Sequence[float]) -> float:
+    """The standard deviation with which numbers that were read alike were rounded as they were written down."""
+    if not values:
+        return 0.0
+    unit = min(map(last_digit_unit, values))
+    steps = [round(value / unit) for value in values] if len(values) >= ENOUGH and unit > 0 else []
+    return unit * next((many for many in COARSER if steps and not any(step % many for step in steps)), 1) / UNIFORM
+
+
+# ---- results --------------------------------------------------------------------------------------------------------
+
 
 ALSO = {"angular velocity": "omega", "angular acceleration": "alpha", "ω": "omega", "α": "alpha", "ε": "alpha"}
 LETTERS = {"v": "velocity", "a": "acceleration", "ω": "omega", "omega": "omega", "w": "omega", "α": "alpha",
@@ -29,12 +93,12 @@ QUANTITIES = {**KINDS, **CYCLE}
 LARGEST = 1e60  # beyond it squares leave the range of a float
 
 
-def entry(quantity: str, of: str, value: Sequence[float], unit: str, rounding: float = 0.0) -> Number:
+def student_number(quantity: str, of: str, value: Sequence[float], unit: str, rounding: float = 0.0) -> StudentNumber:
     """One result, checked; it may be written as a symbol, such as v_A or ω2.
 
     Fails with `ValueError` where there is no such quantity, or its unit or number of components is another.
     """
-    kind, of = _named(quantity, of)
+    kind, of = _name_quantity(quantity, of)
     if kind not in QUANTITIES:
         raise ValueError(f"{quantity!r} is not a quantity")
     if len(value) != (1 if QUANTITIES[kind].single else 2):
@@ -42,11 +106,11 @@ def entry(quantity: str, of: str, value: Sequence[float], unit: str, rounding: f
     if any(abs(part) > LARGEST for part in value):
         raise ValueError("a number is too large")
     if unit:
-        factor(unit, QUANTITIES[kind].dimension, Units())
-    return Number(kind, " ".join(of.split()), tuple(value), unit, rounding)
+        unit_factor(unit, QUANTITIES[kind].dimension, Units())
+    return StudentNumber(kind, " ".join(of.split()), tuple(value), unit, rounding)
 
 
-def _named(quantity: str, of: str) -> tuple[str, str]:
+def _name_quantity(quantity: str, of: str) -> tuple[str, str]:
     """The kind of a quantity and what it is of, whether it is written as words or as a symbol."""
     name = " ".join(quantity.translate(LOW).casefold().split())
     if (at := AT.fullmatch(name)) and at[1] in CYCLE:
@@ -58,29 +122,29 @@ def _named(quantity: str, of: str) -> tuple[str, str]:
     return (LETTERS[symbol[1]], symbol[2]) if symbol else (kind, of)
 
 
-def turned(size: float, angle: float) -> tuple[float, float]:
+def polar_vector(size: float, angle: float) -> tuple[float, float]:
     """A vector by its size and its angle from +x, in degrees."""
     return size * math.cos(math.radians(angle)), size * math.sin(math.radians(angle))
 
 
-def wanted(quantity: str, of: str = "") -> str:
+def entry_hint(quantity: str, of: str = "") -> str:
     """What would be right for this quantity."""
-    kind, _ = _named(quantity, of)
+    kind, _ = _name_quantity(quantity, of)
     if kind not in QUANTITIES:
         return f"one of {', '.join(QUANTITIES)}"
     parts = "value" if QUANTITIES[kind].single else "x and y, or size and angle"
-    return f"{parts}, in a unit such as {example(QUANTITIES[kind].dimension)}"
+    return f"{parts}, in a unit such as {example_unit(QUANTITIES[kind].dimension)}"
 
 
-def in_scene_units(number: Number, units: Units) -> tuple[float, ...]:
+def in_scene_units(number: StudentNumber, units: Units) -> tuple[float, ...]:
     """A result in the scene's units; one without a unit is in them already. Units were checked as `entry` was made."""
     one = scene_unit(number, units)
     return tuple([one * part for part in number.value])
 
 
-def scene_unit(number: Number, units: Units) -> float:
+def scene_unit(number: StudentNumber, units: Units) -> float:
     """What one of a result's unit is in the scene's units."""
-    return factor(number.unit, QUANTITIES[number.kind].dimension, units) if number.unit else 1.0
+    return unit_factor(number.unit, QUANTITIES[number.kind].dimension, units) if number.unit else 1.0
 
 
 BASES: dict[str, tuple[float, tuple[int, int, int]]] = {
@@ -99,13 +163,13 @@ TENS = re.compile(r"10\^?\(?([+-]?[0-9]{1,2})\)?")
 LONGEST = 30  # characters
 
 
-def factor(written: str, dimension: Dimension, units: Units) -> float:
+def unit_factor(written: str, dimension: Dimension, units: Units) -> float:
     """What one of a written unit is in the scene's units of this dimension.
 
     Fails with `ValueError` where it is no unit, or none of this dimension.
     """
     size, powers = 1.0, [0, 0, 0]
-    for name, power in _factors(written):
+    for name, power in _unit_factors(written):
         if name == TEN:
             size *= 10.0**power
             continue
@@ -113,14 +177,14 @@ def factor(written: str, dimension: Dimension, units: Units) -> float:
         size *= one**power
         powers = [total + power * base for total, base in zip(powers, bases, strict=True)]
     if tuple(powers) != dimension[:3]:
-        raise ValueError(f"{written!r} is not a unit such as {example(dimension)}")
+        raise ValueError(f"{written!r} is not a unit such as {example_unit(dimension)}")
     if dimension == INERTIA:
         return size / float(KILOGRAMS[units.mass])
     force = float(NEWTONS[units.force]) ** dimension.force  # the scene's; its moments are in forces times metres
     return size / (force if dimension == MOMENT else force * float(METRES[units.length]) ** dimension.length)
 
 
-def _factors(written: str) -> list[tuple[str, int]]:
+def _unit_factors(written: str) -> list[tuple[str, int]]:
     """The factors of a unit with their powers; all that stands after a slash divides."""
     if len(written) > LONGEST:
         raise ValueError(f"{written[:LONGEST]!r}... is not a known unit")
@@ -141,23 +205,23 @@ def _factors(written: str) -> list[tuple[str, int]]:
 
 def _unit_names(written: str) -> list[str]:
     """The unit, or the two of a force and a length that are written in one, as in Nm."""
-    known = written if written in BASES else _foreign().get(written)
+    known = written if written in BASES else _foreign_units().get(written)
     if known:
         return [known]
     for place in range(1, len(written)):
-        parts = [part if part in BASES else _foreign().get(part) for part in (written[:place], written[place:])]
+        parts = [part if part in BASES else _foreign_units().get(part) for part in (written[:place], written[place:])]
         if parts[0] in FORCES_NAMED and parts[1] in METRES:
             return [part for part in parts if part]
     return []
 
 
 @cache
-def _foreign() -> dict[str, str]:
+def _foreign_units() -> dict[str, str]:
     """The units by what the catalogues call them, such as mm by мм."""
     tables = (catalogue(code)[UNITS] for code in LANGUAGES if code != "en")
     return {str(own): unit for table in tables for unit, own in table.items()}
 
 
-def example(dimension: Dimension) -> str:
+def example_unit(dimension: Dimension) -> str:
     """Such a unit, as a student may write it."""
     return dimension.unit(Units()).replace("*", "·")

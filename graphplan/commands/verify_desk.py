@@ -1,0 +1,95 @@
+"""Where drawings are judged, one after the other, by the construction on its sheet."""
+
+from __future__ import annotations
+
+import argparse
+import warnings
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from graphplan.errors import GraphplanError, Refused
+
+if TYPE_CHECKING:
+    from graphplan.accuracy.drafted import Drafted
+    from graphplan.commands.cycle_results import CycleResults
+    from graphplan.marking.classroom.results import MarkedDrawing
+    from graphplan.marking.judge.score import Weights
+    from graphplan.marking.traces import Frames, Submission
+
+
+@dataclass(frozen=True)
+class Desk:
+    """Where drawings are judged, one after the other, by the construction on its sheet."""
+
+    on_sheet: Drafted
+    weights: Weights
+    options: argparse.Namespace
+
+    def marked(self, path: Path) -> MarkedDrawing:
+        """A drawing judged; fails with `Refused` where it cannot be, whatever happens."""
+        try:
+            with warnings.catch_warnings():  # what libraries say is not for the reader
+                warnings.simplefilter("ignore")
+                return self.judged(self._read(path))
+        except GraphplanError:
+            raise
+        except MemoryError:
+            raise Refused(f"{path}", "not judged: there is not enough memory", "a smaller drawing") from None
+        except Exception as fault:  # one bad file never stops a class
+            raise Refused(f"{path}", f"could not be judged: {type(fault).__name__}",
+                          "judge it by hand, and report the fault with this file") from fault
+
+    def _read(self, path: Path) -> Submission:
+        """What is in a file, read beside the sheet that was printed."""
+        from graphplan.marking.submission import read_submission
+        from graphplan.sheet.handout import code, task
+
+        composition = self.on_sheet.composition
+        size = composition.arrangement.width, composition.arrangement.height
+        return read_submission(path, self._plans, self.frames,  # task and guided version have the same plans
+                    lambda: task(composition)[0], code(composition), size)
+
+    @property
+    def _plans(self) -> list[str]:
+        """The plans that marks may be said to lie on: where none are asked for, those of every way to draw motions."""
+        from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, VELOCITY_PLAN
+
+        asked = self.options.method or self.options.plan
+        others = () if asked else (N_PLAN, VELOCITY_PLAN, ACCELERATION_PLAN)
+        return list(dict.fromkeys([*self.on_sheet.composition.views, *others]))
+
+    @cached_property
+    def _cycle(self) -> CycleResults:
+        """What is expected of numbers over the machine's cycle."""
+        from graphplan.commands.cycle_results import CycleResults
+
+        return CycleResults(self.on_sheet.drawing.scene, self.on_sheet.pencil)
+
+    @property
+    def frames(self) -> Frames:
+        """Where the plans lie on the sheet that was printed."""
+        from graphplan.marking.traces import PlanFrame
+
+        views = self.on_sheet.composition.views
+        return {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in views.items()}
+
+    def judged(self, submission: Submission) -> MarkedDrawing:
+        """A drawing judged by what was read of it."""
+        from graphplan.check.trusted import construct
+        from graphplan.marking.classroom.results import MarkedDrawing
+        from graphplan.marking.judge.judge import judge, judge_any_method
+        from graphplan.marking.judge.numbers import with_cycle_numbers
+        from graphplan.marking.judge.score import score
+
+        work = self.on_sheet.drawing, self.on_sheet.composition, submission, self.on_sheet.pencil
+        found = (judge(*work) if self.options.method
+                 else judge_any_method(*work, self.options.plan, self.options.inertia, construct))
+        judgement = replace(with_cycle_numbers(found, self._cycle.expected_result), name=printable(submission.name))
+        return MarkedDrawing(judgement, score(judgement, self.weights))
+
+
+def printable(name: str) -> str:
+    """A name as it can be written: a file may be called by what no terminal should obey and no text can hold."""
+    return "".join(char if char.isprintable() else "\N{REPLACEMENT CHARACTER}" for char in name)

@@ -1,0 +1,205 @@
+"""Numbers that were handed in, judged: those of a result table, and those of a machine over its cycle.
+
+Numbers of a table are judged by what the student's own drawing says, and by the truth: what is read off a drawing is as
+uncertain as its marks, and as the reading of lengths; so a number has its own tolerance, in its own unit. No drawing of
+one pose has those of a cycle: they are judged beside what is expected of them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from graphplan.accuracy.first_order import readings
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.marking.files.quantities import in_scene_units, scene_unit
+from graphplan.marking.judge import measures
+from graphplan.marking.judge.matching import Matching
+from graphplan.marking.judge.mistakes import exchanged_coordinates
+from graphplan.marking.judge.student_sheet import PointResidual, Residual, plain_value, squares_bound
+from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, WRONG, Judgement, NumberVerdict
+from graphplan.marking.tolerances import FIGURE_TOL
+from graphplan.marking.traces import StudentNumber, bare_name
+from graphplan.mechanism.model import Units
+from graphplan.mechanism.units import HEADING
+from graphplan.methods.kinds import CYCLE
+from graphplan.methods.recorded import Reading
+from graphplan.phrases import Said, digits, said
+
+Key = tuple[str, str]
+
+
+@dataclass(frozen=True)
+class ExpectedNumber:
+    """What a number should be: its parts with their errors, and the standard deviation of reading one of them."""
+
+    parts: tuple[Any, ...]
+    reading: float
+
+    def with_rounding(self, rounding: float) -> ExpectedNumber:
+        """The same as it was written down."""
+        return ExpectedNumber(self.parts, math.hypot(self.reading, rounding))
+
+    def residual(self, matching: Matching, value: Sequence[float]) -> Residual:
+        """How far a value is from it, in its own unit."""
+        partials = np.array([matching.sheet.domain.partials(part) for part in self.parts])
+        steady = np.array(plain_value(self.parts))
+        rounded = FIGURE_TOL * float(np.max(np.abs(steady)))
+        covariance = partials @ partials.T + (self.reading**2 + rounded**2) * np.eye(len(steady))
+        return (PointResidual if len(steady) == 2 else Residual)(np.array(value) - steady, covariance)
+
+
+def judge_numbers(matching: Matching, numbers: Sequence[StudentNumber]) -> tuple[tuple[NumberVerdict, ...],
+                                                                                 tuple[StudentNumber, ...]]:
+    """What is said of every number of a table, once of each: one that is written again is told beside the first; and
+    the numbers that are not asked for."""
+    if not numbers:
+        return (), ()
+    own, true = _expected_numbers(matching, matching.own), _expected_numbers(matching, matching.sheet.drawing.values)
+    plainly = {key: plain_value(expected.parts) for key, expected in true.items()}
+    written: dict[Key | None, list[StudentNumber]] = {}
+    for number in numbers:
+        written.setdefault(_asked_key(number, own), []).append(number)
+    unasked = tuple(written.pop(None, ()))
+    return tuple(replace(judge_number(matching, first, key, own, plainly), again=tuple(again))
+                 for key, (first, *again) in written.items() if key), unasked
+
+
+def _asked_key(number: StudentNumber, own: Mapping[Key, ExpectedNumber]) -> Key | None:
+    """Which result a number is: the one of its name, or the only one of whose name it is another spelling; None where
+    it is not asked for."""
+    key = number.kind, number.of
+    alike = [(kind, of) for kind, of in own if kind == number.kind and bare_name(of) == bare_name(number.of)]
+    return key if key in own else alike[0] if len(alike) == 1 else None
+
+
+def _expected_numbers(matching: Matching, values: Sequence[Any]) -> dict[Key, ExpectedNumber]:
+    """Every number that a drawing says."""
+    drawing, found = matching.sheet.drawing, dict[Key, ExpectedNumber]()
+    for reading, marks, value in readings(drawing, values, matching.sheet.domain):
+        parts = value if isinstance(value, tuple) else (value,)
+        found[reading.kind, reading.of] = ExpectedNumber(parts,
+                                                         _reading_error(matching, reading,
+                                                                        [plain_value(mark) for mark in marks]))
+    return found
+
+
+def _reading_error(matching: Matching, reading: Reading, marks: Sequence[Any]) -> float:
+    """The standard deviation of reading one part of a number off its last mark; nothing of what is given."""
+    if not marks:
+        return 0.0
+    if reading.kind.dimension == HEADING:
+        return math.radians(matching.sheet.pencil.angle)
+    home = matching.sheet.plan_of_step[matching.sheet.drawing.drawn.wanted[reading.marks[-1]]]
+    length = measures.LENGTH_READING_ERRORS * matching.sheet.pencil.point / matching.sheet.mm(home)
+    shaken = [_reading_change(matching, reading, marks, shift) for shift in ((length, 0.0), (0.0, length))]
+    return math.hypot(*shaken) / math.sqrt(1 if reading.kind.single else 2)
+
+
+def _reading_change(matching: Matching, reading: Reading, marks: Sequence[Any], shift: tuple[float, float]) -> float:
+    """How much a reading changes as its last mark is shifted."""
+    def value(last: tuple[float, ...]) -> Any:
+        found = matching.sheet.drawing.value(reading, [*marks[:-1], last], Floats())
+        return complex(*found) if isinstance(found, tuple) else found
+
+    x, y, *rest = marks[-1]
+    line = rest and (x, y, rest[0] - x * shift[0] - y * shift[1])
+    shifted = line or (x + shift[0], y + shift[1])
+    return float(abs(value(shifted) - value(marks[-1])))
+
+
+def judge_number(matching: Matching, number: StudentNumber, key: Key, own: Mapping[Key, ExpectedNumber],
+            true: Mapping[Key, tuple[float, ...]]) -> NumberVerdict:
+    """The verdict on one number: right by the student's own drawing, after a mistake if that is astray."""
+    units, chance = matching.sheet.drawing.scene.units, matching.chance
+    value, rounding = in_scene_units(number, units), number.rounding * scene_unit(number, units)
+    own = {other: one.with_rounding(rounding) for other, one in own.items()}
+    expected, truth = own[key], true[key]
+    residual = expected.residual(matching, value)
+    straight = ExpectedNumber(truth, expected.reading).residual(matching, plain_value(expected.parts))
+    astray = matching.erred and not Residual(straight.off, residual.covariance).fits(chance)
+    right = residual.fits(chance)
+    reason = None if right else _explain_number(matching, value, key, own)
+    tolerance = residual.tolerance(chance) if residual.covariance.any() else 0.0  # none of a zero that is given
+    return NumberVerdict(number, (FOLLOWS if astray else RIGHT) if right else WRONG, residual.distance, tolerance,
+                         truth,
+                         reason[1] if reason else None, reason[0] if reason else "")
+
+
+def _explain_number(matching: Matching, value: Sequence[float], key: Key, own: Mapping[Key, ExpectedNumber]
+            ) -> tuple[str, Said] | None:
+    """The mistake that makes a number out of the right one."""
+    for kind, told, undone, which in _number_mistakes(value, key, own):
+        if own[which].residual(matching, undone).fits(matching.chance):
+            return kind, told
+    return None
+
+
+def _number_mistakes(value: Sequence[float], key: Key, own: Mapping[Key, ExpectedNumber]
+              ) -> Iterator[tuple[str, Said, tuple[float, ...], Key]]:
+    """What a number becomes as each mistake is undone, and which number it should then be."""
+    yield "reversed", said("the sign is reversed"), tuple(-part for part in value), key
+    if len(value) == 2:
+        x, y = value
+        for turned in ((y, -x), (-y, x)):
+            yield "turned the wrong way", said("the vector is a quarter turn off"), turned, key
+        for told, exchanged in exchanged_coordinates(x, y):
+            yield "exchanged coordinates", told, exchanged, key
+    for factor in measures.NUMBER_FACTORS:
+        told = said("the number is {0} times as large as it should be", digits(factor, 3))
+        yield "wrong scale", told, tuple(part / factor for part in value), key
+    for kind, of in own:
+        if kind == key[0] and of != key[1]:
+            yield "another's number", said("this is the number of {0}", of), tuple(value), (kind, of)
+
+
+# ---- over the cycle -------------------------------------------------------------------------------------------------
+
+
+class ExpectedCycleNumber(NamedTuple):
+    """What a number should be, the standard deviation of what a pencil makes of it, and by how much the drawing with so
+    many plans is off: in the scene's units."""
+
+    value: float
+    deviation: float
+    off: float = 0.0
+
+
+Expecting = Callable[[str, str], ExpectedCycleNumber | None]  # by kind, and by travel in degrees where it has one
+
+
+def with_cycle_numbers(judgement: Judgement, expecting: Expecting) -> Judgement:
+    """The judgement with the verdicts on numbers over the cycle, once on each; others are not asked for."""
+    units = judgement.drawing.scene.units
+    found, unasked = dict[tuple[str, str], NumberVerdict](), list[StudentNumber]()
+    for number in judgement.unasked:
+        expected = expecting(number.kind, number.of) if number.kind in CYCLE else None
+        key = number.kind, number.of
+        if expected is None:
+            unasked.append(number)
+        elif key in found:
+            found[key] = replace(found[key], again=(*found[key].again, number))
+        else:
+            found[key] = judge_cycle_number(number, expected, units)
+    return replace(judgement, numbers=(*judgement.numbers, *found.values()), unasked=tuple(unasked))
+
+
+def judge_cycle_number(number: StudentNumber, expected: ExpectedCycleNumber, units: Units) -> NumberVerdict:
+    """The verdict on one number, with the slip that makes a wrong one right."""
+    value, = in_scene_units(number, units)
+    deviation = math.hypot(expected.deviation, number.rounding * scene_unit(number, units))
+    allowed = expected.off + math.sqrt(squares_bound(1, measures.FALSE_ALARM_CHANCE)) * deviation
+
+    def error_of(tried: float) -> float:
+        return abs(tried - expected.value)
+
+    slips: list[tuple[str, Said, float]] = [("reversed", said("the sign is reversed"), -value)]
+    slips += [("wrong scale", said("the number is {0} times as large as it should be", digits(factor, 3)),
+               value / factor) for factor in measures.NUMBER_FACTORS]
+    right = error_of(value) <= allowed
+    kind, told, _ = next((slip for slip in slips if not right and error_of(slip[2]) <= allowed), ("", None, 0.0))
+    return NumberVerdict(number, RIGHT if right else WRONG, error_of(value), allowed, (expected.value,), told, kind)

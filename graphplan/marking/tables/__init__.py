@@ -1,1 +1,0 @@
-"""Tables of measured points and of results."""

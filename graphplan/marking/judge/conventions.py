@@ -47,19 +47,19 @@ WRITTEN: Mapping[ResultKind, tuple[str, ...]] = {  # how the ends of a point's v
 def unmirror(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil) -> SheetReading:
     """The drawing as the task has it, in mm; mirrored, where only then more than two of the given points are in their
     places."""
-    submission, told = to_mm(drawing, composition, submission, pencil)
-    given = [(complex(*map(float, drawing.scene.points[trace.label])), complex(*trace.spots[0]))
+    submission, remarks = to_mm(drawing, composition, submission, pencil)
+    given_pairs = [(complex(*map(float, drawing.scene.points[trace.label])), complex(*trace.spots[0]))
              for trace in submission.traces if trace.kind == POINT and trace.label in drawing.scene.points]
-    if len(given) > 2 and not submission.frames and not submission.page:
-        held, turned = (_marks_in_frame(pairs, best_fit(pairs, pencil.point), pencil) for pairs in (
-            given, [(plan, sheet.conjugate()) for plan, sheet in given]))
-        if len(turned) > max(2, len(held)):
+    if len(given_pairs) > 2 and not submission.frames and not submission.page:
+        upright_pairs, mirrored_pairs = (_marks_in_frame(pairs, best_fit(pairs, pencil.point), pencil) for pairs in (
+            given_pairs, [(plan, sheet.conjugate()) for plan, sheet in given_pairs]))
+        if len(mirrored_pairs) > max(2, len(upright_pairs)):
             traces = tuple(replace(trace, spots=tuple((x, -y) for x, y in trace.spots)) for trace in submission.traces)
             tips = tuple((x, -y) for x, y in submission.tips)
             submission = replace(submission, traces=traces, tips=tips)
-            return SheetReading(drawing, composition, submission, (*told, said("a mirrored sheet")),
+            return SheetReading(drawing, composition, submission, (*remarks, said("a mirrored sheet")),
                            prior=measures.MIRRORED_ODDS)
-    return SheetReading(drawing, composition, submission, told)
+    return SheetReading(drawing, composition, submission, remarks)
 
 
 def _marks_in_frame(pairs: Sequence[Pair], fit: Fit | None, pencil: Pencil) -> list[Pair]:
@@ -95,9 +95,9 @@ class Proposer:
 
     def readings(self) -> Iterator[SheetReading]:
         """The readings that something on the sheet speaks for."""
-        own = self._readings_at_points()
-        yield from own
-        for reading in (replace(self.task, submission=self.seen), *own):
+        at_points = self._readings_at_points()
+        yield from at_points
+        for reading in (replace(self.task, submission=self.seen), *at_points):
             yield from self._renumbered_readings(reading)
         if "polar" in (self.plan or "polar") and not self.seen.page:
             yield from self._polar_readings()
@@ -113,18 +113,19 @@ class Proposer:
         """A reading by the other forms of its loci, which have other marks."""
         drawing = reading.drawing
         plan = self.plan or ("orthogonal" if drawing.turned else "polar")
-        for methods, other in constructions(drawing.scene, plan=plan, strict=drawing.strict, inertia=self.inertia,
+        for methods, construction in constructions(drawing.scene, plan=plan, strict=drawing.strict,
+                                                   inertia=self.inertia,
                                             construct=self.construct):
-            if isinstance(other, Construction) and _step_keys(other) != _step_keys(drawing):
-                yield replace(reading, drawing=other, prior=reading.prior + measures.OTHER_FORM_ODDS,
+            if isinstance(construction, Construction) and _step_keys(construction) != _step_keys(drawing):
+                yield replace(reading, drawing=construction, prior=reading.prior + measures.OTHER_FORM_ODDS,
                               told=(*reading.told, said("drawn by the form {0}", form_name(methods))))
 
     def _renumbered_readings(self, reading: SheetReading) -> Iterator[SheetReading]:
         """With the numbers at its marks in an order of the student's own, so that they tell nothing."""
         traces = reading.submission.traces
         if any(trace.label.isdigit() for trace in traces):
-            told = tuple(replace(trace, label="") if trace.label.isdigit() else trace for trace in traces)
-            yield replace(reading, submission=replace(reading.submission, traces=told),
+            nameless_traces = tuple(replace(trace, label="") if trace.label.isdigit() else trace for trace in traces)
+            yield replace(reading, submission=replace(reading.submission, traces=nameless_traces),
                           prior=reading.prior + measures.RENUMBERED_ODDS,
                           told=(*reading.told, said("steps numbered in another order")))
 
@@ -138,30 +139,30 @@ class Proposer:
         votes = []
         for point, velocity in self.task.drawing.velocity.items():
             trace = self._find_end(point, "v{0}")
-            drawn = 1j * velocity * self.task.drawing.kappa * self.frame.unit
-            if trace is not None and abs(drawn) > measures.MIN_VECTOR_MM:
+            task_vector = 1j * velocity * self.task.drawing.kappa * self.frame.unit
+            if trace is not None and abs(task_vector) > measures.MIN_VECTOR_MM:
                 start = self.frame.to_sheet(self._given_point(point))
-                sigma = math.hypot(2 * self.pencil.point, trace.blur) / abs(drawn)
-                votes.append(((complex(*trace.spots[0]) - start) / drawn, sigma))
-        found = (self._turned_reading(ratio, sigma) for count, ratio, sigma in agreed_units(votes)
+                sigma = math.hypot(2 * self.pencil.point, trace.blur) / abs(task_vector)
+                votes.append(((complex(*trace.spots[0]) - start) / task_vector, sigma))
+        turned_readings = (self._turned_reading(ratio, sigma) for count, ratio, sigma in agreed_units(votes)
                  if count > 1 or abs(_angle_error(ratio)) < measures.ROUND_SPEED_SIGMAS * sigma / abs(ratio))
-        return [reading for reading in found if reading]
+        return [reading for reading in turned_readings if reading]
 
     def _turned_reading(self, ratio: complex, sigma: float) -> SheetReading | None:
         """With velocities drawn as this ratio to those of the task has it, if they can be meant so."""
         quarters = round(cmath.phase(ratio) / (math.pi / 2)) % 4
         if abs(_angle_error(ratio)) > measures.MAX_TURN_ERROR_RAD or quarters == 1:  # true ones would be reversed
             return None
-        size = self._meant_factor(abs(ratio), sigma / abs(ratio))
-        if size == 1 and quarters == 0:
+        factor = self._meant_factor(abs(ratio), sigma / abs(ratio))
+        if factor == 1 and quarters == 0:
             return None
-        told, prior = SENSES[quarters]
+        remarks, prior = SENSES[quarters]
         submission = self._turned_back_submission() if quarters == 3 else self.seen
-        drawing = self.at_tempo(size * (-1 if quarters == 2 else 1), submission)
+        drawing = self.at_tempo(factor * (-1 if quarters == 2 else 1), submission)
         return replace(
-            self.task, drawing=drawing, submission=submission, told=(*self.task.told, *told),
-            scaled=MECHANISM if size != 1 else "",
-            prior=self.task.prior + prior + (measures.OWN_SCALE_ODDS if size != 1 else 0.0)
+            self.task, drawing=drawing, submission=submission, told=(*self.task.told, *remarks),
+            scaled=MECHANISM if factor != 1 else "",
+            prior=self.task.prior + prior + (measures.OWN_SCALE_ODDS if factor != 1 else 0.0)
         ) if drawing else None
 
     def at_tempo(self, size: Fraction, submission: Submission) -> Construction | None:
@@ -184,7 +185,7 @@ class Proposer:
         speed = Fraction(abs(1 / (float(kappa) * self.frame.unit))).limit_denominator(measures.MAX_SPEED_DENOMINATOR)
         rates = [abs(Fraction(drive.rate)) * kappa for drive in self.task.drawing.scene.drives if drive.rate]
         near = [*_round_numbers(size), *(speed / k_v for k_v in _round_numbers(float(speed) / size)),
-                *(part / rate for rate in rates for part in _round_numbers(size * float(rate)))]
+                *(factor / rate for rate in rates for factor in _round_numbers(size * float(rate)))]
         nearest = min(near, key=lambda one: abs(math.log(float(one) / size)))
         return (nearest if abs(float(nearest) / size - 1) < measures.ROUND_SPEED_SIGMAS * sigma
                 else Fraction(size).limit_denominator(measures.MAX_SPEED_DENOMINATOR))
@@ -244,12 +245,13 @@ class Proposer:
             pole = next(iter(ends.values()))[0]
             poles = {place: pole for place, trace in enumerate(traces) if trace.kind == POINT
                      and _bare_label(trace.label) in POLES and trace.label not in drawing.scene.points}
-            known = marks | {place: pole for place, pole in poles.items() if place not in marks}
-            found = self._agreed_frame({place: (complex(*drawing.values[mark]), complex(*traces[place].spots[0]))
-                                  for place, mark in known.items()} if marks else {})
-            if found:
-                names = {place: steps[mark].name for place, mark in known.items() if place in {*found.held, *marks}}
-                yield replace(found, names=names)
+            marked_places = marks | {place: pole for place, pole in poles.items() if place not in marks}
+            polar_plan = self._agreed_frame({place: (complex(*drawing.values[mark]), complex(*traces[place].spots[0]))
+                                  for place, mark in marked_places.items()} if marks else {})
+            if polar_plan:
+                names = {place: steps[mark].name
+                         for place, mark in marked_places.items() if place in {*polar_plan.held, *marks}}
+                yield replace(polar_plan, names=names)
 
     def _agreed_frame(self, pairs: Mapping[int, Pair]) -> PolarPlan | None:
         """The frame that holds most marks of a plan; None where too few agree on one.
@@ -257,30 +259,31 @@ class Proposer:
         Three marks have no frame by chance, nor have two of which one lies the way it should from the other. What is
         turned as a whole by a right angle is wrong at once: it keeps the scale, and has the mechanism's direction.
         """
-        speaks, held = 0.0, list[int]()
-        for one, two in combinations(pairs, 2):
-            (plan, sheet), (other, there) = pairs[one], pairs[two]
-            if abs(plan - other) * abs(self.frame.unit) < 1.0 or abs(sheet - there) < measures.MIN_VECTOR_MM:
+        speaks, held_places = 0.0, list[int]()
+        for first, second in combinations(pairs, 2):
+            (plan, sheet), (second_plan, second_sheet) = pairs[first], pairs[second]
+            if (abs(plan - second_plan) * abs(self.frame.unit) < 1.0
+                or abs(sheet - second_sheet) < measures.MIN_VECTOR_MM):
                 continue
-            unit = (there - sheet) / (other - plan)
+            unit = (second_sheet - sheet) / (second_plan - plan)
             near = [place for place, (z, spot) in pairs.items()
                     if abs(sheet + unit * (z - plan) - spot) < measures.POLAR_MARK_MM]
             aligned = (abs(cmath.phase(unit / self.frame.unit)) < measures.SAME_DIRECTION_SINE
-                       + measures.POLAR_MARK_MM / abs(there - sheet) / 2)
+                       + measures.POLAR_MARK_MM / abs(second_sheet - sheet) / 2)
             if len(near) + aligned > 2 and len(near) + aligned / 2 > speaks:
-                speaks, held = len(near) + aligned / 2, near
-        fit = fit_frame([pairs[place] for place in held], self.pencil.point) if held else None
+                speaks, held_places = len(near) + aligned / 2, near
+        fit = fit_frame([pairs[place] for place in held_places], self.pencil.point) if held_places else None
         if fit is None:
             return None
         turn = cmath.phase(fit.frame.unit / self.frame.unit)
         quarters = round(turn / (math.pi / 2))
         if abs(turn - quarters * math.pi / 2) > measures.MAX_TURN_ERROR_RAD:  # as the student turned his sheet
-            return PolarPlan(speaks, fit, tuple(held), at_once=measures.ASKEW_PLAN_ODDS)
+            return PolarPlan(speaks, fit, tuple(held_places), at_once=measures.ASKEW_PLAN_ODDS)
         unit = abs(fit.frame.unit) * self.frame.unit / abs(self.frame.unit)
         centre = 0j if quarters else fit.centre
         fit = replace(fit, frame=PlanFrame(fit.frame.to_sheet(centre) - unit * centre, unit), centre=centre)
-        return PolarPlan(speaks, fit, tuple(held),
-                         at_once=measures.TURNED_PLAN_MARK_ODDS * (len(held) - 2) if quarters else 0.0)
+        return PolarPlan(speaks, fit, tuple(held_places),
+                         at_once=measures.TURNED_PLAN_MARK_ODDS * (len(held_places) - 2) if quarters else 0.0)
 
     # ---- letters and constructions ---------------------------------------------------------------------------------
 
@@ -314,8 +317,8 @@ def _step_keys(drawing: Construction) -> list[Any]:
 def find_orphans(drawing: Construction, submission: Submission) -> list[int]:
     """The places of the marks that are called as ends of velocities for which the construction has no mark of its own,
     as they end in another point."""
-    own = {_bare_label(step.name) for step in drawing.drawn.steps if step.name}
-    names = {f"v{point.casefold()}" for point in drawing.velocity} - own if drawing.turned else set()
+    step_labels = {_bare_label(step.name) for step in drawing.drawn.steps if step.name}
+    names = {f"v{point.casefold()}" for point in drawing.velocity} - step_labels if drawing.turned else set()
     return [place for place, trace in enumerate(submission.traces)
             if trace.kind == POINT and not trace.beside and _bare_label(trace.label) in names]
 

@@ -71,8 +71,8 @@ class Evidence:
     def visible_share(self, step: Step, value: Any, own: KnownMarks) -> float | None:
         """At how much of what a step would make something like it is to be seen; None where nothing could be seen."""
         _, off = self.nearby_traces(step.op.gives, self.sheet.plan_of_step[step.index], plain_value(value))
-        seen = step.op.gives in self.shows and step.index not in self.sheet.hidden
-        return float(off.min(initial=math.inf) < measures.STROKE_NEAR_MM) if seen else None
+        is_shown = step.op.gives in self.shows and step.index not in self.sheet.hidden
+        return float(off.min(initial=math.inf) < measures.STROKE_NEAR_MM) if is_shown else None
 
     def is_beyond_panel(self, step: Step, value: Any) -> bool:
         """Whether a point would be off its panel, so that nothing can be drawn from it."""
@@ -88,15 +88,16 @@ class Evidence:
         if place < self._read or trace.kind == POINT:
             return set()
         if place not in self._twins:
-            self._twins[place] = {other
-                                  for other in self._places[trace.kind] if _is_same_stroke(trace, self.traces[other])}
+            self._twins[place] = {twin
+                                  for twin in self._places[trace.kind] if _is_same_stroke(trace, self.traces[twin])}
         return self._twins[place]
 
     def neighbours(self, place: int, panel: str, value: Sequence[float]) -> list[int]:
         """The other traces that are so near to what one is that it could be they."""
         places, off = self.nearby_traces(self.traces[place].kind, panel, value)
-        return [other
-                for other, far in zip(places, off, strict=True) if far < measures.SIDE_BY_SIDE_MM and other != place]
+        return [neighbour
+                for neighbour, far in zip(places, off, strict=True) if far < measures.SIDE_BY_SIDE_MM
+                and neighbour != place]
 
     def nearby_traces(self, kind: str, panel: str, value: Sequence[float]) -> tuple[list[int], Any]:
         """The traces of a kind that may lie on a plan, and how far each is from a value in mm at most."""
@@ -133,10 +134,10 @@ class ImageSearch(Evidence):
     def find_trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
         value, reach = plain_value(expected), min(within, measures.MAX_SEARCH_MM)
         spots = self._spots_on_panel(step, self._spots(step, value, own))
-        key = (step.index, *value, *(round(part) for spot in spots for part in spot))
+        key = (step.index, *value, *(round(coordinate) for spot in spots for coordinate in spot))
         if key not in self._found:
-            found = self._find_near(step, value, spots, reach) if spots else None
-            self._found[key] = with_wobble(found) if found else None
+            trace = self._find_near(step, value, spots, reach) if spots else None
+            self._found[key] = with_wobble(trace) if trace else None
         return self._found[key]
 
     def search(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
@@ -145,8 +146,9 @@ class ImageSearch(Evidence):
     def visible_share(self, step: Step, value: Any, own: KnownMarks) -> float | None:
         """At nothing off its panel; None where print hides most, or where it is too small to see."""
         spots = self._spots(step, plain_value(value), own, measures.ARC_MM / 2)
-        held = self._spots_on_panel(step, spots)
-        return self.page.visible_share(step.op.gives, held, measures.STROKE_NEAR_MM) if held else 0.0 if spots else None
+        panel_spots = self._spots_on_panel(step, spots)
+        return self.page.visible_share(step.op.gives, panel_spots,
+                                       measures.STROKE_NEAR_MM) if panel_spots else 0.0 if spots else None
 
     def is_beyond_panel(self, step: Step, value: Any) -> bool:
         return (step.op.gives == POINT
@@ -187,10 +189,11 @@ class ImageSearch(Evidence):
         only one."""
         a, b, c = line
         mm = abs(self.sheet.frame(step).unit)
-        way, foot = complex(b, -a) / math.hypot(a, b), -complex(a, b) * c / (a * a + b * b)
-        along = [((z - foot) * way.conjugate()).real for z in self._marks_on(step, line, own)] or [0.0]
+        direction, foot = complex(b, -a) / math.hypot(a, b), -complex(a, b) * c / (a * a + b * b)
+        along = [((z - foot) * direction.conjugate()).real for z in self._marks_on(step, line, own)] or [0.0]
         spare = measures.LONE_LINE_MM / mm if max(along) - min(along) < measures.LONE_LINE_MM / mm else 0.0
-        start, end = (self._sheet_spot(step, foot + way * far) for far in (min(along) - spare, max(along) + spare))
+        start, end = (self._sheet_spot(step, foot + direction * far)
+                      for far in (min(along) - spare, max(along) + spare))
         inside = clip_segment(self._panel(step), start, end) or (0.0, 1.0)
         return interpolate(start, end, inside[0]), interpolate(start, end, inside[1])
 
@@ -204,9 +207,9 @@ class ImageSearch(Evidence):
 
     def _marks_on(self, step: Step, value: Value, own: KnownMarks) -> list[complex]:
         """Where the marks on a line or an arc are: those that are drawn, and where those to come would follow."""
-        known: dict[int, Value | None] = {step.index: value}
-        found = [self._value_at(index, known, own) for index in self.sheet.marks_on.get(step.index, ())]
-        return [complex(*spot[:2]) for spot in found if spot and np.all(np.isfinite(spot))]
+        known_values: dict[int, Value | None] = {step.index: value}
+        mark_values = [self._value_at(index, known_values, own) for index in self.sheet.marks_on.get(step.index, ())]
+        return [complex(*spot[:2]) for spot in mark_values if spot and np.all(np.isfinite(spot))]
 
     def _value_at(self, index: int, known: dict[int, Value | None], own: KnownMarks) -> Value | None:
         """What a step makes, or a mistake at it, of those that are known; None where it cannot be drawn."""

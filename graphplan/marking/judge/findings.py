@@ -39,10 +39,10 @@ KEY = 11.0  # mm: where the words of the legend begin
 
 def count_words(judgement: Judgement) -> Said:
     """The same in words, with the marks that no step asks for."""
-    told = [arrange("{0} {1}", count, STATES[state]()) for state, count in judgement.counts.items() if count]
+    parts = [arrange("{0} {1}", count, STATES[state]()) for state, count in judgement.counts.items() if count]
     if judgement.spare:
-        told.append(arrange("{0} {1}", len(judgement.spare), NOT_NEEDED()))
-    return join(told)
+        parts.append(arrange("{0} {1}", len(judgement.spare), NOT_NEEDED()))
+    return join(parts)
 
 
 @dataclass(frozen=True, order=True)
@@ -80,9 +80,9 @@ def step_words(drawn: Program, index: int) -> Said:
 
 def opinion(judgement: Judgement) -> Said:
     """What matters most: the first wrong step, or else result, or that there is none, or nothing at all."""
-    first, drawn = judgement.first_wrong, judgement.drawing.drawn
+    first, program = judgement.first_wrong, judgement.drawing.drawn
     if first is not None:
-        return said("First wrong is {0}: {1}.", step_words(drawn, first.at_fault), remark(judgement, first))
+        return said("First wrong is {0}: {1}.", step_words(program, first.at_fault), remark(judgement, first))
     if judgement.is_blank:
         return said("The sheet is blank: nothing that was asked for is on it.")
     if wrong := wrong_numbers(judgement):
@@ -101,34 +101,35 @@ def summary_lines(judgement: Judgement) -> list[Said]:
     """How many steps there are of each verdict, by which pencil, where the drawing tells it, and what is there twice,
     or is not counted.
     """
-    told = [arrange("{0:capital}.", count_words(judgement))]
+    lines = [arrange("{0:capital}.", count_words(judgement))]
     if judgement.pencil is not None:
-        told.append(said("Pencil read off the drawing: {0}.", judgement.pencil.description))
-    told += [repeated_number(judgement, number) for number in judgement.numbers if number.again]
+        lines.append(said("Pencil read off the drawing: {0}.", judgement.pencil.description))
+    lines += [repeated_number(judgement, number) for number in judgement.numbers if number.again]
     if judgement.unasked:
-        told.append(said("Not asked for, and not counted: {0}.", join(
+        lines.append(said("Not asked for, and not counted: {0}.", join(
             [result_named(judgement, number.kind, number.of) for number in judgement.unasked])))
     if judgement.left_out:
-        told.append(said("Too small to be measured, and left out: {0}.", join(judgement.left_out)))
-    return told
+        lines.append(said("Too small to be measured, and left out: {0}.", join(judgement.left_out)))
+    return lines
 
 
 def first_wrong_sentence(judgement: Judgement) -> list[Said]:
     """What the first wrong step asks for, in its own words; nothing where there is none."""
-    drawn, guilty = judgement.drawing.drawn, judgement.first_wrong_step
-    return [] if guilty is None else [arrange("{0:capital}: {1}", step_words(drawn, guilty), drawn.sentence(guilty))]
+    program, guilty = judgement.drawing.drawn, judgement.first_wrong_step
+    return ([] if guilty is None
+            else [arrange("{0:capital}: {1}", step_words(program, guilty), program.sentence(guilty))])
 
 
 def look_at_lines(judgement: Judgement) -> list[Said]:
     """The steps of which nothing can be told, and those missing, and the results; nothing where there are none."""
-    told = []
+    lines = []
     if unsure := step_numbers(judgement, UNSURE):
-        told.append(said("Unclear steps, to be looked at: {0}.", unsure))
+        lines.append(said("Unclear steps, to be looked at: {0}.", unsure))
     if missing := step_numbers(judgement, MISSING):
-        told.append(arrange("{0:capital}: {1}.", STATES[MISSING](), missing))
+        lines.append(arrange("{0:capital}: {1}.", STATES[MISSING](), missing))
     if absent := not_handed_in(judgement):
-        told.append(said("Results that are not handed in: {0}.", join(absent)))
-    return told
+        lines.append(said("Results that are not handed in: {0}.", join(absent)))
+    return lines
 
 
 def not_handed_in(judgement: Judgement) -> list[Said]:
@@ -153,7 +154,8 @@ def remark(judgement: Judgement, verdict: Verdict) -> Said:
     that is not to be seen is nowhere."""
     if verdict.mistake is not None and not math.isfinite(verdict.off):
         return verdict.mistake
-    sizes = said("{0} mm off, {1} mm allowed", *(digits(size, FIGURES) for size in (verdict.off, verdict.tolerance)))
+    sizes = said("{0} mm off, {1} mm allowed",
+                 *(digits(length, FIGURES) for length in (verdict.off, verdict.tolerance)))
     if verdict.mistake is None:
         return sizes
     if verdict.at_fault == verdict.step:
@@ -163,15 +165,16 @@ def remark(judgement: Judgement, verdict: Verdict) -> Said:
 
 def step_numbers(judgement: Judgement, state: str = MISSING) -> str:
     """The numbers of the steps of a state, as `3, 7-9`."""
-    drawn = judgement.drawing.drawn
-    numbers = [drawn.number(verdict.step) for verdict in judgement.counting_verdicts if verdict.state == state]
-    parts: list[list[int]] = []
+    program = judgement.drawing.drawn
+    numbers = [program.number(verdict.step) for verdict in judgement.counting_verdicts if verdict.state == state]
+    ranges: list[list[int]] = []
     for number in numbers:
-        if parts and parts[-1][-1] == number - 1:
-            parts[-1].append(number)
+        if ranges and ranges[-1][-1] == number - 1:
+            ranges[-1].append(number)
         else:
-            parts.append([number])
-    return ", ".join(str(part[0]) if len(part) == 1 else f"{part[0]}–{part[-1]}" for part in parts)
+            ranges.append([number])
+    return ", ".join(str(numbers_in_row[0]) if len(numbers_in_row) == 1
+                     else f"{numbers_in_row[0]}–{numbers_in_row[-1]}" for numbers_in_row in ranges)
 
 
 def result_named(judgement: Judgement, kind: str, of: str) -> Said:
@@ -182,16 +185,16 @@ def result_named(judgement: Judgement, kind: str, of: str) -> Said:
 def wrong_number(judgement: Judgement, verdict: NumberVerdict) -> Said:
     """What is wrong with a number: by how much, in the scene's units, and what was probably done."""
     sizes = digits(verdict.off, FIGURES), digits(verdict.tolerance, FIGURES)
-    what = result_named(judgement, verdict.number.kind, verdict.number.of)
-    parts = [what, arrange("{0} {1}", OFF(), sizes[0]), arrange("{0} {1}", ALLOWED(), sizes[1])]
-    return said("Wrong result: {0}.", join(parts if verdict.mistake is None else [*parts, verdict.mistake]))
+    result_name = result_named(judgement, verdict.number.kind, verdict.number.of)
+    phrases = [result_name, arrange("{0} {1}", OFF(), sizes[0]), arrange("{0} {1}", ALLOWED(), sizes[1])]
+    return said("Wrong result: {0}.", join(phrases if verdict.mistake is None else [*phrases, verdict.mistake]))
 
 
 def repeated_number(judgement: Judgement, verdict: NumberVerdict) -> Said:
     """That a result is written down more than once, and what counts."""
-    number, others = verdict.number, join(map(number_words, verdict.again))
+    number, later_numbers = verdict.number, join(map(number_words, verdict.again))
     return said("{0} is written down twice: {1} counts, not {2}.", result_named(judgement, number.kind, number.of),
-                number_words(number), others)
+                number_words(number), later_numbers)
 
 
 def judgement_record(judgement: Judgement, score: Score) -> dict[str, Any]:
@@ -250,7 +253,7 @@ def _number_record(verdict: NumberVerdict) -> dict[str, Any]:
         "kind": number.kind, "of": number.of, "value": list(number.value), "unit": number.unit,
         "verdict": verdict.state, "true": list(verdict.true), "off": _finite_or_none(verdict.off),
         "tolerance": _finite_or_none(verdict.tolerance), "mistake": _mistake_text(verdict),
-        "again": [{"value": list(other.value), "unit": other.unit} for other in verdict.again],
+        "again": [{"value": list(later.value), "unit": later.unit} for later in verdict.again],
     }  # fmt: skip
 
 
@@ -293,8 +296,8 @@ class Remarks(SheetWords):
     def _legend(self, wide: float) -> Iterator[TextRow]:
         yield self._heading(said("Legend"))
         for state in (RIGHT, FOLLOWS, WRONG, UNSURE, None):
-            told = NOT_NEEDED() if state is None else STATES[state]()
-            yield LegendRow((Cell(KEY, sentence_runs(self.plans.tongue(told))),), gap=0.6, state=state)
+            state_text = NOT_NEEDED() if state is None else STATES[state]()
+            yield LegendRow((Cell(KEY, sentence_runs(self.plans.tongue(state_text))),), gap=0.6, state=state)
         yield from self.paragraph(said("Grey: the true drawing. Ellipses: where a point may be, after the student's "
                                        "own earlier marks. Dashed: where a wrong mark should be."), wide)
 
@@ -302,10 +305,10 @@ class Remarks(SheetWords):
         if score.total is None:
             return
         yield self._heading(said("Score"))
-        told: list[tuple[str, float]] = [(GROUPS[group](), percent) for group, percent in score.groups.items()]
-        told += [(KINDS[kind](), -cost) for kind, cost in score.costs.items()]
-        told.append((said("in all, of 100"), score.total))
-        yield from table_rows([[self._runs(name), self._runs(digits(round(percent)))] for name, percent in told])
+        score_rows: list[tuple[str, float]] = [(GROUPS[group](), percent) for group, percent in score.groups.items()]
+        score_rows += [(KINDS[kind](), -cost) for kind, cost in score.costs.items()]
+        score_rows.append((said("in all, of 100"), score.total))
+        yield from table_rows([[self._runs(name), self._runs(digits(round(percent)))] for name, percent in score_rows])
 
     def _numbers(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:
         """The numbers of the table beside the true ones, in the scene's units."""
@@ -313,26 +316,27 @@ class Remarks(SheetWords):
             return
         yield self._heading(said("Results"))
         table = [[self._runs(text) for text in ("", said("handed in"), said("true"), OFF(), ALLOWED())]]
-        for one in judgement.numbers:
-            cells = number_words(one.number), *map(number_text, (one.true, (one.off,), (one.tolerance,)))
-            what = result_named(judgement, one.number.kind, one.number.of)
-            table.append([self._runs(what), *map(self._runs, cells)])
+        for verdict in judgement.numbers:
+            cells = number_words(verdict.number), *map(number_text,
+                                                       (verdict.true, (verdict.off,), (verdict.tolerance,)))
+            result_name = result_named(judgement, verdict.number.kind, verdict.number.of)
+            table.append([self._runs(result_name), *map(self._runs, cells)])
         yield from table_rows(table)
-        for one in judgement.numbers:
-            if one.state == WRONG:
-                yield from self.paragraph(wrong_number(judgement, one), wide)
+        for verdict in judgement.numbers:
+            if verdict.state == WRONG:
+                yield from self.paragraph(wrong_number(judgement, verdict), wide)
 
     def _wrong(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:
         """The wrong steps one by one, and the numbers of those that are missing or not to be seen."""
-        drawn = judgement.drawing.drawn
+        program = judgement.drawing.drawn
         wrong = [verdict for verdict in judgement.counting_verdicts if verdict.state == WRONG]
         if wrong:
             yield self._heading(said("Wrong steps"))
         for verdict in wrong:
-            sentence = arrange("{0} {1:capital}.", drawn.sentence(verdict.at_fault), remark(judgement, verdict))
-            yield from self.paragraph(sentence, wide, verdict.step, step_name(drawn, verdict.at_fault).short)
-        for told in look_at_lines(judgement):
-            yield from self.paragraph(told, wide)
+            sentence = arrange("{0} {1:capital}.", program.sentence(verdict.at_fault), remark(judgement, verdict))
+            yield from self.paragraph(sentence, wide, verdict.step, step_name(program, verdict.at_fault).short)
+        for line in look_at_lines(judgement):
+            yield from self.paragraph(line, wide)
 
     def _runs(self, text: str) -> Runs:
         return sentence_runs(self.plans.tongue(text), self.names)

@@ -54,7 +54,7 @@ class Judge:
 
     def __init__(self, reading: SheetReading, hand: SeenPencil):
         self.hand, pencil = hand, hand.pencil
-        if not all(size > 0 for size in pencil.model.values()):
+        if not all(pencil_error > 0 for pencil_error in pencil.model.values()):
             raise Refused(f"--pencil {pencil.description}", "a size is 0", "give sizes greater than 0")
         self.reading, self.drawing, self.pencil = reading, reading.drawing, pencil
         self.named = name_marks(self.drawing, reading.task, reading.submission, pencil)
@@ -81,8 +81,8 @@ class Judge:
         matching = self.matching(self.fits, measures.MAX_MISTAKES)
         self._exchanged = list(exchanged_pairs(matching))
         if self._exchanged:
-            self.labels |= {step: self.labels[other] for pair in self._exchanged
-                            for step, other in (pair, pair[::-1])}
+            self.labels |= {step: self.labels[partner] for pair in self._exchanged
+                            for step, partner in (pair, pair[::-1])}
             matching = self.matching(self.fits, measures.MAX_MISTAKES)
         return matching
 
@@ -105,10 +105,10 @@ class Judge:
         if self.submission.page:
             spare = unexplained_traces(spare, [matching.traces[place] for place in needed])
         numbers, unasked = judge_numbers(matching, self.submission.numbers)
-        found = with_exchanged(verdicts(matching, numbers), self._exchanged, matching)
+        verdict_list = with_exchanged(verdicts(matching, numbers), self._exchanged, matching)
         return Judgement(
             self.submission.name, self.drawing, self.reading.composition,
-            {panel: fit.frame for panel, fit in self.fits.items()}, tuple(found), tuple(spare), numbers,
+            {panel: fit.frame for panel, fit in self.fits.items()}, tuple(verdict_list), tuple(spare), numbers,
             join(self._reading_words()), self.hand if self.hand.marks else None, unasked, self.submission.left_out)
 
     @property
@@ -126,11 +126,11 @@ class Judge:
     @property
     def weight(self) -> float:
         """What speaks for this reading, the mistakes in it being what they are."""
-        found = self.judgement
-        wrong = [verdict.kind for verdict in found.verdicts if verdict.state == WRONG]
+        judgement = self.judgement
+        wrong = [verdict.kind for verdict in judgement.verdicts if verdict.state == WRONG]
         numbers = sum(measures.NUMBER_ODDS if number.state != WRONG else -measures.NUMBER_ODDS
-                      for number in found.numbers)
-        strange = sum(trace.kind == POINT and bool(mark_name(trace.label)) for trace in found.spare)
+                      for number in judgement.numbers)
+        strange = sum(trace.kind == POINT and bool(mark_name(trace.label)) for trace in judgement.spare)
         return (self._prior + likelihood(self.likeliest) + numbers + measures.TORN_ODDS * is_torn(self.likeliest)
                 + measures.STRANGE_LETTER_ODDS * strange
                 + sum(measures.KNOWN_MISTAKE_ODDS if kind else measures.UNNAMED_MISTAKE_ODDS for kind in wrong))
@@ -156,8 +156,8 @@ class Judge:
     def hidden_steps(self) -> set[int]:
         """The steps that the task's own sheet does not show; another construction is not laid out for it."""
         task = self.reading.task
-        return {drawn.index for plate in task.plates
-                for drawn in plate.hidden_marks} if self.drawing is task.plans.drawing \
+        return {hidden_mark.index for plate in task.plates
+                for hidden_mark in plate.hidden_marks} if self.drawing is task.plans.drawing \
             else set()
 
     def _reading_words(self) -> Iterator[Said]:
@@ -175,18 +175,18 @@ class Judge:
         if not self.submission.traces:  # numbers alone: as on the task's sheet
             return {panel: Fit(PlanFrame(complex(*view.origin), view.scale))
                     for panel, view in self.reading.composition.views.items()}
-        seen = replace(self.reading, submission=self.submission)
-        register = FrameFinder(seen, with_measured_points(self.pencil, self.submission), self.labels)
+        blurred_reading = replace(self.reading, submission=self.submission)
+        register = FrameFinder(blurred_reading, with_measured_points(self.pencil, self.submission), self.labels)
         if self.submission.frames.keys() >= set(register.panels):
             return {panel: Fit(self.submission.frames[panel]) for panel in register.panels}
         mechanism = register.mechanism()
         if self.unlabelled:
             register.expect_after(self._match_mechanism(mechanism, register.panels))
         expected = {panel: register.expected_fits(panel, mechanism) for panel in register.panels[1:]}
-        fits = {MECHANISM: mechanism} | {panel: found[0] for panel, found in expected.items()}
-        for panel, found in expected.items():
-            if len(found) > 1:
-                fits[panel] = self._likeliest_fit(fits, panel, found)
+        fits = {MECHANISM: mechanism} | {panel: panel_fits[0] for panel, panel_fits in expected.items()}
+        for panel, panel_fits in expected.items():
+            if len(panel_fits) > 1:
+                fits[panel] = self._likeliest_fit(fits, panel, panel_fits)
         if begun := register.find_origins(fits):
             self._take_labels(begun)
             fits |= {panel: register.expected_fits(panel, mechanism)[0] for panel in register.panels[1:]}
@@ -195,26 +195,26 @@ class Judge:
     def _with_rivals(self, fits: dict[str, Fit], register: FrameFinder) -> dict[str, Fit]:
         """The frames of the plans whose steps are wrong in the expected ones, as rivals have it that explain them."""
         plan_of_step, start = register.plan_of_step, self._start_matching(fits)
-        known = self.submission.frames.keys() | self.reading.fits.keys()
-        for panel in [panel for panel in register.panels[1:] if panel not in known]:
+        known_panels = self.submission.frames.keys() | self.reading.fits.keys()
+        for panel in [panel for panel in register.panels[1:] if panel not in known_panels]:
             end = len(plan_of_step) - plan_of_step[::-1].index(panel)
             start = start.fork(self._start_matching(fits)).match_until(plan_of_step.index(panel))
             matching = start.fork().match_until(end)
             wrong, best = float(_count_wrong(matching, panel)), fits[panel]
             for fit, weight in register.rival_fits(panel, matching) if wrong else ():
-                other = start.fork(self._start_matching({**fits, panel: fit})).match_until(end)
-                if _count_wrong(other, panel) + weight < wrong:
-                    wrong, best = _count_wrong(other, panel) + weight, fit
+                rival = start.fork(self._start_matching({**fits, panel: fit})).match_until(end)
+                if _count_wrong(rival, panel) + weight < wrong:
+                    wrong, best = _count_wrong(rival, panel) + weight, fit
             fits[panel] = best
         return fits
 
     def _likeliest_fit(self, fits: Mapping[str, Fit], panel: str, found: Sequence[Fit]) -> Fit:
         """The frame of a plan in which a drawing is likeliest, with the likeliest mistakes if it needs any."""
-        ways = [(self.matching({**fits, panel: fit}), fit) for fit in found]
-        ways.sort(key=lambda way: -way[0].weight)
-        if sum(min(match.weight, 0.0) for match in _matches_on(ways[0][0], panel)) > measures.MIN_PLAN_ODDS:
-            return ways[0][1]
-        return max((fit for _, fit in ways[:measures.FRAMES_LOOKED_AT]),
+        matchings = [(self.matching({**fits, panel: fit}), fit) for fit in found]
+        matchings.sort(key=lambda way: -way[0].weight)
+        if sum(min(match.weight, 0.0) for match in _matches_on(matchings[0][0], panel)) > measures.MIN_PLAN_ODDS:
+            return matchings[0][1]
+        return max((fit for _, fit in matchings[:measures.FRAMES_LOOKED_AT]),
                    key=lambda fit: self.matching({**fits, panel: fit}, 1).weight)
 
     def _match_mechanism(self, mechanism: Fit, panels: Sequence[str]) -> Matching:
@@ -233,16 +233,16 @@ class Judge:
         """The way through the construction, with the mistakes, not more than so many, that make it likelier."""
         matching = self._start_matching(fits)
         search = Search(matching.fork())
-        found = search.find_mistakes(mistakes) if mistakes and self.unlabelled else {}
+        mistakes_found = search.find_mistakes(mistakes) if mistakes and self.unlabelled else {}
         matching.odds = search.odds
-        return matching.match_until(len(matching.steps), found)
+        return matching.match_until(len(matching.steps), mistakes_found)
 
     def _start_matching(self, fits: Mapping[str, Fit]) -> Matching:
         """Before the first step, in these frames."""
         sheet = StudentSheet(self.drawing, fits, self.pencil, self.hidden_steps)
-        what = sheet, self.submission, self.traces, self.unlabelled
+        sources = sheet, self.submission, self.traces, self.unlabelled
         panels = self.reading.composition.arrangement.panels if self.submission.page else {}
-        evidence = ImageSearch(*what, panels, self.sought) if self.submission.page else Evidence(*what)
+        evidence = ImageSearch(*sources, panels, self.sought) if self.submission.page else Evidence(*sources)
         return Matching(evidence, self.labels, measures.FALSE_ALARM_CHANCE / max(1, len(self.drawing.drawn)))
 
 
@@ -262,23 +262,24 @@ def likelihood(matching: Matching) -> float:
     A mark that might as well be elsewhere tells less. What is missing of a plan was left out together: each mark more
     tells less than the one before.
     """
-    found, left_out = 0.0, Counter[str]()
+    odds, left_out = 0.0, Counter[str]()
     for match in matching.matches:
         if match.place is None and match.weight < 0 and match.mistake is None:
             left_out[matching.sheet.plan_of_step[match.step.index]] += 1
             continue
         vague = match.residual.vague(measures.SHARP_MM) if match.residual and match.state != WRONG else 0.0
-        found += max(match.weight - vague, min(match.weight, 0.0))
-    return found - sum(measures.MISSED_MARK_COST * (1 + math.log(count)) for count in left_out.values())
+        odds += max(match.weight - vague, min(match.weight, 0.0))
+    return odds - sum(measures.MISSED_MARK_COST * (1 + math.log(count)) for count in left_out.values())
 
 
 def is_torn(matching: Matching) -> bool:
     """Whether some marks follow from a wrong one, and others from where that should be: nobody draws from both."""
-    rest: set[int] = set()
+    resting_on_wrong: set[int] = set()
     for match in matching.matches:
-        if match.state == WRONG or not rest.isdisjoint(match.step.args):
-            rest.add(match.step.index)
-    states = {match.state for match in matching.matches if match.place is not None and match.step.index in rest}
+        if match.state == WRONG or not resting_on_wrong.isdisjoint(match.step.args):
+            resting_on_wrong.add(match.step.index)
+    states = {match.state
+              for match in matching.matches if match.place is not None and match.step.index in resting_on_wrong}
     return states >= {RIGHT, FOLLOWS}
 
 
@@ -292,10 +293,11 @@ def judge_any_method(drawing: Construction, composition: Composition, submission
     best = first = Judge(unmirror(drawing, composition, submission, pencil),
                          assumed_pencil(pencil, submission)).with_seen_pencil
     if best.has_faults:
-        seen = replace(best.named, letters=())
-        proposer = Proposer(best.reading, seen, best.fits[MECHANISM].frame, pencil, plan, inertia, construct)
-        if best.orphaned_marks and (own := proposer.with_all_ends()):
-            best = Judge(own, best.hand)
+        labelled_submission = replace(best.named, letters=())
+        proposer = Proposer(best.reading, labelled_submission, best.fits[MECHANISM].frame, pencil, plan, inertia,
+                            construct)
+        if best.orphaned_marks and (full_reading := proposer.with_all_ends()):
+            best = Judge(full_reading, best.hand)
         task, best = best, _likelier_judge(best, proposer.readings())
         if best.needs_other_readings:
             readings = [best.reading] if best is task else [best.reading, task.reading]
@@ -305,12 +307,12 @@ def judge_any_method(drawing: Construction, composition: Composition, submission
 
 def _likelier_judge(best: Judge, readings: Iterable[SheetReading]) -> Judge:
     """The likeliest of some readings; only those that promise something at a glance are looked at closely."""
-    others: list[tuple[float, int, Judge]] = []
+    rivals: list[tuple[float, int, Judge]] = []
     for reading in readings:
         with suppress(Refused):
-            other = Judge(reading, best.hand)
-            others.append((other.quick_weight, len(others), other))
-    for glance, _, other in sorted(others, reverse=True, key=lambda one: one[:2])[:measures.READINGS_LOOKED_AT]:
-        if glance + measures.CLOSER_LOOK_ODDS > best.weight and other.weight > best.weight:
-            best = other
+            rival = Judge(reading, best.hand)
+            rivals.append((rival.quick_weight, len(rivals), rival))
+    for glance, _, rival in sorted(rivals, reverse=True, key=lambda one: one[:2])[:measures.READINGS_LOOKED_AT]:
+        if glance + measures.CLOSER_LOOK_ODDS > best.weight and rival.weight > best.weight:
+            best = rival
     return best

@@ -24,14 +24,14 @@ def labelled_steps(program: Program, plan_of_step: Sequence[str], traces: Sequen
 
     A number beside a line may be that of a link, or of the line next to it: unless the plan is named it tells nothing.
     """
-    names, found, told = LabelTable(program, plan_of_step), dict[int, int](), set[int]()
+    names, places, used_places = LabelTable(program, plan_of_step), dict[int, int](), set[int]()
     for loosely in range(measures.MAX_LOOSENESS + 1):
         for place, trace in enumerate(traces):
             numbered = trace.kind != POINT and not trace.panel and trace.label.isdigit()
             step = names.step(trace.kind, trace.panel, trace.label, loosely) if trace.label and not numbered else None
-            if step is not None and program.steps[step].op.gives == trace.kind and place not in told:
-                told.add(found.setdefault(step, place))
-    return found
+            if step is not None and program.steps[step].op.gives == trace.kind and place not in used_places:
+                used_places.add(places.setdefault(step, place))
+    return places
 
 
 def is_sure(trace: Trace) -> bool:
@@ -55,7 +55,7 @@ class LabelTable:
 
 def _label_table(program: Program, plan_of_step: Sequence[str]) -> dict[tuple[str, str, str], int]:
     """All that a mark may be called, by its kind and plan or on any plan: what is clearer comes first."""
-    found: dict[tuple[str, str, str], int] = {}
+    table: dict[tuple[str, str, str], int] = {}
     loosely: dict[tuple[str, str, str], set[int]] = {}
     for step in program.steps:
         kind, text = step.op.gives, program.text(step.index)
@@ -63,15 +63,15 @@ def _label_table(program: Program, plan_of_step: Sequence[str]) -> dict[tuple[st
         number = str(program.number(step.index))
         for panel in (plan_of_step[step.index], ""):
             for letter in filter(None, letters):
-                found.setdefault((kind, panel, letter), step.index)
+                table.setdefault((kind, panel, letter), step.index)
                 for less in (letter.replace("_", ""), letter.replace("_", "").casefold()):
                     loosely.setdefault((kind, panel, less), set()).add(step.index)
             for called in (number, f"#{number}", f"{kind}{number}") if step.op.movement is not Movement.GIVEN else ():
                 loosely.setdefault((kind, panel, called), set()).add(step.index)
     for spelling, steps in loosely.items():
         if len(steps) == 1:  # what may be said of two is said of neither
-            found.setdefault(spelling, *steps)
-    return found
+            table.setdefault(spelling, *steps)
+    return table
 
 
 # ---- pairing --------------------------------------------------------------------------------------------------------
@@ -84,20 +84,21 @@ def assign_labels(wishes: Sequence[Costs], nothing: float, shared: float) -> lis
     """The candidate of each letter, None where none is worth it, so that all together cost least: `nothing` is the
     cost of a letter that names no candidate, `shared` that of a candidate's second letter, of its third twice as much.
     """
-    found: list[int | None] = [None] * len(wishes)
+    chosen: list[int | None] = [None] * len(wishes)
     for crowd in _letter_crowds(wishes):
         if len(crowd) > measures.MAX_CROWD:
             for letter in crowd:
                 best = min(wishes[letter], key=wishes[letter].__getitem__)
-                found[letter] = best if wishes[letter][best] < nothing else None
+                chosen[letter] = best if wishes[letter][best] < nothing else None
             continue
-        named = sorted({one for letter in crowd for one in wishes[letter]})
+        named = sorted({candidate for letter in crowd for candidate in wishes[letter]})
         copies = min(3, len(crowd))
-        table = [[wishes[letter].get(one, math.inf) + shared * copy for copy in range(copies) for one in named]
+        table = [[wishes[letter].get(candidate, math.inf) + shared * copy for copy in range(copies)
+                  for candidate in named]
                  + [nothing] * len(crowd) for letter in crowd]
         for letter, column in zip(crowd, cheapest_columns(table), strict=True):
-            found[letter] = named[column % len(named)] if column < copies * len(named) else None
-    return found
+            chosen[letter] = named[column % len(named)] if column < copies * len(named) else None
+    return chosen
 
 
 def _letter_crowds(wishes: Sequence[Costs]) -> Iterator[list[int]]:
@@ -111,8 +112,8 @@ def _letter_crowds(wishes: Sequence[Costs]) -> Iterator[list[int]]:
 
     first: dict[int, int] = {}
     for letter, costs in enumerate(wishes):
-        for one in costs:
-            group[root(letter)] = root(first.setdefault(one, letter))
+        for candidate in costs:
+            group[root(letter)] = root(first.setdefault(candidate, letter))
     crowds: dict[int, list[int]] = {}
     for letter, costs in enumerate(wishes):
         if costs:
@@ -129,32 +130,32 @@ def cheapest_columns(table: Sequence[Sequence[float]]) -> list[int]:
     for row in range(rows):
         least, before = [math.inf] * columns, [-1] * columns
         done = [False] * columns
-        here, column, far = row, -1, 0.0
+        current, column, far = row, -1, 0.0
         while True:
-            for other in range(columns):
-                if not done[other]:
-                    length = far + table[here][other] - spare[here] - price[other]
-                    if length < least[other]:
-                        least[other], before[other] = length, column
-            column = min((other for other in range(columns) if not done[other]), key=least.__getitem__)
+            for candidate in range(columns):
+                if not done[candidate]:
+                    length = far + table[current][candidate] - spare[current] - price[candidate]
+                    if length < least[candidate]:
+                        least[candidate], before[candidate] = length, column
+            column = min((candidate for candidate in range(columns) if not done[candidate]), key=least.__getitem__)
             far, done[column] = least[column], True
             if holder[column] < 0:
                 break
-            here = holder[column]
+            current = holder[column]
         spare[row] += far
-        for other in range(columns):
-            if done[other] and other != column:
-                spare[holder[other]] += far - least[other]
-                price[other] -= far - least[other]
+        for candidate in range(columns):
+            if done[candidate] and candidate != column:
+                spare[holder[candidate]] += far - least[candidate]
+                price[candidate] -= far - least[candidate]
         while column >= 0:
             last = before[column]
             holder[column] = holder[last] if last >= 0 else row
             column = last
-    found = [-1] * rows
+    assignment = [-1] * rows
     for column, row in enumerate(holder):
         if row >= 0:
-            found[row] = column
-    return found
+            assignment[row] = column
+    return assignment
 
 
 # ---- crossings ------------------------------------------------------------------------------------------------------
@@ -170,16 +171,16 @@ def stroke_meetings(box: Polygon, reach: float, traces: Sequence[Trace], figures
     def near(z: complex) -> bool:
         return math.hypot(max(left - z.real, 0.0, z.real - right), max(bottom - z.imag, 0.0, z.imag - top)) < reach
 
-    found: list[complex] = []
+    spots_found: list[complex] = []
     crossed, ends = list[Trace](), list[Trace]()
-    for one, other in combinations(strokes, 2):
-        for z, sine in _stroke_crossings(one, other):
-            if near(z) and all(abs(z - before) > measures.SAME_CROSSING_MM for before in found):
-                found.append(z)
+    for first, second in combinations(strokes, 2):
+        for z, sine in _stroke_crossings(first, second):
+            if near(z) and all(abs(z - before) > measures.SAME_CROSSING_MM for before in spots_found):
+                spots_found.append(z)
                 crossed.append(Trace(POINT, ((z.real, z.imag),), blur=measures.CROSSING_BLUR_MM / sine, crossed=True))
-    for z in (complex(*spot) for one in strokes if one.kind == LINE for spot in one.spots):
-        if near(z) and all(abs(z - before) > measures.SAME_CROSSING_MM for before in found):
-            found.append(z)
+    for z in (complex(*spot) for first in strokes if first.kind == LINE for spot in first.spots):
+        if near(z) and all(abs(z - before) > measures.SAME_CROSSING_MM for before in spots_found):
+            spots_found.append(z)
             ends.append(Trace(POINT, ((z.real, z.imag),), crossed=True))
     return crossed, ends
 
@@ -192,23 +193,23 @@ def _stroke_crossings(one: Trace, other: Trace) -> Iterator[tuple[complex, float
         sine = (u.conjugate() * v).imag
         if abs(sine) > measures.MIN_CROSSING_SINE * abs(u) * abs(v):
             s, t = ((c - a).conjugate() * v).imag / sine, ((c - a).conjugate() * u).imag / sine
-            if all(-measures.SAME_CROSSING_MM <= part * abs(way) <= abs(way) + measures.SAME_CROSSING_MM
-                   for part, way in ((s, u), (t, v))):
+            if all(-measures.SAME_CROSSING_MM <= ratio * abs(vector) <= abs(vector) + measures.SAME_CROSSING_MM
+                   for ratio, vector in ((s, u), (t, v))):
                 yield a + s * u, abs(sine) / (abs(u) * abs(v))
     elif CIRCLE in (one.kind, other.kind):
         line, arc = (one, other) if other.kind == CIRCLE else (other, one)
-        found = circle_through(*arc.spots[:3])
-        if found is None:
+        arc_circle = circle_through(*arc.spots[:3])
+        if arc_circle is None:
             return
-        centre, radius = complex(*found[0]), found[1]
+        centre, radius = complex(*arc_circle[0]), arc_circle[1]
         if line.kind == LINE:
             a, b = (complex(*spot) for spot in line.spots)
-            way = (b - a) / abs(b - a)
-            foot = a + ((centre - a) * way.conjugate()).real * way
+            vector = (b - a) / abs(b - a)
+            foot = a + ((centre - a) * vector.conjugate()).real * vector
             half = radius**2 - abs(foot - centre) ** 2
-            ends = [foot + sign * math.sqrt(half) * way for sign in (1, -1)] if half > 0 else []
+            ends = [foot + sign * math.sqrt(half) * vector for sign in (1, -1)] if half > 0 else []
             sine = max(measures.MIN_CROSSING_SINE, math.sqrt(max(half, 0.0)) / radius)
-            yield from ((z, sine) for z in ends if -measures.SAME_CROSSING_MM <= ((z - a) * way.conjugate()).real
+            yield from ((z, sine) for z in ends if -measures.SAME_CROSSING_MM <= ((z - a) * vector.conjugate()).real
                         <= abs(b - a) + measures.SAME_CROSSING_MM)
         elif (second := circle_through(*line.spots[:3])) is not None:
             apart = complex(*second[0]) - centre

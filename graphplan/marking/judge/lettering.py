@@ -82,7 +82,7 @@ class Letters:
             figures = self._figures
             met = [stroke_meetings(word.box, _letter_reach(word), self.submission.traces, figures)
                    for word in words[:measures.MAX_UNDOTTED_LETTERS]]
-            crossed, ends = (list(dict.fromkeys(spot for found in met for spot in found[k])) for k in (0, 1))
+            crossed, ends = (list(dict.fromkeys(spot for meeting in met for spot in meeting[k])) for k in (0, 1))
             self.traces = (*self.traces, *crossed, *ends)
             self.ends.update(range(len(self.traces) - len(ends), len(self.traces)))
             self.alone = dict(enumerate(words, len(self.traces)))
@@ -96,52 +96,52 @@ class Letters:
         gaps = shapely.distance(self._figures.geometries[places], box)
         named = LINE in steps or (not steps and can_name_line(name))
         nearest = np.argsort(gaps, kind="stable")[:measures.THINGS_NEAR_LETTER]
-        found: list[tuple[float, int]] = []
+        costs: list[tuple[float, int]] = []
         for gap, place in zip(gaps[nearest].tolist(), places[nearest].tolist(), strict=True):
             trace = self.traces[place]
-            meant = named if trace.kind == LINE else trace.kind == POINT and (POINT in steps or not steps)
-            if meant and (trace.beside or not trace.label) and self.alone.get(place, word) is word:
-                found.append((gap / (measures.LETTER_GAP_SIZES * word.size)
+            can_be_named = named if trace.kind == LINE else trace.kind == POINT and (POINT in steps or not steps)
+            if can_be_named and (trace.beside or not trace.label) and self.alone.get(place, word) is word:
+                costs.append((gap / (measures.LETTER_GAP_SIZES * word.size)
                               + measures.LINE_END_COST * (place in self.ends), place))
         nearest_first = [(cost, place)
-                         for cost, place in sorted(found) if place not in self.alone][:measures.LETTER_CHOICES]
+                         for cost, place in sorted(costs) if place not in self.alone][:measures.LETTER_CHOICES]
         return {place: cost for cost, place in nearest_first} | {
-            place: measures.LETTERS_ALONE_COST for _, place in found if place in self.alone}
+            place: measures.LETTERS_ALONE_COST for _, place in costs if place in self.alone}
 
     # ---- where they should be --------------------------------------------------------------------------------------
 
     @cached_property
     def frames(self) -> dict[str, PlanFrame]:
         """Where plans lie, as far as letters agree."""
-        known = dict(self.submission.frames)
-        if MECHANISM not in known and self.mechanism:
-            known[MECHANISM] = self.mechanism
-        if MECHANISM in known:
-            unit = known[MECHANISM].unit
+        frames = dict(self.submission.frames)
+        if MECHANISM not in frames and self.mechanism:
+            frames[MECHANISM] = self.mechanism
+        if MECHANISM in frames:
+            unit = frames[MECHANISM].unit
             for panel in dict.fromkeys(self.plan_of_step):
                 tied = unit * float(self.multiples.get(panel, 1))
-                if panel not in known and (
-                        found := agreed_frame(self._plan_candidates(panel), (tied,), self.within, abs(tied),
+                if panel not in frames and (
+                        frame := agreed_frame(self._plan_candidates(panel), (tied,), self.within, abs(tied),
                                               not self.ends)):
-                    known[panel] = found
-        return known
+                    frames[panel] = frame
+        return frames
 
     @cached_property
     def mechanism(self) -> PlanFrame | None:
         """Where the mechanism lies, by its given points or else by all that are lettered."""
-        given = self._plan_candidates(MECHANISM, self.drawing.drawn.givens)
+        given_candidates = self._plan_candidates(MECHANISM, self.drawing.drawn.givens)
         # where strokes cross beside two letters, some two always do
-        few = self.ends and len(given) < measures.MIN_GIVEN_POINTS
-        return (None if few else agreed_frame(given, (), self.within, self.task)) or agreed_frame(
+        few = self.ends and len(given_candidates) < measures.MIN_GIVEN_POINTS
+        return (None if few else agreed_frame(given_candidates, (), self.within, self.task)) or agreed_frame(
             self._plan_candidates(MECHANISM), (), self.within, self.task)
 
     def _plan_candidates(self, panel: str, before: int | None = None) -> list[Candidates]:
         """The lettered points of a plan: where each truly is, and the points on the sheet that it may be."""
         points = {step: [(complex(*self.traces[place].spots[0]), 0.0)] for step, place in self.sure.items()
                   if self.traces[place].kind == POINT}
-        for one in self.words:
-            if (step := one.steps.get(POINT)) is not None:
-                points[step] = [(complex(*self.traces[place].spots[0]), cost) for place, cost in one.wish.items()
+        for word in self.words:
+            if (step := word.steps.get(POINT)) is not None:
+                points[step] = [(complex(*self.traces[place].spots[0]), cost) for place, cost in word.wish.items()
                                 if self.traces[place].kind == POINT and place not in self.alone]
         return [Candidates(complex(*plain_value(self.drawing.values[step])[:2]), spots)
                 for step, spots in points.items()
@@ -158,28 +158,28 @@ class Letters:
     @cached_property
     def _claimed_points(self) -> dict[int, int]:
         """The points that are where a step should make one, which no letters name; by place."""
-        named = {step for one in self.words for step in one.steps.values()}
-        found = {}
+        named = {step for word in self.words for step in word.steps.values()}
+        claims = {}
         for step in self.drawing.drawn.steps:
             frame = self.frames.get(self.plan_of_step[step.index])
             if step.op.gives == POINT and step.index not in named and frame:
                 at = frame.to_sheet(complex(*plain_value(self.drawing.values[step.index])[:2]))
                 for place in self._figures.query(Point(at.real, at.imag), "dwithin", self.within / 2):
                     if self.traces[place].kind == POINT:
-                        found[int(place)] = step.index
-        return found
+                        claims[int(place)] = step.index
+        return claims
 
     # ---- who names what --------------------------------------------------------------------------------------------
 
     def named_submission(self) -> Submission:
         """The drawing with the names of its marks."""
-        found = assign_labels([self._weigh(one) for one in self.words], measures.NAMELESS_COST,
+        assignment = assign_labels([self._weigh(word) for word in self.words], measures.NAMELESS_COST,
                               measures.SECOND_NAME_COST)
         names: dict[int, list[tuple[str, bool]]] = {}
-        for one, place in zip(self.words, found, strict=True):
+        for word, place in zip(self.words, assignment, strict=True):
             if place is not None:
-                beside = not self._is_certain(one, place, found)
-                names.setdefault(place, []).extend((name, beside) for name in one.names)
+                beside = not self._is_certain(word, place, assignment)
+                names.setdefault(place, []).extend((name, beside) for name in word.names)
         first = [replace(trace, label=names[place][0][0], beside=names[place][0][1]) if place in names else trace
                  for place, trace in enumerate(self.traces) if place < len(self.submission.traces) or place in names]
         more = [replace(self.traces[place], label=name, beside=beside) for place, several in names.items()
@@ -188,16 +188,16 @@ class Letters:
 
     def _weigh(self, one: LetteredWord) -> Wish:
         """What letters may name, and what it costs by nearness and by where the construction has it."""
-        found = {}
+        costs = {}
         for place, cost in one.wish.items():
             trace = self.traces[place]
             off = self._distance_off(one.steps[trace.kind], trace) if trace.kind in one.steps else math.inf
             if place >= len(self.submission.traces) and not self._may_mean(one, place, off):
                 continue
             astray = measures.MISPLACED_COST / (1 + (measures.HALF_COST_MM / off) ** 2) if off else 0.0
-            found[place] = cost + astray + (measures.CLAIMED_COST if place in self._claimed_points
+            costs[place] = cost + astray + (measures.CLAIMED_COST if place in self._claimed_points
                                             and off > measures.HALF_COST_MM else 0.0)
-        return found
+        return costs
 
     def _may_mean(self, one: LetteredWord, place: int, off: float) -> bool:
         """Whether letters may mean a place without a dot: where the mark should be; or a crossing, if they do not stand
@@ -220,7 +220,7 @@ class Letters:
         if one.names[0].isdigit() and self._distance_off(one.steps[POINT],
                                                          self.traces[place]) > 2 * measures.HALF_COST_MM:
             return False
-        least = min((cost for other, cost in one.wish.items() if other != place and self.traces[other].kind == POINT),
+        least = min((cost for rival, cost in one.wish.items() if rival != place and self.traces[rival].kind == POINT),
                     default=math.inf)
         return (one.wish[place] < measures.CLEAR_COST and least - one.wish[place] > measures.CLEAR_COST
                 and place not in self._claimed_points)
@@ -239,16 +239,16 @@ def _letter_reach(word: Lettering) -> float:
 
 def _spoken_steps(names: LabelTable, called: Sequence[str], sure: Container[int]) -> dict[str, dict[str, int]]:
     """The steps that letters may speak of, by kind; as loosely as they must be read, if none says it better."""
-    found: dict[str, dict[str, int]] = {name: {} for name in called}
-    told: dict[int, int] = {}
+    steps_by_name: dict[str, dict[str, int]] = {name: {} for name in called}
+    looseness_of_step: dict[int, int] = {}
     for loosely in range(measures.MAX_LOOSENESS + 1):
-        for name, steps in found.items():
+        for name, steps in steps_by_name.items():
             for kind in (POINT,) if name.isdigit() else (POINT, LINE):
                 step = names.step(kind, "", name, loosely)
-                if step is not None and step not in sure and kind not in steps and told.setdefault(
+                if step is not None and step not in sure and kind not in steps and looseness_of_step.setdefault(
                         step, loosely) == loosely:
                     steps[kind] = step
-    return found
+    return steps_by_name
 
 
 @dataclass(frozen=True)
@@ -280,8 +280,8 @@ def agreed_frame(marks: Sequence[Candidates], units: Sequence[complex], within: 
     def score(unit: Any, origin: Any) -> Any:
         """How many marks have a spot in each frame."""
         off = np.abs(origin[:, None] + unit[:, None] * at[owner][None, :] - spots[None, :]) / within
-        held = np.clip(1.0 - off**2, 0.0, None) * weights
-        return np.maximum.reduceat(held, starts, axis=1).sum(axis=1)
+        votes_per_spot = np.clip(1.0 - off**2, 0.0, None) * weights
+        return np.maximum.reduceat(votes_per_spot, starts, axis=1).sum(axis=1)
 
     tied, free = _propose_frames(at, owner, spots, units)
     best: tuple[float, complex, complex] | None = None
@@ -319,10 +319,10 @@ def _refine_frame(at: Any, owner: Any, spots: Any, unit: complex, origin: comple
     together turn and stretch nothing."""
     off = np.abs(origin + unit * at[owner] - spots)
     nearest = [place for place in np.lexsort((off, owner)) if off[place] < within]
-    held = [place for k, place in enumerate(nearest) if not k or owner[place] != owner[nearest[k - 1]]]
-    z, w = at[owner[held]], spots[held]
-    here, there = z.mean(), w.mean()
-    spread = float(np.sum(np.abs(z - here) ** 2))
-    if spread * abs(unit) ** 2 > len(held) * within**2:
-        unit = complex(np.sum(np.conj(z - here) * (w - there)) / spread)
-    return PlanFrame(complex(there - unit * here), unit)
+    held_places = [place for k, place in enumerate(nearest) if not k or owner[place] != owner[nearest[k - 1]]]
+    z, w = at[owner[held_places]], spots[held_places]
+    plan_centre, sheet_centre = z.mean(), w.mean()
+    spread = float(np.sum(np.abs(z - plan_centre) ** 2))
+    if spread * abs(unit) ** 2 > len(held_places) * within**2:
+        unit = complex(np.sum(np.conj(z - plan_centre) * (w - sheet_centre)) / spread)
+    return PlanFrame(complex(sheet_centre - unit * plan_centre), unit)

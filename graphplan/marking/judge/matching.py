@@ -123,9 +123,9 @@ class Matching:
             return lettered
         if step.op.movement is Movement.BEGUN and self.evidence.picture:
             return None  # it is printed
-        for expected, drawn in self._expected_values(step):
+        for expected, basis in self._expected_values(step):
             begun = step.op.movement is Movement.BEGUN
-            best = self._find_origin(step, expected, drawn) if begun else self._find_drawn(step, expected, drawn)
+            best = self._find_origin(step, expected, basis) if begun else self._find_drawn(step, expected, basis)
             if best is not None:
                 return best
         return None if lettered is None or self._may_cross_by_chance(step, lettered) else lettered
@@ -133,8 +133,8 @@ class Matching:
     def _may_cross_by_chance(self, step: Step, place: int) -> bool:
         """Whether strokes that cross beside a letter, not far from its mark, need not be that mark."""
         return self.traces[place].crossed and any(
-            self.residual(step, expected, place, drawn).distance < measures.CHANCE_CROSSING_MM
-            for expected, drawn in self._expected_values(step))
+            self.residual(step, expected, place, basis).distance < measures.CHANCE_CROSSING_MM
+            for expected, basis in self._expected_values(step))
 
     def _find_origin(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """The dot, or else the end of a stroke, where the frame of a plan has its beginning: it is free, so that no
@@ -169,8 +169,8 @@ class Matching:
 
     def _fits_label(self, step: Step, place: int) -> bool:
         """Whether a trace is as a step should have made it."""
-        return any(self.residual(step, expected, place, drawn).fits(self.chance)
-                   for expected, drawn in self._expected_values(step))
+        return any(self.residual(step, expected, place, basis).fits(self.chance)
+                   for expected, basis in self._expected_values(step))
 
     def _search(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """What a picture shows about an expected value, or where a stroke of a file ends, if it fits it."""
@@ -185,7 +185,8 @@ class Matching:
 
     def _known_marks(self, drawn: Sequence[Any]) -> KnownMarks:
         """What is known of the marks to come."""
-        return KnownMarks(drawn, {index: one for index, one in self.found.items() if isinstance(one, Mistake)})
+        return KnownMarks(drawn,
+                          {index: mistake for index, mistake in self.found.items() if isinstance(mistake, Mistake)})
 
     def _find_fitting(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """The loose trace that fits an expected value best, if any does."""
@@ -197,8 +198,9 @@ class Matching:
                 break
             residual = self.residual(step, expected, places[k], drawn)
             if residual.fits(self.chance):  # rather one that is free yet, and that reaches its marks
-                found = places[k] in self.used, not self._reaches_points(step, places[k]), residual.square, places[k]
-                best = min(best, found) if best else found
+                candidate = places[k] in self.used, not self._reaches_points(step,
+                                                                             places[k]), residual.square, places[k]
+                best = min(best, candidate) if best else candidate
             elif step.op.gives == POINT and off[k] > measures.MAX_TOLERANCES_OFF * residual.tolerance(self.chance):
                 break
         return best[3] if best else None
@@ -209,18 +211,18 @@ class Matching:
             return True
         frame = self.sheet.frame(step)
         start, end = (frame.to_plan(complex(*spot)) for spot in self.traces[place].spots[:2])
-        way, spare = (end - start) / (abs(end - start) or 1.0), measures.LINE_END_MM / abs(frame.unit)
+        direction, spare = (end - start) / (abs(end - start) or 1.0), measures.LINE_END_MM / abs(frame.unit)
         on = [step.args[claim[1]] for claim in step.op.claims if claim[0] == "on"]
-        along = [((complex(*plain_value(self.own[arg])[:2]) - start) * way.conjugate()).real for arg in on]
+        along = [((complex(*plain_value(self.own[arg])[:2]) - start) * direction.conjugate()).real for arg in on]
         return all(-spare <= far <= abs(end - start) + spare for far in along)
 
     def _expected_values(self, step: Step) -> Sequence[tuple[Any, Sequence[Any]]]:
         """What the next step should make of the student's own marks, and once they erred, of the mended ones."""
         if self._now is None:
             self._now = []
-            for drawn in (self.own, self.mended) if self.erred else (self.own,):
+            for basis in (self.own, self.mended) if self.erred else (self.own,):
                 with suppress(Undrawable):
-                    self._now.append((self.sheet.expected_value(step, drawn), drawn))
+                    self._now.append((self.sheet.expected_value(step, basis), basis))
         return self._now
 
     def residual(self, step: Step, expected: Any, place: int, drawn: Sequence[Any]) -> Residual:
@@ -234,70 +236,73 @@ class Matching:
     def take(self, place: int | None) -> Matching:
         """Take a trace, or none, for what the next step made, and judge it."""
         step = self.next_step
-        asked = (list(self._expected_values(step))
+        candidates = (list(self._expected_values(step))
                  or [(self.sheet.drawing.values[step.index], self.sheet.drawing.values)])
-        own, mended = asked[0][0], asked[-1][0]
+        own_value, mended_value = candidates[0][0], candidates[-1][0]
         if place is None:
-            shown = step.op.gives in self.evidence.shows and not (step.op.free or step.index in self.sheet.hidden)
-            return self._append(Match(step, MISSING if shown else UNSEEN, own, weight=self._missed_weight(own)), own,
-                                mended)
+            is_shown = step.op.gives in self.evidence.shows and not (step.op.free or step.index in self.sheet.hidden)
+            return self._append(Match(step, MISSING if is_shown else UNSEEN, own_value,
+                                      weight=self._missed_weight(own_value)), own_value,
+                                mended_value)
         spots = self.sheet.spots(step.index, self.traces[place])
-        found = [self.residual(step, value, place, drawn) for value, drawn in asked]
-        fits = [step.op.movement is Movement.BEGUN or residual.fits(self.chance) for residual in found]
-        if not any(fits) and (told := self._protocol_value(step)):
-            asked.append(told)
-            found.append(self.sheet.residual(step, told[0], spots, told[1]))
-            fits.append(found[-1].fits(self.chance))
+        residuals = [self.residual(step, value, place, basis) for value, basis in candidates]
+        fits = [step.op.movement is Movement.BEGUN or residual.fits(self.chance) for residual in residuals]
+        if not any(fits) and (protocol_candidate := self._protocol_value(step)):
+            candidates.append(protocol_candidate)
+            residuals.append(self.sheet.residual(step, protocol_candidate[0], spots, protocol_candidate[1]))
+            fits.append(residuals[-1].fits(self.chance))
         state = WRONG if not any(fits) else FOLLOWS if not fits[-1] else RIGHT
         by = fits.index(True) if any(fits) else 0
-        seen = self.sheet.value_of_trace(step, own, spots, steady=state == WRONG or not self.traces[place].blur)
-        weight = self._weigh_trace(place, found[by] if any(fits) else None, seen)
-        if not (any(fits) or self.labels.get(step.index) == place or all(map(self._is_clear_mistake, found))):
+        seen_value = self.sheet.value_of_trace(step, own_value, spots,
+                                               steady=state == WRONG or not self.traces[place].blur)
+        weight = self._weigh_trace(place, residuals[by] if any(fits) else None, seen_value)
+        if not (any(fits) or self.labels.get(step.index) == place or all(map(self._is_clear_mistake, residuals))):
             weight = -math.inf
-        return self._append(Match(step, state, asked[by][0], place, found[by], weight=weight),
-                           seen, seen if fits[-1] else mended)
+        return self._append(Match(step, state, candidates[by][0], place, residuals[by], weight=weight),
+                           seen_value, seen_value if fits[-1] else mended_value)
 
     def _protocol_value(self, step: Step) -> tuple[Any, Sequence[Any]] | None:
         """Where the length leads that the protocol tells for a step, laid off from the student's own mark."""
         if step.op.gives != POINT or step.op.root is None:
             return None
-        root, drawn = step.args[step.op.root], list(self.sheet.drawing.values)
-        drawn[root] = self.own[root]
+        root, basis = step.args[step.op.root], list(self.sheet.drawing.values)
+        basis[root] = self.own[root]
         with suppress(Undrawable):
-            return self.sheet.expected_value(step, drawn), drawn
+            return self.sheet.expected_value(step, basis), basis
         return None
 
     def take_mistake(self, mistake: Mistake) -> Matching:
         """Take a mistake for what was done at the next step: what is drawn where it leads, or a mark that is not to be
         seen, but from which others follow."""
-        step, asked = self.next_step, self._expected_values(self.next_step)
-        made = self.sheet.hand.add_slips(step, mistake.value(self.sheet.domain, self.own),
+        step, candidates = self.next_step, self._expected_values(self.next_step)
+        mistaken_value = self.sheet.hand.add_slips(step, mistake.value(self.sheet.domain, self.own),
                                          self.sheet.errors(step.index))
-        mended = asked[0][0] if asked else made
-        place = self._find_drawn(step, made, self.own)
+        mended_value = candidates[0][0] if candidates else mistaken_value
+        place = self._find_drawn(step, mistaken_value, self.own)
         if place is None:
-            weight = self._missed_weight(made) + measures.UNSEEN_MISTAKE_ODDS
+            weight = self._missed_weight(mistaken_value) + measures.UNSEEN_MISTAKE_ODDS
             unclear = step.op.gives == POINT and not self._is_clear_mistake(
-                self.sheet.residual(step, mended, [made], self.own))
+                self.sheet.residual(step, mended_value, [mistaken_value], self.own))
             if unclear or not self.dead.isdisjoint(step.args):
                 weight = -math.inf
-            return self._append(Match(step, WRONG, mended, mistake=mistake, weight=weight), made, mended)
+            return self._append(Match(step, WRONG, mended_value, mistake=mistake, weight=weight), mistaken_value,
+                                mended_value)
         spots = self.sheet.spots(step.index, self.traces[place])
-        off = self.sheet.residual(step, mended, spots, self.own)
-        seen = self.sheet.value_of_trace(step, made, spots, steady=not self.traces[place].blur)
-        weight = self._weigh_trace(place, self.sheet.residual(step, made, spots, self.own),
-                               seen) or measures.UNSEEN_MISTAKE_ODDS
+        off = self.sheet.residual(step, mended_value, spots, self.own)
+        seen_value = self.sheet.value_of_trace(step, mistaken_value, spots, steady=not self.traces[place].blur)
+        weight = self._weigh_trace(place, self.sheet.residual(step, mistaken_value, spots, self.own),
+                               seen_value) or measures.UNSEEN_MISTAKE_ODDS
         if not self._is_clear_mistake(off):
             weight = -math.inf
-        return self._append(Match(step, WRONG, mended, place, off, mistake, weight), seen, mended)
+        return self._append(Match(step, WRONG, mended_value, place, off, mistake, weight), seen_value, mended_value)
 
     def _weigh_trace(self, place: int, residual: Residual | None, seen: Any) -> float:
         """What a trace speaks for this way; one that is wrong is as far off as it is."""
         kind = self.traces[place].kind
         if not self.used.isdisjoint({place, *self.evidence.twins(place)}):
             return measures.SHARED_ODDS
-        part = self.evidence.picture and kind != POINT
-        share = self.evidence.visible_share(self.next_step, seen, self._known_marks(self.own)) if part else None
+        needs_share = self.evidence.picture and kind != POINT
+        share = self.evidence.visible_share(self.next_step, seen, self._known_marks(self.own)) if needs_share else None
         return weigh_mark(self.evidence.weight(place), measures.ABSENT_ODDS[kind], residual,
                        1.0 if share is None else share)
 
@@ -308,8 +313,8 @@ class Matching:
     def _missed_weight(self, expected: Any) -> float:
         """What it speaks against this way that nothing is found."""
         step = self.next_step
-        asked = self._expected_values(step)
-        if not asked or asked[0][1] is not self.own or not self.dead.isdisjoint(step.args):
+        candidates = self._expected_values(step)
+        if not candidates or candidates[0][1] is not self.own or not self.dead.isdisjoint(step.args):
             self.dead.add(step.index)
             return 0.0
         printed = self.evidence.picture or step.op.movement is Movement.GIVEN

@@ -47,19 +47,19 @@ class Mistake:
 
     def value(self, domain: Domain, values: Sequence[Any] | Mapping[int, Any]) -> Any:
         """What it makes of these marks; fails as the step's rule does."""
-        made = self.step.op.rule(domain, *[values[arg] for arg in self.step.args], **self.step.params)
+        result = self.step.op.rule(domain, *[values[arg] for arg in self.step.args], **self.step.params)
         if self.mirror:
             return (_mirror_line if self.step.op.gives == LINE else _mirror_point)(
-                domain, made, *(values[arg] for arg in self.mirror))
+                domain, result, *(values[arg] for arg in self.mirror))
         if self.factor == 1.0 and not self.radii:
-            return made
+            return result
         if self.step.op.gives == CIRCLE:
-            return *made[:2], made[2] * abs(self.factor) ** 2
+            return *result[:2], result[2] * abs(self.factor) ** 2
         root = self.step.root if self.start is None else self.start
         assert root is not None, f"{self.step.op.name} lays nothing off"
         start, ratio = values[root], _distance_ratio(domain,
                                                      *(values[mark] for mark in self.radii)) if self.radii else 1.0
-        dx, dy, c, s = made[0] - start[0], made[1] - start[1], self.factor.real * ratio, self.factor.imag * ratio
+        dx, dy, c, s = result[0] - start[0], result[1] - start[1], self.factor.real * ratio, self.factor.imag * ratio
         return start[0] + c * dx - s * dy, start[1] + s * dx + c * dy
 
 
@@ -67,17 +67,17 @@ def value_of(step: Step, values: Sequence[Any] | Mapping[int, Any], mistake: Mis
              ) -> tuple[float, ...] | None:
     """What a step makes of plain values, or a mistake at it; None where it cannot be drawn."""
     with suppress(Undrawable):
-        found: tuple[float, ...] = mistake.value(Floats(), values) if mistake else step.op.rule(
+        result: tuple[float, ...] = mistake.value(Floats(), values) if mistake else step.op.rule(
             Floats(), *[values[arg] for arg in step.args], **step.params)
-        return found if all(map(math.isfinite, found)) else None
+        return result if all(map(math.isfinite, result)) else None
     return None
 
 
 def _mirror_point(domain: Domain, point: Any, P: Any, Q: Any) -> Any:
     """A point on the other side of the line PQ."""
     u, w = (Q[0] - P[0], Q[1] - P[1]), (point[0] - P[0], point[1] - P[1])
-    size = domain.nonzero(u[0] * u[0] + u[1] * u[1], 1.0, "points-coincide", "the two points coincide")
-    along = (u[0] * w[0] + u[1] * w[1]) / size
+    square = domain.nonzero(u[0] * u[0] + u[1] * u[1], 1.0, "points-coincide", "the two points coincide")
+    along = (u[0] * w[0] + u[1] * w[1]) / square
     return P[0] + 2 * along * u[0] - w[0], P[1] + 2 * along * u[1] - w[1]
 
 
@@ -91,8 +91,10 @@ def _mirror_line(domain: Domain, line: Any, P: Any, Q: Any) -> Any:
 
 def _distance_ratio(domain: Domain, P: Any, Q: Any, R: Any, S: Any) -> Any:
     """The distance PQ over the distance RS."""
-    one, two = ((B[0] - A[0]) * (B[0] - A[0]) + (B[1] - A[1]) * (B[1] - A[1]) for A, B in ((P, Q), (R, S)))
-    return domain.sqrt(one / domain.nonzero(two, 1.0, "points-coincide", "the two points coincide"), "", "")
+    first_square, second_square = ((B[0] - A[0]) * (B[0] - A[0]) + (B[1] - A[1]) * (B[1] - A[1])
+                                   for A, B in ((P, Q), (R, S)))
+    return domain.sqrt(first_square / domain.nonzero(second_square, 1.0, "points-coincide", "the two points coincide"),
+                       "", "")
 
 
 NORMAL_VECTOR = phrase("the normal acceleration of {0} about {1}")
@@ -117,16 +119,16 @@ class LaidOffVector:
 
 def vector_of(program: Program, step: Step, plan_of_step: Sequence[str]) -> LaidOffVector:
     """What a step lays off, whole or in part, as the steps of its stage say that are drawn on the same plan."""
-    alike = [other for other in program.steps if other.index == step.index or (
-        step.stage is not None and other.stage is step.stage
-        and plan_of_step[other.index] == plan_of_step[step.index])]
+    alike = [stage_step for stage_step in program.steps if stage_step.index == step.index or (
+        step.stage is not None and stage_step.stage is step.stage
+        and plan_of_step[stage_step.index] == plan_of_step[step.index])]
     for law, words in ((NORMAL, NORMAL_VECTOR), (CORIOLIS, CORIOLIS_VECTOR)):
-        for other in alike:
-            if isinstance(other.why, Said) and law.says(other.why):
-                start, parts = step.root, {one.index for one in alike}
-                while start in parts and (root := program.steps[start].root) is not None:
+        for stage_step in alike:
+            if isinstance(stage_step.why, Said) and law.says(stage_step.why):
+                start, stage_steps = step.root, {part_step.index for part_step in alike}
+                while start in stage_steps and (root := program.steps[start].root) is not None:
                     start = root
-                return LaidOffVector(words, other.why.put, start)
+                return LaidOffVector(words, stage_step.why.put, start)
     equations = step.stage(()).equations if step.stage and step.name else ()
     if equations and equations[0].vectors:
         return LaidOffVector(STAGE_VECTOR, (equations[0].vectors[0].name,), step.root)
@@ -170,10 +172,11 @@ class Occasion:
         step = self.step
         for place in places:
             kind, home = step.op.reads[place], self.plan_of_step[step.args[place]]
-            for other in self.program.steps[:step.index]:
-                if other.op.gives == kind and self.plan_of_step[other.index] == home and other.index not in step.args:
-                    args = (*step.args[:place], other.index, *step.args[place + 1:])
-                    yield self.mistaken_step(told(self.program.text(other.index), self.text(place)), args=args)
+            for earlier in self.program.steps[:step.index]:
+                if (earlier.op.gives == kind and self.plan_of_step[earlier.index] == home
+                    and earlier.index not in step.args):
+                    args = (*step.args[:place], earlier.index, *step.args[place + 1:])
+                    yield self.mistaken_step(told(self.program.text(earlier.index), self.text(place)), args=args)
 
 
 Rule = Callable[[Occasion], Iterable[Mistake]]
@@ -265,16 +268,16 @@ DEEDS: dict[str, tuple[Phrase, tuple[complex, ...]]] = {
 
 def _enter_deed(words: Phrase | None, deed: str) -> None:
     """Enter in the table what may be done to the vectors of a law, or to those of none."""
-    told, factors = DEEDS[deed]
+    deed_phrase, factors = DEEDS[deed]
     thing = THINGS[words] if words else phrase("a vector")
 
     def rule(at: Occasion) -> Iterable[Mistake]:
         assert at.vector is not None
         if (at.vector.words if at.vector.words in THINGS else None) is words:
             for factor in factors:
-                yield at.mistaken_step(told(at.vector.text), factor, start=at.vector.start)
+                yield at.mistaken_step(deed_phrase(at.vector.text), factor, start=at.vector.start)
 
-    enter_mistake(f"{thing()} {deed}" if words else deed, lambda: told(thing()), lays_off_vector)(rule)
+    enter_mistake(f"{thing()} {deed}" if words else deed, lambda: deed_phrase(thing()), lays_off_vector)(rule)
 
 
 for _words in (*THINGS, None):

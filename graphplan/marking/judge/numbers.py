@@ -46,7 +46,7 @@ class ExpectedNumber:
 
     def residual(self, matching: Matching, value: Sequence[float]) -> Residual:
         """How far a value is from it, in its own unit."""
-        partials = np.array([matching.sheet.domain.partials(part) for part in self.parts])
+        partials = np.array([matching.sheet.domain.partials(component) for component in self.parts])
         steady = np.array(plain_value(self.parts))
         rounded = FIGURE_TOL * float(np.max(np.abs(steady)))
         covariance = partials @ partials.T + (self.reading**2 + rounded**2) * np.eye(len(steady))
@@ -59,13 +59,14 @@ def judge_numbers(matching: Matching, numbers: Sequence[StudentNumber]) -> tuple
     the numbers that are not asked for."""
     if not numbers:
         return (), ()
-    own, true = _expected_numbers(matching, matching.own), _expected_numbers(matching, matching.sheet.drawing.values)
-    plainly = {key: plain_value(expected.parts) for key, expected in true.items()}
+    own_numbers, true_numbers = _expected_numbers(matching, matching.own), _expected_numbers(matching,
+                                                                                             matching.sheet.drawing.values)
+    plainly = {key: plain_value(expected.parts) for key, expected in true_numbers.items()}
     written: dict[Key | None, list[StudentNumber]] = {}
     for number in numbers:
-        written.setdefault(_asked_key(number, own), []).append(number)
+        written.setdefault(_asked_key(number, own_numbers), []).append(number)
     unasked = tuple(written.pop(None, ()))
-    return tuple(replace(judge_number(matching, first, key, own, plainly), again=tuple(again))
+    return tuple(replace(judge_number(matching, first, key, own_numbers, plainly), again=tuple(again))
                  for key, (first, *again) in written.items() if key), unasked
 
 
@@ -79,13 +80,13 @@ def _asked_key(number: StudentNumber, own: Mapping[Key, ExpectedNumber]) -> Key 
 
 def _expected_numbers(matching: Matching, values: Sequence[Any]) -> dict[Key, ExpectedNumber]:
     """Every number that a drawing says."""
-    drawing, found = matching.sheet.drawing, dict[Key, ExpectedNumber]()
+    drawing, numbers = matching.sheet.drawing, dict[Key, ExpectedNumber]()
     for reading, marks, value in readings(drawing, values, matching.sheet.domain):
-        parts = value if isinstance(value, tuple) else (value,)
-        found[reading.kind, reading.of] = ExpectedNumber(parts,
+        components = value if isinstance(value, tuple) else (value,)
+        numbers[reading.kind, reading.of] = ExpectedNumber(components,
                                                          _reading_error(matching, reading,
                                                                         [plain_value(mark) for mark in marks]))
-    return found
+    return numbers
 
 
 def _reading_error(matching: Matching, reading: Reading, marks: Sequence[Any]) -> float:
@@ -103,11 +104,11 @@ def _reading_error(matching: Matching, reading: Reading, marks: Sequence[Any]) -
 def _reading_change(matching: Matching, reading: Reading, marks: Sequence[Any], shift: tuple[float, float]) -> float:
     """How much a reading changes as its last mark is shifted."""
     def value(last: tuple[float, ...]) -> Any:
-        found = matching.sheet.drawing.value(reading, [*marks[:-1], last], Floats())
-        return complex(*found) if isinstance(found, tuple) else found
+        result = matching.sheet.drawing.value(reading, [*marks[:-1], last], Floats())
+        return complex(*result) if isinstance(result, tuple) else result
 
-    x, y, *rest = marks[-1]
-    line = rest and (x, y, rest[0] - x * shift[0] - y * shift[1])
+    x, y, *offset = marks[-1]
+    line = offset and (x, y, offset[0] - x * shift[0] - y * shift[1])
     shifted = line or (x + shift[0], y + shift[1])
     return float(abs(value(shifted) - value(marks[-1])))
 
@@ -117,7 +118,7 @@ def judge_number(matching: Matching, number: StudentNumber, key: Key, own: Mappi
     """The verdict on one number: right by the student's own drawing, after a mistake if that is astray."""
     units, chance = matching.sheet.drawing.scene.units, matching.chance
     value, rounding = in_scene_units(number, units), number.rounding * scene_unit(number, units)
-    own = {other: one.with_rounding(rounding) for other, one in own.items()}
+    own = {other_key: expected_number.with_rounding(rounding) for other_key, expected_number in own.items()}
     expected, truth = own[key], true[key]
     residual = expected.residual(matching, value)
     straight = ExpectedNumber(truth, expected.reading).residual(matching, plain_value(expected.parts))
@@ -133,25 +134,25 @@ def judge_number(matching: Matching, number: StudentNumber, key: Key, own: Mappi
 def _explain_number(matching: Matching, value: Sequence[float], key: Key, own: Mapping[Key, ExpectedNumber]
             ) -> tuple[str, Said] | None:
     """The mistake that makes a number out of the right one."""
-    for kind, told, undone, which in _number_mistakes(value, key, own):
+    for kind, explanation, undone, which in _number_mistakes(value, key, own):
         if own[which].residual(matching, undone).fits(matching.chance):
-            return kind, told
+            return kind, explanation
     return None
 
 
 def _number_mistakes(value: Sequence[float], key: Key, own: Mapping[Key, ExpectedNumber]
               ) -> Iterator[tuple[str, Said, tuple[float, ...], Key]]:
     """What a number becomes as each mistake is undone, and which number it should then be."""
-    yield "reversed", said("the sign is reversed"), tuple(-part for part in value), key
+    yield "reversed", said("the sign is reversed"), tuple(-component for component in value), key
     if len(value) == 2:
         x, y = value
         for turned in ((y, -x), (-y, x)):
             yield "turned the wrong way", said("the vector is a quarter turn off"), turned, key
-        for told, exchanged in exchanged_coordinates(x, y):
-            yield "exchanged coordinates", told, exchanged, key
+        for explanation, exchanged in exchanged_coordinates(x, y):
+            yield "exchanged coordinates", explanation, exchanged, key
     for factor in measures.NUMBER_FACTORS:
-        told = said("the number is {0} times as large as it should be", digits(factor, 3))
-        yield "wrong scale", told, tuple(part / factor for part in value), key
+        explanation = said("the number is {0} times as large as it should be", digits(factor, 3))
+        yield "wrong scale", explanation, tuple(component / factor for component in value), key
     for kind, of in own:
         if kind == key[0] and of != key[1]:
             yield "another's number", said("this is the number of {0}", of), tuple(value), (kind, of)
@@ -175,17 +176,17 @@ Expecting = Callable[[str, str], ExpectedCycleNumber | None]  # by kind, and by 
 def with_cycle_numbers(judgement: Judgement, expecting: Expecting) -> Judgement:
     """The judgement with the verdicts on numbers over the cycle, once on each; others are not asked for."""
     units = judgement.drawing.scene.units
-    found, unasked = dict[tuple[str, str], NumberVerdict](), list[StudentNumber]()
+    verdicts, unasked = dict[tuple[str, str], NumberVerdict](), list[StudentNumber]()
     for number in judgement.unasked:
         expected = expecting(number.kind, number.of) if number.kind in CYCLE else None
         key = number.kind, number.of
         if expected is None:
             unasked.append(number)
-        elif key in found:
-            found[key] = replace(found[key], again=(*found[key].again, number))
+        elif key in verdicts:
+            verdicts[key] = replace(verdicts[key], again=(*verdicts[key].again, number))
         else:
-            found[key] = judge_cycle_number(number, expected, units)
-    return replace(judgement, numbers=(*judgement.numbers, *found.values()), unasked=tuple(unasked))
+            verdicts[key] = judge_cycle_number(number, expected, units)
+    return replace(judgement, numbers=(*judgement.numbers, *verdicts.values()), unasked=tuple(unasked))
 
 
 def judge_cycle_number(number: StudentNumber, expected: ExpectedCycleNumber, units: Units) -> NumberVerdict:
@@ -201,5 +202,6 @@ def judge_cycle_number(number: StudentNumber, expected: ExpectedCycleNumber, uni
     slips += [("wrong scale", said("the number is {0} times as large as it should be", digits(factor, 3)),
                value / factor) for factor in measures.NUMBER_FACTORS]
     right = error_of(value) <= allowed
-    kind, told, _ = next((slip for slip in slips if not right and error_of(slip[2]) <= allowed), ("", None, 0.0))
-    return NumberVerdict(number, RIGHT if right else WRONG, error_of(value), allowed, (expected.value,), told, kind)
+    kind, explanation, _ = next((slip for slip in slips if not right and error_of(slip[2]) <= allowed), ("", None, 0.0))
+    return NumberVerdict(number, RIGHT if right else WRONG, error_of(value), allowed, (expected.value,), explanation,
+                         kind)

@@ -93,21 +93,21 @@ def faint_item(item: Item) -> Item:
 
 def plan_remarks(student: StudentStrokes, panel: str, rect: Rect, items: Sequence[Item]) -> Iterator[Item]:
     """On one plan, in its rectangle: the first wrong step called out, the others by their numbers."""
-    judgement, here = student.judgement, list(items)
-    drawn = judgement.drawing.drawn
+    judgement, obstacles = student.judgement, list(items)
+    program = judgement.drawing.drawn
     letters = judgement.composition.arrangement.letters
     wrong = [(verdict, student.verdict_spot(verdict)) for verdict in judgement.verdicts
              if verdict.state == WRONG and student.panel(verdict) == panel]
     for verdict, at in wrong:
         if verdict is judgement.first_wrong:
-            names = tuple(step.name for step in drawn.steps if step.name)
+            names = tuple(step.name for step in program.steps if step.name)
             sentence = judgement.composition.plans.tongue(complaint(judgement, verdict))
-            here += (boxed := [*callout(sentence, names, at, here, rect, CALLED, letters.text)])
+            obstacles += (boxed := [*callout(sentence, names, at, obstacles, rect, CALLED, letters.text)])
             yield from boxed
-    wishes = [Wish((TextRun(step_name(drawn, verdict.at_fault).short),), (at,), SIZES[WRONG], True,
+    wishes = [Wish((TextRun(step_name(program, verdict.at_fault).short),), (at,), SIZES[WRONG], True,
                    Pen(0.0, RED, fill=RED),
                    bold=True) for verdict, at in wrong if verdict is not judgement.first_wrong]
-    yield from place_letters(wishes, here, [at for _, at in wrong], rect, letters)
+    yield from place_letters(wishes, obstacles, [at for _, at in wrong], rect, letters)
 
 
 def _remarks(page: Sequence[Placed]) -> Iterator[Item]:
@@ -158,7 +158,7 @@ def _grid(wide: float, high: float, rect: Rect) -> Array:
     """Boxes of this size all over a panel; one, at its corner, where it is hardly larger."""
     lefts = np.arange(rect.left + PAD, max(rect.right - PAD - wide, rect.left + PAD) + PITCH / 2, PITCH)
     lows = np.arange(rect.bottom + PAD, max(rect.top - PAD - high, rect.bottom + PAD) + PITCH / 2, PITCH)
-    x, y = (part.ravel() for part in np.meshgrid(lefts, lows))
+    x, y = (coordinates.ravel() for coordinates in np.meshgrid(lefts, lows))
     return np.stack([x, y, x + wide, y + high], axis=1)
 
 
@@ -207,14 +207,14 @@ class StudentMark:
 
     def _wanted_item(self) -> Item:
         """Where a wrong mark should be."""
-        step, wanted, here = self.verdict.step, self.wanted, self.label_spot
+        step, wanted, spot = self.verdict.step, self.wanted, self.label_spot
         if wanted.kind == POINT:
-            return Polyline(WANTED, LAYER, step, (here, wanted.spot))
+            return Polyline(WANTED, LAYER, step, (spot, wanted.spot))
         if wanted.kind == LINE:
-            at, long = foot(Floats(), wanted.line, here), max(REACH, math.dist(*self.spots[:2]) / 2)
+            at, long = foot(Floats(), wanted.line, spot), max(REACH, math.dist(*self.spots[:2]) / 2)
             return Polyline(WANTED, LAYER, step,
                             (offset(at, wanted.direction, -long), offset(at, wanted.direction, long)))
-        middle = _angle(wanted.spot, here)
+        middle = _angle(wanted.spot, spot)
         wide = math.degrees(REACH / wanted.radius) if wanted.radius > REACH / math.pi else 180.0
         return Arc(WANTED, LAYER, step, wanted.spot, wanted.radius, middle - wide, middle + wide)
 
@@ -228,9 +228,10 @@ class StudentMark:
         if not ellipse or not math.isfinite(far) or (self.verdict.state != WRONG and far > grown * ellipse.major):
             return
         angle = math.radians(ellipse.angle)
-        way = math.cos(angle), math.sin(angle)
+        direction = math.cos(angle), math.sin(angle)
         around = [math.tau * i / CORNERS for i in range(CORNERS)]
-        spots = [offset(self.wanted.spot, way, grown * ellipse.major * math.cos(t), grown * ellipse.minor * math.sin(t))
+        spots = [offset(self.wanted.spot, direction, grown * ellipse.major * math.cos(t),
+                        grown * ellipse.minor * math.sin(t))
                  for t in around]
         yield Polygon(ALLOWED, LAYER, self.verdict.step, tuple(spots))
 
@@ -244,13 +245,13 @@ class StudentStrokes:
     @cached_property
     def marks(self) -> list[StudentMark]:
         """The student's marks of the steps that can be seen."""
-        frames, found = self.judgement.frames, []
+        frames, marks = self.judgement.frames, []
         for verdict, step in zip(self.judgement.verdicts, self.judgement.composition.plates.steps, strict=True):
             if verdict.trace and step.panel in frames:
-                found.append(StudentMark(
+                marks.append(StudentMark(
                     verdict, verdict.trace, self.spots(verdict.trace, step.panel), replace(step, value=verdict.own),
                     step.view.scale / abs(frames[step.panel].unit)))
-        return found
+        return marks
 
     def items(self) -> Iterator[Item]:
         """What is spare, then the marks, wrong ones over the others, then tolerances, cut off at the panel's edge."""
@@ -279,21 +280,22 @@ class StudentStrokes:
         """Where what is not to be seen should be: a point, or the middle of the marks on a line or an arc, or the foot
         on it from the middle of its panel; an opening is anywhere."""
         plates = self.judgement.composition.plates
-        wanted = replace(plates.steps[verdict.step], value=verdict.own)
-        rect = wanted.view.rect
-        on = [wanted.spot] if wanted.kind == POINT else [mark.spot for mark in plates[wanted.panel].marks(wanted)]
+        expected_step = replace(plates.steps[verdict.step], value=verdict.own)
+        rect = expected_step.view.rect
+        on = ([expected_step.spot] if expected_step.kind == POINT
+              else [mark.spot for mark in plates[expected_step.panel].marks(expected_step)])
         middle = (rect.left + rect.right) / 2, (rect.bottom + rect.top) / 2
         if not on:
-            on = [foot(Floats(), wanted.line, middle) if wanted.kind == LINE else
-                  wanted.spot if wanted.kind == CIRCLE else middle]
+            on = [foot(Floats(), expected_step.line, middle) if expected_step.kind == LINE else
+                  expected_step.spot if expected_step.kind == CIRCLE else middle]
         x, y = np.mean(on, axis=0)
         return min(max(float(x), rect.left), rect.right), min(max(float(y), rect.bottom), rect.top)
 
     def spots(self, trace: Trace, panel: str) -> tuple[Spot, ...]:
         """A trace on paper, where its plan is known to lie."""
         frame, window = self.judgement.frames[panel], self.judgement.composition.views[panel]
-        found = (frame.to_plan(complex(*spot)) for spot in trace.spots)
-        return tuple(window((z.real, z.imag)) for z in found)
+        plan_points = (frame.to_plan(complex(*spot)) for spot in trace.spots)
+        return tuple(window((z.real, z.imag)) for z in plan_points)
 
     def _panel_of(self, trace: Trace) -> str | None:
         """The plan that a trace lies on: the one it is said to lie on, else the first whose panel holds it."""
@@ -333,26 +335,26 @@ def _trace_items(trace: Trace, spots: Sequence[Spot], state: str | None, step: i
 
 def _point_items(spot: Spot, state: str | None, step: int | None) -> Iterator[Item]:
     """A ring; a square if it is right after a mistake, a cross if it is wrong; a wide ring where it cannot be told."""
-    (x, y), pen, size = spot, PENS.get(state, SPARE), SIZES.get(state, 0.6)
+    (x, y), pen, half_size = spot, PENS.get(state, SPARE), SIZES.get(state, 0.6)
     firm = Pen(min(pen.width, 0.5), pen.colour, fill=PAPER)
-    corners = Rect(x - size, y - size, x + size, y + size).corners
+    corners = Rect(x - half_size, y - half_size, x + half_size, y + half_size).corners
     if state == WRONG:
         yield from (Polyline(firm.with_fill("none"), LAYER, step, ends) for ends in (corners[::2], corners[1::2]))
     elif state == FOLLOWS:
         yield Polygon(firm, LAYER, step, corners)
     elif state == UNSURE:
-        yield Circle(pen.with_fill("none"), LAYER, step, spot, size)
+        yield Circle(pen.with_fill("none"), LAYER, step, spot, half_size)
     else:
-        yield Circle(firm, LAYER, step, spot, size)
+        yield Circle(firm, LAYER, step, spot, half_size)
 
 
 def _arc(spots: Sequence[Spot], pen: Pen, step: int | None) -> Item:
     """The arc through the first, the middle and the last spot; a whole circle where the four are a quarter apart."""
     first, middle, last = spots[0], spots[len(spots) // 2], spots[-1]
-    found = circle_through(first, middle, last)
-    if found is None:
+    arc_circle = circle_through(first, middle, last)
+    if arc_circle is None:
         return Polyline(pen, LAYER, step, tuple(spots))
-    centre, radius = found
+    centre, radius = arc_circle
     across = [math.dist(spots[i], spots[i + 2]) for i in (0, 1)] if len(spots) == 4 else [0.0]
     if min(across) > WHOLE * 2 * radius:
         return Arc(pen, LAYER, step, centre, radius, 0.0, 360.0)

@@ -65,13 +65,13 @@ def to_mm(drawing: Construction, composition: Composition, submission: Submissio
     if submission.frames or math.isinf(submission.millimetres) or MECHANISM not in composition.views:
         return submission, ()
     spots = [spot for trace in submission.traces for spot in trace.spots]
-    size = max((max(part) - min(part) for part in zip(*spots, strict=True)), default=0.0)
+    extent = max((max(coordinates) - min(coordinates) for coordinates in zip(*spots, strict=True)), default=0.0)
     sheet = max(composition.arrangement.width, composition.arrangement.height)
     # as marks and letters are seen
-    rough = 1.0 if not size or sheet / measures.SIZE_RATIO < size < sheet * measures.SIZE_RATIO else sheet / size
+    rough = 1.0 if not extent or sheet / measures.SIZE_RATIO < extent < sheet * measures.SIZE_RATIO else sheet / extent
     frame = Letters(drawing, composition, scale_submission(submission, rough), pencil,
-                    rough * size / measures.FRAME_TOL_PARTS).mechanism if (
-        size) else None
+                    rough * extent / measures.FRAME_TOL_PARTS).mechanism if (
+        extent) else None
     if frame is None:
         return submission, ()
     task, scale = composition.views[MECHANISM].scale, abs(frame.unit) / rough
@@ -92,8 +92,8 @@ def to_mm(drawing: Construction, composition: Composition, submission: Submissio
 def _is_round_scale(scale: float, task: float) -> bool:
     """Whether a scale, in mm for a unit of the scene, is the task's or a round one."""
     mantissa = scale / 10.0 ** math.floor(math.log10(scale))
-    return any(abs(part - 1) < measures.ROUND_SCALE_TOL
-               for part in (scale / task, *(mantissa / number for number in measures.ROUND_SCALES)))
+    return any(abs(ratio - 1) < measures.ROUND_SCALE_TOL
+               for ratio in (scale / task, *(mantissa / number for number in measures.ROUND_SCALES)))
 
 
 def scale_submission(submission: Submission, mm: float) -> Submission:

@@ -46,18 +46,18 @@ class FrameFinder:
         if MECHANISM in self.submission.frames:
             return Fit(self.submission.frames[MECHANISM])
         steps = self.drawing.drawn.steps
-        given = [pair for index, pair in self._labelled_pairs(MECHANISM) if index < self.drawing.drawn.givens]
+        given_pairs = [pair for index, pair in self._labelled_pairs(MECHANISM) if index < self.drawing.drawn.givens]
         sigma = self._label_deviation
-        found = best_fit(given, sigma,
+        fit = best_fit(given_pairs, sigma,
                          self._task_scale) or best_fit([pair for _, pair in self._labelled_pairs(MECHANISM)], sigma)
-        found = found or self._search_mechanism([complex(*self.drawing.values[step.index]) for step in steps[:len(
+        fit = fit or self._search_mechanism([complex(*self.drawing.values[step.index]) for step in steps[:len(
             self.drawing.scene.points)] if step.op.movement is Movement.GIVEN])
-        if found is None:
+        if fit is None:
             names = ", ".join(list(self.drawing.scene.points)[:4])
             raise Refused(f"{self.submission.name}: mechanism",
                           "fewer than two of its points are drawn, so its position is unknown",
                           f"label them, as {names}")
-        return found
+        return fit
 
     @property
     def _task_scale(self) -> float:
@@ -151,14 +151,14 @@ class FrameFinder:
             return points
         unlabelled = [trace for place, trace in enumerate(self.submission.traces) if place not in self.taken]
         lines = [tuple(complex(*spot) for spot in trace.spots[:2]) for trace in unlabelled if trace.kind == LINE]
-        return [z for one, two in combinations(lines, 2) if (z := _line_crossing(one, two)) is not None]
+        return [z for first, second in combinations(lines, 2) if (z := _line_crossing(first, second)) is not None]
 
     def _search_mechanism(self, given: Sequence[complex]) -> Fit | None:
         """The frame in which most of the given points have a loose spot."""
         unlabelled, points = np.array(self._unlabelled_spots()), np.array(list(dict.fromkeys(given)))
         if len(unlabelled) < 2 or len(points) < 2:
             return None
-        best_score, held, sigma = (min(3, len(points)) - 1, math.inf), list[Pair](), 4 * self.pencil.point
+        best_score, held_pairs, sigma = (min(3, len(points)) - 1, math.inf), list[Pair](), 4 * self.pencil.point
         for i, j in sorted(combinations(range(len(points)), 2), key=lambda ij: -abs(points[ij[0]] - points[ij[1]]))[
                 :measures.ANCHOR_PAIRS]:
             apart = points[j] - points[i]
@@ -169,9 +169,9 @@ class FrameFinder:
                 score = int(np.sum(near < sigma)), -float(near[near < sigma].sum())
                 if units[k, l] and score > best_score:
                     best_score = score
-                    held = list(zip(points[near < sigma].tolist(), nearest[near < sigma].tolist(), strict=True))
+                    held_pairs = list(zip(points[near < sigma].tolist(), nearest[near < sigma].tolist(), strict=True))
         chance = measures.ANCHOR_PAIRS * len(unlabelled) ** 2 * _sheet_share(unlabelled, sigma) ** (best_score[0] - 2)
-        return best_fit(held, self.pencil.point) if held and chance < measures.CHANCE_MECHANISMS else None
+        return best_fit(held_pairs, self.pencil.point) if held_pairs and chance < measures.CHANCE_MECHANISMS else None
 
     def _voted_origins(self, panel: str, unit: complex) -> list[complex]:
         """The origins of a plan for which most of its marks are where loose ones are; a loose one must be where the
@@ -199,34 +199,35 @@ class FrameFinder:
         """The origins that most marks vote for."""
         cell = measures.VOTE_SIGMAS * self.pencil.point
         heaps = sorted((heap for wide in (cell, 3 * cell) for heap in _vote_heaps(origins, wide)), reverse=True)
-        told: list[complex] = []
+        origins_kept: list[complex] = []
         for _, x, y in heaps:
-            if all(abs(complex(x, y) - other) > 4 * cell for other in told):
-                told.append(complex(x, y))
-        return told[:measures.MAX_ORIGINS]
+            if all(abs(complex(x, y) - origin) > 4 * cell for origin in origins_kept):
+                origins_kept.append(complex(x, y))
+        return origins_kept[:measures.MAX_ORIGINS]
 
     def find_origins(self, fits: Mapping[str, Fit]) -> dict[int, int]:
         """The loose points that are the beginnings of plans, by step."""
-        found = {}
+        origin_places = {}
         points = [(place, complex(*trace.spots[0])) for place, trace in enumerate(self.submission.traces)
                   if trace.kind == POINT and place not in self.labels.values()]
         for step in self.drawing.drawn.steps:
             if step.op.movement is Movement.BEGUN and step.index not in self.labels and points:
-                here = fits[self.plan_of_step[step.index]].frame.to_sheet(complex(*self.drawing.values[step.index][:2]))
-                place, spot = min(points, key=lambda point: abs(point[1] - here))
-                if abs(spot - here) < measures.VOTE_SIGMAS * self.pencil.point:
-                    found[step.index] = place
-        return found
+                frame = fits[self.plan_of_step[step.index]].frame
+                expected_spot = frame.to_sheet(complex(*self.drawing.values[step.index][:2]))
+                place, spot = min(points, key=lambda point: abs(point[1] - expected_spot))
+                if abs(spot - expected_spot) < measures.VOTE_SIGMAS * self.pencil.point:
+                    origin_places[step.index] = place
+        return origin_places
 
 
 def _vote_heaps(spots: Any, cell: float) -> Iterator[tuple[int, float, float]]:
     """The cells of a grid with some spots in them: how many, and where their middle is."""
     for shift in (0, 0.5 + 0.5j, 0.5, 0.5j):  # a heap may lie across the cells of one grid
         cells = np.floor(spots.real / cell + shift.real) + 1j * np.floor(spots.imag / cell + shift.imag)
-        _, where, counts = np.unique(cells, return_inverse=True, return_counts=True)
+        _, cell_of_spot, counts = np.unique(cells, return_inverse=True, return_counts=True)
         for heap in np.argsort(counts)[-measures.MAX_HEAPS:]:
-            here = spots[where == heap]
-            yield int(counts[heap]), float(np.median(here.real)), float(np.median(here.imag))
+            heap_spots = spots[cell_of_spot == heap]
+            yield int(counts[heap]), float(np.median(heap_spots.real)), float(np.median(heap_spots.imag))
 
 
 def _sheet_share(spots: Any, sigma: float) -> float:
@@ -253,10 +254,11 @@ def agreed_units(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[int, 
         mean = sum(w * u for w, (u, _) in zip(weights, group, strict=True)) / sum(weights)
         groups.append((len(group), mean, sum(weights) ** -0.5))
     groups.sort(key=lambda group: -group[0])
-    told: list[complex] = []
+    units_yielded: list[complex] = []
     for count, unit, sigma in groups:
-        if all(abs(unit - other) > sigma * abs(unit) for other in told) and len(told) < measures.MAX_RIVAL_FRAMES:
-            told.append(unit)
+        if all(abs(unit - earlier) > sigma * abs(unit)
+               for earlier in units_yielded) and len(units_yielded) < measures.MAX_RIVAL_FRAMES:
+            units_yielded.append(unit)
             yield count, unit, sigma
 
 
@@ -267,27 +269,28 @@ def best_fit(pairs: Sequence[Pair], sigma: float, usual: float = 0.0) -> Fit | N
     hold no more than two the one that is nearest to the `usual` scale, and fitted to all that it holds. The marks that
     a frame was laid through shake it, the more the further off a mark is.
     """
-    most, least, held = 1, math.inf, list[Pair]()
-    for one, two in combinations(pairs, 2):
-        if one[0] != two[0] and one[1] != two[1]:
-            unit = (two[1] - one[1]) / (two[0] - one[0])
-            off = [abs(sheet - one[1] - unit * (plan - one[0])) for plan, sheet in pairs]
-            kept = [place for place, far in enumerate(off) if far <= measures.FRAME_SIGMAS * 2.0 * sigma]
-            missed = sum(off[place] ** 2 for place in kept)
-            if len(kept) == 2 and usual:
+    most, least, held_pairs = 1, math.inf, list[Pair]()
+    for first, second in combinations(pairs, 2):
+        if first[0] != second[0] and first[1] != second[1]:
+            unit = (second[1] - first[1]) / (second[0] - first[0])
+            off = [abs(sheet - first[1] - unit * (plan - first[0])) for plan, sheet in pairs]
+            kept_places = [place for place, far in enumerate(off) if far <= measures.FRAME_SIGMAS * 2.0 * sigma]
+            missed = sum(off[place] ** 2 for place in kept_places)
+            if len(kept_places) == 2 and usual:
                 missed = abs(math.log(abs(unit) / usual))
-            if len(kept) > most or (len(kept) == most > 1 and missed < least):
-                most, least, held = len(kept), missed, [pairs[place] for place in kept]
-    return fit_frame(held, sigma) if held else None
+            if len(kept_places) > most or (len(kept_places) == most > 1 and missed < least):
+                most, least, held_pairs = len(kept_places), missed, [pairs[place] for place in kept_places]
+    return fit_frame(held_pairs, sigma) if held_pairs else None
 
 
 def fit_frame(pairs: Sequence[Pair], sigma: float) -> Fit | None:
     """The frame of least squares."""
-    here = sum(plan for plan, _ in pairs) / len(pairs)
-    there = sum(sheet for _, sheet in pairs) / len(pairs)
-    spread = sum(abs(plan - here) ** 2 for plan, _ in pairs)
-    unit = sum((plan - here).conjugate() * (sheet - there) for plan, sheet in pairs) / spread if spread else 0j
+    plan_centre = sum(plan for plan, _ in pairs) / len(pairs)
+    sheet_centre = sum(sheet for _, sheet in pairs) / len(pairs)
+    spread = sum(abs(plan - plan_centre) ** 2 for plan, _ in pairs)
+    unit = sum((plan - plan_centre).conjugate() * (sheet - sheet_centre)
+               for plan, sheet in pairs) / spread if spread else 0j
     if not unit or not cmath.isfinite(unit):
         return None
     turn = sigma / abs(unit) / math.sqrt(spread)
-    return Fit(PlanFrame(there - unit * here, unit), turn, sigma / math.sqrt(len(pairs)), here)
+    return Fit(PlanFrame(sheet_centre - unit * plan_centre, unit), turn, sigma / math.sqrt(len(pairs)), plan_centre)

@@ -58,23 +58,23 @@ VERDICTS = "right", "follows", "missing", "wrong", "numbers"
 def parse_weights(text: str) -> Weights:
     """The weights that a text such as `follows=0.5,numbers=3,reversed=30` speaks of; what it leaves out stays as it is
     by default."""
-    told = read_settings("--weights", text, [*VERDICTS, *KINDS], "nothing of this name is weighed", _parse_weight)
-    right, follows, missing, wrong, numbers = (told.get(name, float(getattr(Weights, name))) for name in VERDICTS)
-    costs = {kind: told.get(kind, cost) for kind, cost in Weights().costs.items()}
-    found = Weights(right, follows, missing, wrong, numbers, costs)
-    if found.right < max(found.follows, found.missing, found.wrong):
+    settings = read_settings("--weights", text, [*VERDICTS, *KINDS], "nothing of this name is weighed", _parse_weight)
+    right, follows, missing, wrong, numbers = (settings.get(name, float(getattr(Weights, name))) for name in VERDICTS)
+    costs = {kind: settings.get(kind, cost) for kind, cost in Weights().costs.items()}
+    weights = Weights(right, follows, missing, wrong, numbers, costs)
+    if weights.right < max(weights.follows, weights.missing, weights.wrong):
         raise Refused(f"--weights {text}", "a weight is greater than that of right", "no weight above that of right")
-    return found
+    return weights
 
 
 def _parse_weight(name: str, text: str) -> float:
     """A weight, within bounds in which sums of many stay what they are; or the points that a mistake costs."""
-    size, least, most = decimal(text), measures.MIN_WEIGHTS.get(name, -measures.MAX_WEIGHT), measures.MAX_WEIGHT
+    weight, least, most = decimal(text), measures.MIN_WEIGHTS.get(name, -measures.MAX_WEIGHT), measures.MAX_WEIGHT
     if name in KINDS:
         least, most = 0.0, measures.FULL_SCORE
-    if not least <= size <= most:
+    if not least <= weight <= most:
         raise Refused(f"--weights {name}={text}", "not a weight", f"a number from {least:g} to {most:g}")
-    return size
+    return weight
 
 
 def share_in_percent(earned: float, most: float) -> float:
@@ -102,9 +102,9 @@ class Score:
         """In words, group by group, and what mistakes cost."""
         if self.total is None:
             return arrange("{0:capital}.", UNJUDGED())
-        parts = [arrange("{0} {1}", GROUPS[group](), f"{share:.0f}") for group, share in self.groups.items()]
-        parts += [arrange("{0} −{1}", KINDS[kind](), f"{cost:.0f}") for kind, cost in self.costs.items()]
-        return said("Score: {0} of 100 ({1}).", f"{self.total:.0f}", join(parts))
+        phrases = [arrange("{0} {1}", GROUPS[group](), f"{share:.0f}") for group, share in self.groups.items()]
+        phrases += [arrange("{0} −{1}", KINDS[kind](), f"{cost:.0f}") for kind, cost in self.costs.items()]
+        return said("Score: {0} of 100 ({1}).", f"{self.total:.0f}", join(phrases))
 
     @property
     def groups(self) -> dict[str, float]:
@@ -152,10 +152,11 @@ def groups_of_steps(drawing: Construction) -> list[str]:
 
     All that serves neither velocities nor accelerations serves forces, if there are any.
     """
-    drawn = drawing.drawn
-    groups = [FORCE if drawing.scene.loads else VELOCITY] * len(drawn)
+    program = drawing.drawn
+    groups = [FORCE if drawing.scene.loads else VELOCITY] * len(program)
     for group in (ACCELERATION, VELOCITY):
         kinds = (reading for reading in drawing.readings if reading.kind.group == group)
-        for index in steps_behind(drawn.steps, {drawn.wanted[place] for reading in kinds for place in reading.marks}):
+        for index in steps_behind(program.steps,
+                                  {program.wanted[place] for reading in kinds for place in reading.marks}):
             groups[index] = group
-    return [POSE] * drawn.givens + groups[drawn.givens:]
+    return [POSE] * program.givens + groups[program.givens:]

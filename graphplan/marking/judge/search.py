@@ -49,14 +49,14 @@ class Search:
 
     def find_mistakes(self, most: int) -> Found:
         """What up to so many steps were mistaken for; empty where nothing speaks for a mistake."""
-        found: Found = {}
+        mistakes_found: Found = {}
         for _ in range(most):
-            more = self._next_mistake(found)
+            more = self._next_mistake(mistakes_found)
             if more is None:
                 break
-            found[more.index] = more.one
+            mistakes_found[more.index] = more.one
             self.odds[more.index] = more.odds
-        return found
+        return mistakes_found
 
     def _next_mistake(self, found: Found) -> Guess | None:
         """One more mistake, if the way is likelier with it."""
@@ -81,34 +81,35 @@ class Search:
                     least: float) -> float:
         """The weight of a way with one more mistake; less than everything as soon as it cannot come to the least."""
         touched, picture = self._touched_steps(guess.index), matching.evidence.picture
-        other = forks[min(touched)].fork()
-        other.found = {**found, guess.index: guess.one}
-        hope = guess.prior + sum(self._best_weight(match, touched) for match in matching.matches[len(other.own):])
-        for match in matching.matches[len(other.own):]:
+        rival = forks[min(touched)].fork()
+        rival.found = {**found, guess.index: guess.one}
+        hope = guess.prior + sum(self._best_weight(match, touched) for match in matching.matches[len(rival.own):])
+        for match in matching.matches[len(rival.own):]:
             index = match.step.index
             hope -= self._best_weight(match, touched)
             try:
                 anew = index in touched and (picture or index == guess.index)  # files show strokes as far as drawn
-                if anew or index in other.found or not other.try_repeat(matching):
-                    other.match_next(other.found.get(index))
+                if anew or index in rival.found or not rival.try_repeat(matching):
+                    rival.match_next(rival.found.get(index))
                     self.gone += 1
             except Undrawable:
                 return -math.inf
             # what is there, though poor, was drawn by somebody; and what is not there speaks for no unseen mistake
-            unseen = len(other.matches) > guess.index and other.matches[guess.index].place is None
-            if index in other.dead and (match.place is not None or unseen):
-                other.weight += min(match.weight, 0.0)
-            if other.weight + hope < least:
+            unseen = len(rival.matches) > guess.index and rival.matches[guess.index].place is None
+            if index in rival.dead and (match.place is not None or unseen):
+                rival.weight += min(match.weight, 0.0)
+            if rival.weight + hope < least:
                 return -math.inf
-        return other.weight + hope
+        return rival.weight + hope
 
     def _touched_steps(self, index: int) -> set[int]:
         """The steps that a mistake may change: what follows from it, and the strokes to the marks that do."""
-        moved = {index}
+        moved_steps = {index}
         for step in self.start.steps[index + 1:]:
-            if not moved.isdisjoint(step.args):
-                moved.add(step.index)
-        return moved | {stroke for stroke, marks in self.start.sheet.marks_on.items() if not moved.isdisjoint(marks)}
+            if not moved_steps.isdisjoint(step.args):
+                moved_steps.add(step.index)
+        return moved_steps | {stroke for stroke, marks in self.start.sheet.marks_on.items()
+                              if not moved_steps.isdisjoint(marks)}
 
     def _best_weight(self, match: Match, touched: set[int]) -> float:
         """What a step may speak for a way at most."""
@@ -117,7 +118,7 @@ class Search:
 
     def _guesses(self, matching: Matching, found: Found) -> Iterator[Guess]:
         """All that may have been mistaken, with what a glance says for it."""
-        quick = QuickScore(matching, {index: one for index, one in found.items() if isinstance(one, Mistake)})
+        quick = QuickScore(matching, {index: guess for index, guess in found.items() if isinstance(guess, Mistake)})
         uses = Counter(match.place for match in matching.matches)
         lost = {arg for match in matching.matches if match.weight < 0 for arg in match.step.args}
         for match in matching.matches:
@@ -179,7 +180,7 @@ def unmatched_traces(matching: Matching, step: Step) -> Iterator[tuple[int, tupl
         if kind == POINT:
             near = math.dist(value, plain_value(matching.own[step.index])) * mm < measures.MAX_ASTRAY_MM
         else:
-            off = min((float(distance_apart(LINE, value, np.array([complex(*thing[:2])]))) for thing in on),
+            off = min((float(distance_apart(LINE, value, np.array([complex(*point[:2])]))) for point in on),
                       default=math.inf)
             near = off * mm < measures.CLAIM_SIGMAS * max(sheet.pencil.point, sheet.pencil.edge)
         if near:
@@ -201,27 +202,28 @@ class QuickScore:
     def gain(self, mistaken: Step, wrong: Value) -> float:
         """What is won if a step made this; less than everything where it is not there, or nothing follows from it."""
         matching, at = self.matching, mistaken.index
-        values, moved, dead = list(self.own), set[int](), set[int]()
-        gain = seen = 0.0
+        values, moved_steps, dead = list(self.own), set[int](), set[int]()
+        gain = seen_weight = 0.0
         for arg in _strokes_of(matching, at):
             weight, _ = self._visible_weight(matching.steps[arg], self.own[arg],
                                              KnownMarks(self.own[:arg], {at: wrong}))
-            gain, seen = gain + weight - measures.QUICK_SHARE * matching.matches[arg].weight, seen + weight
+            gain = gain + weight - measures.QUICK_SHARE * matching.matches[arg].weight
+            seen_weight += weight
         for step in matching.steps[at:]:
-            if dead.isdisjoint(step.args) and (step.index == at or not moved.isdisjoint(step.args)):
-                made = wrong if step.index == at else value_of(step, values, self.mistakes.get(step.index))
-                if made is None:
+            if dead.isdisjoint(step.args) and (step.index == at or not moved_steps.isdisjoint(step.args)):
+                value = wrong if step.index == at else value_of(step, values, self.mistakes.get(step.index))
+                if value is None:
                     dead.add(step.index)
                     continue
-                if not self._differs_visibly(step, made):
+                if not self._differs_visibly(step, value):
                     continue
-                moved.add(step.index)
-                weight, values[step.index] = self._visible_weight(step, made,
+                moved_steps.add(step.index)
+                weight, values[step.index] = self._visible_weight(step, value,
                                                                   KnownMarks(values[:step.index], self.mistakes))
-                gain, seen = gain + weight - matching.matches[step.index].weight, seen + weight
-                if matching.evidence.is_beyond_panel(step, made):
+                gain, seen_weight = gain + weight - matching.matches[step.index].weight, seen_weight + weight
+                if matching.evidence.is_beyond_panel(step, value):
                     dead.add(step.index)
-                if seen < measures.HOPELESS_ODDS or (step.index == at and not self._is_possible(step, weight)):
+                if seen_weight < measures.HOPELESS_ODDS or (step.index == at and not self._is_possible(step, weight)):
                     return -math.inf
             elif not dead.isdisjoint(step.args):
                 dead.add(step.index)
@@ -229,31 +231,31 @@ class QuickScore:
 
     def _is_possible(self, step: Step, weight: float) -> bool:
         """Whether a step may be drawn so, by what is seen of it: lines are seen, and nobody draws those printed."""
-        evidence, known = self.matching.evidence, KnownMarks(self.own, self.mistakes)
-        printed = evidence.picture and evidence.visible_share(step, self.own[step.index], known) is None
+        evidence, known_marks = self.matching.evidence, KnownMarks(self.own, self.mistakes)
+        printed = evidence.picture and evidence.visible_share(step, self.own[step.index], known_marks) is None
         return step.op.gives != LINE or weight > (0.0 if printed else -1.0)
 
     def _differs_visibly(self, step: Step, made: Value) -> bool:
         """Whether a value is another to the eye than what the step was taken for."""
-        own, home = self.own[step.index], self.matching.sheet.plan_of_step[step.index]
+        own_value, home = self.own[step.index], self.matching.sheet.plan_of_step[step.index]
         if step.op.gives == LINE:
-            off = max(abs(_line_offset(own, z) - _line_offset(made, z)) for z in self._plan_corners[home])
+            off = max(abs(_line_offset(own_value, z) - _line_offset(made, z)) for z in self._plan_corners[home])
         elif step.op.gives == OPENING:
             return True
         else:
-            off = math.dist(own[:2], made[:2]) + abs(math.sqrt(max(own[2], 0)) - math.sqrt(max(made[2], 0))
+            off = math.dist(own_value[:2], made[:2]) + abs(math.sqrt(max(own_value[2], 0)) - math.sqrt(max(made[2], 0))
                                                      if step.op.gives == CIRCLE else 0.0)
         return off * self.matching.sheet.mm(home) > measures.DIFFERENT_MM
 
     @cached_property
     def _plan_corners(self) -> dict[str, list[complex]]:
         """The corners of what is drawn on each plan."""
-        found: dict[str, list[complex]] = {}
+        spots_of_plan: dict[str, list[complex]] = {}
         for step, home, value in zip(self.matching.steps, self.matching.sheet.plan_of_step, self.own, strict=True):
             if step.op.gives == POINT:
-                found.setdefault(home, []).append(complex(*value))
+                spots_of_plan.setdefault(home, []).append(complex(*value))
         return {home: [complex(pick(z.real for z in spots), also(z.imag for z in spots))
-                       for pick in (min, max) for also in (min, max)] for home, spots in found.items()}
+                       for pick in (min, max) for also in (min, max)] for home, spots in spots_of_plan.items()}
 
     def _visible_weight(self, step: Step, value: Value, known: KnownMarks) -> tuple[float, Value]:
         """What speaks for a value, and the value as it is seen to be drawn: a point may have drifted."""

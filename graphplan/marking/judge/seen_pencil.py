@@ -42,29 +42,29 @@ def seen_pencil(matching: Matching, now: SeenPencil, submission: Submission) -> 
     if len(samples) < measures.MIN_SAMPLES:
         return None
     rounding = max(0.0, min((trace.blur**2 for trace in submission.traces), default=0.0))
-    read, shown, parts = np.zeros(1), np.ones(1), np.ones(1)
+    read, stated_shares, reading_ratios = np.zeros(1), np.ones(1), np.ones(1)
     odds = -np.log(SCALES)[:, None] ** 2 / (2 * measures.HAND_SCALE_SIGMA**2)
     if submission.measured and submission.stated:
-        shown, parts = PARTS, (PARTS / now.share_shown) ** 2
+        stated_shares, reading_ratios = PARTS, (PARTS / now.share_shown) ** 2
         odds = odds - np.log(PARTS)[None, :] ** 2 / (2 * measures.STATED_SHARE_SIGMA**2)
     if now.reading:
-        read, parts = READ, (READ**2 + rounding) / (now.reading**2 + rounding)
+        read, reading_ratios = READ, (READ**2 + rounding) / (now.reading**2 + rounding)
         odds = odds - np.log(READ / measures.RULER_MM)[None, :] ** 2 / (2 * measures.READING_SIGMA**2)
     for width in (1, 2, 3):
         odds = odds + _sample_likelihood([sample for sample in samples if len(sample[0]) == width], SCALES / now.scale,
-                                         parts)
+                                         reading_ratios)
     weights = np.exp(odds - odds.max())
     weights /= weights.sum()
-    scale, found, part = (math.sqrt(float(np.sum(weights * size**2)))
-                          for size in (SCALES[:, None], read[None, :], shown[None, :]))
-    return SeenPencil(now.stated, scale, found, len(samples), part)
+    scale, reading, share = (math.sqrt(float(np.sum(weights * tried_sizes**2)))
+                          for tried_sizes in (SCALES[:, None], read[None, :], stated_shares[None, :]))
+    return SeenPencil(now.stated, scale, reading, len(samples), share)
 
 
 def _sample_likelihood(samples: Sequence[Sample], scales: Any, reads: Any) -> Any:
     """The logarithm of how likely these samples are, by every scale of the hand and every part of reading."""
     if not samples:
         return 0.0
-    off, hand, reading = (np.array(part) for part in zip(*samples, strict=True))
+    off, hand, reading = (np.array(column) for column in zip(*samples, strict=True))
     wide = off.shape[1]
     covariance = (scales**2)[:, None, None, None, None] * hand + reads[:, None, None, None] * reading[None]
     covariance = covariance + VARIANCE_FLOOR * np.eye(wide)
@@ -77,20 +77,22 @@ def _sample_likelihood(samples: Sequence[Sample], scales: Any, reads: Any) -> An
 
 def _pencil_samples(matching: Matching) -> Iterator[Sample]:
     """What the marks are off, with what the hand and the reading of a unit each add to it."""
-    sheet, seen = matching.sheet, set[int]()
+    sheet, sampled_places = matching.sheet, set[int]()
     for match in matching.matches:
         residual = match.residual
-        if residual is None or match.place is None or match.place in seen or match.step.op.movement is Movement.BEGUN:
+        if (residual is None or match.place is None or match.place in sampled_places
+            or match.step.op.movement is Movement.BEGUN):
             continue
         if residual.covariance.max() > measures.MISTAKE_SPREAD_MM**2:  # it may be anywhere
             continue
-        seen.add(match.place)
+        sampled_places.add(match.place)
         partials = residual.partials
         read = partials[:, sheet.reading_errors[:partials.shape[1]]]
         reading = read @ read.T
-        left = 1.0 - _held_share(sheet, match, matching.traces[match.place])
-        if left > 1.0 - measures.MAX_HELD_SHARE:
-            share = left / (2.0 - left)  # what the frame was laid through follows it, and does not shake beside it
+        free_share = 1.0 - _held_share(sheet, match, matching.traces[match.place])
+        if free_share > 1.0 - measures.MAX_HELD_SHARE:
+            # what the frame was laid through follows it, and does not shake beside it
+            share = free_share / (2.0 - free_share)
             yield residual.off, (residual.covariance - reading) * share, reading * share
 
 

@@ -70,9 +70,9 @@ class Residual:
     @property
     def square(self) -> float:
         """The sum of squares of the deviation in its own standard deviations."""
-        variances, parts = self._axes_and_deviations
+        variances, deviations = self._axes_and_deviations
         with np.errstate(over="ignore"):  # what has no tolerance is off without end
-            return float(np.sum(parts**2 / variances))
+            return float(np.sum(deviations**2 / variances))
 
     @property
     def distance(self) -> float:
@@ -165,15 +165,15 @@ class StudentSheet:
     @cached_property
     def reading_errors(self) -> Any:
         """Which errors are those of reading a trace, by their places."""
-        found = np.zeros(self._starts[-1] + measures.FRAME_ERRORS * len(self.fits), dtype=bool)
+        is_reading = np.zeros(self._starts[-1] + measures.FRAME_ERRORS * len(self.fits), dtype=bool)
         for start in self._starts[1:]:
-            found[start - measures.SPOT_ERRORS:start] = True
-        return found
+            is_reading[start - measures.SPOT_ERRORS:start] = True
+        return is_reading
 
     def errors(self, index: int) -> list[Any]:
         """The slips of the hand at a step."""
         start = self._starts[index]
-        return [self.domain.error(start + i, size) for i, size in enumerate(self.hand.slips[index])]
+        return [self.domain.error(start + i, deviation) for i, deviation in enumerate(self.hand.slips[index])]
 
     def expected_value(self, step: Step, drawn: Sequence[Any]) -> Any:
         """What a step should make of these marks, with the errors of the hand; fails as its rule does."""
@@ -185,9 +185,9 @@ class StudentSheet:
             end = self.expected_value(step, drawn)
         except Undrawable:
             return None
-        parts = [end[i] - drawn[start][i] for i in (0, 1)]
-        partials = np.array([self.domain.partials(part) for part in parts])
-        return complex(*plain_value(parts)), float(np.sqrt(np.sum(partials**2) / 2))
+        components = [end[i] - drawn[start][i] for i in (0, 1)]
+        partials = np.array([self.domain.partials(component) for component in components])
+        return complex(*plain_value(components)), float(np.sqrt(np.sum(partials**2) / 2))
 
     # ---- what is seen ----------------------------------------------------------------------------------------------
 
@@ -205,15 +205,15 @@ class StudentSheet:
     def _read_spots(self, index: int, trace: Trace) -> Iterator[tuple[Any, Any]]:
         panel, panels = self.plan_of_step[index], list(self.fits)
         fit, first = self.fits[panel], self._starts[index] + len(self.hand.slips[index])
-        lead, own = (self._starts[-1] + measures.FRAME_ERRORS * panels.index(name)
+        lead, own_errors = (self._starts[-1] + measures.FRAME_ERRORS * panels.index(name)
                      for name in (fit.tied or panel, panel))
         turn, mm = self.fits[fit.tied or panel].turn, self.mm(panel)
         shift, blur = fit.shift / mm, trace.blur / mm
         for k, spot in enumerate(measured_spots(trace)):
             z = fit.frame.to_plan(complex(*spot))
-            arm, here = (z - fit.centre) * turn, first + 2 * k
-            x = (lead, arm.real), (lead + 1, -arm.imag), (own + 2, shift), (here, blur)
-            y = (lead, arm.imag), (lead + 1, arm.real), (own + 3, shift), (here + 1, blur)
+            arm, own_error = (z - fit.centre) * turn, first + 2 * k
+            x = (lead, arm.real), (lead + 1, -arm.imag), (own_errors + 2, shift), (own_error, blur)
+            y = (lead, arm.imag), (lead + 1, arm.real), (own_errors + 3, shift), (own_error + 1, blur)
             yield self.domain.with_errors(z.real, x), self.domain.with_errors(z.imag, y)
 
     def residual(self, step: Step, expected: Any, spots: Sequence[tuple[Any, Any]], drawn: Sequence[Any]) -> Residual:
@@ -221,32 +221,32 @@ class StudentSheet:
         domain, kind = self.domain, step.op.gives
         if step.op.movement is Movement.PICKED:  # any point of the line will do
             line = drawn[step.args[0]]
-            parts = [_offset_from_line(domain, line, spots[0]) - _offset_from_line(domain, line, expected)]
+            deviations = [_offset_from_line(domain, line, spots[0]) - _offset_from_line(domain, line, expected)]
         elif kind == POINT:
-            parts = [spots[0][0] - expected[0], spots[0][1] - expected[1]]
+            deviations = [spots[0][0] - expected[0], spots[0][1] - expected[1]]
         elif kind == LINE:
-            parts = [_offset_from_line(domain, expected, spot) for spot in spots]
+            deviations = [_offset_from_line(domain, expected, spot) for spot in spots]
         else:
-            parts = [_offset_from_circle(domain, expected, spot) for spot in spots]
+            deviations = [_offset_from_circle(domain, expected, spot) for spot in spots]
         scale = abs(self.frame(step).unit)
-        partials = np.array([domain.partials(part) for part in parts]) * scale
-        off = np.array([_plain_number(part) for part in parts]) * scale
+        partials = np.array([domain.partials(deviation) for deviation in deviations]) * scale
+        off = np.array([_plain_number(deviation) for deviation in deviations]) * scale
         most = self.max_hidden_error(step) if self.coarse > 1.0 else math.inf
-        found = PointResidual if kind == POINT else Residual
-        return found(off, partials @ partials.T, partials, most, self.coarse)
+        residual_type = PointResidual if kind == POINT else Residual
+        return residual_type(off, partials @ partials.T, partials, most, self.coarse)
 
     @cached_property
     def coarse(self) -> float:
         """How many times as large a variance is as that of the usual pencil, at most."""
         usual = Pencil().model
-        return max(1.0, *((size / usual[name]) ** 2 for name, size in self.pencil.model.items()))
+        return max(1.0, *((deviation / usual[name]) ** 2 for name, deviation in self.pencil.model.items()))
 
     def max_hidden_error(self, step: Step) -> float:
         """The most that a coarse pencil hides at a step, mm: a share of its plan."""
         home = self.plan_of_step[step.index]
-        spots = np.array([complex(*value[:2]) for other, value, plan in zip(
+        spots = np.array([complex(*value[:2]) for step_on_plan, value, plan in zip(
             self.drawing.drawn.steps, self.drawing.values, self.plan_of_step, strict=True)
-            if plan == home and other.op.gives == POINT])
+            if plan == home and step_on_plan.op.gives == POINT])
         across = math.hypot(float(np.ptp(spots.real)), float(np.ptp(spots.imag))) if len(spots) else 0.0
         return min(max(measures.MIN_COARSE_ERROR_MM, measures.COARSE_ERROR_SHARE * across * self.mm(home)),
                    measures.MAX_COARSE_ERROR_MM)
@@ -258,8 +258,9 @@ class StudentSheet:
             return spots[0]
         if step.op.gives == LINE:
             return spots.line(expected)
-        told = steady or _angle_span(expected, spots) > measures.SHORT_ARC_RAD
-        return spots.rim if told and len({plain_value(spot) for spot in spots}) == 3 else _circle_about(expected, spots)
+        tells_centre = steady or _angle_span(expected, spots) > measures.SHORT_ARC_RAD
+        return (spots.rim if tells_centre and len({plain_value(spot) for spot in spots}) == 3
+                else _circle_about(expected, spots))
 
 
 class ReadSpots(list[tuple[Any, Any]]):
@@ -327,8 +328,8 @@ def _offset_from_circle(domain: Gradients, circle: Any, spot: tuple[Any, Any]) -
 
 def _angle_span(circle: Any, spots: Sequence[tuple[Any, Any]]) -> float:
     """The angle between the outer spots, seen from a centre."""
-    ways = [complex(*plain_value(spot)) - complex(*plain_value(circle[:2])) for spot in (spots[0], spots[-1])]
-    return abs(cmath.phase(ways[0].conjugate() * ways[1]))
+    radii = [complex(*plain_value(spot)) - complex(*plain_value(circle[:2])) for spot in (spots[0], spots[-1])]
+    return abs(cmath.phase(radii[0].conjugate() * radii[1]))
 
 
 def _circle_about(circle: Any, spots: Sequence[tuple[Any, Any]]) -> Any:
@@ -347,6 +348,6 @@ def _circle_through(P: tuple[Any, Any], Q: tuple[Any, Any], R: tuple[Any, Any]) 
 
 def weigh_mark(most: float, none: float, residual: Residual | None, share: float = 1.0) -> float:
     """The weight, from none to most, of a mark that is so far off, and of whose stroke a share is to be seen."""
-    part = min(max((share - measures.ABSENT_SHARE) / (measures.PRESENT_SHARE - measures.ABSENT_SHARE), 0.0), 1.0)
+    presence = min(max((share - measures.ABSENT_SHARE) / (measures.PRESENT_SHARE - measures.ABSENT_SHARE), 0.0), 1.0)
     beyond = max(0.0, residual.square - len(residual.off)) / 2 if residual else 0.0
-    return max(part * most + (1 - part) * none - beyond, none)
+    return max(presence * most + (1 - presence) * none - beyond, none)

@@ -117,8 +117,8 @@ class Judgement:
     @property
     def counts(self) -> dict[str, int]:
         """How many steps there are of each verdict."""
-        found = Counter(verdict.state for verdict in self.counting_verdicts)
-        return {state: found[state] for state in STATES}
+        state_counts = Counter(verdict.state for verdict in self.counting_verdicts)
+        return {state: state_counts[state] for state in STATES}
 
     def is_measured(self, verdict: Verdict) -> bool:
         """Whether a step can be seen and has a place of its own: a plan may begin anywhere."""
@@ -160,8 +160,8 @@ class AskedResult:
 
 def result_marks(drawing: Construction, reading: Reading) -> frozenset[int]:
     """The steps that show a result: points of the pose and beginnings of plans show nothing by themselves."""
-    found = (drawing.drawn.wanted[place] for place in reading.marks)
-    return frozenset(mark for mark in found if not drawing.drawn.steps[mark].op.free)
+    marks = (drawing.drawn.wanted[place] for place in reading.marks)
+    return frozenset(mark for mark in marks if not drawing.drawn.steps[mark].op.free)
 
 
 def asked_results(judgement: Judgement) -> Iterator[AskedResult]:
@@ -172,8 +172,8 @@ def asked_results(judgement: Judgement) -> Iterator[AskedResult]:
     for reading in judgement.drawing.readings:
         state = numbers.get((reading.kind, reading.of))
         if state is None:
-            shown = {states[mark] for mark in result_marks(judgement.drawing, reading)}
-            state = _state_of_marks(shown) if judgement.has_drawn else MISSING
+            mark_states = {states[mark] for mark in result_marks(judgement.drawing, reading)}
+            state = _state_of_marks(mark_states) if judgement.has_drawn else MISSING
         if state != UNSEEN and (reading.given is None or state == WRONG):
             yield AskedResult(reading.kind, reading.of, state)
     for kind, of in numbers:

@@ -52,12 +52,12 @@ class States:
 
     def __init__(self, matching: Matching, numbers: Iterable[NumberVerdict] = ()):
         self.matching = matching
-        right = {(one.number.kind, one.number.of) for one in numbers if one.state in EARNED}
+        right = {(verdict.number.kind, verdict.number.of) for verdict in numbers if verdict.state in EARNED}
         self.told, self.asked = set[int](), set[int]()  # the marks of results with such a number, and of others
         for reading in matching.sheet.drawing.readings:
             if reading.given is None:
-                shown = result_marks(matching.sheet.drawing, reading)
-                (self.told if (reading.kind, reading.of) in right else self.asked).update(shown)
+                marks = result_marks(matching.sheet.drawing, reading)
+                (self.told if (reading.kind, reading.of) in right else self.asked).update(marks)
 
     def state_of(self, match: Match) -> tuple[str, float]:
         """The state of a step, and how sure that is, from 0 to 1."""
@@ -81,10 +81,10 @@ class States:
 
     def _is_hidden(self, match: Match) -> bool:
         """Whether print hides where a step's mark should be in a picture."""
-        known = KnownMarks(self.matching.own, {})
+        known_marks = KnownMarks(self.matching.own, {})
         return self.matching.evidence.picture and match.step.op.gives != OPENING and (
             match.step.index not in self.matching.dead
-            and self.matching.evidence.visible_share(match.step, match.expected, known) is None)
+            and self.matching.evidence.visible_share(match.step, match.expected, known_marks) is None)
 
     def unexplained_near(self, match: Match) -> Trace | None:
         """The nearest ink of its kind that no step explains, beside where a step's mark should be."""
@@ -107,14 +107,14 @@ class States:
     def odds(self) -> list[float]:
         """For each step what speaks for its having been drawn as it should be: its own mark, or the surest of those
         that rest on it, themselves or through others that are not to be seen; less than everything where none is."""
-        found = [self._own_odds(match) for match in self.matching.matches]
+        step_odds = [self._own_odds(match) for match in self.matching.matches]
         for match in reversed(self.matching.matches):
-            index, seen = match.step.index, match.place is not None or match.state == WRONG
+            index, is_seen = match.step.index, match.place is not None or match.state == WRONG
             if index in self.unreadable_marks:
-                found[index] = -math.inf
-            for arg in match.step.args if match.state in EARNED or not seen else ():
-                found[arg] = max(found[arg], found[index])
-        return found
+                step_odds[index] = -math.inf
+            for arg in match.step.args if match.state in EARNED or not is_seen else ():
+                step_odds[arg] = max(step_odds[arg], step_odds[index])
+        return step_odds
 
     def _own_odds(self, match: Match) -> float:
         """What a step's own mark speaks for it; or a number, or the strokes that cross there."""
@@ -123,10 +123,10 @@ class States:
         if match.step.index in self.told:
             return measures.MAX_SURE_ODDS
         strokes = [self.matching.matches[arg] for arg in match.step.args]
-        seen = [stroke.weight for stroke in strokes if stroke.place is not None and stroke.state in EARNED]
-        crossed = match.step.op.crossing and match.state != WRONG and seen and (
-            len(seen) == len(strokes) or self._is_hidden(match))
-        return min(seen) if crossed else -math.inf
+        stroke_weights = [stroke.weight for stroke in strokes if stroke.place is not None and stroke.state in EARNED]
+        crossed = match.step.op.crossing and match.state != WRONG and stroke_weights and (
+            len(stroke_weights) == len(strokes) or self._is_hidden(match))
+        return min(stroke_weights) if crossed else -math.inf
 
     @cached_property
     def unreadable_marks(self) -> set[int]:
@@ -137,17 +137,17 @@ class States:
         sheet, matches = self.matching.sheet, self.matching.matches
         strokes = [match.step.index for match in matches if match.place is not None and match.state in EARNED]
         legible = {mark for stroke in strokes for mark in sheet.marks_on.get(stroke, ())}
-        seen = {match.step.index for match in matches if match.place is not None}
-        return self.asked - self.told - legible - seen - set(sheet.hidden)
+        seen_steps = {match.step.index for match in matches if match.place is not None}
+        return self.asked - self.told - legible - seen_steps - set(sheet.hidden)
 
     @cached_property
     def drawn_steps(self) -> list[bool]:
         """For each step whether it is seen, or a mark that rests on it is: then it was drawn somehow."""
-        found = [match.place is not None for match in self.matching.matches]
+        is_drawn = [match.place is not None for match in self.matching.matches]
         for step in reversed(self.matching.steps):
-            for arg in step.args if found[step.index] else ():
-                found[arg] = True
-        return found
+            for arg in step.args if is_drawn[step.index] else ():
+                is_drawn[arg] = True
+        return is_drawn
 
     def _wrong_odds(self, match: Match) -> float:
         """What speaks for a wrong mark's being wrong: the odds of the way with its mistake, or else how far off it is
@@ -174,17 +174,17 @@ Pair = tuple[int, int]
 
 def exchanged_pairs(matching: Matching) -> Iterator[Pair]:
     """The steps whose marks bear each other's letters: one is wrong, and either is where the other should be."""
-    told = set[int]()
+    paired = set[int]()
     for match in matching.matches:
         step, labels = match.step.index, matching.labels
         if match.state != WRONG or match.step.op.gives != POINT or labels.get(step) != match.place:
             continue
-        for other in labels:
-            if told.isdisjoint((step, other)) and other != step and _bears_letters_of(matching, step,
-                                                                                      other) and _bears_letters_of(
-                    matching, other, step):
-                told |= {step, other}
-                yield min(step, other), max(step, other)
+        for rival in labels:
+            if paired.isdisjoint((step, rival)) and rival != step and _bears_letters_of(matching, step,
+                                                                                      rival) and _bears_letters_of(
+                    matching, rival, step):
+                paired |= {step, rival}
+                yield min(step, rival), max(step, rival)
 
 
 def _bears_letters_of(matching: Matching, index: int, other: int) -> bool:
@@ -235,10 +235,11 @@ def explain_mark(matching: Matching, match: Match) -> Suspect | None:
     spots = matching.sheet.spots(step.index, matching.traces[match.place])
     best, least = None, math.inf
     for suspect in _closest_suspects(matching, step, np.array([complex(*plain_value(spot)) for spot in spots])):
-        made = _carry_mistake(matching, step, matching.own, suspect, matching.sheet.domain, matching.sheet.errors)
-        if made is None:
+        mistaken_value = _carry_mistake(matching, step, matching.own, suspect, matching.sheet.domain,
+                                        matching.sheet.errors)
+        if mistaken_value is None:
             continue
-        residual = matching.sheet.residual(step, made, spots, matching.own)
+        residual = matching.sheet.residual(step, mistaken_value, spots, matching.own)
         if residual.fits(matching.chance) and residual.square + suspect.rank < least:
             best, least = suspect, residual.square + suspect.rank
     return best
@@ -247,12 +248,13 @@ def explain_mark(matching: Matching, match: Match) -> Suspect | None:
 def _closest_suspects(matching: Matching, step: Step, spots: Any) -> list[Suspect]:
     """The mistakes that lead nearest to what was drawn."""
     floats, hand = [plain_value(value) for value in matching.own[:step.index]], matching.sheet.hand
-    found: list[tuple[float, int, Suspect]] = []
+    ranked: list[tuple[float, int, Suspect]] = []
     for suspect in _suspects(matching, step):
-        made = _carry_mistake(matching, step, floats, suspect, Floats(), lambda index: [0.0] * len(hand.slips[index]))
-        if made is not None and all(map(math.isfinite, made)):
-            found.append((distance_apart(step.op.gives, made, spots), len(found), suspect))
-    return [suspect for _, _, suspect in sorted(found)[:measures.MISTAKES_LOOKED_AT]]
+        mistaken_value = _carry_mistake(matching, step, floats, suspect, Floats(),
+                                        lambda index: [0.0] * len(hand.slips[index]))
+        if mistaken_value is not None and all(map(math.isfinite, mistaken_value)):
+            ranked.append((distance_apart(step.op.gives, mistaken_value, spots), len(ranked), suspect))
+    return [suspect for _, _, suspect in sorted(ranked)[:measures.MISTAKES_LOOKED_AT]]
 
 
 def _suspects(matching: Matching, step: Step) -> Iterator[Suspect]:
@@ -266,31 +268,31 @@ def _suspects(matching: Matching, step: Step) -> Iterator[Suspect]:
 
 def _unseen_steps(matching: Matching, step: Step) -> list[Step]:
     """The step and those before it on whose marks it rests without their being seen, the last first."""
-    found, front = {step.index}, [step.index]
+    unseen, front = {step.index}, [step.index]
     while front:
         for arg in matching.steps[front.pop()].args:
-            if arg not in found and matching.matches[arg].place is None and not matching.steps[arg].op.free:
-                found.add(arg)
+            if arg not in unseen and matching.matches[arg].place is None and not matching.steps[arg].op.free:
+                unseen.add(arg)
                 front.append(arg)
-    return [matching.steps[index] for index in sorted(found, reverse=True)]
+    return [matching.steps[index] for index in sorted(unseen, reverse=True)]
 
 
 def _carry_mistake(matching: Matching, step: Step, values: Sequence[Any], suspect: Suspect, domain: Domain,
              errors: Errors) -> Any:
     """What the step becomes where a slip was made, and all that is unseen follows from it; None where nothing does."""
-    drawn, source, hand = list(values), suspect.source.index, matching.sheet.hand
+    basis, source, hand = list(values), suspect.source.index, matching.sheet.hand
     try:
         wrong = suspect.mistake.value(domain, values)
-        drawn[source:source + 1] = [hand.add_slips(suspect.source, wrong, errors(source))]
+        basis[source:source + 1] = [hand.add_slips(suspect.source, wrong, errors(source))]
         follows = {source}
         for between in matching.steps[source + 1:step.index + 1]:
             unseen = between.index == step.index or matching.matches[between.index].place is None
             if unseen and not follows.isdisjoint(between.args):
-                drawn[between.index:between.index + 1] = [hand.draw_step(between, domain, drawn, errors)]
+                basis[between.index:between.index + 1] = [hand.draw_step(between, domain, basis, errors)]
                 follows.add(between.index)
     except Undrawable:
         return None
-    return drawn[step.index] if step.index in follows else None
+    return basis[step.index] if step.index in follows else None
 
 
 def verdicts(matching: Matching, numbers: Iterable[NumberVerdict] = ()) -> Iterator[Verdict]:
@@ -298,28 +300,29 @@ def verdicts(matching: Matching, numbers: Iterable[NumberVerdict] = ()) -> Itera
     states = States(matching, numbers)
     for match in matching.matches:
         state, confidence = states.state_of(match)
-        found = replace(_verdict_on(matching, match, state), confidence=confidence)
-        yield replace(found, trace=states.unexplained_near(match)) if state == UNSURE and not found.trace else found
+        verdict = replace(_verdict_on(matching, match, state), confidence=confidence)
+        yield replace(verdict,
+                      trace=states.unexplained_near(match)) if state == UNSURE and not verdict.trace else verdict
 
 
 def _verdict_on(matching: Matching, match: Match, state: str) -> Verdict:
     """The verdict on a trace, or on a mark that is not to be seen, but from which all that follows is: of those only a
     point is somewhere."""
-    step, sheet, seen, chance = match.step, matching.sheet, match.place is not None, matching.chance
-    reason = explain_mark(matching, match) if state == WRONG and seen and not match.mistake else None
+    step, sheet, is_seen, chance = match.step, matching.sheet, match.place is not None, matching.chance
+    reason = explain_mark(matching, match) if state == WRONG and is_seen and not match.mistake else None
     mistake = reason.mistake if reason else match.mistake
-    turned = missed_locus(matching, match) if state == WRONG and seen and mistake is None else None
+    turned = missed_locus(matching, match) if state == WRONG and is_seen and mistake is None else None
     guilty = reason.source.index if reason else step.index if state == WRONG else None
     if mistake and mistake.mirror and step.op.gives == POINT:  # wrong from the first of its lines on that is unseen
         guilty = next((line for line in sorted(mistake.step.args) if matching.matches[line].place is None), guilty)
-    found = Verdict(step.index, state, own=plain_value(match.expected), mistake=mistake.told if mistake else turned,
+    verdict = Verdict(step.index, state, own=plain_value(match.expected), mistake=mistake.told if mistake else turned,
                     kind=mistake.kind if mistake else "", guilty=guilty)
-    if not seen and (not mistake or step.op.gives != POINT):
-        return replace(found, off=math.inf, tolerance=math.inf, astray=math.inf) if mistake else found
+    if not is_seen and (not mistake or step.op.gives != POINT):
+        return replace(verdict, off=math.inf, tolerance=math.inf, astray=math.inf) if mistake else verdict
     trace, true = None if match.place is None else matching.traces[match.place], sheet.drawing.values
     spots = sheet.spots(step.index, trace) if trace else [(x, y) for x, y in [plain_value(matching.own[step.index])]]
     residual = match.residual or sheet.residual(step, match.expected, spots, matching.own)
-    return replace(found, off=residual.distance, tolerance=residual.tolerance(chance), trace=trace,
+    return replace(verdict, off=residual.distance, tolerance=residual.tolerance(chance), trace=trace,
                    astray=sheet.residual(step, true[step.index], spots, true).distance,
                    ellipse=_tolerance_ellipse(residual, step, chance) if trace else None)
 
@@ -338,7 +341,7 @@ def missed_locus(matching: Matching, match: Match) -> Said | None:
     if len(off) != 1:
         return None
     side = program.text((off[0] if off[0].op.movement is Movement.RULED else program.steps[off[0].args[0]]).index)
-    vector = next((name for name, known in step.stage(()).vectors.items() if known is Known.DIRECTION
+    vector = next((name for name, knowledge in step.stage(()).vectors.items() if knowledge is Known.DIRECTION
                    and name.rpartition("_")[2] in (side, side[::-1])), None)
     return said("{0} is not perpendicular to {1}", vector, side) if vector else None
 

@@ -355,7 +355,7 @@ def _span(scene: Scene, positions: int) -> tuple[tuple[float, float], bool]:
     Between limits it keeps half a step off each: at the limit itself there are no velocities.
     """
     motion = whole_motion(scene)
-    low, high = (float(motion.path.travel[end]) for end in (0, -1))
+    low, high = motion.ends
     if not scene.drives[0].slides:
         low, high = (round(math.degrees(end), 12) for end in (low, high))
     step = (high - low) / positions

@@ -80,9 +80,8 @@ class Certified(Report):
     @cached_property
     def errors(self) -> dict[str, Fraction]:
         """The most that a number of each kind may be off, before its last digit is rounded."""
-        return {kind: max((value.error for reading_kind in reading_kinds
-                           for value in self._weighted_components(reading_kind, self.results[reading_kind])),
-                          default=Fraction(0)) for kind, reading_kinds in self._kinds_by_group.items()}
+        return {group: max((value.error for value in self._values(group)), default=Fraction(0))
+                for group in self._kinds_by_group}
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -113,12 +112,16 @@ class Certified(Report):
     def _sizes(self) -> dict[str, Fraction]:
         """The largest value of each kind, or where all are nothing what is drawn as large as the mechanism."""
         sizes = {}
-        for kind, reading_kinds in self._kinds_by_group.items():
-            values = [value for reading_kind in reading_kinds
-                      for value in self._weighted_components(reading_kind, self.results[reading_kind])]
+        for kind in self._kinds_by_group:
+            values = [*self._values(kind)]
             least = max((abs(value.middle) - value.error for value in values), default=Fraction(0))
             sizes[kind] = least if least > 0 else Fraction(drawn_sizes(self.drawing)[kind])
         return sizes
+
+    def _values(self, group: str) -> Iterator[Enclosure]:
+        """The components of all readings of a group."""
+        for kind in self._kinds_by_group[group]:
+            yield from self._weighted_components(kind, self.results[kind])
 
     def _weighted_components(self, part: str, values: dict[str, Any]) -> Iterator[Enclosure]:
         """The components of all readings of one kind."""

@@ -17,6 +17,7 @@ from graphplan.check.compared import Readings, Results
 from graphplan.check.poses import PoseBatch, compared_groups, pose_gaps, sound_poses
 from graphplan.check.trusted import construct
 from graphplan.cycle.curves import KinematicCurve, curve_over_travel
+from graphplan.cycle.loads import guide_direction
 from graphplan.cycle.motion_curves import Centrodes, sheet_centrodes
 from graphplan.cycle.pose import in_pose
 from graphplan.cycle.turn import Turn, motion_and_travel
@@ -257,11 +258,7 @@ def _ordinates(found: Cycle, quantity: PlotQuantity) -> tuple[Any, Any, Any]:
 def _slide_ordinates(found: Cycle, slide: Slide) -> tuple[Any, Any, Any]:
     """How far a slide's point has slid along its guide from the given pose, with its rates there."""
     points, guides, results = found.turn.points, found.turn.guides, found.results
-    if slide.through:
-        along = points[slide.through[1]] - points[slide.through[0]]
-    else:
-        along = guides.get(slide.name, complex(*map(float, slide.direction)))
-    along = along / np.abs(along)
+    along = guide_direction(slide, points, guides)
     carrier = next(iter(found.scene.links.get(slide.along, ())), "")
     seat = points[slide.at] - (points[carrier] if carrier else 0.0)
     vectors = seat, results["slide velocity"][slide.name], results["slide acceleration"][slide.name]

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.groups import ClosureGroup
+from graphplan.cycle.groups import ClosureGroup, state_slices
 from graphplan.cycle.linkage import Array, Linkage
 from graphplan.cycle.newton import PoseNumbers
 from graphplan.cycle.tolerances import CROSSING_STEP, LONGER_MISS, MIN_STEP, SHORTER_MISS, SINGULAR_TOL
@@ -129,7 +129,7 @@ class Continuation:
     def __init__(self, linkage: Linkage, groups: Sequence[ClosureGroup], lower: float, upper: float,
                  progress: Progress | None = None):
         self.linkage, self.groups = linkage, groups
-        self.ends = np.cumsum([0, *(group.unknowns for group in groups)]).tolist()
+        self.slices = state_slices(groups)
         self._angle = np.array([i < group.layout.angles for group in groups for i in range(group.unknowns)], dtype=bool)
         self.lower, self.upper, self.progress = lower, upper, progress or (lambda done: None)
         self.longest = MAX_STEP_TURNS * min((upper - lower if drive.slides else TURN) / abs(pace) for drive, pace
@@ -143,7 +143,7 @@ class Continuation:
 
     def path(self, closed: bool) -> Path:
         """As far as it leads, from `lower` to `upper`; round the other way too, where the cycle is closed."""
-        still = np.zeros(self.ends[-1])
+        still = np.zeros(self._angle.size)
         start = self._solve_knot(0.0, still, math.inf)
         if isinstance(start, int):  # this group is singular, and the pose leads nowhere
             start = Knot(0.0, still, still, 1.0 - np.eye(len(self.groups))[start])
@@ -209,7 +209,7 @@ class Continuation:
         link_numbers, guess = dict[str, PoseNumbers](), predicted.tolist()
         state, rate, determinants = list[float](), list[float](), list[float]()
         for i, group in enumerate(self.groups):
-            settled = group.settle(link_numbers, travel, guess[self.ends[i] : self.ends[i + 1]], size)
+            settled = group.settle(link_numbers, travel, guess[self.slices[i]], size)
             if settled is None:
                 return i
             last = settled[1]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain
+from itertools import accumulate, chain
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -153,6 +153,12 @@ class ClosureGroup:
         links = [LinkPose((x, y), (cos, sin), angle=angle[0] if angle else 0.0)
                  for x, y, cos, sin, *angle in zip(*(lies[i::width] for i in range(width)), strict=True)]
         return corrections, determinant, links
+
+
+def state_slices(groups: Sequence[ClosureGroup]) -> list[slice]:
+    """Where the unknowns of each group stand among all."""
+    counts = [group.unknowns for group in groups]
+    return [slice(end - count, end) for count, end in zip(counts, accumulate(counts), strict=True)]
 
 
 class _LayoutBuilder:

@@ -54,7 +54,7 @@ def traced_motion(scene: Scene) -> TracedMotion | None:
     except Refused as refused:
         key = "curves" if curves else "centrodes" if rolling else "positions" if count else "cubics"
         raise Refused(f"sheet.{key}", refused.why, "leave it out") from None
-    low, high = (float(motion.path.travel[end]) for end in (0, -1))
+    low, high = motion.ends
     turns = 1 if scene.drives[0].slides else max(1, round((high - low) / TURN))
     fine, even = _dense_travels(low, high, turns), np.linspace(low, high, count, endpoint=not motion.goes_round)
     turn = motion.turn(np.concatenate([fine, even]))

@@ -16,7 +16,7 @@ from graphplan.cycle import closure, newton
 from graphplan.cycle.closure import TRAVEL, DriveState, GroupLayout, LinkPose, Vector
 from graphplan.cycle.continuation import Path
 from graphplan.cycle.dyads import Failure, PlacedLink, assemble, closure_pose
-from graphplan.cycle.groups import MAX_CORRECTION_RATIO, MAX_FIRST_CORRECTION, ClosureGroup
+from graphplan.cycle.groups import MAX_CORRECTION_RATIO, MAX_FIRST_CORRECTION, ClosureGroup, state_slices
 from graphplan.cycle.linkage import Array, Linkage
 from graphplan.cycle.tolerances import CORRECTION_TOL, RESIDUE_TOL
 from graphplan.mechanism.model import FRAME
@@ -36,7 +36,7 @@ class PosePlacer:
 
     def __init__(self, linkage: Linkage, groups: Sequence[ClosureGroup], n: int, turning: Iterable[str]):
         self.linkage, self.groups = linkage, groups
-        self.ends = np.cumsum([0, *(group.unknowns for group in groups)]).tolist()
+        self.slices = state_slices(groups)
         links = dict.fromkeys(turning)
         rows = np.empty((len(linkage.places) + len(links), n), dtype=complex)  # one large piece of memory is had faster
         self.points = dict(zip(linkage.places, rows, strict=False))
@@ -88,7 +88,7 @@ class PosePlacer:
         travels, bodies = travel[at], {FRAME: LinkPose()}
         for i, group in enumerate(self.groups):
             carriers = [bodies[link] for link in (FRAME, *group.carriers)]
-            self._enter_points(group, group.link_poses(carriers, travels, state[self.ends[i] : self.ends[i + 1]]),
+            self._enter_points(group, group.link_poses(carriers, travels, state[self.slices[i]]),
                                bodies, at)
         self._place_fixed_points(at)
         for point, place in self.linkage.places.items():
@@ -111,7 +111,7 @@ class PosePlacer:
         bodies = {FRAME: LinkPose()}
         for i, group in enumerate(self.groups):
             carriers = [bodies[link] for link in (FRAME, *group.carriers)]
-            links, trusted = _settle_poses(group, carriers, travel, state[self.ends[i] : self.ends[i + 1]], lengths,
+            links, trusted = _settle_poses(group, carriers, travel, state[self.slices[i]], lengths,
                                            path.senses[i], MAX_FIRST_CORRECTION * lengths,
                                            np.zeros(len(travel), dtype=bool), runs[i])
             if not trusted.all():

@@ -250,16 +250,20 @@ class Relations:
     @cached_property
     def limits(self) -> tuple[float, float]:
         """From where to where the first drive travels in its sense, in radians or mm."""
-        unit = self.view.scale if self.scene.drives[0].slides else 1.0
-        return float(self.motion.path.travel[0]) * unit, float(self.motion.path.travel[-1]) * unit
+        low, high = self.motion.ends
+        return low * self._travel_unit, high * self._travel_unit
+
+    @property
+    def _travel_unit(self) -> float:
+        """What a unit of the first drive's travel is, in radians or mm."""
+        return self.view.scale if self.scene.drives[0].slides else 1.0
 
     @cached_property
     def slide_ranges(self) -> dict[str, Spot]:
         """How far slides on the frame go back and on along their guides, in mm, where drives say it."""
         if not self.scene.drives:
             return {}
-        (low, high), ranges = self.motion.path.travel[[0, -1]], {}
-        points = self.motion.turn(np.linspace(low, high, KNOT_SPANS)).points
+        ranges, points = {}, self.motion.turn(np.linspace(*self.motion.ends, KNOT_SPANS)).points
         for slide in self.scene.slides:
             if slide.along == FRAME:
                 ray = complex(*map(float, slide.direction))
@@ -273,10 +277,9 @@ class Relations:
         """Where the states are on the way; none where the compass rules do all, or nothing drives."""
         if not self.scene.drives or not any("state" in name for name in self.used_inputs):
             return None
-        path, (low, high) = self.motion.path, self.limits
+        path, (low, high), unit = self.motion.path, self.limits, self._travel_unit
         if low == high:
             return None
-        unit = self.view.scale if self.scene.drives[0].slides else 1.0
         long = self.motion.linkage.reach * self.view.scale
         travel = low + (high - low) * (1 - np.cos(np.linspace(0.0, np.pi, KNOT_SPANS + 1))) / 2
         states, _ = path.predict_states(travel / unit)
@@ -294,8 +297,7 @@ class Relations:
     def write(self, language: Language, inputs: Mapping[str, str], prefix: str,
               deepest: float = DEEPEST) -> WrittenRelations:
         """All of it in a language; `inputs` says how the inputs that are `asked` are called there."""
-        spots = (self.points, self.turns, self.guides)
-        outputs = [{name: tuple(map(self.tape.place, spot)) for name, spot in places.items()} for places in spots]
+        outputs = [self._tape_places(spots) for spots in (self.points, self.turns, self.guides)]
         writer = Writer(self.tape, language, {place: inputs[name] for name, place in self.used_inputs.items()}, prefix,
                         deepest)
         terms = tuple(writer.terms([place for places in outputs for spot in places.values() for place in spot]))
@@ -317,13 +319,9 @@ class Relations:
             inputs |= {f"cos state {i}": math.cos(state), f"sin state {i}": math.sin(state), f"state {i}": state}
         return inputs
 
-    def place(self, pins: Mapping[str, Spot], shifts: Sequence[float]) -> dict[str, Spot] | None:
-        """Where all points are on paper, with some pins and the drives elsewhere; none where the pose is not."""
-        posed = self.pose(pins, shifts)
-        return posed[0] if posed else None
-
     def pose(self, pins: Mapping[str, Spot], shifts: Sequence[float]) -> tuple[dict[str, Spot], ...] | None:
-        """The same, and where guides point that ride on links."""
+        """Where all points are on paper with some pins and the drives elsewhere, and where guides on links point; none
+        where the pose is not."""
         numbers = self.inputs(pins, shifts)
         try:
             posed: tuple[dict[str, Spot], ...] | None = self._run(*[numbers[name] for name in self.used_inputs])
@@ -334,9 +332,12 @@ class Relations:
     @cached_property
     def _run(self) -> Callable[..., Any]:
         """A function from the inputs to points and guides."""
-        outputs = tuple({name: tuple(map(self.tape.place, spot)) for name, spot in spots.items()}
-                        for spots in (self.points, self.guides))
-        return function(self.tape, [*self.used_inputs.values()], outputs)
+        return function(self.tape, [*self.used_inputs.values()], (self._tape_places(self.points),
+                                                                  self._tape_places(self.guides)))
+
+    def _tape_places(self, spots: Mapping[str, Spot]) -> dict[str, Any]:
+        """The places of pairs of numbers on the tape."""
+        return {name: tuple(map(self.tape.place, spot)) for name, spot in spots.items()}
 
 
 def _root(number: Any) -> Any:

@@ -103,7 +103,12 @@ class RangeOfMotion:
     def goes_round(self) -> bool:
         """Whether it leads back to its beginning, and no limit stands in the way."""
         free = self.closed and not (self.path.lower or self.path.upper)
-        return free and (self._round or self.returns_at(float(self.path.travel[-1])))
+        return free and (self._round or self.returns_at(self.ends[1]))
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The travels from which and to which the path leads."""
+        return float(self.path.travel[0]), float(self.path.travel[-1])
 
     def returns_at(self, travel: float) -> bool:
         """Whether every link is back in its place at a travel that the path reaches."""
@@ -129,7 +134,7 @@ class RangeOfMotion:
         points |= {name: points[at] for name, at in points_under_slides(scene).items()}
         points |= {contact.at: contact_point(scene, contact, points, turns.get(contact.name, 1.0))
                    for contact in scene.contacts if not scene.links_of[contact.at]}
-        back = self.closed and self.path.upper is None and self.returns_at(float(self.path.travel[-1]))
+        back = self.closed and self.path.upper is None and self.returns_at(self.ends[1])
         return Turn(travel, points, directions, course.faults(placing.failures), back, self)
 
     def links_at(self, travel: Array) -> dict[str, MovingLink]:
@@ -273,7 +278,7 @@ def whole_motion(scene: Scene) -> RangeOfMotion:
     """
     check_drives(scene)
     motion = range_of_motion(scene)
-    if motion.path.travel[0] == motion.path.travel[-1]:
+    if len({*motion.ends}) == 1:
         raise Refused("the cycle", said("the mechanism does not move on from the given pose"), "another pose")
     return motion
 
@@ -316,7 +321,7 @@ def loop(scene: Scene, count: int, span: tuple[float, float] | None = None) -> L
         low, high = sorted(travels(scene, 2, span).tolist())
         motion, ends = RangeOfMotion(scene, min(0.0, low), max(0.0, high), closed=False), (low, high)
     if motion.goes_round:
-        return Loop(motion.turn(motion.path.travel[-1] * np.arange(count) / count), range(count))
+        return Loop(motion.turn(motion.ends[1] * np.arange(count) / count), range(count))
     low, high = _reachable_span(motion, *ends)
     half = count // 2
     travel = (low + high) / 2 - (high - low) / 2 * np.cos(np.pi * np.arange(half + 1) / max(1, half))
@@ -330,7 +335,7 @@ def loop(scene: Scene, count: int, span: tuple[float, float] | None = None) -> L
 def _reachable_span(motion: RangeOfMotion, low: float, high: float) -> tuple[float, float]:
     """The travels between which it goes: as far as it can within these ends, and not quite to limits."""
     path = motion.path
-    least, most = float(path.travel[0]), float(path.travel[-1])
+    least, most = motion.ends
     spare = LIMIT_MARGIN * (most - least)
     low = max(low, least + spare if path.lower else least)
     high = min(high, most - spare if path.upper else most)

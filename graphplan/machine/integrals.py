@@ -104,12 +104,12 @@ class Piecewise:
     def _halved(self, panel: npt.NDArray[np.int_], low: Reals, high: Reals) -> Reals:
         """The roots between travels in panels at which the signs differ."""
         terms, left, right = self.terms[panel], self.edges[panel], self.edges[panel + 1]
-        before = _sums(terms, (2 * low - left - right) / (right - left)) > 0
-        for _ in range(HALVINGS):
-            middle = (low + high) / 2
-            same = (_sums(terms, (2 * middle - left - right) / (right - left)) > 0) == before
-            low, high = np.where(same, middle, low), np.where(same, high, middle)
-        return low
+
+        def is_positive(travel: Reals) -> npt.NDArray[np.bool_]:
+            return _sums(terms, (2 * travel - left - right) / (right - left)) > 0
+
+        before = is_positive(low)
+        return bisect(lambda travel: is_positive(travel) == before, low, high)[0]
 
     def extremes(self, slope: Piecewise) -> tuple[tuple[float, float], tuple[float, float]]:
         """The least and the largest value, each with its travel, the first of equals; `slope` is the derivative."""
@@ -119,6 +119,16 @@ class Piecewise:
         close = SIGN_TOL * max(most.max(), -least.min())
         down, up = np.argmax(least <= least.min() + close), np.argmax(most >= most.max() - close)
         return (float(places[down]), float(least.min())), (float(places[up]), float(most.max()))
+
+
+def bisect(is_before: Callable[[Reals], npt.NDArray[np.bool_]], low: Reals, high: Reals) -> tuple[Reals, Reals]:
+    """The ends of intervals, shape (n,), halved to the last digit; `is_before` tells of places whether what is sought
+    lies beyond them."""
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        before = is_before(middle)
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    return low, high
 
 
 def settled(function: Callable[[Reals], Reals], breaks: Sequence[float], size: npt.ArrayLike = 0.0) -> Piecewise:

@@ -68,20 +68,20 @@ def test_the_linkage_follows(name: str) -> None:
         led += 1
         truth |= {one: truth[at] for one, at in points_under_slides(found.scene).items()}
         on_paper = [VIEW.scale * t if d.slides else t for d, t in zip(scene.drives, drives, strict=True)]
-        told = found.place({one: VIEW((z.real, z.imag)) for one, z in pins.items()}, on_paper)
+        told = found.pose({one: VIEW((z.real, z.imag)) for one, z in pins.items()}, on_paper)
         assert told is not None
         for point, z in truth.items():
-            assert abs(complex(*told[point]) - complex(*VIEW((z.real, z.imag)))) < 1e-6 * scene.extent * VIEW.scale
+            assert abs(complex(*told[0][point]) - complex(*VIEW((z.real, z.imag)))) < 1e-6 * scene.extent * VIEW.scale
     assert led
 
 
 def test_beyond_a_limit_there_is_nothing() -> None:
     """Where a linkage cannot be put together there is no pose, and it comes back with the pin."""
     found = relations_of("triad")
-    assert found.place({}, [0.0]) is not None
-    assert found.place({"O": (900.0, 900.0)}, [0.0]) is None
+    assert found.pose({}, [0.0]) is not None
+    assert found.pose({"O": (900.0, 900.0)}, [0.0]) is None
     dyad = relations_of("four-bar")
-    assert dyad.place({"O": (900.0, 900.0)}, [0.0]) is None
+    assert dyad.pose({"O": (900.0, 900.0)}, [0.0]) is None
 
 
 def test_points_that_the_scene_places_from_pins() -> None:
@@ -92,7 +92,7 @@ def test_points_that_the_scene_places_from_pins() -> None:
     found = relations(scene, VIEW)
     assert found is not None
     assert "P" not in found.free
-    told = found.place({"O": (40.0, 52.0)}, [1.0])
+    told = found.pose({"O": (40.0, 52.0)}, [1.0])
     assert told is not None
-    far = [abs(complex(*told["P"]) - complex(*told[centre])) for centre in "OC"]
+    far = [abs(complex(*told[0]["P"]) - complex(*told[0][centre])) for centre in "OC"]
     assert far == pytest.approx([100.0, 105.0])

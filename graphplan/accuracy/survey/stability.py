@@ -85,7 +85,8 @@ class TestedPose:
 
     def __init__(self, scene: Scene, pencil: Pencil):
         self.scene, self.pencil = scene, pencil
-        self.truth, self.floats = (_or_none(find, scene) for find in (_exact, _in_floats))
+        self.truth = _or_none(lambda: reference_solution(scene, Exact()))
+        self.floats = _or_none(lambda: _in_floats(scene))
 
     @property
     def condition(self) -> float:
@@ -143,10 +144,6 @@ class TestedPose:
         return answer.results, answer.drawing.rounds, answer.arithmetic
 
 
-def _exact(scene: Scene) -> ReferenceSolution:
-    return reference_solution(scene, Exact())
-
-
 def _in_floats(scene: Scene) -> ReferenceSolution:
     if scene.loads is None:
         return ReferenceSolution(scene, solve(scene))
@@ -154,9 +151,9 @@ def _in_floats(scene: Scene) -> ReferenceSolution:
     return ReferenceSolution(scene, forces.rates, forces, lambda rounds: forces)
 
 
-def _or_none(find: Callable[[Scene], ReferenceSolution], scene: Scene) -> ReferenceSolution | None:
+def _or_none(find: Callable[[], ReferenceSolution]) -> ReferenceSolution | None:
     try:
-        return find(scene)
+        return find()
     except GraphplanError:
         return None
 

@@ -20,7 +20,7 @@ import numpy as np
 from graphplan.errors import Refused
 from graphplan.machine.flywheel.steady_cycle import needed, turning
 from graphplan.machine.flywheel.steady_cycle import steady as steady_cycle
-from graphplan.machine.integrals import Reals
+from graphplan.machine.integrals import Reals, bisect
 from graphplan.machine.motion.driven import Driven, driven
 from graphplan.machine.motion.true_motion import Place, TrueMotion, moved
 from graphplan.machine.reduced.reduction import Reduction, reduction
@@ -69,11 +69,8 @@ def nominal(machine: Driven, near: float) -> float:
         raise Refused("the steady motion", "the characteristics of the loads do not intersect: at no speed is their "
                       "work over a cycle zero", "a driver whose moment falls with the speed")
     k = min(falling, key=lambda k: abs(math.log(speeds[k] * speeds[k + 1] / near**2)))
-    low, high = float(speeds[k]), float(speeds[k + 1])
-    for _ in range(52):
-        middle = (low + high) / 2
-        low, high = (middle, high) if work(machine, np.array([middle]))[0][0] > 0 else (low, middle)
-    return (low + high) / 2
+    low, high = bisect(lambda omega: work(machine, omega)[0] > 0, speeds[k:k + 1], speeds[k + 1:k + 2])
+    return float((low + high)[0] / 2)
 
 
 def steady(machine: Driven, speed: float) -> TrueMotion:

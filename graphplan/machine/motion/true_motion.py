@@ -27,7 +27,7 @@ import numpy as np
 from numpy.polynomial.legendre import legval
 
 from graphplan.errors import Refused
-from graphplan.machine.integrals import Reals
+from graphplan.machine.integrals import Reals, bisect
 from graphplan.machine.motion.driven import Driven
 from graphplan.machine.tolerances import (
     ENERGY_TOL,
@@ -142,7 +142,6 @@ def _rule() -> _Rule:
 
 
 SEEN = 24  # places in a stretch between which a sign is seen to change
-HALVINGS = 52  # of an interval in which something changes its sign
 
 
 class State(NamedTuple):
@@ -228,11 +227,8 @@ class TrueMotion:
         """The travels at which a function of the travel changes its sign."""
         signs = np.sign(function(self.seen))
         changed = np.flatnonzero(signs[:-1] * signs[1:] < 0)
-        low, high, left = self.seen[changed], self.seen[changed + 1], signs[changed]
-        for _ in range(HALVINGS):
-            middle = (low + high) / 2
-            same = np.sign(function(middle)) == left
-            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        low, high = bisect(lambda travel: np.sign(function(travel)) == signs[changed], self.seen[changed],
+                           self.seen[changed + 1])
         return np.sort(np.concatenate([(low + high) / 2, self.seen[signs == 0]]))
 
     @cached_property

@@ -42,7 +42,7 @@ def solution(composition: Composition) -> list[Sheet]:
 
 
 def code(composition: Composition) -> int:
-    """What tells a handout's sheet from any other: its scene, and where its plans lie."""
+    """Checksum of a handout's scene and of where its plans lie, by which a scan is recognized."""
     windows = (f"{panel}: {view.scale:.6g} mm, {view.origin[0]:.2f} {view.origin[1]:.2f}"
                for panel, view in composition.views.items())
     return sheet_code("\n".join((composition.plans.drawing.scene.text, composition.arrangement.paper, *windows)))
@@ -54,7 +54,7 @@ def task(composition: Composition) -> list[Sheet]:
 
 
 def guided_task(composition: Composition) -> list[Sheet]:
-    """The same with the steps in words, a box to tick before each; the drawing is the student's."""
+    """The task with the steps in words, each with a box to tick; the student draws them."""
     return _pages(composition, GUIDED)
 
 
@@ -112,7 +112,7 @@ def starting_items(plate: Plate) -> Iterator[Item]:
 
 
 def _standing(plate: Plate) -> DrawnMechanism:
-    """Of a mechanism whose pose is to be constructed the points that stand still."""
+    """The points that stand still, of a mechanism whose pose is to be constructed."""
     scene = plate.plates.scene
     return DrawnMechanism(scene, plate.view, (), scene.links.get(FRAME, ()))
 

@@ -44,7 +44,7 @@ MIN_STROKE_MM = 0.25  # mm: no new stroke is thinner
 
 
 def marks_used(program: Program, own: Collection[int]) -> frozenset[int]:
-    """The marks of before that steps read: with an opening its two points, with a line those that it is named by."""
+    """The earlier marks that steps read: with an opening its two points, with a line the points that name it."""
     used, waiting = set[int](), [arg for index in own for arg in program.steps[index].args]
     while waiting:
         step = program.steps[waiting.pop()]
@@ -70,7 +70,7 @@ class Excerpt(Plate):
 
     @cached_property
     def drawn_mechanism(self) -> DrawnMechanism:
-        """All the mechanism where its links are long enough to be no heap, else what the steps use of it."""
+        """The whole mechanism where its links are long enough to be told apart, else what the steps use of it."""
         scene, whole = self.plates.scene, super().drawn_mechanism
         if all(math.dist(whole.spots[p], whole.spots[q]) >= MIN_LINK_MM for link in scene.moving
                for p, q in combinations(scene.links[link], 2) if scene.points[p] != scene.points[q]):
@@ -95,7 +95,7 @@ class Excerpt(Plate):
         return (shown_marks if curve.kind == CIRCLE else []) or [mark for mark in every if mark.index <= last] or every
 
     def strokes(self, drawn: DrawnStep) -> Iterator[Stroke]:
-        """What of a line is drawn; of a point of before that is laid off from elsewhere nothing."""
+        """The strokes of a step; none of an earlier point that is laid off from a mark that is not shown."""
         if drawn.index in self.own or drawn.root is None or self.is_on_panel(drawn.root):
             yield from super().strokes(drawn)
 
@@ -135,7 +135,7 @@ def excerpt(plans: Plans, own: Collection[int], wide: float, high: float) -> Exc
 
 
 def _box(plans: Plans, panel: Panel, own: Collection[int], before: Collection[int]) -> Rect:
-    """What of a plan a picture shows, in units of the plan."""
+    """The part of a plan that a picture shows, in units of the plan."""
     halves = [spot for index, spot in plans.apexes(panel).items() if index in own]
     core = bounding_box([*_spots(plans, panel, {*own, *before}), *halves] or [plans.extents[panel].core.centre])
     whole = plans.extents[panel].core
@@ -219,12 +219,12 @@ class Picture:
 
     @cached_property
     def excerpt(self) -> Excerpt:
-        """What it shows, from its lower left corner."""
+        """The excerpt that it shows, from its lower left corner."""
         return excerpt(self.protocol.plans, [step.index for step in self.steps], *self.room)
 
     @cached_property
     def items(self) -> list[Item]:
-        """The same with its letters, from back to front."""
+        """Its items and letters, from back to front."""
         return back_to_front(map(self.excerpt.ink_or_grey, plate_items(self.excerpt)))
 
     @property
@@ -239,7 +239,7 @@ class Picture:
         return letters_crowded(self.items)
 
     def halves(self) -> Iterator[Picture]:
-        """The same in two pictures, or some more."""
+        """Split it into two pictures, or a few more."""
         if len(self.parts) > 1:
             at = len(self.parts) // 2
             halves: Iterable[tuple[Part, ...]] = self.parts[:at], self.parts[at:]
@@ -260,7 +260,7 @@ def pictures(protocol: Protocol, cut: str, room: tuple[float, float],
 
 
 def _split_until_it_fits(one: Picture, fits: Callable[[Picture], bool]) -> Iterator[Picture]:
-    """A picture, or as many as it takes for each to fit, and for its letters to stand apart."""
+    """Split a picture until each part fits, with its letters apart."""
     if len(one.steps) > 1 and not (fits(one) and not one.letters_crowded):
         for half in one.halves():
             yield from _split_until_it_fits(half, fits)

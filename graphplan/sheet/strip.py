@@ -200,12 +200,12 @@ class Strip:
         return sum(row.height for row in heads) + (max(high, words) if self.cut == STAGE else high + WORDS_GAP + words)
 
     def _rows(self, one: Picture, number: int = 99) -> tuple[list[TextRow], list[TextRow]]:
-        """What stands above a picture and below it: by stages also what these are."""
+        """The rows above a picture and below it."""
         heading = self._title(arrange("{0}. {1}", number + 1, one.heading), self.columns[0].width)
         return [*heading], [row for part in one.parts for row in self._part_rows(part, len(one.parts) > 1)]
 
     def _part_rows(self, part: Part, titled: bool) -> Iterator[TextRow]:
-        """A part in words; what of a compound is in several pictures is told by its movements."""
+        """The rows of a part; a compound that is spread over several pictures is written out by movements."""
         words, wide, stage, first = self.words, self.words_wide, part.passage.stage, part.steps[0].index
         if titled:
             yield from self._title(part.title, wide)
@@ -223,7 +223,7 @@ class Strip:
                 yield from words.paragraph(movement.sentence, wide, movement.index, str(movement.number))
 
     def _title(self, text: Said, wide: float) -> Iterator[TextRow]:
-        """What stands over a picture or a part, in as many lines as it takes."""
+        """The title of a picture or a part, wrapped."""
         for runs in wrap(sentence_runs(self.plans.tongue(text), self.words.names), SIZE, wide, bold=True):
             yield TextRow((Cell(0.0, runs, bold=True),))
 
@@ -233,19 +233,19 @@ class Strip:
 
 
 class _PictureWords(SheetWords):
-    """Entries that hang from the numbers of their first and their last movement."""
+    """Words of a picture: entries indented behind the numbers of their first and last movement."""
 
     indent = 12.5
 
 
 class _StageWords(SheetWords):
-    """Entries with their movements, which hang from their numbers."""
+    """Words of a stage: entries with their movements, indented behind their numbers."""
 
     indent, unfolded = 8.5, True
 
 
 def _stack_rows(rows: Sequence[TextRow], x: float, y: float) -> Iterator[Item]:
-    """Rows one under the other."""
+    """Stack rows below each other."""
     for row in rows:
         y -= row.height + row.gap
         yield from row_items([(row, x, y + row.size * (LEADING - 1))])

@@ -65,7 +65,7 @@ class SheetFrame:
 
 
 def frame_of(scene: Scene) -> SheetFrame:
-    """The frame that a scene wishes for its sheet."""
+    """The frame chosen in a scene."""
     return FRAMES[scene.sheet.frame]
 
 
@@ -140,7 +140,7 @@ BLACK, WHITE = Pen(0.0, INK, fill=INK), Pen(0.0, PAPER, fill=PAPER)
 
 
 def sheet_code(text: str) -> int:
-    """A number of 32 bits for what makes a sheet this one: its scene, and all that fixes its composition."""
+    """Checksum of 32 bits of a text: of a scene and all that fixes the composition of its sheet."""
     return crc32(text.encode())
 
 

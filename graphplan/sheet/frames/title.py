@@ -45,7 +45,7 @@ class Page:
 
     @property
     def brief(self) -> Said:
-        """All of it on one line."""
+        """Document, scale, paper and page number on one line."""
         return join((self.document, self.scale, self.paper.partition(" ")[0], f"{self.number}/{self.of}"), " · ")
 
 
@@ -132,7 +132,7 @@ class _FilledCell(NamedTuple):
 
     @property
     def natural(self) -> float:
-        """The width in which all stands on one line."""
+        """The width that the heading and the text need on one line each."""
         return max(_long(self.heading) + 2 * CELL, self.least or _long(self.longest or self.text) + 2 * CELL)
 
     @property
@@ -164,7 +164,7 @@ class IsoBlock:
         return frame.width if frame.width <= MAX_BLOCK_WIDTH else min(pitch, MAX_BLOCK_WIDTH)
 
     def height(self, wide: float) -> float:
-        """The same for every page."""
+        """The height of the block, the same for every page."""
         return self.times * self._height(wide / self.times)
 
     def items(self, rect: Rect, page: Page) -> Iterator[Item]:
@@ -321,11 +321,11 @@ class GostBlock:
         return self
 
     def width(self, frame: Rect, pitch: float) -> float:
-        """The same whatever the frame."""
+        """The width of the block, whatever the frame."""
         return GOST_WIDTH
 
     def height(self, wide: float) -> float:
-        """The same whatever it says."""
+        """The height of the block, whatever its texts."""
         return GOST_HEIGHT
 
     def items(self, rect: Rect, page: Page) -> Iterator[Item]:

@@ -187,7 +187,7 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
 
 def _divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: Rect,
                    block: Rect | None) -> dict[str, Rect] | None:
-    """The panels in a region by the first demands for which there is room."""
+    """Divide a region by the first demands for which there is room."""
     divisions = (divide_among_plans(region, block, demands, plans.twins) for demands in wants)
     return next(filter(None, divisions), None)
 
@@ -254,7 +254,7 @@ def _shortest(plans: Plans) -> float:
 def compose(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
             tongue: Tongue | None = None, protocol: str = PROTOCOLS[0],
             motion: TracedMotion | None = None) -> Composition:
-    """Where everything goes: on the paper named, here or by the scene, or on the smallest good one.
+    """Arrange a construction on the paper named here or by the scene, or on the smallest good one.
 
     Without a tongue it speaks that of the scene's sheet; `protocol` says where the words stand, `motion` what is
     shown of it (cycle/traced.py).
@@ -299,7 +299,7 @@ class Composer:
         return self._with_words(composition, rows) if worded else composition
 
     def _compose_at(self, scales: Scales, pencil: Deviations) -> tuple[Measure[list[TextRow]], Composition]:
-        """Words that measure at some scales, for columns of any width, and the composition that they lead to."""
+        """Set the words at some scales, for columns of any width, and compose the sheet with them."""
         rows_by_width: dict[float, list[TextRow]] = {}
 
         def rows(exact: float) -> list[TextRow]:
@@ -330,6 +330,6 @@ def with_results_alone(composition: Composition) -> Composition:
 
 
 def _need_same_room(one: Sequence[TextRow], other: Sequence[TextRow]) -> bool:
-    """Whether some rows take the same room as others."""
+    """Whether two lists of rows need the same room."""
     return len(one) == len(other) and all(
         (p.height, p.gap, p.keep) == (q.height, q.gap, q.keep) for p, q in zip(one, other, strict=True))

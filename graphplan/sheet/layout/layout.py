@@ -110,7 +110,7 @@ CAPTION_MARGIN, LINE_GAP = 1.3, 1.2  # mm over a caption, and between its lines
 
 
 def captions(composition: Composition) -> Iterator[Text]:
-    """Over each plan what it is, all as large as they have room, and its scales in letters of marks."""
+    """The captions of all plans, as large as there is room for, each with the scales of its plan."""
     plans, letters, panels = composition.plans, composition.arrangement.letters, composition.arrangement.panels
     heads = {panel: sentence_runs(plans.tongue(panel.caption(plans.kinds(panel)))) for panel in plans.panels}
     fitting = {size: [panel for panel, head in heads.items()
@@ -132,7 +132,7 @@ def captions(composition: Composition) -> Iterator[Text]:
 
 
 def _scales(told: Sequence[Runs], size: float, room: float) -> list[Runs]:
-    """Scales in lines, none of them broken that has room on one."""
+    """Set scales in lines; a scale that fits on one line is not broken."""
     lines: list[Runs] = []
     for number, scale in enumerate(told, 1):
         part = (*scale, TextRun(",")) if number < len(told) else scale

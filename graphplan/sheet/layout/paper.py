@@ -51,7 +51,7 @@ class Demand:
 
     @property
     def area(self) -> float:
-        """What counts as the area of its figure: one that is slim counts as much as one half as wide as it is long."""
+        """The area of its figure; a slim figure counts as one half as wide as it is long."""
         return max(self.width * self.height, (self.width**2 + self.height**2) / 4)
 
     def scale(self, size: float) -> Fraction:
@@ -60,7 +60,7 @@ class Demand:
         return Fraction(self.given) if self.given else round_up(least, self.lengths)
 
     def crowding(self, scale: Fraction) -> float:
-        """How many mm^2 its figure has for a mark; what needs no room has enough."""
+        """The mm^2 of its figure per mark; infinite for a figure without area."""
         return self.area / float(scale) ** 2 / self.marks or math.inf
 
     def finer(self, scale: Fraction) -> Fraction | None:
@@ -140,7 +140,7 @@ def _join_shapes(one: Shape, two: Shape) -> tuple[Shape, Shape]:
 
 
 def _minimal_shapes(shapes: Sequence[Shape]) -> list[Shape]:
-    """The shapes than which none other is smaller both ways, or of very many some."""
+    """The shapes that no other shape undercuts in both width and height; at most `MAX_SHAPES` of them."""
     minimal: list[Shape] = []
     for shape in sorted(shapes, key=lambda shape: (shape.wide, shape.high)):
         if not minimal or shape.high < minimal[-1].high:
@@ -150,7 +150,7 @@ def _minimal_shapes(shapes: Sequence[Shape]) -> list[Shape]:
 
 
 def _places(shape: Shape, rect: Rect) -> dict[str, Rect]:
-    """The panels of a run in its place: what is left over they share by their sizes, the title block takes none."""
+    """Place the panels of a run in a rectangle; they share spare room by their sizes, the title block takes none."""
     if shape.parts is None:
         return {shape.name: rect} if shape.name else {}
     first, two = shape.parts
@@ -174,7 +174,7 @@ Measure = Callable[[float], T]  # what something becomes for a width
 
 @dataclass(frozen=True)
 class Arrangement:
-    """One way to divide a sheet: its panels by name, its text columns with their filling, and its title block.
+    """A division of a sheet: its panels by name, its text columns with their rows, and its title block.
 
     Where the words are on pages of their own it has no columns.
     """
@@ -341,7 +341,7 @@ def paginate(rows: Sequence[TextRow], arrangement: Arrangement) -> Iterator[list
 
 
 def paginate_tightly(rows: Sequence[TextRow], arrangement: Arrangement) -> list[list[Placed]]:
-    """The rows page by page, closer to each other where that saves a page; fails as :func:`paged` does."""
+    """The rows page by page, closer to each other where that saves a page; fails as :func:`paginate` does."""
     loose, tight = (list(paginate(kind, arrangement)) for kind in (rows, [tighten(row) for row in rows]))
     return tight if len(tight) < len(loose) else loose
 

@@ -42,7 +42,7 @@ def given_scales(plans: Plans) -> GivenScales:
 
 
 def _mechanism_scale(drawing: Construction) -> float | None:
-    """The one scale of the mechanism plan that all given scales lead to; none where none is given."""
+    """The scale of the mechanism plan that follows from the given scales; None where none is given."""
     first: float | None = None
     for name, scale, lengths in _scales_of_scene(drawing):
         if first is not None and not math.isclose(scale * lengths, first, rel_tol=SCALE_TOL):
@@ -53,7 +53,7 @@ def _mechanism_scale(drawing: Construction) -> float | None:
 
 
 def _scales_of_scene(drawing: Construction) -> Iterator[tuple[str, float, float]]:
-    """The given scales: each with its name, and how many lengths one of its kind is drawn long."""
+    """The given scales: name, value, and how many lengths long a unit of the quantity is drawn."""
     sheet = drawing.scene.sheet
     if sheet.k_F and drawing.scene.loads is None:
         raise Refused("sheet.k_F", "the scene has no forces to draw", "leave it out")
@@ -72,7 +72,7 @@ def _multiple(plans: Plans, panel: Panel) -> Fraction | None:
 
 
 def _check_force_plans(plans: Plans) -> None:
-    """Every force plan that is spoken of is one that is drawn, unless none is."""
+    """Refuse a multiple for a force plan that is not drawn, unless no force plan is drawn."""
     force_plans = [panel for panel in plans.panels if isinstance(panel, ForcePlan)]
     for plan in plans.drawing.scene.sheet.multiples:
         if force_plans and ForcePlan.names(plan) and plan not in force_plans:
@@ -116,13 +116,13 @@ def choose_scales(rooms: Mapping[str, Rect], plans: Plans, given: GivenScales) -
 
 
 def unit_lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
-    """How many lengths long a unit is drawn of all that has a scale on a plan or its twin."""
+    """Lengths per unit of each quantity that has a scale on a plan or on its twin."""
     drawing, kinds = plans.drawing, plans.kinds(panel) | plans.kinds(plans.twins[panel])
     return (*([1] if panel == plans.panels[0] else []), *lengths_of(kinds, drawing.tempo.kappa, drawing.phi)) or (1,)
 
 
 def panel_demands(plans: Plans, given: GivenScales, paper: str) -> dict[str, Demand]:
-    """What each plan wants of its panel on a paper."""
+    """What each plan demands of its panel on a paper."""
     demands, (k_s, multiples), size = dict[str, Demand](), given, letter_sizes(paper).text
     first = plans.panels[0]
     for panel in plans.panels:

@@ -50,7 +50,7 @@ def _is_round(scale: Fraction) -> bool:
 
 
 def lengths_of(kinds: Collection[str], kappa: Number, phi: Number) -> list[Number]:
-    """How many lengths long a unit is drawn of each quantity of which there are these kinds of vector."""
+    """Lengths per unit of each quantity that has vectors of these kinds."""
     lengths_by_kind = (VELOCITIES, kappa), (ACCELERATIONS, kappa * kappa), (FORCES, phi)
     return [length for vectors, length in lengths_by_kind if not vectors.isdisjoint(kinds)]
 
@@ -94,13 +94,13 @@ class Scales:
         return [*texts, self._static("F", self.force(panel), self.unit)] if kinds & FORCES else texts
 
     def _static(self, letter: str, scale: float, of: str) -> Said:
-        """What a millimetre stands for, or how many stand for one."""
+        """A scale as quantity per mm, or in the convention `drawn` as mm per quantity."""
         if self.convention == "drawn":
             return join((f"mu_{letter} =", digits(1 / scale), unit(f"mm/{of}")), " ")
         return join((f"k_{letter} =", digits(scale), unit(f"{of}/mm")), " ")
 
     def _moving(self, words: tuple[Phrase, Phrase], scale: float, of: str) -> Said:
-        """The same of a rate, by the words for the one and for the other."""
+        """The scale of a rate, by the words for each convention."""
         per_unit = self.convention == "drawn"
         return words[per_unit](digits(1 / scale if per_unit else scale), unit(of))
 

@@ -53,7 +53,7 @@ class Wish:
 
     @property
     def letter_size(self) -> float:
-        """Of the letters."""
+        """The size of the letters, mm."""
         return self.letters.text if self.minor or self.balloon else self.letters.mark
 
     @property
@@ -128,7 +128,7 @@ class LabelCandidates:
         return np.clip(self.spots, self.boxes[..., :2], self.boxes[..., 2:])
 
     def for_letters(self, letters: Sequence[int]) -> LabelCandidates:
-        """The same places, of these letters of a longer list."""
+        """These places, renumbered as places of the given letters of a longer list."""
         return LabelCandidates(np.array(letters)[self.letters], *list(vars(self).values())[1:])
 
     def append(self, more: LabelCandidates) -> LabelCandidates:

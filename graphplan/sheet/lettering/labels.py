@@ -28,7 +28,7 @@ MAX_WORK = 8e6  # places times letters: what asking others to move, which looks 
 
 
 class Relabelling:
-    """Letters at their places, that change them as long as it helps; `choice` is the place of each.
+    """Letters that change places as long as it helps; `choice` is the place of each.
 
     Letters that took their places one by one may have left no good one for the last. A letter with a fault takes a
     place where others stand, and these the best that is left to them, wherever that costs less in all (min-conflicts:
@@ -51,21 +51,21 @@ class Relabelling:
         return [int(letter) for letter in worst if fault[letter] >= FAULT]
 
     def relabel(self) -> Array:
-        """The places when no letter with a fault finds a better one."""
+        """Move letters with faults until none finds a better place; give the places."""
         for _ in range(MAX_RELABELLINGS if len(self.prices.found.boxes) < MAX_PLACES else 0):
             if not sum([self._improve(letter) for letter in self.faulty]):
                 break
         return self.choice
 
     def _met_at(self, letter: int, place: int) -> float:
-        """What a letter pays at a place for the others that stand."""
+        """What a letter pays at a place for the other letters."""
         self.standing.put(letter, None)
         met = float(self.standing.clash_costs(self.prices.found[place : place + 1])[0])
         self.standing.put(letter, self.prices.found[self.choice[letter]])
         return met
 
     def _improve(self, letter: int) -> bool:
-        """Whether a letter found a better place, if need be where others stood."""
+        """Move a letter to a better place, if need be where others stand; whether it moved."""
         span, candidates, before = self.spans[letter], self.prices.found, self._cost(letter)
         places = np.arange(span.start, span.stop)
         alone = self.prices.total(places, before)
@@ -85,7 +85,7 @@ class Relabelling:
         return any(self._make_room(letter, place, before) for place in tempting) or improved
 
     def _make_room(self, letter: int, place: int, before: float) -> bool:
-        """Whether a letter takes a place because those that stand there pay less elsewhere than it saves."""
+        """Give a letter a place where others stand, if these pay less elsewhere than it saves; whether it moved."""
         neighbours = [neighbour for neighbour in self._in_the_way(place) if neighbour != letter]
         if not 0 < len(neighbours) <= MAX_NEIGHBOURS_MOVED or self.left <= 0:
             return False
@@ -126,7 +126,7 @@ POOR_PRICE = 2.0  # the price of what a letter covers, from which on it can hard
 
 def place_letters(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,
                   letters: LetterSizes = SMALL_SHEET) -> list[Item]:
-    """The letters in their places and sizes, with leaders where they had to go far."""
+    """Place letters; those far from their marks get leaders."""
     return lettering(wishes, items, marks, rect, letters).items
 
 
@@ -167,7 +167,7 @@ class PlacedLetters:
 
 def lettering(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,
               letters: LetterSizes = SMALL_SHEET) -> PlacedLetters:
-    """The same, and how well they stand."""
+    """Place letters, and judge how well they stand."""
     if not wishes:
         return PlacedLetters()
     wishes = [replace(wish, letters=letters) for wish in wishes]
@@ -193,7 +193,7 @@ def _choose_places(prices: Prices, count: int) -> Array:
 
 
 def _free_place(prices: Prices, letter: slice, taken: Array) -> int:
-    """The cheapest place of a letter beside those that stand: with no thought of them, if it meets none."""
+    """The cheapest place of a letter beside those placed already; the cheapest of all, if it meets none of them."""
     boxes, best = prices.found.boxes, prices.cheapest(letter)
     if not overlap(boxes[best : best + 1], taken).any():
         return best

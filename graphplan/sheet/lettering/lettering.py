@@ -59,7 +59,7 @@ class LetterSizes:
 
     @property
     def times(self) -> float:
-        """How many times as large as they are set words are."""
+        """The size of words, beside the size in which they are set."""
         return self.text / SIZE
 
 
@@ -104,7 +104,7 @@ def sentence_runs(sentence: str, names: tuple[str, ...] = ()) -> Runs:
 
 @lru_cache(maxsize=8)
 def _pattern(names: tuple[str, ...]) -> re.Pattern[str]:
-    """What needs setting: the names, longest first, and what always does."""
+    """A pattern of what is set with subscripts or in Greek: the names, longest first, and what always is."""
     special = [n for n in names if "_" in n or n.endswith("'") or n.lower() in GREEK]
     ranked = sorted(special, key=lambda n: (-len(n), n))
     patterns = [rf"(?<![a-z]){n}(?![a-z])" if n.isalpha() else re.escape(n) + r"(?!\d)" * n[-1].isdigit()
@@ -136,7 +136,7 @@ def equation_runs(text: str) -> Runs:
 
 
 def _merge_runs(runs: Iterable[TextRun]) -> Runs:
-    """Without empty runs, and neighbours on one level made one."""
+    """Drop empty runs, and merge neighbours on one level."""
     merged: list[TextRun] = []
     for run in runs:
         if merged and merged[-1].level == run.level:
@@ -164,7 +164,7 @@ def script_size(size: float) -> float:
 
 @lru_cache(maxsize=4096)
 def _ems(runs: Runs, small: float) -> float:
-    """How long the lettering is, beside its size, and with subscripts so much smaller."""
+    """The length of the lettering in ems, with subscripts so much smaller."""
     return sum(sum([ADVANCE.get(char, 0.7) for char in run.text]) * (small if run.level else 1.0) for run in runs)
 
 
@@ -190,7 +190,7 @@ def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]
 
 
 def two_line_width(runs: Runs, size: float) -> float:
-    """How wide bold lettering is at least on two lines."""
+    """The least width in which bold lettering fits on two lines."""
     long = width(runs, size, bold=True)
     return next((share * long for share in (0.55, 0.65, 0.8) if len(wrap(runs, size, share * long, bold=True)) <= 2),
                 long)

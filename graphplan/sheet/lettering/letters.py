@@ -63,7 +63,7 @@ class LetteredPlate:
 
 
 def letter_plate(plate: Plate) -> LetteredPlate:
-    """The same, and how well the letters stand."""
+    """A plan with its letters, and how well they stand."""
     items, wishes = [*plate.items(), *plate.mechanism], wishes_on(plate)
     marks = [mark.spot for mark in plate.steps if plate.is_on_panel(mark)]
     if plate.panel == MECHANISM:
@@ -82,7 +82,7 @@ def wishes_on(plate: Plate) -> list[Wish]:
 
 
 def wishes_inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:
-    """The letters of what is on the panel."""
+    """The letters whose marks are on the panel."""
     for wish in wishes:
         if spots := tuple(filter(rect.holds, wish.spots)):
             yield replace(wish, spots=spots)
@@ -96,7 +96,7 @@ def mechanism_wishes(mechanism: DrawnMechanism) -> Iterator[Wish]:
 
 
 def _path_letters(plate: Plate) -> Iterator[Wish]:
-    """Whose path or centrode a curve is, where most room is beside it."""
+    """The names of paths and centrodes, anywhere along the curve."""
     motion = plate.plans.motion
     if not motion:
         return
@@ -131,7 +131,7 @@ def items_with_names(plate: Plate, others: Sequence[Item] = (), wishes: Iterable
 
 @dataclass(frozen=True)
 class PlateLetters:
-    """What stands beside the strokes of one plan."""
+    """The letters and numbers of one plan."""
 
     plate: Plate
 

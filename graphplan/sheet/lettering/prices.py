@@ -35,7 +35,7 @@ class Lines:
         self.prices = np.array([price for _, price in chains])
 
     def price(self, found: LabelCandidates) -> Array:
-        """For every stroke its length in a place and the air around it, and for touching it."""
+        """The price of each place for the strokes in it and the air around it: by length, and for touching."""
         cells, count = found.cells, len(self.prices)
         places, segments = self.tree.query(_diagonals(cells))
         shares = share(cells[places], self.start[segments], self.end[segments])
@@ -49,12 +49,12 @@ class Lines:
 
 
 def _faulty(places: Array, count: int) -> Array:
-    """What a fault costs each of so many places that has one."""
+    """The price of a fault for each of `count` places that is among `places`."""
     return FAULT * (np.bincount(places, minlength=count) > 0)
 
 
 def _diagonals(boxes: Array) -> Any:
-    """Boxes as lines, which are made faster and have the same bounds: a tree asks for no more."""
+    """The diagonals of boxes: a tree compares bounds alone, and lines are made faster than boxes."""
     return shapely.linestrings(boxes.reshape(-1, 2, 2))
 
 
@@ -94,7 +94,7 @@ class Marks:
         self.tree = shapely.STRtree(shapely.points(self.spots))
 
     def price(self, found: LabelCandidates) -> Array:
-        """For every mark that is nearer than the place's own, or that its leader passes."""
+        """The price of each place for marks that are nearer than its own, or that its leader passes."""
         own_gap = _gap(found.boxes, found.spots)
         near = np.where(found.led, 0.0, own_gap + BESIDE)  # a leader tells whose the letters are
         places, marks = self.tree.query(_diagonals(found.boxes + near[:, None] * OUTWARDS))
@@ -106,7 +106,7 @@ class Marks:
             + self._leader_faults(found)
 
     def _leader_faults(self, found: LabelCandidates) -> Array:
-        """For every place whose leader passes another mark."""
+        """The price of each place whose leader passes another mark."""
         led = np.flatnonzero(found.led)
         leaders = shapely.linestrings(np.stack([found.spots[led], found.ends[led]], axis=1))
         leads, marks = self.tree.query(leaders, "dwithin", BESIDE) if len(led) else np.empty((2, 0), dtype=int)
@@ -128,7 +128,7 @@ class Surfaces:
         self.tree = shapely.STRtree(self.figures)
 
     def price(self, found: LabelCandidates) -> Array:
-        """For the area of every surface that a place and the air around it cover, and for touching it."""
+        """The price of each place for the surfaces that it and the air around it cover: by area, and for touching."""
         cells = shapely.box(*found.cells.T)
         places, surfaces = self.tree.query(cells, predicate="intersects")
         covered = shapely.area(shapely.intersection(cells[places], self.figures[surfaces])) + TOUCH
@@ -167,7 +167,7 @@ class Prices:
         self.known = np.zeros(len(found.cost), dtype=int)  # how many parts a place's price holds
 
     def cheapest(self, letter: slice, more: Array | float = 0.0) -> int:
-        """The cheapest place of a letter, where its places cost so much more."""
+        """The cheapest place of a letter, where its places cost `more` in addition."""
         while True:
             price = self.cost[letter] + more
             best = int(price.argmin())
@@ -198,7 +198,7 @@ class Prices:
         return self.cost[places]
 
     def faults(self, places: Array) -> Array:
-        """What of the cost of some places is for what they cover, and not for being far away."""
+        """The part of some places' cost that is for what they cover, not for distance."""
         return self.total(places) - self.found.cost[places]
 
     def with_more_places(self, more: LabelCandidates) -> tuple[Prices, Array]:
@@ -225,7 +225,7 @@ class Standing:
         self.boxes, self.leaders = np.full((count, 4), np.nan), np.full((count, 4), np.nan)
 
     def put(self, letter: int, place: LabelCandidates | None) -> None:
-        """A letter stands at a place, or nowhere."""
+        """Put a letter at a place, or take it away."""
         self.boxes[letter] = self.leaders[letter] = np.nan
         if place is not None:
             self.boxes[letter] = place.boxes
@@ -239,7 +239,7 @@ class Standing:
         return np.asarray(stands_inside | _crossings(boxes, self.leaders).any(axis=0))
 
     def clash_costs(self, places: LabelCandidates) -> Array:
-        """What it costs places that other letters stand there, or that a leader goes through letters."""
+        """The price of places for other letters in them, and for leaders through letters."""
         crossed = np.zeros(len(places.boxes))
         led, lines = np.flatnonzero(places.led), self.leaders[~np.isnan(self.leaders[:, 0])]
         boxes = self.boxes[~np.isnan(self.boxes[:, 0])]

@@ -135,7 +135,7 @@ class Arrow(Item):
 
     @property
     def direction(self) -> Spot:
-        """One mm its way."""
+        """Its direction, as a vector 1 mm long."""
         dx, dy = self.end[0] - self.start[0], self.end[1] - self.start[1]
         length = math.hypot(dx, dy) or 1.0
         return dx / length, dy / length
@@ -147,13 +147,13 @@ class Arrow(Item):
         return self.end, self._spot(self.head, half), self._spot(self.head, -half)
 
     def _spot(self, back: float, aside: float = 0.0) -> Spot:
-        """So many mm back from the tip, and to the left."""
+        """The spot so many mm back from the tip and to the left of the vector."""
         ux, uy = self.direction
         return self.end[0] - back * ux - aside * uy, self.end[1] - back * uy + aside * ux
 
     @property
     def figures(self) -> Iterator[tuple[tuple[Spot, ...], str]]:
-        """What its head is: outlines, the first from its tip, and what fills each."""
+        """The outlines of its head, the first from its tip, each with its filling."""
         half, barb = self.head / SLIM[self.pen.tip], min(BARB, self.head / 2)
         if self.pen.tip == OPEN:
             for side in (half, -half):

@@ -22,7 +22,7 @@ DOWN, LEFT, RIGHT, UP = (0.0, -1.0), (-1.0, 0.0), (1.0, 0.0), (0.0, 1.0)
 
 @dataclass(frozen=True)
 class Figure:
-    """What moves as one: it rides on a `link`, turns with the guide of a `slide`, or stands upright.
+    """Items that move as one: with a `link`, turning with the guide of a `slide`, or upright.
 
     Each of its spots goes with that of the points `at` which is nearest to it.
     """
@@ -96,7 +96,7 @@ class DrawnMechanism:
         yield from self._pairs()
 
     def figures(self) -> Iterator[Figure | FixedGuide | Rail]:
-        """Everything but the turning pairs, each with what it moves with."""
+        """The figures of all but the turning pairs, each with the link or points that it moves with."""
         for name in self._pivots:
             yield Figure(tuple(symbols.pivot(self.spots[name], self._ground(name))), (name,))
         for slide in self._slides:
@@ -151,7 +151,7 @@ class DrawnMechanism:
         return len({link for name in names for link in self.scene.links_of[name]}) > 1
 
     def _ground(self, name: str) -> Vector:
-        """Downwards, unless a link goes there."""
+        """The direction to the ground under a pivot: downwards, unless a link goes there."""
         pivot = self.spots[name]
         directions = [unit_vector(pivot, end) for end in self.neighbours(name)]
 
@@ -190,7 +190,7 @@ class DrawnMechanism:
                 yield from self._rack_or_belt(gear)
 
     def _fringe(self, gear: Gear, middle: Spot, radius: float) -> Iterator[Item]:
-        """What says that a wheel on the frame stands still, where it is rolled on; a ring has it outside."""
+        """The hatching of a wheel that is fixed to the frame, beside its pitch point; outside of a ring."""
         pole = gear.pitch_point(self.scene.points)
         if pole is None or gear.belt:
             return iter(())
@@ -249,7 +249,7 @@ class DrawnMechanism:
         return unit_vector((0.0, 0.0), (x, y))
 
     def seat(self, slide: Slide) -> Spot:
-        """Where the block is."""
+        """The spot of the block."""
         return self.spots[self._seat(slide)]
 
     def _seat(self, slide: Slide) -> str:

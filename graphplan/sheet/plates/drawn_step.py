@@ -58,7 +58,7 @@ class DrawnStep:
 
     @property
     def radius(self) -> float:
-        """Of a circle or an opening."""
+        """The radius of a circle or an opening, mm."""
         return math.sqrt(max(self.value[-1], 0.0)) * self.view.scale
 
     @property
@@ -69,7 +69,7 @@ class DrawnStep:
 
     @property
     def direction(self) -> Spot:
-        """One mm the way a line runs."""
+        """The direction of a line, as a vector 1 mm long."""
         a, b, _ = self.value
         length = math.hypot(a, b) or 1.0
         return b / length, -a / length
@@ -87,7 +87,7 @@ class DrawnStep:
 
     @property
     def free(self) -> bool:
-        """Whether it stands where it is put: a point of the pose, or the beginning of a plan."""
+        """Whether it is chosen freely: a point of the pose, or the beginning of a plan."""
         return self.step.op.free
 
     @property
@@ -132,12 +132,12 @@ class Stroke:
 
     @property
     def letter(self) -> str:
-        """What a vector is called, if it is."""
+        """The letter of a vector, if it has one."""
         return self.vector.label if self.vector else ""
 
     @property
     def name(self) -> str:
-        """What it says of a vector that is asked for, such as `velocity A`."""
+        """The name of a vector that is asked for, such as `velocity A`."""
         return f"{self.kind} {self.vector.point}" if self.vector else ""
 
     @property

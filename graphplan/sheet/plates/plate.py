@@ -118,7 +118,7 @@ class Plate:
 
     @property
     def caption(self) -> str:
-        """What the plan is."""
+        """The title of the plan."""
         return self.plans.tongue(self.panel.caption(self.plans.kinds(self.panel)))
 
     @cached_property
@@ -128,7 +128,7 @@ class Plate:
 
     @property
     def beginnings(self) -> list[DrawnStep]:
-        """The marks that are chosen freely: where the plan begins."""
+        """The marks where the plan begins, which are chosen freely."""
         return [mark for mark in self.steps if mark.free and mark.number]
 
     def is_on_panel(self, mark: DrawnStep) -> bool:
@@ -172,11 +172,11 @@ class Plate:
         yield from (stroke.item for stroke in self.vectors)
 
     def dot(self, drawn: DrawnStep) -> Pen | None:
-        """What dots a mark that a step makes, but for corners of force polygons and where forces end."""
+        """The pen of a mark's dot; None for corners of force polygons, ends of forces, and marks off the panel."""
         return self.dotting(drawn) if self.is_on_panel(drawn) else None
 
     def dotting(self, drawn: DrawnStep) -> Pen | None:
-        """What dots it where it lies on the panel."""
+        """The pen of a mark's dot where it lies on the panel."""
         if drawn.kind != POINT or corner(drawn.step) or (not drawn.number and drawn.name in self.plates.scene.points):
             return None
         if any(stroke.end is drawn and stroke.kind in pens.FORCES for stroke in self.wanted_vectors):
@@ -278,7 +278,7 @@ class Plate:
 
     @cached_property
     def stretches(self) -> dict[int, Stroke]:
-        """What of each line lies in the panel, links and forces along it or not."""
+        """The part of each line that lies in the panel, whether links and forces lie along it or not."""
         stretches = {line.index: self._stretch(line) for line in self.steps if line.kind == LINE}
         return {index: stretch for index, stretch in stretches.items() if stretch is not None}
 
@@ -304,11 +304,11 @@ class Plate:
         return LINE_OVERRUN, pens.PRODUCED if line.step.op.movement in (Movement.RULED, Movement.GUIDED) else pens.THIN
 
     def directs(self, line: DrawnStep) -> bool:
-        """Whether a line only serves as a direction: from one mark to another."""
+        """Whether a line only gives a direction, from one mark to another."""
         return line.step.op.movement is Movement.RULED and len(self.marks(line)) == 2
 
     def _clip_to_panel(self, stroke: Stroke) -> Stroke | None:
-        """What of a stroke lies in the panel."""
+        """The part of a stroke that lies in the panel."""
         inside = clip_segment(self.view.rect, *stroke.ends) if stroke.length > 0 else None
         return stroke.sub_stroke(*inside) if inside else None
 
@@ -321,7 +321,7 @@ class Plate:
                 yield replace(stretch.sub_stroke(low, high), pen=pen, head=BREAK_HEAD), mark
 
     def _uncovered_parts(self, stroke: Stroke, links: Iterable[tuple[float, float]] = ()) -> Iterator[Stroke]:
-        """What is left of a stroke where no link and no force lies along it."""
+        """The parts of a stroke along which no link and no force lies."""
         long, done = stroke.length, 0.0
         for low, high in (*sorted([*links, *self._forces_along(stroke)]), (1.0, 1.0)):
             if (low - done) * long > SHORT_STROKE:

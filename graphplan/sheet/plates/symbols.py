@@ -198,7 +198,7 @@ def circle(pen: pens.Pen, centre: Spot, radius: float) -> tuple[Item, Item]:
 
 
 def fringe(centre: Spot, radius: float, towards: Spot, outwards: float) -> Iterator[Item]:
-    """What says that a wheel stands still: its rim hatched on both sides of a spot, `outwards` (+1) or inwards (-1)."""
+    """The mark of a fixed wheel: its rim hatched on both sides of a spot, `outwards` (+1) or inwards (-1)."""
     step = math.degrees(PITCH / radius)
     middle = math.degrees(math.atan2(towards[1] - centre[1], towards[0] - centre[0]))
     count = int(FRINGE / step)

@@ -73,7 +73,7 @@ class Centrode:
                 yield Circle(pens.PATH_DOT, LAYER, None, spots[0], 2 * DOT_RADIUS_MM)
 
     def _carry(self, scene: Scene) -> Callable[[Spot], Spot]:
-        """Where its link takes its spots."""
+        """The motion of its link, as a function of a spot."""
         if not self.given:
             return lambda spot: spot
         was = [complex(*at) for _, at in self.given]
@@ -175,7 +175,7 @@ def outline(spots: Sequence[Spot]) -> Iterator[tuple[Spot, ...]]:
 
 
 def simplify_chain(spots: Sequence[Spot]) -> tuple[Spot, ...]:
-    """A chain with no more spots than it takes; of one that goes back on its own way, that way alone."""
+    """A chain with as few spots as the tolerance allows; one that returns along itself is drawn once."""
     import shapely  # where nothing is drawn, as for a list of steps, it is not needed
 
     if math.dist(spots[0], spots[-1]) < SAME_WAY_MM:

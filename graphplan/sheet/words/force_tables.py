@@ -68,7 +68,7 @@ class ForceTables:
         return number_runs(self.tongue, value, largest)
 
     def _deviation_runs(self, kind: str, name: str) -> Runs:
-        """How far off a number is drawn, to stand behind it."""
+        """The deviation of a number, to stand behind it; empty where it is not known."""
         deviation = self.pencil.of_kinds(kind).get(name)
         return () if deviation is None else sentence_runs(f" ±{self.tongue(deviation.text)}")
 

@@ -43,7 +43,7 @@ def in_mm(written: Said) -> Said:
 
 
 class Length(NamedTuple):
-    """How a length is spoken, and all that its words measure, what is laid off last."""
+    """A length in words, and the distances that they mention; the last one is laid off."""
 
     text: Said
     measures: tuple[PaperDistance, ...]
@@ -54,7 +54,7 @@ class Length(NamedTuple):
 
 
 def magnitude(x: Any, y: Any) -> float:
-    """How long a vector is; its numbers may be unknown."""
+    """The length of a vector; its components may be unknown numbers."""
     if isinstance(x, Unknown) or isinstance(y, Unknown):
         length: float = x.hypot(y) if isinstance(x, Unknown) else y.hypot(x)
         return length
@@ -75,7 +75,7 @@ class Lengths:
         return tuple(length for length in self._step_lengths(step) if length.mm >= MIN_LENGTH)
 
     def for_earlier_part(self, compound: Compound) -> tuple[Length, ...]:
-        """What of a compound is laid off later, as its part on another plan has found it."""
+        """What a compound's part on another plan determines, to be laid off later."""
         match compound.step.op.sizing, compound.step.args, dict(compound.inner):
             case Sizing.SQUARE, (K, A, m, w, _), {"E": E}:
                 speed, arm, laid = self.distance(m, w), self.distance(K, A), self.distance(E, A)
@@ -91,11 +91,11 @@ class Lengths:
     # ---- mm -----------------------------------------------------------------------------------------------------
 
     def per_mm(self, index: int) -> float:
-        """Lengths of the scene for a mm where a step is drawn."""
+        """Scene lengths per mm on the plan of a step."""
         return self.scales.lengths_per_mm(self.plan(index))
 
     def times(self, source: int, own: int) -> float | None:
-        """How much larger what lies where one mark does is where another does; nothing where it is as large."""
+        """The ratio of the scales of two marks' plans, source to own; None where they are equal."""
         if self.plan(source) == self.plan(own):
             return None
         times = self.per_mm(source) / self.per_mm(own)
@@ -113,7 +113,7 @@ class Lengths:
         return PaperDistance(abs(self.lever(Y, C, p, q)), (Y, C, p, q))
 
     def lever(self, Y: int, C: int, p: int, q: int) -> float:
-        """The same in mm, with the sign of the moment."""
+        """The arm in mm, with the sign of the moment."""
         force, (u, v) = self.vector(p, q), self.vector(Y, C)
         return (u * force[1] - v * force[0]) / (magnitude(*force) or 1.0) / self.per_mm(C)
 
@@ -143,7 +143,7 @@ class Lengths:
             yield self._laid_vector(step, self.distance(args[op.root], out))
 
     def _laid_vector(self, step: Step, laid: PaperDistance) -> Length:
-        """A vector: a given one with its components, or one that is drawn on this plan or another, and how often."""
+        """The length of a vector: given with its components, or carried over from this plan or another."""
         if step.op.movement in COMPONENTS:
             text = self._given_quantity(step.quantity or LENGTH, laid, step.index)
             components = (tenths(component / self.per_mm(step.index)) for component in self.vector(*laid.marks))
@@ -156,7 +156,7 @@ class Lengths:
         return length._replace(text=said("{0}, against that vector", length.text)) if against else length
 
     def _carry_over(self, source: PaperDistance, laid: PaperDistance) -> Length:
-        """A length, and where it is another where it is taken from, how it follows from that one."""
+        """A length that is carried over, with the factor between the two plans where their scales differ."""
         if source.mm < MIN_LENGTH or self._as_long(source, laid):
             return Length(laid.text, (laid,))
         factors = _factors(laid.mm / source.mm)
@@ -252,13 +252,13 @@ class Lengths:
         return total, arrange("{0} · {1}", total[0], total[1])
 
     def _known_length(self, step: Step) -> Length:
-        """What was found beforehand, as it is laid off here."""
+        """A length that was found beforehand and is laid off here."""
         whole = self.distance(step.args[4], step.index)
         return Length(whole.text, (whole,))
 
 
 def _factors(times: float, parts: int = 3) -> tuple[float, ...]:
-    """A factor, in up to so many parts where it is too large to be taken at once."""
+    """A factor as a product of up to `parts` factors, none larger than the dividers can enlarge."""
     if parts == 1 or times <= MAX_ENLARGEMENT * (1 + LENGTH_TOL):
         return (times,)
     return (*_factors(times / MAX_ENLARGEMENT, parts - 1), MAX_ENLARGEMENT)

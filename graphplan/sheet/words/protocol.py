@@ -56,7 +56,7 @@ class SpokenStep:
 
 @dataclass(frozen=True)
 class Entry:
-    """What is told as one step: one movement, or several of a compound that follow each other."""
+    """What is written as one step: one movement, or several consecutive ones of a compound."""
 
     sentence: Said
     why: str
@@ -111,7 +111,7 @@ class Passage:
 
 @dataclass(frozen=True)
 class Protocol:
-    """A construction told step by step, as it is drawn at these scales; without them no lengths are told."""
+    """The steps of a construction in words, with lengths on paper where scales are given."""
 
     plans: Plans
     scales: Scales | None = None
@@ -168,7 +168,7 @@ class Protocol:
         return tuple(passages)
 
     def _controls_at(self, step: int) -> Iterator[Said]:
-        """The controls of which this step draws the last mark."""
+        """The controls whose last mark this step draws."""
         for control in self.plans.drawing.controls:
             if step == max(map(max, control.marks)):
                 lines = (join(map(self._program.text, line), " ") for line in control.marks)
@@ -177,7 +177,7 @@ class Protocol:
 
     @cached_property
     def _compounds(self) -> dict[int, Compound]:
-        """By step the compound that it is a part of."""
+        """The compound of each step that belongs to one."""
         return {step.index: compound for compound in self.plans.drawing.compounds for step in compound.movements}
 
     def _entries(self, steps: Sequence[SpokenStep], stage: Stage | None) -> Iterator[Entry]:
@@ -191,7 +191,7 @@ class Protocol:
                 yield from (Entry(one.sentence, _reason(one, stage), (one,), one.measuring) for one in movements)
 
     def _compound_text(self, compound: Compound, movements: Sequence[SpokenStep]) -> tuple[Said, Measuring] | None:
-        """What some movements of a compound are as one step: its end, or what of it is drawn beforehand."""
+        """Some movements of a compound in one sentence: the whole compound, or its part that is drawn beforehand."""
         if movements[-1].index == compound.step.index:
             return compound.sentence, partial(self.lengths.for_step, compound.step) if self.lengths else tuple
         measuring = partial(self.lengths.for_earlier_part, compound) if self.lengths else tuple
@@ -218,6 +218,6 @@ def with_lengths(sentence: Said, measuring: Measuring) -> Said:
 
 
 def _reason(step: SpokenStep, stage: Stage | None) -> str:
-    """Why a step is drawn, where its stage does not say it."""
+    """The reason of a step; empty where its stage states it already."""
     stage_text = f"{stage.title} {stage.law}".lower() if stage else ""
     return "" if step.why.lower() in stage_text else step.why

@@ -63,7 +63,7 @@ class Readings:
                 and (not reading.kind.place or reading.kind in DISTANCE_NAMES))
 
     def measure(self, reading: Reading) -> Measured | None:
-        """What is read off, unless it is nothing."""
+        """A reading with its value; None where it is too short to be measured."""
         if reading.kind.place:
             return self._distance_reading(reading)
         kind, dimension, value = reading.kind, reading.kind.dimension, self.values[reading.kind][reading.of]
@@ -97,7 +97,7 @@ class Readings:
         return self._read(reading, DISTANCE_NAMES[reading.kind](reading.of), read, symbol, magnitude(x - u, y - v))
 
     def _read(self, reading: Reading, name: Said, read: ReadSum, symbol: Said, computed: float) -> Measured:
-        """What is read, beside what is computed."""
+        """A reading beside the computed value."""
         text = said("{0}: {1} = {2}; computed {3}", name, read.text, join((read.total[-1], symbol), " "),
                     digits(computed))
         return Measured(reading.kind, reading.of, Length(text, read.measures), read.total.value, computed)
@@ -173,7 +173,7 @@ class Readings:
 
 
 class ReadSum(NamedTuple):
-    """How something is read: in words up to its value, from what it measures, by which sum."""
+    """A reading: its words up to the value, the distances measured, and the sum that gives the value."""
 
     text: Said
     measures: tuple[PaperDistance, ...]
@@ -187,5 +187,5 @@ def _term(total: Sum, place: int) -> Said:
 
 
 def _add_excess(told: Said, excess: float, total: Sum) -> Said:
-    """A turning and what a drive adds to it."""
+    """Add what a drive adds to a turning, if anything."""
     return arrange("{0} + {1}", told, total[-2]) if excess else told

@@ -81,7 +81,7 @@ class TextRow:
 
     @property
     def right(self) -> float:
-        """How far the row reaches."""
+        """The right end of the row."""
         ends = (cell.x + width(cell.runs, self.size, cell.bold) * (1.0 - ANCHORS[cell.anchor]) for cell in self.cells)
         return max((*ends, *(box.right for box in self.boxes), self.tall if self.figure else 0.0), default=0.0)
 
@@ -100,7 +100,7 @@ Placed = tuple[TextRow, float, float]
 
 
 def fill(rows: Sequence[TextRow], columns: Sequence[Rect]) -> list[Placed] | None:
-    """Every row with its left edge and base line, running down the columns; none if they do not hold them."""
+    """Place rows down the columns, each with its left edge and base line; None if the columns cannot hold them."""
     placed_rows: list[Placed] = []
     places = iter(columns)
     column = next(places, None)
@@ -118,7 +118,7 @@ def fill(rows: Sequence[TextRow], columns: Sequence[Rect]) -> list[Placed] | Non
 
 
 def _block_end(rows: Sequence[TextRow], first: int) -> int:
-    """Where the rows end that must stand in one column with a row, as they or others of them say."""
+    """The end of the block of rows that must stand in one column with a row."""
     end = i = first
     while i <= end and i < len(rows):
         end, i = max(end, i + rows[i].keep), i + 1
@@ -126,7 +126,7 @@ def _block_end(rows: Sequence[TextRow], first: int) -> int:
 
 
 def _gap(row: TextRow, y: float, column: Rect) -> float:
-    """No gap at the head of a column."""
+    """The gap above a row: none at the head of a column."""
     return row.gap if y < column.top else 0.0
 
 
@@ -158,7 +158,7 @@ class Deviation:
 
     @property
     def text(self) -> Said:
-        """In figures; a dash where it has no bound."""
+        """The deviation in figures; a dash where it is unbounded."""
         if math.isinf(self.value):
             return figures("–")
         return figures(digits(self.value, 2) + (f" ({digits(self.mm, 2)})" if self.mm is not None else ""))
@@ -209,7 +209,7 @@ def scalar_table(say: Tongue, what: str, name: str, unit: str, values: Mapping[s
 
 
 def zero_rounding(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict[str, dict[str, Any]]:
-    """The results, with turnings as nothing that are but rounding beside what others of their kind are made of.
+    """The results, with turnings set to zero that are rounding errors beside others of their kind.
 
     What is unknown is not weighed.
     """
@@ -224,7 +224,7 @@ def zero_rounding(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict
 
 def _table(say: Tongue, head: list[Runs], values: Mapping[str, tuple[float, ...]], largest: float, off: Off,
            spoken: Callable[[str], str] = str) -> Table:
-    """Numbers, of which the largest of their kind is told, under their head."""
+    """A table of numbers under their head; `largest` is the largest number of their kind."""
     rows = [[name_runs(spoken(name)), *(number_runs(say, x, largest) for x in numbers)] for name,
             numbers in values.items()]
     return with_deviations(say, [head, *rows], list(values), off) if rows else []
@@ -247,7 +247,7 @@ def largest_size(values: Mapping[Any, Any]) -> float:
 
 
 def _larger(a: float, b: float) -> float:
-    """The larger of two numbers, by arithmetic alone: they may be unknown."""
+    """The larger of two numbers, by arithmetic alone, as they may be unknown."""
     return (a + b + abs(a - b)) / 2
 
 

@@ -38,7 +38,7 @@ class Sum:
 
     @cached_property
     def level(self) -> int | Unknown:
-        """The first at which it holds as printed, else that of what the printed numbers come to."""
+        """The first level at which it holds as printed; else the level that prints what its numbers give."""
         unknown = next((number for number in self.numbers if isinstance(number, Unknown)), None)
         if unknown is None:
             return holding(self.kinds, self.numbers)
@@ -51,7 +51,7 @@ class Sum:
         return self._number_text(place, self.result if last else self.numbers[place])
 
     def unsigned_text(self, place: int) -> Said:
-        """The same without its sign."""
+        """A number as it is printed, without its sign."""
         return self._number_text(place, abs(self.numbers[place]))
 
     def _number_text(self, place: int, number: float) -> Said:
@@ -73,14 +73,14 @@ class Sum:
 
     @property
     def value(self) -> float:
-        """What the result is as printed; unknown as it is, where it is not known yet."""
+        """The result as printed; an unknown where it is not known yet."""
         number = self.result
         return number if isinstance(self.level, Unknown) else round_as_printed(number, self.kinds[-1], self.level,
                                                                                result=True)
 
 
 def result_at(level: int, kinds: str, numbers: Sequence[float]) -> float:
-    """The result, or what the printed numbers come to."""
+    """The result at a level: exact, or evaluated from the printed numbers."""
     if level < PRINTED_LEVEL:
         return numbers[-1]
     form, number_kinds = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
@@ -91,7 +91,7 @@ def result_at(level: int, kinds: str, numbers: Sequence[float]) -> float:
 
 
 def holding(kinds: str, numbers: Sequence[float]) -> int:
-    """The first level at which a sum holds as printed, else that of what the printed numbers come to."""
+    """The first level of digits at which a sum holds as printed; else the level that prints what its numbers give."""
     if kinds[-1] not in LENGTH_KINDS:
         return READ_LEVEL
     form, kinds = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
@@ -105,7 +105,7 @@ def holding(kinds: str, numbers: Sequence[float]) -> int:
 
 
 def _value(form: str, kinds: str, numbers: Sequence[float]) -> float:
-    """What printed numbers come to."""
+    """Evaluate a sum with its printed numbers."""
     lengths = [(number, kind) for number, kind in zip(numbers, kinds, strict=False) if kind in LENGTH_KINDS]
     value = 1.0
     if form == "Σ":
@@ -135,14 +135,14 @@ def round_as_printed(number: float, kind: str, level: int, *, result: bool = Fal
 
 
 def decimals_of(number: float, kind: str, level: int) -> int:
-    """In how many decimals mm are printed: in more where nothing would be left to multiply or to divide by."""
+    """Decimals of a number of mm: more where a factor or divisor would be printed as zero."""
     count = LEVELS[level][0]
     keeps_figures = level == PRINTED_LEVEL or (kind == "d" and level == READ_LEVEL)
     return 1 - _power(number) if keeps_figures and 0 < abs(number) < 0.5 * 10.0**-count else count
 
 
 def result_figures(number: float, level: int) -> int:
-    """In how many figures a result is printed: in few only where they tell all whole ones."""
+    """Significant figures of a result: never fewer than its whole digits, up to seven."""
     power = _power(number)
     return LEVELS[level][2] if power <= 2 else max(4, min(power + 1, 7))
 
@@ -153,7 +153,7 @@ def _power(number: float) -> int:
 
 
 def figures_of(number: float, figures: int) -> int:
-    """In how many figures one is printed: in so many, or in more where these are all that it has."""
+    """Significant figures of a number: `figures`, or more where it is exact in so many."""
     for count in range(figures, MOST_FIGURES + 1):
         if abs(float(f"{number:.{count}g}") - number) <= FIGURE_TOL * abs(number):
             return count

@@ -241,7 +241,7 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
 
 
 def _value_text(value: Said, load: Force | Moment) -> Said:
-    """The value of a load; of one that changes it is said that it does."""
+    """The value of a load, and whether it changes over the cycle."""
     return said("{0} in this pose; it changes over the cycle", value) if load.table else value
 
 
@@ -281,7 +281,7 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
 
 
 def _keeping(balance: Balance) -> Said:
-    """The unknown that keeps the motion."""
+    """The question for the unknown that keeps the motion."""
     if balance.at:
         return said("The force on {0} at {1} that keeps this motion.", link_named(balance.link), balance.at)
     return said("The moment on {0} that keeps this motion.", link_named(balance.link))

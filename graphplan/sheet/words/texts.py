@@ -60,7 +60,7 @@ RESULTS = "results"  # the layer of what is read when all is drawn
 
 @dataclass(frozen=True, eq=False)
 class SheetWords:
-    """All that is said beside the plans; `check` is the difference from the analytic solver, by kind.
+    """The words beside the plans; `check` is the difference from the analytic solver, by kind.
 
     The words of a sheet are set more than once, with other drawing errors or of other poses: what is the same in all of
     them is set once for a width.
@@ -79,7 +79,7 @@ class SheetWords:
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """The letters that may stand in a sentence."""
+        """The names of marks that may occur in a sentence."""
         return tuple(step.name for step in self.drawing.drawn.steps if step.name)
 
     @cached_property
@@ -102,7 +102,7 @@ class SheetWords:
         return sentence_runs(self.plans.tongue(text), self.names)
 
     def paragraph(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[TextRow]:
-        """A paragraph, hanging from its number."""
+        """A paragraph, indented behind its number."""
         return self._hanging_rows(self._runs(text), wide, step, number)
 
     def _hanging_rows(self, runs: Runs, wide: float, step: int | None = None, number: str = "") -> Iterator[TextRow]:
@@ -110,7 +110,7 @@ class SheetWords:
             yield self._row_with_number(row) if number and i == 0 else row
 
     def _row_with_number(self, row: TextRow) -> TextRow:
-        """The row in which a number stands."""
+        """A row with a number; subclasses may mark it."""
         return row
 
     def _heading(self, text: str, size: float = HEADING, gap: float = 3.0, step: int | None = None) -> TextRow:
@@ -147,7 +147,7 @@ class SheetWords:
             yield from self.paragraph(text, wide)
 
     def _protocol(self, scales: Scales) -> Protocol:
-        """The protocol at these scales, told once for columns of any width."""
+        """The protocol at these scales, made once for columns of any width."""
         if not self._told or self._told[0].scales != scales:
             self._told[:] = [Protocol(self.plans, scales)]
         return self._told[0]
@@ -164,12 +164,12 @@ class SheetWords:
             yield from (replace(row, keep=row.keep + 1) for row in law)
 
     def _title(self, text: Said, wide: float, step: int, size: float = SIZE, gap: float = 1.2) -> Iterator[TextRow]:
-        """What stands over some entries, in as many lines as it takes."""
+        """A title over some entries, wrapped."""
         for i, runs in enumerate(wrap(self._runs(text), size, wide, bold=True)):
             yield TextRow((Cell(0.0, runs, bold=True),), size=size, gap=0.0 if i else gap, step=step, keep=2)
 
     def equation(self, equation: Equation, wide: float, step: int) -> Iterator[TextRow]:
-        """An equation with its vectors underlined as often as is known of them; a long one is broken, and bare."""
+        """An equation, each vector underlined once per known property; a long one is wrapped without underlines."""
         runs, lettered = equation_runs(equation.text), equation.text
         if width(runs, SIZE) > wide:
             yield from (TextRow((Cell(self.indent, line),), step=step, keep=1) for line in wrap(runs, SIZE, wide))
@@ -180,7 +180,7 @@ class SheetWords:
                       tall=UNDERLINED_HEIGHT * SIZE)
 
     def entry(self, entry: Entry, wide: float) -> Iterator[TextRow]:
-        """One step as the textbook tells it, unfolded with its movements below it."""
+        """One step as in the textbook, with its movements below it where they are `unfolded`."""
         apart = self.unfolded and entry.is_compound
         yield from self._hanging_rows(self._runs(entry.text), wide, entry.movements[0].index, "" if apart
                                       else entry.number)
@@ -291,7 +291,7 @@ class SheetWords:
 
 
 def _gap_text(gap: float) -> str:
-    """A difference as it is said on a sheet: rounding is not told in figures, which differ from machine to machine."""
+    """A difference as text; rounding errors are not given in figures, as these differ between machines."""
     return said("below 10⁻¹²") if gap <= ZERO_TOL else digits(gap, 2)
 
 

@@ -50,15 +50,15 @@ HOMES = {
 def __getattr__(name: str) -> Any:
     """A public name, from where it stands; the next time it is here."""
     if name in MODULES:
-        found = import_module(MODULES[name])
+        value = import_module(MODULES[name])
     elif name in HOMES:
-        found = getattr(import_module(HOMES[name]), name)
+        value = getattr(import_module(HOMES[name]), name)
     else:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     if name == "construct":
         _illustrate()
-    globals()[name] = found
-    return found
+    globals()[name] = value
+    return value
 
 
 def _illustrate() -> None:

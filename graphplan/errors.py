@@ -22,9 +22,9 @@ Key = tuple[tuple[int, int, str], ...]
 @lru_cache(1 << 15)
 def by_name(name: str) -> Key:
     """The key by which names are ordered: numbers in them by size, so that 10 comes after 9."""
-    parts = re.findall(r"\d+|\D+", name)
-    return tuple((0, len(part.lstrip("0")), part.lstrip("0") + part) if part.isdecimal() else (1, 0, part)
-                 for part in parts)
+    pieces = re.findall(r"\d+|\D+", name)
+    return tuple((0, len(piece.lstrip("0")), piece.lstrip("0") + piece) if piece.isdecimal() else (1, 0, piece)
+                 for piece in pieces)
 
 
 @dataclass(frozen=True)

@@ -106,7 +106,7 @@ def enclose_scene(scene: Scene, by: Bounds) -> Scene:
     arcs miss each other that touch to a float's digits.
     """
     if scene.assembly is not None:
-        scene = enclose_assembly(scene, enclose_scene(scene.assembly.given, by), by)
+        scene = enclose_assembly(scene, enclose_scene(scene.assembly.given_scene, by), by)
 
     def direction(one: Slide | Balance) -> Any:
         if scene.assembly is not None or one.written is None:
@@ -173,7 +173,7 @@ class Proofs(Domain):
 def enclose_assembly(scene: Scene, given: Scene, by: Bounds) -> Scene:
     """A pose that is constructed, in numbers with bounds: where its steps lead from the given scene in such numbers."""
     assert scene.assembly is not None
-    assembly = replace(scene.assembly, given=given, moves=moved_on(given, scene.assembly.shifts, by.reckoning))
+    assembly = replace(scene.assembly, given_scene=given, moves=moved_on(given, scene.assembly.shifts, by.reckoning))
     board = Board()
     assembler = Assembler(board, scene, assembly)
     guides = {slide: assembler.guide(slide) for slide in scene.slides}

@@ -55,8 +55,8 @@ def run(options: argparse.Namespace, span: tuple[float, float] | None) -> None:
 
     options.protocol = "none"  # there is no time to read it
     on_sheet, messages = on_paper(options), Messages(options.quiet)
-    moved = loop(on_sheet.drawing.scene, options.positions or POSES, span)
-    film = _film(on_sheet.drawing, on_sheet.composition, moved, options.seconds or SECONDS, messages)
+    motion = loop(on_sheet.drawing.scene, options.positions or POSES, span)
+    film = _film(on_sheet.drawing, on_sheet.composition, motion, options.seconds or SECONDS, messages)
     width = options.width or WIDTH
     written = (svg if kind(options.animate, ENDINGS, "animation") == ".svg" else gif)(film, width)
     write(written, options.animate)
@@ -77,14 +77,15 @@ def _film(drawing: Construction, composition: Composition, moved: Loop, seconds:
         raise Refused("--animate", "no pose of the range is reached", "another range")
     points, guides, loads = ({name: z[reached] for name, z in arrays.items()}
                              for arrays in (turn.points, turn.guides, turn.loads))
-    ways = [(one, points_where_sound(one, points, guides, loads)) for one in constructions(drawing)]
-    found: dict[int, tuple[Sheet, bool]] = {}
-    for k, drawn in zip(reached, sheets(composition, ways, points, guides, loads), strict=True):
-        found[k] = drawn
-        messages.progress(f"drawn: {len(found)} of {len(reached)}" if len(found) < len(reached) else "")
-    if bare := sum(not drawn for _, drawn in found.values()):
-        messages.remark(f"the mechanism alone, as nothing can be drawn there, in {bare} of {len(found)} poses")
-    shown, (each, name) = [k for k in moved.order if k in found], travel_unit(drawing.scene)
+    constructions_by_pose = [(construction, points_where_sound(construction, points, guides, loads))
+                             for construction in constructions(drawing)]
+    frames: dict[int, tuple[Sheet, bool]] = {}
+    for k, frame in zip(reached, sheets(composition, constructions_by_pose, points, guides, loads), strict=True):
+        frames[k] = frame
+        messages.progress(f"drawn: {len(frames)} of {len(reached)}" if len(frames) < len(reached) else "")
+    if bare := sum(not drawn for _, drawn in frames.values()):
+        messages.remark(f"the mechanism alone, as nothing can be drawn there, in {bare} of {len(frames)} poses")
+    poses, (each, name) = [k for k in moved.order if k in frames], travel_unit(drawing.scene)
     words = (arrange("{0}°" if name == "degrees" else "{0} {1}", digits(float(turn.travel[k]) / each), unit(name))
-             for k in shown)
-    return Film([found[k][0] for k in shown], [composition.plans.tongue(told) for told in words], seconds)
+             for k in poses)
+    return Film([frames[k][0] for k in poses], [composition.plans.tongue(caption) for caption in words], seconds)

@@ -48,8 +48,8 @@ def _kinds_of_results(scene: Scene) -> Iterator[str]:
 
 
 def _row(scene: Scene) -> tuple[str, ...]:
-    asked = {*_kinds_of_results(scene)}
-    letters = " ".join(letter if what in asked else " " for what, letter in ASKED.items())
+    kinds = {*_kinds_of_results(scene)}
+    letters = " ".join(letter if kind in kinds else " " for kind, letter in ASKED.items())
     return scene.name, str(len(scene.links)), letters, scene.title, scene.source
 
 
@@ -62,9 +62,9 @@ def fit_columns(rows: Sequence[Sequence[str]], width: int | None) -> Iterator[st
     """Rows in columns; on a terminal of this width title and source share what the others leave, and end in dots."""
     *narrow, title, source = (max(map(len, column)) for column in zip(*rows, strict=True))
     if width is not None:
-        left = max(0, width - sum(narrow) - len(GAP) * (len(rows[0]) - 1))
-        title = min(title, max(left - source, left * 3 // 5))
-        source = min(source, left - title)
+        free = max(0, width - sum(narrow) - len(GAP) * (len(rows[0]) - 1))
+        title = min(title, max(free - source, free * 3 // 5))
+        source = min(source, free - title)
     for row in rows:
         cells = zip(row, (*narrow, title, source), strict=True)
         yield GAP.join(_cut(cell, wide).ljust(wide) for cell, wide in cells).rstrip()

@@ -53,10 +53,10 @@ def run(options: argparse.Namespace) -> int:
 def _lines(report: Report, groups: Sequence[str], notes: Sequence[str]) -> list[str]:
     """Both opinions as a table, and what there is to say of them."""
     lines = [report.scene.title, *groups, "", _row("", "construction", "analytic solver", "difference", "own size")]
-    for part, ours in report.results.items():
-        truth = report.truth(part)
-        lines += [_row(f"{part} {name}", _text(ours[name]), _text(truth[name]),
-                       *(f"{float(number):.2g}" for number in _sizes(report, part, name))) for name in ours]
+    for kind, ours in report.results.items():
+        truth = report.truth(kind)
+        lines += [_row(f"{kind} {name}", _text(ours[name]), _text(truth[name]),
+                       *(f"{float(number):.2g}" for number in _sizes(report, kind, name))) for name in ours]
     powers = report.forces.by_balance(report.forces.power) if report.forces and report.forces.power else {}
     lines += [_row(f"power balance {name}", "", _text(value)) for name, value in powers.items()]
     lines.append("")
@@ -76,9 +76,9 @@ def _lines(report: Report, groups: Sequence[str], notes: Sequence[str]) -> list[
 
 def _data(report: Report, groups: Sequence[str], notes: Sequence[str]) -> dict[str, Any]:
     """The same as data: of every result what the construction and the solver say."""
-    results = {part: {name: {"construction": _plain(ours[name]), "solver": _plain(report.truth(part)[name]),
-                             **dict(zip(("difference", "size"), map(float, _sizes(report, part, name)), strict=False))}
-                      for name in ours} for part, ours in report.results.items()}
+    results = {kind: {name: {"construction": _plain(ours[name]), "solver": _plain(report.truth(kind)[name]),
+                             **dict(zip(("difference", "size"), map(float, _sizes(report, kind, name)), strict=False))}
+                      for name in ours} for kind, ours in report.results.items()}
     force_data = {"power balance": _plain(tuple(report.forces.power))} if report.forces else {}
     if report.forces and report.forces.efficiency is not None:
         force_data["efficiency"] = {"drawn": _plain(report.forces.efficiency),

@@ -45,12 +45,12 @@ def options(command: argparse.ArgumentParser) -> None:
                          help="the file to write: .svg, .pdf, .png or .dxf; without it SVG on standard output")
     command.add_argument("--dpi", type=count("--dpi", 20, 600), metavar="N", help=f"dots per inch of a .png ({DOTS})")
     add_sheet(command)
-    shown = command.add_mutually_exclusive_group()
-    shown.add_argument("--until", metavar="N", help="the sheet as it stands after step N")
-    shown.add_argument("--steps", metavar="A-B", help="steps A to B in ink over what was drawn before them, in grey")
-    shown.add_argument("--strip", nargs="?", const="mark", choices=("mark", "step"),
+    group = command.add_mutually_exclusive_group()
+    group.add_argument("--until", metavar="N", help="the sheet as it stands after step N")
+    group.add_argument("--steps", metavar="A-B", help="steps A to B in ink over what was drawn before them, in grey")
+    group.add_argument("--strip", nargs="?", const="mark", choices=("mark", "step"),
                        help="a film strip: a picture for every lettered mark, or for every step")
-    shown.add_argument("--by", choices=("sheet", STAGED),
+    group.add_argument("--by", choices=("sheet", STAGED),
                        help="the sheet alone, or after it its stages on pages of their own, enlarged, with "
                        "equation and law; --strict draws by stages unless the sheet is asked for")
     command.add_argument("--numbers", action="store_true",
@@ -65,8 +65,8 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.sheet.strip import by_stages, strip
 
     name = requested_format(options)
-    found = drawable(options)
-    composition = on_paper(options, found).composition
+    report = drawable(options)
+    composition = on_paper(options, report).composition
     composition = with_numbers(composition) if options.numbers else composition
     names = page_names(options.output, 2)
     more: list[Sheet] = []
@@ -75,7 +75,7 @@ def run(options: argparse.Namespace) -> int:
     elif _wants_stages(options) and (name in WHOLE or len(names) > 1):
         sheets, more = by_stages(composition)
     else:
-        sheets = [_requested_steps(sheet, found.drawing.drawn, options) for sheet in pages(composition)]
+        sheets = [_requested_steps(sheet, report.drawing.drawn, options) for sheet in pages(composition)]
     write_out, look = back_end(name), {"dpi": options.dpi or DOTS} if name == "png" else {}
     if name in WHOLE:
         write(write_out(sheets + more, *([composition.plates] if name == "dxf" else [])), options.output)

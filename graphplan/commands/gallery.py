@@ -73,8 +73,8 @@ def _report_differences(folder: Path, site: Mapping[str, str | bytes]) -> int:
     """Say what in the folder is not as the site is now: what differs, and what is no part of it."""
     stale = [f"{folder / name}: differs from what the scene gives now; run graphplan gallery {folder}"
              for name, content in site.items() if not _is(folder / name, content)]
-    there = (path for part in ("", *FOLDERS) for path in (folder / part).glob("*") if path.is_file())
-    stale += [f"{path}: no scene makes this file" for path in sorted({*there})
+    files = (path for subfolder in ("", *FOLDERS) for path in (folder / subfolder).glob("*") if path.is_file())
+    stale += [f"{path}: no scene makes this file" for path in sorted({*files})
               if path.relative_to(folder).as_posix() not in site]
     for line in stale:
         error(line)
@@ -98,19 +98,19 @@ class _Site:
         from graphplan.output.manual import scenes
 
         messages, names = Messages(self.options.quiet), _names(self.options.scenes or packaged_names())
-        shown = []
+        pages = []
         for count, (name, scene) in enumerate(names.items(), 1):
             messages.progress(f"{count}/{len(names)} {name}")
-            one, files = self._scene_on_site(load(scene), name)
-            if one.live:
-                yield one.live, self._live(scene)
+            page, files = self._scene_on_site(load(scene), name)
+            if page.live:
+                yield page.live, self._live(scene)
             yield from files.items()
-            yield f"{one.name}.html", scenes.scene_page(one, self.tongue)
-            shown.append(one)
+            yield f"{page.name}.html", scenes.scene_page(page, self.tongue)
+            pages.append(page)
         messages.progress("")
         if not self.options.brief:
             yield f"{LIVE}/{SCRIPT}", script()
-        yield from self._pages(shown)
+        yield from self._pages(pages)
 
     def _pages(self, shown: Sequence[ShownScene]) -> Iterator[tuple[str, str]]:
         """What the site has besides the pages of the scenes: for a browser, and for a code host."""
@@ -118,7 +118,7 @@ class _Site:
         from graphplan.output.manual.reference import reference
         from graphplan.output.manual.site import INDEX, REFERENCE, TUTORIAL, has_chapters
 
-        tongue, sheets = self.tongue, [f"{one.name}.svg" for one in shown]
+        tongue, sheets = self.tongue, [f"{page.name}.svg" for page in shown]
         measured = [f"charts/{path.name}" for path in (self.options.folder / "charts").glob("*")]
         charts = sorted(Path(name).stem for name in measured if name.endswith(".svg"))
         yield INDEX, scenes.index(shown, charts, tongue)
@@ -129,7 +129,7 @@ class _Site:
         yield front_page.LESSONS, tutorial.markdown(sheets, tongue)
         yield front_page.README, front_page.front_page(shown, charts, tongue)
         if has_chapters():
-            words = [name for one in shown for name in (*one.files, f"{one.name}.html")]
+            words = [name for page in shown for name in (*page.files, f"{page.name}.html")]
             yield from chapters.chapter_pages(keys, {INDEX, TUTORIAL, REFERENCE, *words, *measured}, tongue)
         else:
             Messages(self.options.quiet).remark("The site has no chapters, as markdown-it-py is not installed. "
@@ -156,18 +156,18 @@ class _Site:
         if self.options.language:
             scene = replace(scene, sheet=replace(scene.sheet, language=self.options.language))
         scene = replace(scene, title=tongue(scene.sheet.language).title(scene.title))
-        found = report(scene)
-        on_sheet = draft(found.drawing, Pencil(), check=found.check, tongue=tongue(scene.sheet.language))
+        result = report(scene)
+        on_sheet = draft(result.drawing, Pencil(), check=result.check, tongue=tongue(scene.sheet.language))
         words = protocol(on_sheet)
-        files: dict[str, str | bytes] = {f"{name}.svg": sheet.svg(found.drawing, composition=on_sheet.composition),
+        files: dict[str, str | bytes] = {f"{name}.svg": sheet.svg(result.drawing, composition=on_sheet.composition),
                                          f"{name}.txt": words}
-        told: dict[str, str] = {f"{name}.svg": said("the sheet"), f"{name}.txt": said("the construction in words")}
+        captions: dict[str, str] = {f"{name}.svg": said("the sheet"), f"{name}.txt": said("the construction in words")}
         if not self.options.brief:
             files |= {f"{name}.toml": scene.text} | dict(self._exports(name, on_sheet))
-            told |= {f"{name}.toml": said("the scene")} | {
+            captions |= {f"{name}.toml": said("the scene")} | {
                 path: FORMATS[path.partition("/")[0]].told for path in files if "/" in path}
         live = "" if self.options.brief else f"{LIVE}/{name}.html"
-        return ShownScene(scene, name, result_data(found)["steps"], words, told, live), files
+        return ShownScene(scene, name, result_data(result)["steps"], words, captions, live), files
 
     def _live(self, scene: str) -> str:
         """The page on which a scene moves."""
@@ -186,15 +186,16 @@ class _Site:
 
 def _names(scenes: Sequence[str]) -> dict[str, str]:
     """The scenes by the names of their pages. Fails with `Refused` where two have one."""
-    found: dict[str, str] = {}
+    scenes_by_name: dict[str, str] = {}
     for scene in scenes:
         name = Path(scene).stem
-        if name in found:
-            raise Refused(f"{scene}: scene", f"{found[name]} has the name {name}, too", "another name of the file")
+        if name in scenes_by_name:
+            raise Refused(f"{scene}: scene", f"{scenes_by_name[name]} has the name {name}, too",
+                          "another name of the file")
         if name in RESERVED:
             raise Refused(f"{scene}: scene", f"the site has a page {name} of its own", "another name of the file")
-        found[name] = scene
-    return found
+        scenes_by_name[name] = scene
+    return scenes_by_name
 
 
 def _help() -> dict[str, str]:

@@ -67,4 +67,4 @@ def _pages(composition: Composition, only: str | None) -> list[Sheet]:
     from graphplan.sheet.handout import guided_task, solution, task
 
     pages = {"task": task, "guided": guided_task, "solution": solution}
-    return [sheet for part in PARTS if only in (None, part) for sheet in pages[part](composition)]
+    return [sheet for kind in PARTS if only in (None, kind) for sheet in pages[kind](composition)]

@@ -39,6 +39,6 @@ def run(options: argparse.Namespace) -> int:
     text = import_scene(Path(options.file))
     write(text, options.output)
     if "\n# - " in text:
-        told = "not all could be told; comments in the scene say what is guessed"
-        Messages(options.quiet).remark(f"{options.file}: {told}")
+        remark = "not all could be told; comments in the scene say what is guessed"
+        Messages(options.quiet).remark(f"{options.file}: {remark}")
     return 0

@@ -50,11 +50,11 @@ def add_offer(command: argparse.ArgumentParser) -> None:
 
 
 def _choices(text: str) -> frozenset[str]:
-    wanted = [] if text == "none" else text.split(",")
-    if unknown := [choice for choice in wanted if choice not in (*CHOICES, *LANGUAGES)]:
+    names = [] if text == "none" else text.split(",")
+    if unknown := [choice for choice in names if choice not in (*CHOICES, *LANGUAGES)]:
         raise Refused("--choices", f"{unknown[0]} cannot be chosen",
                       f"some of {', '.join((*CHOICES, *LANGUAGES))}, or none")
-    return frozenset(wanted) | (frozenset(LANGUAGES) if "languages" in wanted else frozenset())
+    return frozenset(names) | (frozenset(LANGUAGES) if "languages" in names else frozenset())
 
 
 def run(options: argparse.Namespace) -> int:
@@ -67,10 +67,11 @@ def page(options: argparse.Namespace, *, steps_first: bool = False, shared: str 
     """The page of a scene; `steps_first` it is opened at the first step; with a `shared` script it leaves that out."""
     from graphplan.output.live.page import live
 
-    scene, own, variants = load_scene(options), load_sheet_scene(options).sheet.language or "en", [*_variants(options)]
+    scene, language = load_scene(options), load_sheet_scene(options).sheet.language or "en"
+    variants = [*_variants(options)]
     few = len(variants[0].compositions) <= MAX_OFFERED
     offered = options.choices if options.choices is not None else LANGUAGES if few else ("en",)
-    languages = [own, *(code for code in LANGUAGES if code != own and code in offered)]
+    languages = [language, *(code for code in LANGUAGES if code != language and code in offered)]
     return live(variants, languages, scene.title, steps_first=steps_first, shared=shared)
 
 
@@ -80,36 +81,38 @@ def _variants(options: argparse.Namespace) -> Iterator[Variant]:
     from graphplan.output.live.page import Variant, on_one_sheet
     from graphplan.sheet.layout.composition import compose
 
-    known: list[list[str]] = []
+    earlier: list[list[str]] = []
     for plan, method in _plans_and_methods(options):
-        first = not known
+        first = not earlier
         try:
             drawing = _construction_by(options, plan, method)
         except (Refused, ConstructionError):
             if first:
                 raise
             continue
-        if (steps := drawing.sentences()) in known:
+        if (steps := drawing.sentences()) in earlier:
             continue
-        known.append(steps)
+        earlier.append(steps)
         with suppress(*(() if first else (Refused,))):
             composition = compose(drawing, protocol="none")
-            others = _alternatives(drawing)
-            yield Variant(drawing.plan, method, on_one_sheet(composition, others if first else others[:AGAIN]))
+            alternatives = _alternatives(drawing)
+            yield Variant(drawing.plan, method,
+                          on_one_sheet(composition, alternatives if first else alternatives[:AGAIN]))
 
 
 def _alternatives(drawing: Construction) -> list[Construction]:
     """The constructions that serve where this one cannot be drawn."""
     from graphplan.accuracy.reach import constructions
 
-    return [other for other in constructions(drawing) if other is not drawing]
+    return [alternative for alternative in constructions(drawing) if alternative is not drawing]
 
 
 def _plans_and_methods(options: argparse.Namespace) -> Iterator[tuple[str, str]]:
     """Plan and method by their options: as they are given, and what else is wanted."""
     plan, method, offered = options.plan, options.method, options.choices or ("plans",) * (options.choices is None)
-    forces = ",".join(part for part in plan.split(",") if part not in PLANS)
-    plans = [plan, *(",".join(filter(None, (one, forces))) for one in PLANS)] if "plans" in offered else [plan]
+    forces = ",".join(word for word in plan.split(",") if word not in PLANS)
+    plans = [plan, *(",".join(filter(None, (motion_plan, forces)))
+                     for motion_plan in PLANS)] if "plans" in offered else [plan]
     methods = [method, *METHODS] if "methods" in offered else [method]
     yield from dict.fromkeys((plan, method) for plan in plans for method in methods)
 

@@ -47,8 +47,8 @@ def run(options: argparse.Namespace) -> int:
     kind(options.file, (".toml",), "scene", "new")
     write(template(options.kind), options.file, new=True)
     if options.file != STANDARD:
-        told = f"{options.file}: written; graphplan watch {options.file} draws it whenever it is saved"
-        Messages(options.quiet).remark(told)
+        remark = f"{options.file}: written; graphplan watch {options.file} draws it whenever it is saved"
+        Messages(options.quiet).remark(remark)
     return 0
 
 
@@ -65,18 +65,18 @@ def template(kind: str) -> str:
 def _sections(kind: str) -> dict[str, str]:
     """The paragraphs of a template by the names of their tables; the first stands before all tables."""
     text = files("graphplan").joinpath("scenes", "new", f"{kind}.toml").read_text(encoding="utf-8")
-    first, *others = text.strip().split("\n\n")
-    return {"": first, **{re.findall(r"\w+", paragraph)[0]: paragraph for paragraph in others}}
+    first, *tables = text.strip().split("\n\n")
+    return {"": first, **{re.findall(r"\w+", paragraph)[0]: paragraph for paragraph in tables}}
 
 
 def _section(section: Field, written: Mapping[str, str]) -> str:
     """A section: what it is, and its lines, or the template that shows them."""
-    told = f"# {section.name}: {section.words}"
+    heading = f"# {section.name}: {section.words}"
     if section.name not in written:
-        return f"{told}; see graphplan new --kind {next(kind for kind in KINDS if section.name in _sections(kind))}"
+        return f"{heading}; see graphplan new --kind {next(kind for kind in KINDS if section.name in _sections(kind))}"
     says = {field.name: field.words for field in inner(section.kind)}
-    return "\n".join([told, *_align_comments((line, _words_of_key(line, says))
-                                             for line in written[section.name].splitlines())])
+    return "\n".join([heading, *_align_comments((line, _words_of_key(line, says))
+                                                for line in written[section.name].splitlines())])
 
 
 def _words_of_key(line: str, says: Mapping[str, str]) -> str:
@@ -95,5 +95,5 @@ def _words_of_key(line: str, says: Mapping[str, str]) -> str:
 def _align_comments(rows: Iterable[tuple[str, str]]) -> list[str]:
     """Lines with what is said of them, in a column."""
     lines = list(rows)
-    wide = max((len(line) for line, told in lines if told), default=0)
-    return [f"{line:<{wide}}  # {told}" if told else line for line, told in lines]
+    wide = max((len(line) for line, comment in lines if comment), default=0)
+    return [f"{line:<{wide}}  # {comment}" if comment else line for line, comment in lines]

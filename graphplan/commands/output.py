@@ -293,8 +293,8 @@ def error(line: str) -> None:
 
 def _say(line: str, before: str = "", after: str = "") -> None:
     """A line, which covers progress that may stand there."""
-    told = printable(line)
-    covering = f"{told:<{WIDTH}}" if sys.stderr.isatty() else told
+    text = printable(line)
+    covering = f"{text:<{WIDTH}}" if sys.stderr.isatty() else text
     _tell(f"{before}{covering}{after}\n")
 
 

@@ -57,7 +57,7 @@ def _kind(word: str) -> Fragment:
     if word in PLAIN:
         return PLAIN[word]
     if word in EITHER or "|" in word:
-        return {"anyOf": [_kind(part) for part in EITHER.get(word, word).split("|")]}
+        return {"anyOf": [_kind(alternative) for alternative in EITHER.get(word, word).split("|")]}
     if word.endswith("[]"):
         return array_of(_kind(word[:-2]))
     if word.endswith("{}"):
@@ -69,8 +69,8 @@ def _table(written: dict[str, str]) -> Fragment:
     """The schema of a table of the file."""
     least = {"minProperties": written.pop("at least")} if "at least" in written else {}
     keys: dict[str, Fragment] = {}
-    for name, told in written.items():
-        kind, _, words = told.partition(", ")
+    for name, entry in written.items():
+        kind, _, words = entry.partition(", ")
         keys[name.removesuffix("?")] = with_description(words, _kind(kind)) if words else _kind(kind)
     return table(keys, [name for name in written if not name.endswith("?")]) | least
 

@@ -40,8 +40,8 @@ def data(on_sheet: Drafted) -> dict[str, Any]:
     from graphplan.mechanism.structure import structure
     from graphplan.output.text import steps
 
-    found = steps(on_sheet.composition, structure(on_sheet.drawing.scene).lines())
-    return found | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}
+    result = steps(on_sheet.composition, structure(on_sheet.drawing.scene).lines())
+    return result | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}
 
 
 def protocol(on_sheet: Drafted, *, movements: bool = False) -> str:

@@ -49,13 +49,13 @@ def _saves(path: Path) -> Iterator[None]:
 
     It is the text that is compared: scenes are small, and times of change are too coarse for two saves in a moment.
     """
-    seen = b""
+    last_text = b""
     while True:
         try:
             text = path.read_bytes()
         except OSError:
             text = b""
-        if text and text != seen:
-            seen = text
+        if text and text != last_text:
+            last_text = text
             yield
         time.sleep(PERIOD)

@@ -64,7 +64,7 @@ class _DxfLinkage:
     shapes: list[_Shape] = field(default_factory=list)
     pins: list[_Pin] = field(default_factory=list)
     texts: list[tuple[complex, float, str]] = field(default_factory=list)
-    left: dict[str, int] = field(default_factory=dict)
+    omitted: dict[str, int] = field(default_factory=dict)
     joints: list[complex] = field(default_factory=list)
 
     def sketch(self) -> LinkageSketch:
@@ -76,18 +76,19 @@ class _DxfLinkage:
         spots = [corner for shape in self.shapes for corner in shape.corners] + [pin.at for pin in self.pins]
         if not all(on_paper(spot.real, spot.imag) for spot in spots):
             raise Refused(f"{self.path}", "a line lies too far away", "coordinates below a million")
-        self.size = max((max(part) - min(part) for part in ([spot.real for spot in spots],
-                                                            [spot.imag for spot in spots]) if part), default=0.0) or 1.0
+        self.size = max((max(spans) - min(spans) for spans in ([spot.real for spot in spots],
+                                                               [spot.imag for spot in spots]) if spans),
+                                                            default=0.0) or 1.0
         big = [pin for pin in self.pins if pin.radius > MAX_PIN_RADIUS * self.size]
         self.pins = [pin for pin in self.pins if pin not in big]
-        found = LinkageSketch("DXF", length=UNITS.get(self.document.units, ""))
-        if not found.length:
-            found.note("the unit of length: the drawing states none that a scene has, mm is a guess")
-        for what, count in [*self.left.items(), *([("large circles", len(big))] if big else [])]:
-            found.note(f"{count} {what}: left out")
-        self._links(found)
-        self._name_joints(found)
-        return found
+        sketch = LinkageSketch("DXF", length=UNITS.get(self.document.units, ""))
+        if not sketch.length:
+            sketch.note("the unit of length: the drawing states none that a scene has, mm is a guess")
+        for noun, count in [*self.omitted.items(), *([("large circles", len(big))] if big else [])]:
+            sketch.note(f"{count} {noun}: left out")
+        self._links(sketch)
+        self._name_joints(sketch)
+        return sketch
 
     def _read(self, entities: Iterable[Any], depth: int, within: str) -> None:
         """Lines, polylines, circles and texts, those of blocks among them."""
@@ -119,7 +120,7 @@ class _DxfLinkage:
                     if len({*corners}) > 1:
                         self.shapes.append(_Shape(corners, layer, getattr(entity, "is_closed", False)))
                 case "ARC" | "SPLINE" | "ELLIPSE" as kind:
-                    self.left[f"{kind.lower()}s"] = self.left.get(f"{kind.lower()}s", 0) + 1
+                    self.omitted[f"{kind.lower()}s"] = self.omitted.get(f"{kind.lower()}s", 0) + 1
 
     # ---- joints and links ------------------------------------------------------------------------------------------
 
@@ -146,8 +147,8 @@ class _DxfLinkage:
             else:
                 link = found.link(points, shape.layer if name else "", name[1] if name else "")
                 if DRIVES.search(shape.layer):
-                    told = f"It is on the layer {shape.layer}; its speed is a guess."
-                    found.drives.append(SketchDrive(link, "omega = 1", told))
+                    remark = f"It is on the layer {shape.layer}; its speed is a guess."
+                    found.drives.append(SketchDrive(link, "omega = 1", remark))
         for pin in self.pins:
             self._place_pin(found, pin, bars)
         for shape in self.shapes:
@@ -187,11 +188,11 @@ class _DxfLinkage:
         carriers = [{self._joint(corner) for corner in bar.corners} for bar in bars if self._carries(bar, guide)]
         along = next((link for link, points in found.links.items() if any(joints <= {*points} for joints in carriers)),
                      FRAME)
-        way = (end - start) / abs(end - start)
+        direction = (end - start) / abs(end - start)
         for key, at in found.places.items():
             if _distance_to_stroke(at, start, end) <= JOINT_TOL * self.size and key not in found.fixed and (
                     along == FRAME or key not in found.links[along]):
-                found.slots.append(Slot(key, along, way))
+                found.slots.append(Slot(key, along, direction))
                 if along == FRAME and self.own:
                     found.note("that each guide without a bar along it is on the frame is a guess")
 
@@ -223,11 +224,11 @@ def _sides(shape: _Shape) -> Iterator[tuple[complex, complex]]:
 
 def _distance_to_stroke(at: complex, start: complex, end: complex) -> float:
     """How far a place is from a stroke."""
-    way = end - start
-    if not way:
+    stroke = end - start
+    if not stroke:
         return abs(at - start)
-    part = ((at - start) * way.conjugate()).real / abs(way) ** 2
-    return abs(at - start - min(max(part, 0.0), 1.0) * way)
+    share = ((at - start) * stroke.conjugate()).real / abs(stroke) ** 2
+    return abs(at - start - min(max(share, 0.0), 1.0) * stroke)
 
 
 def _distance_to_line(at: complex, start: complex, end: complex) -> float:

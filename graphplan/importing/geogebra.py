@@ -61,16 +61,16 @@ class _GeoGebraLinkage:
         running = [label for label in objects.elements if self._command(label)[0] in ("Point", "PointIn")]
         self.moving = self._made_of([*self.driving, *running])
         self.sketch = LinkageSketch("GeoGebra")
-        own = any(label.startswith("stroke_") for label in objects.elements)
-        unit = "graphplan's own sheet, saved anew, is in mm of paper" if own else "GeoGebra's own is read as mm"
+        own_sheet = any(label.startswith("stroke_") for label in objects.elements)
+        unit = "graphplan's own sheet, saved anew, is in mm of paper" if own_sheet else "GeoGebra's own is read as mm"
         self.sketch.note(f"the unit of length: {unit}")
-        for ends in self._join_straight_bars([*self._links(own)]) if own else self._links(own):
+        for ends in self._join_straight_bars([*self._links(own_sheet)]) if own_sheet else self._links(own_sheet):
             self._add_points(*ends)
             self.sketch.link(ends)
         for label in [*self.sketch.places]:
             self._read_constraint(label)
         for label in sorted(self.points - self.sketch.places.keys()):
-            if not (own and label.startswith("point_")):
+            if not (own_sheet and label.startswith("point_")):
                 self._read_carried_point(label)
         self._frame()
 
@@ -82,17 +82,17 @@ class _GeoGebraLinkage:
     def _name(self, label: str) -> str:
         element = self.objects.elements[label]
         mode, caption = element.find("labelMode"), element.find("caption")
-        shown = caption is not None and mode is not None and mode.get("val") == CAPTION
-        return caption.get("val", "") or label if shown and caption is not None else label
+        is_shown = caption is not None and mode is not None and mode.get("val") == CAPTION
+        return caption.get("val", "") or label if is_shown and caption is not None else label
 
     # ---- what moves ------------------------------------------------------------------------------------------------
 
     def _command(self, label: str) -> tuple[str, list[str], int]:
         """The command that makes an object, and its inputs; also where it stands within another one."""
-        found = self.objects.commands.get(label)
-        if found is None and label not in self.objects.elements and (inner := INNER.fullmatch(label.strip())):
-            found = inner[1], _split_inputs(inner[2]), 0
-        return found or ("", [], 0)
+        command = self.objects.commands.get(label)
+        if command is None and label not in self.objects.elements and (inner := INNER.fullmatch(label.strip())):
+            command = inner[1], _split_inputs(inner[2]), 0
+        return command or ("", [], 0)
 
     def _needs(self, label: str) -> set[str]:
         """The objects that one is made of."""
@@ -107,7 +107,7 @@ class _GeoGebraLinkage:
     def _driving(self) -> Iterator[str]:
         """The free numbers that turn something, or are animated."""
         turned = [inputs[1] for name, inputs, _ in self.objects.commands.values() if name == "Rotate" and inputs[1:]]
-        turned += ["".join(found) for term in self.objects.terms.values() for found in TURNED.findall(term)]
+        turned += ["".join(groups) for term in self.objects.terms.values() for groups in TURNED.findall(term)]
         turning = {name for text in turned for name in re.findall(NAME, text)}
         for label, element in self.objects.elements.items():
             if element.get("type") in ("numeric", "angle") and self._free(label):
@@ -122,17 +122,17 @@ class _GeoGebraLinkage:
 
     def _made_of(self, labels: Iterable[str]) -> set[str]:
         """These objects, and all that depend on them."""
-        found, new = {*labels}, [*labels]
+        labels_made, new = {*labels}, [*labels]
         while new:
-            new += (further := self.dependents.get(new.pop(), set()) - found)
-            found |= further
-        return found
+            new += (further := self.dependents.get(new.pop(), set()) - labels_made)
+            labels_made |= further
+        return labels_made
 
     # ---- links -----------------------------------------------------------------------------------------------------
 
     def _links(self, own: bool) -> Iterator[list[str]]:
         """The points of each link that is drawn; on graphplan's own files links are on the lowest layer."""
-        left = 0
+        omitted = 0
         for label, element in self.objects.elements.items():
             command, inputs, place = self._command(label)
             layer = element.find("layer")
@@ -142,23 +142,23 @@ class _GeoGebraLinkage:
                 continue
             corners = [name for name in inputs if name in self.points and not (own and name.startswith("point_"))]
             if len(corners) < 2 or (len(corners) < len(inputs) and not own):
-                left += not own
+                omitted += not own
             elif command in ("PolyLine", "Polyline"):
                 yield from ([*pair] for pair in pairwise(corners))
             else:
                 yield corners
-        if left:
-            self.sketch.note(f"{left} segments or polygons whose ends are no points of their own: left out")
+        if omitted:
+            self.sketch.note(f"{omitted} segments or polygons whose ends are no points of their own: left out")
 
     def _join_straight_bars(self, links: list[list[str]]) -> list[list[str]]:
         """With bars that go on straight as one: graphplan draws a bar from point to point."""
         bars, at = [link for link in links if len(link) == 2], self.objects.values
-        for one, other in combinations(bars, 2):
-            for joint in {*one} & {*other}:
-                ways = [at[next(name for name in bar[::step] if name != joint)] - at[joint]
-                        for bar, step in ((one, 1), (other, -1))]
-                if len({*one, *other}) > 2 and abs(ways[0] / abs(ways[0]) + ways[1] / abs(ways[1])) < DIRECTION_TOL:
-                    links.append([*dict.fromkeys([*one, *other])])
+        for first, second in combinations(bars, 2):
+            for joint in {*first} & {*second}:
+                arms = [at[next(name for name in bar[::step] if name != joint)] - at[joint]
+                        for bar, step in ((first, 1), (second, -1))]
+                if len({*first, *second}) > 2 and abs(sum(arm / abs(arm) for arm in arms)) < DIRECTION_TOL:
+                    links.append([*dict.fromkeys([*first, *second])])
         return links
 
     def _read_constraint(self, label: str) -> None:
@@ -219,13 +219,13 @@ class _GeoGebraLinkage:
         """An expression with a driving number, from one point that stands still: the pin of a crank."""
         needs = self._needs(label)
         pivots = [name for name in needs & self.points if not self.moves(name)]
-        turned = {name for found in TURNED.findall(term) for name in re.findall(NAME, "".join(found))}
+        turned = {name for groups in TURNED.findall(term) for name in re.findall(NAME, "".join(groups))}
         if len(pivots) == 1 and len(needs & self.points) == 1 and any(self.moves(name) for name in turned & needs):
             self._bar(pivots[0], label)
             self._drive(pivots[0], label)
         elif turned & self.driving:
-            partners = [other for points in self.sketch.links.values() if label in points for other in points
-                        if not self.moves(other)]
+            partners = [partner for points in self.sketch.links.values() if label in points for partner in points
+                        if not self.moves(partner)]
             if partners:
                 self._drive(partners[0], label)
 
@@ -255,8 +255,8 @@ class _GeoGebraLinkage:
 
     def _is_line(self, name: str) -> bool:
         element = self.objects.elements.get(name)
-        drawn = element is not None and element.get("type") in LINES
-        return name in AXES or drawn or (element is None and self._command(name)[0] in ("Line", "Segment", "Ray"))
+        is_line = element is not None and element.get("type") in LINES
+        return name in AXES or is_line or (element is None and self._command(name)[0] in ("Line", "Segment", "Ray"))
 
     def _ends(self, line: str) -> tuple[str, ...]:
         """The two points by which a line is drawn, if it is."""
@@ -280,7 +280,7 @@ class _GeoGebraLinkage:
     def _bar(self, *points: str) -> None:
         """A link of points, where none has them all."""
         self._add_points(*points)
-        if not any({*points} <= {*held} for held in self.sketch.links.values()):
+        if not any({*points} <= {*link_points} for link_points in self.sketch.links.values()):
             self.sketch.link(points)
 
     def _drive(self, centre: str, pin: str) -> None:
@@ -292,18 +292,18 @@ class _GeoGebraLinkage:
         led = self._made_of({point for drive in self.sketch.drives for point in drive.link[1:]})  # by a handle
         for label in self.sketch.places:
             flag = self.objects.elements[label].find("fixed")
-            made = flag is not None and flag.get("val") == "true" and self._free(label)
-            if made or ((moving or bool(self.sketch.drives)) and label not in self.moving | led):
+            is_fixed = flag is not None and flag.get("val") == "true" and self._free(label)
+            if is_fixed or ((moving or bool(self.sketch.drives)) and label not in self.moving | led):
                 self.sketch.fixed[label] = None
 
 
 def _split_inputs(inputs: str) -> list[str]:
     """The inputs of a command that is written out, without those of commands within it taken apart."""
-    found, depth = [""], 0
+    inputs_found, depth = [""], 0
     for letter in inputs:
         depth += (letter in "([") - (letter in ")]")
         if letter == "," and not depth:
-            found.append("")
+            inputs_found.append("")
         else:
-            found[-1] += letter
-    return [part.strip() for part in found]
+            inputs_found[-1] += letter
+    return [entry.strip() for entry in inputs_found]

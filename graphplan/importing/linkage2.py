@@ -69,7 +69,7 @@ class _Linkage:
             self.sketch.fixed[key] = None
 
     def add_link(self, link: Element) -> None:
-        points = [point for point in (part.get("id", "") for part in link if part.tag == "connector")
+        points = [point for point in (element.get("id", "") for element in link if element.tag == "connector")
                   if point in self.sketch.places]
         name = link.get("name", "").strip()
         if _true(link, "gear") or not points:
@@ -85,12 +85,13 @@ class _Linkage:
         barrel = sketch.link([start], name=f"{name} barrel" if name else "")
         rod = sketch.link([end], name=f"{name} rod" if name else "")
         sketch.guides.append(SketchGuide(rod, barrel, end, (start, end)))
-        throw, cycles = (read_number(link.get(what, "0") or "0") for what in ("throw", "cpm"))
+        throw, cycles = (read_number(link.get(key, "0") or "0") for key in ("throw", "cpm"))
         speed = throw * cycles / STROKES
-        told = f"An actuator: throw {number(throw)}, {number(cycles)} cycles a minute, here at the speed of its stroke."
+        motion = f"throw {number(throw)}, {number(cycles)} cycles a minute"
+        remark = f"An actuator: {motion}, here at the speed of its stroke."
         if not speed:
-            told, speed = "An actuator; its speed is a guess.", 1.0
-        sketch.drives.append(SketchDrive(rod, f"speed = {number(speed)}", told, barrel, True))
+            remark, speed = "An actuator; its speed is a guess.", 1.0
+        sketch.drives.append(SketchDrive(rod, f"speed = {number(speed)}", remark, barrel, True))
 
     def add_slider(self, key: str, connector: Element) -> None:
         limits = [limit.get("id", "") for limit in connector if limit.tag == "slidelimit"]
@@ -112,9 +113,9 @@ class _Linkage:
         if not _true(connector, "anchor"):
             return sketch.note(f"{sketch.names[key]} is an input that is no anchor, rpm {written}: left out")
         speed = -read_number(written) if written else 0.0
-        told = "" if speed else "The file tells no speed: 1 rad/s is a guess."
+        remark = "" if speed else "The file tells no speed: 1 rad/s is a guess."
         rate = f"rpm = {number(speed)}" if speed else "omega = 1"
-        return sketch.drives.extend(_drives_of(links, rate, told))
+        return sketch.drives.extend(_drives_of(links, rate, remark))
 
 
 def _drives_of(links: list[str], rate: str, told: str) -> Iterator[SketchDrive]:
@@ -128,8 +129,8 @@ def _true(element: Element, name: str) -> bool:
 def _moves(element: Element) -> bool:
     """Whether it is on a layer of the mechanism, and measures nothing."""
     layer = element.get("layer", "")
-    drawn = layer.isdecimal() and 0 < int(layer[:9]) <= DRAWING
-    return not drawn and not _true(element, "measurementelement")
+    is_drawing = layer.isdecimal() and 0 < int(layer[:9]) <= DRAWING
+    return not is_drawing and not _true(element, "measurementelement")
 
 
 def _letter(key: str) -> str:

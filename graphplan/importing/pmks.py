@@ -33,7 +33,7 @@ from urllib.parse import unquote
 from graphplan.errors import Refused
 from graphplan.importing.sketch import LinkageSketch, SketchDrive, SketchGuide, Slot
 from graphplan.importing.tolerances import PISTON_TOL
-from graphplan.importing.written import number as shown
+from graphplan.importing.written import number as number_text
 from graphplan.marking.files.safe import Budget, number
 from graphplan.mechanism.model import FRAME
 
@@ -86,12 +86,12 @@ def read(path: Path, text: str) -> LinkageSketch:
     Fails with `Refused` where it is damaged.
     """
     try:
-        found = _read(text)
-        Budget(path, MAX_JOINTS, "joints").spend(len(found.joints))
-        return _sketch(found)
+        linkage = _read(text)
+        Budget(path, MAX_JOINTS, "joints").spend(len(linkage.joints))
+        return _sketch(linkage)
     except (ValueError, IndexError, KeyError, TypeError, AttributeError, csv.Error, RecursionError) as error:
-        told = " ".join(str(error).split())[:80]
-        raise Refused(f"{path}", f"not a complete linkage of PMKS ({told})", "save or copy it anew") from None
+        cause = " ".join(str(error).split())[:80]
+        raise Refused(f"{path}", f"not a complete linkage of PMKS ({cause})", "save or copy it anew") from None
 
 
 def _read(text: str) -> Read:
@@ -118,28 +118,28 @@ def _file(data: Any) -> Read:
                     str(joint["TypeOfJoint"]).upper(), [str(link) for link in joint["Links"]],
                     float(joint.get("Angle") or 0), input=place == driving)
               for place, joint in enumerate(data["Joints"])]
-    return Read(joints, rate=f"omega = {shown(float(data.get('InputSpeed', 0)))}", title=str(data.get("Name", "")))
+    return Read(joints, rate=f"omega = {number_text(float(data.get('InputSpeed', 0)))}",
+                title=str(data.get("Name", "")))
 
 
 def _lines(text: str) -> Read:
     """The text of PMKS: a joint a line, or between bars."""
-    found, speed, title, driving = Read([]), "", "", -1
+    joints, settings = list[Joint](), dict[str, str]()
     for line in re.split(r"[\n|]", text):
         key, equals, value = line.partition("=")
         if equals:
-            speed, title = (value.strip(), title) if key.strip() == "s" else (speed, value.strip() if key.strip() ==
-                                                                             "name" else title)
-            driving = int(value) if key.strip() == "d" else driving
+            settings[key.strip()] = value.strip()
         elif words := [word for word in re.split(r"[,\s]+", line.strip()) if word]:
             kind = [word.upper() in ("R", "P", "RP", "G") for word in words].index(True)
             numbers = [float(number(word)) for word in words[kind + 1 : kind + 4] if not word.isalpha()]
             shows = words[-1] if re.fullmatch("[tf]{1,4}", words[-1]) else ""
-            found.joints.append(Joint(str(len(found.joints)), "", complex(numbers[0], numbers[1]), words[kind].upper(),
-                                      words[:kind], numbers[2] if len(numbers) > 2 else 0.0,
-                                      input=shows[3:] == "t"))
-    if not any(joint.input for joint in found.joints):
-        found.joints[max(driving, 0)].input = driving >= 0
-    return Read(found.joints, rate=f"omega = {shown(number(speed))}" if speed else "", title=title)
+            joints.append(Joint(str(len(joints)), "", complex(numbers[0], numbers[1]), words[kind].upper(),
+                                words[:kind],
+                                numbers[2] if len(numbers) > 2 else 0.0, input=shows[3:] == "t"))
+    driving, speed = int(settings.get("d", -1)), settings.get("s", "")
+    if not any(joint.input for joint in joints):
+        joints[max(driving, 0)].input = driving >= 0
+    return Read(joints, rate=f"omega = {number_text(number(speed))}" if speed else "", title=settings.get("name", ""))
 
 
 # ---- PMKS+, 2022: tables and long addresses --------------------------------------------------------------------------
@@ -165,22 +165,22 @@ def _by_section(text: str, title: Callable[[list[str]], str]) -> Mapping[str, li
 
 
 def _long_address(query: str) -> Read:
-    parts = dict(part.split("=", 1) for part in re.split(r"&(?=[jlfs]|pp|tp)", query) if "=" in part)
-    rows = [line.split(",") for line in parts["j"].split("\n") if line.strip()]
-    return _rows(rows, "|", parts.get("s", "").strip().split(","))
+    values = dict(pair.split("=", 1) for pair in re.split(r"&(?=[jlfs]|pp|tp)", query) if "=" in pair)
+    rows = [line.split(",") for line in values["j"].split("\n") if line.strip()]
+    return _rows(rows, "|", values.get("s", "").strip().split(","))
 
 
 def _rows(rows: Sequence[Sequence[str]], between: str, settings: Sequence[str]) -> Read:
     """Joints: id, x, y, links, type, ground, angle, (friction,) input; settings: speed, clockwise, gravity, unit."""
     joints = []
     for row in rows:
-        flags = [part.strip() for part in row[6:] if part.strip()]
+        flags = [flag.strip() for flag in row[6:] if flag.strip()]
         angle = 0.0 if flags[0] in ("Null", "") or not flags[0][-1:].isdigit() else number(flags[0])
         joints.append(Joint(row[0].strip(), row[0].strip(), complex(number(row[1]), number(row[2])), row[4].strip(),
                             [link for link in row[3].split(between) if link], angle, _yes(row[5]), _yes(flags[-1])))
-    told = [*map(str.strip, settings), "", "", "", ""]
-    speed = number(told[0]) * (-1 if _yes(told[1]) else 1) if told[0] else 0.0
-    return Read(joints, rate=f"rpm = {shown(speed)}" if speed else "", unit=UNITS.get(told[3].lower(), ""))
+    values = [*map(str.strip, settings), "", "", "", ""]
+    speed = number(values[0]) * (-1 if _yes(values[1]) else 1) if values[0] else 0.0
+    return Read(joints, rate=f"rpm = {number_text(speed)}" if speed else "", unit=UNITS.get(values[3].lower(), ""))
 
 
 def _yes(written: str) -> bool:
@@ -195,9 +195,9 @@ def _read_short(query: str) -> Read:
     whole, check = query[:-1], query[-1:]
     if not check or DIGITS[len(whole) % 62] != check:
         raise ValueError("its letters do not match its checksum: it is incomplete")
-    flags, _, integers, choices, rest = whole.split(".", 4)
-    joints_part, _, rest = rest.partition("..")
-    links_part = rest.partition("..")[0]
+    flags, _, integers, choices, remainder = whole.split(".", 4)
+    joints_part, _, remainder = remainder.partition("..")
+    links_part = remainder.partition("..")[0]
     joints, kinds = [], {}
     for row in joints_part.split("."):
         bits, (key, name, x, y, angle) = DIGITS.index(row[0]), row[1:].split(",")[:5]
@@ -205,10 +205,10 @@ def _read_short(query: str) -> Read:
                             _integer(angle) / 1000, bool(bits & 4), bool(bits & 2), welded=bool(bits & 8)))
     of = {joint.key: joint for joint in joints}
     for row in filter(None, links_part.split(".")):
-        head, *parts = row.split(",")
+        head, *cells = row.split(",")
         kinds[head[2:]] = head[1]
         if head[0] == "Y":
-            for key in parts[6 : parts.index("", 6)]:
+            for key in cells[6 : cells.index("", 6)]:
                 of[key].links.append(head[2:])
     clockwise = DIGITS.index(flags[-1]) & 1 if flags else 0
     speed = _integer(integers.split(",")[0])
@@ -236,7 +236,7 @@ def _read_packed(letters: str) -> Read:
         return str(int(part, 16)) if isinstance(part, str) and re.fullmatch("-?[0-9a-f]+", part) else str(part)
 
     def rows(what: str, *numeric: int) -> list[list[str]]:
-        return [[decode(part) if place in numeric else str(part) for place, part in enumerate(row)]
+        return [[decode(cell) if place in numeric else str(cell) for place, cell in enumerate(row)]
                 for row in data.get(what) or ()]
 
     return _read_late(rows("j", 0, 2, 3, 4, 5, 8), rows("l", 0), rows("c", 0))
@@ -250,51 +250,52 @@ def _sections(text: str) -> Read:
 def _read_late(joints: Sequence[Sequence[str]], links: Sequence[Sequence[str]], welds: Sequence[Sequence[str]]) -> Read:
     """Joints: id, name, x, y, type, angle, ground, input, speed, welded ...; links: id, name, ..., joints in the
     seventh place; compound links: links in the sixth. Angles are degrees, speeds turns a minute, counter-clockwise."""
-    found = [Joint(row[0], row[1], complex(number(row[2]), number(row[3])), "PR"[int(row[4])], [],
-                   math.radians(number(row[5])), _yes(row[6]), _yes(row[7]), number(row[8]), _yes(row[9]))
-             for row in joints]
-    of = {joint.key: joint for joint in found}
+    joints_read = [Joint(row[0], row[1], complex(number(row[2]), number(row[3])), "PR"[int(row[4])], [],
+                         math.radians(number(row[5])), _yes(row[6]), _yes(row[7]), number(row[8]), _yes(row[9]))
+                   for row in joints]
+    of = {joint.key: joint for joint in joints_read}
     names = {row[0]: row[1].strip() or row[0] for row in links}
     for row in links:
         for key in filter(None, row[6].split("|")):
             if key in of:
                 of[key].links.append(names[row[0]])
-    return Read(found, [[names[key] for key in row[5].split("|") if key in names] for row in welds])
+    return Read(joints_read, [[names[key] for key in row[5].split("|") if key in names] for row in welds])
 
 
 # ---- what they have in common ----------------------------------------------------------------------------------------
 
 
-def _sketch(found: Read) -> LinkageSketch:
-    sketch = LinkageSketch("PMKS", title=found.title, length=found.unit)
-    if not found.unit:
+def _sketch(linkage: Read) -> LinkageSketch:
+    sketch = LinkageSketch("PMKS", title=linkage.title, length=linkage.unit)
+    if not linkage.unit:
         sketch.note("the unit of length: mm is a guess")
-    pistons = {joint.key: twin for joint in found.joints if joint.kind == "P" and (twin := _twin(joint, found.joints))}
-    for joint in found.joints:
+    pistons = {joint.key: twin for joint in linkage.joints if joint.kind == "P"
+               and (twin := _twin(joint, linkage.joints))}
+    for joint in linkage.joints:
         if joint.key not in pistons:
             sketch.point(joint.key, joint.at, joint.name)
             if (joint.ground and joint.kind != "P") or (joint.kind == "R" and _is_ground(joint.links)):
                 sketch.fixed[joint.key] = None
-    names = dict.fromkeys(link for joint in found.joints for link in joint.links if not _is_ground([link]))
+    names = dict.fromkeys(link for joint in linkage.joints for link in joint.links if not _is_ground([link]))
     for name in names:
-        held = [pistons.get(joint.key, joint).key for joint in found.joints if name in _carried_links(joint)]
-        sketch.link(held, name, name)
-    for weld in found.welds:
-        first, *others = [link for link in weld if link in sketch.links] or [""]
-        for other in others:
-            sketch.called.pop(other)
-            sketch.hold(first, *sketch.links.pop(other))
-    for joint in found.joints:
+        points = [pistons.get(joint.key, joint).key for joint in linkage.joints if name in _carried_links(joint)]
+        sketch.link(points, name, name)
+    for weld in linkage.welds:
+        first, *merged = [link for link in weld if link in sketch.links] or [""]
+        for link in merged:
+            sketch.called.pop(link)
+            sketch.hold(first, *sketch.links.pop(link))
+    for joint in linkage.joints:
         _sliding(sketch, joint, pistons.get(joint.key))
-    sketch.drives += [drive for joint in found.joints if joint.input for drive in _drives(sketch, found, joint)]
+    sketch.drives += [drive for joint in linkage.joints if joint.input for drive in _drives(sketch, linkage, joint)]
     return sketch
 
 
 def _twin(joint: Joint, joints: Sequence[Joint]) -> Joint | None:
     """The revolute joint of a piston, in the same place as its sliding joint."""
-    least = PISTON_TOL * max(max(abs(other.at), abs(other.at - joint.at)) for other in joints)
-    return next((other for other in joints if other.kind == "R" and {*other.links} & {*joint.links}
-                 and abs(other.at - joint.at) <= least), None)
+    least = PISTON_TOL * max(max(abs(candidate.at), abs(candidate.at - joint.at)) for candidate in joints)
+    return next((candidate for candidate in joints if candidate.kind == "R" and {*candidate.links} & {*joint.links}
+                 and abs(candidate.at - joint.at) <= least), None)
 
 
 def _is_ground(links: Sequence[str]) -> bool:
@@ -307,37 +308,36 @@ def _carried_links(joint: Joint) -> list[str]:
 
 
 def _sliding(sketch: LinkageSketch, joint: Joint, twin: Joint | None) -> None:
-    way = complex(math.cos(joint.angle), math.sin(joint.angle))
-    way = complex(round(way.real, 14), round(way.imag, 14))
+    direction = complex(round(math.cos(joint.angle), 14), round(math.sin(joint.angle), 14))
     if joint.kind == "G":
         sketch.note(f"a gear joint at ({joint.at.real:g}, {joint.at.imag:g}) of {' '.join(joint.links)}: left out")
     elif joint.kind == "P" and twin:
-        others = [link for link in joint.links if link not in twin.links and not _is_ground([link])]
         piston = next(link for link in joint.links if link in twin.links)
-        sketch.guides.append(SketchGuide(piston, FRAME if joint.ground or not others else others[0], twin.key, way))
+        guides = [link for link in joint.links if not (joint.ground or link in twin.links or _is_ground([link]))]
+        sketch.guides.append(SketchGuide(piston, guides[0] if guides else FRAME, twin.key, direction))
     elif joint.kind in ("P", "RP") and len(joint.links) > 1:
         along, link = (FRAME if _is_ground([name]) else name for name in joint.links[:2])
         if joint.kind == "P" and link == FRAME:  # the guide of the first link is what stands still
             sketch.hold(along, joint.key)
-            sketch.guides.append(SketchGuide(along, FRAME, joint.key, way))
+            sketch.guides.append(SketchGuide(along, FRAME, joint.key, direction))
         elif joint.kind == "P":
-            sketch.guides.append(SketchGuide(link, along, joint.key, way))
+            sketch.guides.append(SketchGuide(link, along, joint.key, direction))
         else:
             if link == FRAME:
                 sketch.fixed[joint.key] = None
-            sketch.slots.append(Slot(joint.key, along, way))
+            sketch.slots.append(Slot(joint.key, along, direction))
     elif joint.kind == "P" and joint.welded and joint.links:
-        sketch.guides.append(SketchGuide(joint.links[0], FRAME, joint.key, way))
+        sketch.guides.append(SketchGuide(joint.links[0], FRAME, joint.key, direction))
     elif joint.kind == "P":
-        sketch.slots.append(Slot(joint.key, FRAME, way))
+        sketch.slots.append(Slot(joint.key, FRAME, direction))
 
 
-def _drives(sketch: LinkageSketch, found: Read, joint: Joint) -> Iterator[SketchDrive]:
+def _drives(sketch: LinkageSketch, linkage: Read, joint: Joint) -> Iterator[SketchDrive]:
     links = [link for link in joint.links if not _is_ground([link]) and link in sketch.links]
-    rate = f"rpm = {shown(joint.rpm)}" if joint.rpm else found.rate
+    rate = f"rpm = {number_text(joint.rpm)}" if joint.rpm else linkage.rate
     guess = "" if rate and rate != "omega = 0" else "The file tells no speed: 1 rad/s is a guess."
     if joint.kind != "R":
-        guide = next((one for one in sketch.guides if one.link in links), None)
+        guide = next((candidate for candidate in sketch.guides if candidate.link in links), None)
         if guide:
             yield SketchDrive(guide.link, "speed = 1", "A sliding input: its speed is a guess.", guide.along, True)
         else:
@@ -351,7 +351,6 @@ def _drives(sketch: LinkageSketch, found: Read, joint: Joint) -> Iterator[Sketch
 
 
 # --- packed addresses ------------------------------------------------------------------------------------------------
-
 
 ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-$"
 BYTE, WORD, END = 0, 1, 2

@@ -129,8 +129,8 @@ class LinkageSketch:
     @property
     def freedoms(self) -> int:
         """Chebyshev's count of its mobility."""
-        held = Counter(point for points in self.bodies.values() for point in points)
-        return 3 * len(self.links) - 2 * sum(count - 1 for count in held.values()) - 2 * len(self.guides)
+        counts = Counter(point for points in self.bodies.values() for point in points)
+        return 3 * len(self.links) - 2 * sum(count - 1 for count in counts.values()) - 2 * len(self.guides)
 
 
 def tidy(sketch: LinkageSketch) -> LinkageSketch:
@@ -141,8 +141,8 @@ def tidy(sketch: LinkageSketch) -> LinkageSketch:
     _find_driven(sketch)
     _drop_loose_pieces(sketch)
     slides = {(guide.link, guide.along) for guide in sketch.guides}
-    sketch.drives = [one for one in sketch.drives if {str(one.link), one.on} <= {*sketch.links, FRAME}
-                     and one.link != FRAME and (not one.slides or (one.link, one.on) in slides)]
+    sketch.drives = [drive for drive in sketch.drives if {str(drive.link), drive.on} <= {*sketch.links, FRAME}
+                     and drive.link != FRAME and (not drive.slides or (drive.link, drive.on) in slides)]
     used = {point for points in sketch.bodies.values() for point in points}
     used |= {point for guide in sketch.guides if isinstance(guide.way, tuple) for point in guide.way}
     sketch.places = {key: at for key, at in sketch.places.items() if key in used}
@@ -152,9 +152,9 @@ def tidy(sketch: LinkageSketch) -> LinkageSketch:
 def _join(sketch: LinkageSketch) -> None:
     """Points of one link that coincide are one."""
     for points in [*sketch.links.values()]:
-        for one, other in combinations([*points], 2):
-            if one != other and abs(sketch.places[one] - sketch.places[other]) <= PLACE_TOL * sketch.extent:
-                _replace_point(sketch, other, one)
+        for first, second in combinations([*points], 2):
+            if first != second and abs(sketch.places[first] - sketch.places[second]) <= PLACE_TOL * sketch.extent:
+                _replace_point(sketch, second, first)
 
 
 def _replace_point(sketch: LinkageSketch, old: str, new: str) -> None:
@@ -166,8 +166,10 @@ def _replace_point(sketch: LinkageSketch, old: str, new: str) -> None:
     if old in sketch.fixed:
         del sketch.fixed[old]
         sketch.fixed[new] = None
-    sketch.guides = [replace(one, at=new if one.at == old else one.at, way=with_new(one.way)) for one in sketch.guides]
-    sketch.slots = [replace(one, at=new if one.at == old else one.at, way=with_new(one.way)) for one in sketch.slots]
+    sketch.guides = [replace(guide, at=new if guide.at == old else guide.at, way=with_new(guide.way))
+                     for guide in sketch.guides]
+    sketch.slots = [replace(slot, at=new if slot.at == old else slot.at, way=with_new(slot.way))
+                    for slot in sketch.slots]
 
 
 # ---- rigid together --------------------------------------------------------------------------------------------------
@@ -177,9 +179,9 @@ def _rigid(sketch: LinkageSketch) -> None:
     """Bodies that share two points are one, and so are three of which each two share another point."""
     while together := next(_found_rigid(sketch), None):
         into = FRAME if FRAME in together else together[0]
-        for other in together:
-            if other != into:
-                _absorb(sketch, other, into)
+        for body in together:
+            if body != into:
+                _absorb(sketch, body, into)
 
 
 def _found_rigid(sketch: LinkageSketch) -> Iterator[tuple[str, ...]]:
@@ -194,13 +196,13 @@ def _found_rigid(sketch: LinkageSketch) -> Iterator[tuple[str, ...]]:
             shared.setdefault(pair, set()).add(point)
     yield from (pair for pair, points in shared.items() if len(points) > 1)
     beside: dict[str, set[str]] = {}
-    for one, other in shared:
-        beside.setdefault(one, set()).add(other)
-        beside.setdefault(other, set()).add(one)
-    for one, other in sorted(shared):
-        for third in sorted(beside[one] & beside[other]):
-            if third > other and len(shared[one, other] | shared[one, third] | shared[other, third]) == 3:
-                yield one, other, third
+    for first, second in shared:
+        beside.setdefault(first, set()).add(second)
+        beside.setdefault(second, set()).add(first)
+    for first, second in sorted(shared):
+        for third in sorted(beside[first] & beside[second]):
+            if third > second and len(shared[first, second] | shared[first, third] | shared[second, third]) == 3:
+                yield first, second, third
 
 
 def _absorb(sketch: LinkageSketch, link: str, into: str) -> None:
@@ -216,13 +218,13 @@ def _absorb(sketch: LinkageSketch, link: str, into: str) -> None:
     def key_now(key: str) -> str:
         return into if key == link else key
 
-    guides = [replace(one, link=key_now(one.link), along=key_now(one.along)) for one in sketch.guides]
-    sketch.guides = [one for one in guides if one.link != one.along]
-    sketch.slots = [replace(one, along=key_now(one.along)) for one in sketch.slots]
-    sketch.drives = [replace(one, link=one.link if isinstance(one.link, tuple) else key_now(one.link),
-                             on=key_now(one.on))
-                     for one in sketch.drives]
-    sketch.drives = [one for one in sketch.drives if one.link not in (FRAME, one.on)]
+    guides = [replace(guide, link=key_now(guide.link), along=key_now(guide.along)) for guide in sketch.guides]
+    sketch.guides = [guide for guide in guides if guide.link != guide.along]
+    sketch.slots = [replace(slot, along=key_now(slot.along)) for slot in sketch.slots]
+    sketch.drives = [replace(drive, link=drive.link if isinstance(drive.link, tuple) else key_now(drive.link),
+                             on=key_now(drive.on))
+                     for drive in sketch.drives]
+    sketch.drives = [drive for drive in sketch.drives if drive.link not in (FRAME, drive.on)]
 
 
 # ---- slots -----------------------------------------------------------------------------------------------------------
@@ -237,8 +239,8 @@ def _slide(sketch: LinkageSketch) -> None:
     while slots:
         slot = slots.pop(0)
         holders = [key for key in sketch.holders(slot.at) if key != slot.along]
-        twin = next(((other, key) for other in slots for key in holders if other.along == slot.along
-                     and key in sketch.holders(other.at) and _on_one_line(sketch, slot, other)), None)
+        twin = next(((candidate, key) for candidate in slots for key in holders if candidate.along == slot.along
+                     and key in sketch.holders(candidate.at) and _on_one_line(sketch, slot, candidate)), None)
         if twin:
             slots.remove(twin[0])
             sketch.guides.append(_guide(sketch, twin[1], slot))
@@ -276,9 +278,9 @@ def _guide(sketch: LinkageSketch, link: str, slot: Slot) -> SketchGuide:
 
 
 def _on_one_line(sketch: LinkageSketch, slot: Slot, other: Slot) -> bool:
-    ahead, size = sketch.vector(slot.way), sketch.extent
+    ahead, extent = sketch.vector(slot.way), sketch.extent
     across = [sketch.vector(other.way), sketch.places[other.at] - sketch.places[slot.at]]
-    return slot.at != other.at and all(abs((ahead.conjugate() * vector).imag) <= LINE_TOL * abs(ahead) * size
+    return slot.at != other.at and all(abs((ahead.conjugate() * vector).imag) <= LINE_TOL * abs(ahead) * extent
                                        for vector in across)
 
 
@@ -287,15 +289,15 @@ def _on_one_line(sketch: LinkageSketch, slot: Slot, other: Slot) -> bool:
 
 def _find_driven(sketch: LinkageSketch) -> None:
     """The links that drives mean by two of their points."""
-    found: list[SketchDrive] = []
+    drives: list[SketchDrive] = []
     for drive in sketch.drives:
         link: str | tuple[str, str] = drive.link
         if isinstance(link, tuple):
             pair = link
             link = next((key for key, points in sketch.links.items() if {*pair} <= {*points}), "")
-        if link and link not in (one.link for one in found if one.on == drive.on):
-            found.append(replace(drive, link=link))
-    sketch.drives = found
+        if link and link not in (earlier.link for earlier in drives if earlier.on == drive.on):
+            drives.append(replace(drive, link=link))
+    sketch.drives = drives
 
 
 def _drop_loose_pieces(sketch: LinkageSketch) -> None:
@@ -320,18 +322,18 @@ def _drop_loose_pieces(sketch: LinkageSketch) -> None:
             pieces.append(piece)
     if not pieces:
         return
-    kept = next((piece for piece in pieces if FRAME in piece and len(piece) > 1), None) or max(pieces, key=len)
-    lone = [key for key in sketch.links if key not in kept]
+    largest = next((piece for piece in pieces if FRAME in piece and len(piece) > 1), None) or max(pieces, key=len)
+    lone = [key for key in sketch.links if key not in largest]
     for key in lone:
         points = sketch.links.pop(key)
         if len(points) > 1:
             named = " ".join(sketch.names[point] or "?" for point in points)
             sketch.note(f"a link that hangs on no other was left out: {sketch.called[key] or named}")
-    sketch.guides = [one for one in sketch.guides if one.link in kept and one.along in kept]
-    if FRAME not in kept:
+    sketch.guides = [guide for guide in sketch.guides if guide.link in largest and guide.along in largest]
+    if FRAME not in largest:
         sketch.fixed = {}
     else:
-        told = {point for points in sketch.links.values() for point in points}
-        ways = {point for guide in sketch.guides if isinstance(guide.way, tuple) for point in guide.way}
-        sketch.fixed = {point: None for point in sketch.fixed if point in told | ways} or dict(
+        points_on_links = {point for points in sketch.links.values() for point in points}
+        points_of_guides = {point for guide in sketch.guides if isinstance(guide.way, tuple) for point in guide.way}
+        sketch.fixed = {point: None for point in sketch.fixed if point in points_on_links | points_of_guides} or dict(
             [*sketch.fixed.items()][:1])

@@ -51,19 +51,19 @@ def _points(sketch: LinkageSketch, names: Mapping[str, str]) -> Iterator[str]:
 
 
 def _links(sketch: LinkageSketch, points: Mapping[str, str], names: Mapping[str, str]) -> Iterator[str]:
-    for key, held in sketch.links.items():
-        yield f"{_key(names[key])} = {text(' '.join(points[point] for point in held))}"
+    for key, link_points in sketch.links.items():
+        yield f"{_key(names[key])} = {text(' '.join(points[point] for point in link_points))}"
     if sketch.fixed:
         yield f"{FRAME} = {text(' '.join(points[point] for point in sketch.fixed))}"
 
 
 def _drive(drive: SketchDrive, links: Mapping[str, str]) -> list[str]:
-    told = [comment(drive.told)] if drive.told else []
+    remark = [comment(drive.told)] if drive.told else []
     link = links[str(drive.link)]
     if drive.slides:
-        return [*told, "[[drive]]", f"slide = [{text(link)}, {text(links[drive.on])}]", drive.rate]
+        return [*remark, "[[drive]]", f"slide = [{text(link)}, {text(links[drive.on])}]", drive.rate]
     relative = [] if drive.on == FRAME else [f"relative_to = {text(links[drive.on])}"]
-    return [*told, "[[drive]]", f"link = {text(link)}", *relative, drive.rate]
+    return [*remark, "[[drive]]", f"link = {text(link)}", *relative, drive.rate]
 
 
 # ---- names -----------------------------------------------------------------------------------------------------------
@@ -72,21 +72,21 @@ def _drive(drive: SketchDrive, links: Mapping[str, str]) -> list[str]:
 def named_points(sketch: LinkageSketch) -> dict[str, str]:
     """The names of the points: the file's own where they may stand in a scene; those that are taken get numbers, as
     points of different links that coincide do (A2, A3)."""
-    found: dict[str, str] = {}
+    result: dict[str, str] = {}
     letters = (letter + (str(round) if round else "") for round in count() for letter in ALPHABET)
-    wanted = {key: _name(sketch.names[key]) or _name_there(sketch, key) for key in sketch.places}
-    taken = {name for name in wanted.values() if name}
-    for key, name in wanted.items():
-        own = name or next(letter for letter in letters if letter not in taken)
-        found[key] = _free(own, found.values(), taken)
-        taken.add(found[key])
-    return found
+    wishes = {key: _name(sketch.names[key]) or _name_there(sketch, key) for key in sketch.places}
+    taken = {name for name in wishes.values() if name}
+    for key, name in wishes.items():
+        wish = name or next(letter for letter in letters if letter not in taken)
+        result[key] = _free(wish, result.values(), taken)
+        taken.add(result[key])
+    return result
 
 
 def _name_there(sketch: LinkageSketch, key: str) -> str:
     """The name of another point in the same place."""
-    return next((_name(sketch.names[other]) for other, at in sketch.places.items()
-                 if sketch.names[other] and abs(at - sketch.places[key]) <= PLACE_TOL * sketch.extent), "")
+    return next((_name(sketch.names[neighbour]) for neighbour, at in sketch.places.items()
+                 if sketch.names[neighbour] and abs(at - sketch.places[key]) <= PLACE_TOL * sketch.extent), "")
 
 
 def _name(written: str) -> str:
@@ -103,16 +103,16 @@ def _free(name: str, used: object, taken: set[str]) -> str:
 
 def named_links(sketch: LinkageSketch) -> dict[str, str]:
     """The names of the links: the file's own, or numbers; the frame is the frame."""
-    found: dict[str, str] = {FRAME: FRAME}
-    own = {key: " ".join(re.sub(r"[\"\\]", "", sketch.called[key]).split())[:30] for key in sketch.links}
-    taken = {FRAME, *own.values()}
+    result: dict[str, str] = {FRAME: FRAME}
+    wishes = {key: " ".join(re.sub(r"[\"\\]", "", sketch.called[key]).split())[:30] for key in sketch.links}
+    taken = {FRAME, *wishes.values()}
     numbers = (str(k) for k in count(1))
-    for key, name in own.items():
+    for key, name in wishes.items():
         if not name or not name.isprintable() or name == FRAME:
             name = next(number for number in numbers if number not in taken)
-        found[key] = _free(name, found.values(), taken)
-        taken.add(found[key])
-    return found
+        result[key] = _free(name, result.values(), taken)
+        taken.add(result[key])
+    return result
 
 
 # ---- TOML ------------------------------------------------------------------------------------------------------------
@@ -206,21 +206,22 @@ def _with_more_drives(sketch: LinkageSketch, missing: int) -> Iterator[LinkageSk
     have = {drive.link for drive in sketch.drives}
     cranks = sorted((key for key, points in sketch.links.items() if key not in have and {*points} & {*sketch.fixed}),
                     key=lambda key: _reach(sketch, key))
-    told = {key: f"Link {names[key]} drives: a guess, and so is the speed." for key in sketch.links}
-    turning = [SketchDrive(key, GUESS, told[key]) for key in cranks if len(sketch.links[key]) > 1]
-    sliding = [SketchDrive(one.link, "speed = 1", told[one.link], FRAME, True) for one in sketch.guides
-               if one.along == FRAME]
-    others = [SketchDrive(key, GUESS, told[key]) for key in sketch.links if key not in {*cranks} | have]
-    for more in combinations([*turning, *sliding, *others], missing):
-        given = f"the file tells {len(sketch.drives) or 'no'} drive{'' if len(sketch.drives) == 1 else 's'}"
-        yield _with_note(sketch, [*sketch.drives, *more], f"which link drives: mobility {sketch.freedoms}, and {given}")
+    remarks = {key: f"Link {names[key]} drives: a guess, and so is the speed." for key in sketch.links}
+    turning = [SketchDrive(key, GUESS, remarks[key]) for key in cranks if len(sketch.links[key]) > 1]
+    sliding = [SketchDrive(guide.link, "speed = 1", remarks[guide.link], FRAME, True) for guide in sketch.guides
+               if guide.along == FRAME]
+    floating = [SketchDrive(key, GUESS, remarks[key]) for key in sketch.links if key not in {*cranks} | have]
+    for more in combinations([*turning, *sliding, *floating], missing):
+        drives_text = f"the file tells {len(sketch.drives) or 'no'} drive{'' if len(sketch.drives) == 1 else 's'}"
+        yield _with_note(sketch, [*sketch.drives, *more],
+                         f"which link drives: mobility {sketch.freedoms}, and {drives_text}")
 
 
 def _with_fewer_drives(sketch: LinkageSketch, wanted: int) -> Iterator[LinkageSketch]:
     names = named_links(sketch)
-    for kept in combinations(sketch.drives, wanted):
-        left = [f"link {names[str(drive.link)]} ({drive.rate})" for drive in sketch.drives if drive not in kept]
-        yield _with_note(sketch, [*kept], f"mobility {wanted}, so of its drives were left out: {', '.join(left)}")
+    for chosen in combinations(sketch.drives, wanted):
+        omitted = [f"link {names[str(drive.link)]} ({drive.rate})" for drive in sketch.drives if drive not in chosen]
+        yield _with_note(sketch, [*chosen], f"mobility {wanted}, so of its drives were left out: {', '.join(omitted)}")
 
 
 def _with_note(sketch: LinkageSketch, drives: list[SketchDrive], note: str) -> LinkageSketch:
@@ -231,7 +232,7 @@ def _reach(sketch: LinkageSketch, link: str) -> float:
     """How far a link reaches from its pin on the frame."""
     points = sketch.links[link]
     pins = [point for point in points if point in sketch.fixed]
-    return max(abs(sketch.places[one] - sketch.places[pin]) for pin in pins for one in points)
+    return max(abs(sketch.places[point] - sketch.places[pin]) for pin in pins for point in points)
 
 
 # ---- a frame, where the file tells none ------------------------------------------------------------------------------
@@ -246,33 +247,33 @@ def _with_frames(sketch: LinkageSketch) -> Iterator[LinkageSketch]:
             yield from _with_fixed_ends(sketch, (sketch.freedoms - freedoms) // 2)
     closed = [key for key, points in sketch.links.items() if len(points) > 1]
     for key in sorted(closed, key=lambda key: _level(sketch, key)):
-        found = deepcopy(sketch)
-        points = found.links.pop(key)
-        found.fixed = dict.fromkeys(points)
-        found.guides = [replace(one, link=FRAME if one.link == key else one.link,
-                                along=FRAME if one.along == key else one.along) for one in found.guides]
-        found.guides = [replace(one, link=one.along, along=FRAME) if one.link == FRAME else one
-                        for one in found.guides]
-        found.drives = [one for one in found.drives if one.link != key]
-        told = " ".join(names[point] for point in points)
-        found.note(f"what is fixed: that the link {told} is the frame is a guess")
-        yield found
+        proposal = deepcopy(sketch)
+        points = proposal.links.pop(key)
+        proposal.fixed = dict.fromkeys(points)
+        proposal.guides = [replace(guide, link=FRAME if guide.link == key else guide.link,
+                                   along=FRAME if guide.along == key else guide.along) for guide in proposal.guides]
+        proposal.guides = [replace(guide, link=guide.along, along=FRAME) if guide.link == FRAME else guide
+                           for guide in proposal.guides]
+        proposal.drives = [drive for drive in proposal.drives if drive.link != key]
+        points_text = " ".join(names[point] for point in points)
+        proposal.note(f"what is fixed: that the link {points_text} is the frame is a guess")
+        yield proposal
 
 
 def _with_fixed_ends(sketch: LinkageSketch, many: int) -> Iterator[LinkageSketch]:
     """With so many points on the frame that are on one link alone, first those of links with few points."""
     names = named_points(sketch)
-    held = {point: sketch.holders(point) for point in sketch.places}
-    ends = sorted((point for point, keys in held.items() if len(keys) == 1 and keys != [FRAME]), key=lambda point: (
-        len(sketch.links[held[point][0]]), names[point]))
-    for way in combinations(ends, many):
-        found = deepcopy(sketch)
-        found.fixed |= dict.fromkeys(way)
-        told = " and ".join(names[point] for point in way)
-        found.note(f"what is fixed: {told} on the frame is a guess, as the chain ends there")
-        yield found
+    holders = {point: sketch.holders(point) for point in sketch.places}
+    ends = sorted((point for point, keys in holders.items() if len(keys) == 1 and keys != [FRAME]), key=lambda point: (
+        len(sketch.links[holders[point][0]]), names[point]))
+    for chosen in combinations(ends, many):
+        proposal = deepcopy(sketch)
+        proposal.fixed |= dict.fromkeys(chosen)
+        points_text = " and ".join(names[point] for point in chosen)
+        proposal.note(f"what is fixed: {points_text} on the frame is a guess, as the chain ends there")
+        yield proposal
 
 
 def _level(sketch: LinkageSketch, link: str) -> tuple[bool, float]:
-    one, other = (sketch.places[point] for point in sketch.links[link][:2])
-    return abs((other - one).imag) > LINE_TOL * sketch.extent, -abs(other - one)
+    start, end = (sketch.places[point] for point in sketch.links[link][:2])
+    return abs((end - start).imag) > LINE_TOL * sketch.extent, -abs(end - start)

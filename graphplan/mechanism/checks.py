@@ -67,17 +67,17 @@ def check_connections(scene: Scene, faults: Faults) -> None:
     for pair in scene.binding:
         for link in pair.links:
             joined.setdefault(link, set()).update(pair.links)
-    held = {FRAME} & {*scene.links} | {link for point in scene.motions for link in scene.links_of[point]}
-    reached = [*held]
+    grounded = {FRAME} & {*scene.links} | {link for point in scene.motions for link in scene.links_of[point]}
+    reached = [*grounded]
     while reached:
-        reached += (further := joined.get(reached.pop(), set()) - held)
-        held |= further
+        reached += (further := joined.get(reached.pop(), set()) - grounded)
+        grounded |= further
     for link in scene.moving:
-        if held and link not in held:
+        if grounded and link not in grounded:
             lonely = "shares no joint or slide with any other"
-            told = "is connected to neither the frame nor a given motion" if link in joined else lonely
+            fault = "is connected to neither the frame nor a given motion" if link in joined else lonely
             instead = "a point that it shares with another link, or a slide"
-            faults.add(f"links.{quote_key(link)}", f"link {link} {told}", instead)
+            faults.add(f"links.{quote_key(link)}", f"link {link} {fault}", instead)
 
 
 def check_gears(scene: Scene, faults: Faults) -> None:
@@ -89,24 +89,24 @@ def check_gears(scene: Scene, faults: Faults) -> None:
     system = System(free)
     columns = {unknown: j for j, unknown in enumerate(system.unknowns)}
     rows = [{columns[unknown]: c for unknown, c in equation.terms.items()} for equation in system.pairs]
-    moved = Elimination(rows, len(columns), PRIME).random_motion
+    motion = Elimination(rows, len(columns), PRIME).random_motion
     for number, gear in enumerate(scene.gears, 1):
         bar, of = _bar(gear), " and ".join(gear.centres)
         if gear.direction is None:
             terms = system.terms(next(bar.states(system.posed_scene)))
-            if not sum(c * moved[columns[unknown]] for unknown, c in terms.items()) % PRIME:
+            if not sum(c * motion[columns[unknown]] for unknown, c in terms.items()) % PRIME:
                 continue
-            what, instead = f"nothing holds the centres {of} apart", "an arm: a link with a joint at each"
+            problem, instead = f"nothing holds the centres {of} apart", "an arm: a link with a joint at each"
         else:
-            what, instead = f"{of} can leave the pitch line", "a pin, or a slide along it"
+            problem, instead = f"{of} can leave the pitch line", "a pin, or a slide along it"
         if not _held_in_its_pose(free, bar):
-            faults.add(f"gears.{number}.centres", what, instead)
+            faults.add(f"gears.{number}.centres", problem, instead)
 
 
 def _bar(gear: Gear) -> Contact:
     """A bar between the centres of a gear, or a slide of its centre along the pitch line."""
-    one, two = gear.centres[0], gear.centres[1] if gear.direction is None else None
-    return Contact(gear.links, one, (one, two), False, gear.direction, gear.through, gear.written)
+    first, second = gear.centres[0], gear.centres[1] if gear.direction is None else None
+    return Contact(gear.links, first, (first, second), False, gear.direction, gear.through, gear.written)
 
 
 def _held_in_its_pose(free: Scene, bar: Contact) -> bool:
@@ -123,39 +123,42 @@ def check_mobility(scene: Scene, faults: Faults) -> Scene:
     A fault unless it has as many drives and given motions as degrees of freedom, and each link is held just once.
     """
     counted = Faults()
-    moved = _check_freedoms(scene, counted)
+    checked = _check_freedoms(scene, counted)
     loose = Faults()
     if scene.gears and faults.none_in("points") and counted.none_in("links"):  # a missing pivot tells more
         check_gears(scene, loose)
     for fault in loose if len(loose) else counted:
         faults.add(fault.where, fault.what, fault.instead)
-    return moved
+    return checked
 
 
 def _check_freedoms(scene: Scene, faults: Faults) -> Scene:
     """The same by the count of freedoms, with what special geometry makes redundant."""
     freedoms, drives, motions = mobility(scene), len(scene.drives), len(scene.motions)
-    given = drives + 2 * motions
-    told = _count(drives, "drive") + (f" and {_count(motions, 'given motion')} (two degrees each)" if motions else "")
-    what = f"mobility {freedoms} but {told}"
-    held = bracing(scene)
-    loose, twice = _links_text(held.loose), _links_text(held.overbraced)
-    if freedoms < given and not held.loose and (found := _in_its_pose(scene, given, told, faults)):
-        return found
-    if freedoms < given:
+    prescribed = drives + 2 * motions
+    drives_text = _count(drives, "drive") + (f" and {_count(motions, 'given motion')} (two degrees each)" if motions
+                                             else "")
+    problem = f"mobility {freedoms} but {drives_text}"
+    hold = bracing(scene)
+    loose, twice = _links_text(hold.loose), _links_text(hold.overbraced)
+    if freedoms < prescribed and not hold.loose and (special_scene := _in_its_pose(scene, prescribed, drives_text,
+                                                                                   faults)):
+        return special_scene
+    if freedoms < prescribed:
         pairs = "joints and slides" if not (scene.gears or scene.contacts) else "pairs, or gears whose ratios agree"
         instead = f"fewer drives, or fewer {pairs}" if freedoms > 0 else f"a chain with fewer {pairs}"
-        faults.add("drive", what, instead)
-    elif freedoms > given and (ways := missing_pivots(scene, freedoms - given)):
-        points = ", or ".join(" and ".join(way) for way in ways)
-        on_none = f"{points} {'is' if len(ways[0]) == 1 else 'are'} on no other link"
-        instead = " or ".join([*(frame_entry(scene, way) for way in ways), f"{freedoms - given} more [[drive]]"])
-        faults.add("links.frame", f"{what}, and {on_none}", instead)
-    elif freedoms > given:
-        faults.add("drive", what, f"{freedoms - given} more [[drive]], since {loose} can still move")
-    elif not held.sound:
-        what = f"{twice} {_are(held.overbraced)} overbraced while {loose} {_are(held.loose)} loose"
-        faults.add("links", what, "joints, slides and drives that hold each link just once")
+        faults.add("drive", problem, instead)
+    elif freedoms > prescribed and (choices := missing_pivots(scene, freedoms - prescribed)):
+        points = ", or ".join(" and ".join(pivots) for pivots in choices)
+        on_none = f"{points} {'is' if len(choices[0]) == 1 else 'are'} on no other link"
+        instead = " or ".join([*(frame_entry(scene, pivots) for pivots in choices),
+                               f"{freedoms - prescribed} more [[drive]]"])
+        faults.add("links.frame", f"{problem}, and {on_none}", instead)
+    elif freedoms > prescribed:
+        faults.add("drive", problem, f"{freedoms - prescribed} more [[drive]], since {loose} can still move")
+    elif not hold.sound:
+        problem = f"{twice} {_are(hold.overbraced)} overbraced while {loose} {_are(hold.loose)} loose"
+        faults.add("links", problem, "joints, slides and drives that hold each link just once")
     return scene
 
 
@@ -163,17 +166,17 @@ def _in_its_pose(scene: Scene, given: int, told: str, faults: Faults) -> Scene |
     """The scene where rank at the pose says more than the count, or says why it is none; None where it does not."""
     from graphplan.mechanism.special import special  # few scenes need it
 
-    found = special(scene)
-    links = _links_text(found.links)
-    if found.freedoms < given:
+    geometry = special(scene)
+    links = _links_text(geometry.links)
+    if geometry.freedoms < given:
         return None
-    if found.freedoms > given:
-        what = f"{links} have mobility {found.freedoms} in this pose alone but {told}"
-        faults.add("links", what, "another pose, in which they have fewer degrees of freedom")
-    elif not found.moves:
-        what = f"{links} can shake in this pose but not move"
-        faults.add("links", what, "lengths with which they move, or fewer joints and slides")
-    return replace(scene, redundant=found.redundant, repeating=found.repeating)
+    if geometry.freedoms > given:
+        problem = f"{links} have mobility {geometry.freedoms} in this pose alone but {told}"
+        faults.add("links", problem, "another pose, in which they have fewer degrees of freedom")
+    elif not geometry.moves:
+        problem = f"{links} can shake in this pose but not move"
+        faults.add("links", problem, "lengths with which they move, or fewer joints and slides")
+    return replace(scene, redundant=geometry.redundant, repeating=geometry.repeating)
 
 
 def check_loads(scene: Scene, faults: Faults, by_drive: bool = False) -> None:
@@ -200,11 +203,11 @@ def check_loads(scene: Scene, faults: Faults, by_drive: bool = False) -> None:
 
 def _check_balance(scene: Scene, faults: Faults) -> None:
     """With the balances in the place of the drives each link is held just once: then statics determines all forces."""
-    held: Bracing = bracing(scene, balanced=True)
-    if not held.sound:
-        loose, twice = _links_text(held.loose), _links_text(held.overbraced)
-        what = f"it does not hold {loose}, and {twice} {_are(held.overbraced)} statically indeterminate"
-        faults.add("balance", what, "a moment or a force that works when the drive moves the mechanism")
+    hold: Bracing = bracing(scene, balanced=True)
+    if not hold.sound:
+        loose, twice = _links_text(hold.loose), _links_text(hold.overbraced)
+        problem = f"it does not hold {loose}, and {twice} {_are(hold.overbraced)} statically indeterminate"
+        faults.add("balance", problem, "a moment or a force that works when the drive moves the mechanism")
 
 
 def _count(number: int, noun: str) -> str:
@@ -231,9 +234,10 @@ def missing_pivots(scene: Scene, freedoms: int) -> list[tuple[str, ...]]:
     fixed = scene.links.get(FRAME, ())
     lone = {point: links[0] for point, links in scene.links_of.items() if len(links) == 1}
     ends = sorted(lone.keys() - {*fixed}, key=lambda p: (len(scene.links[lone[p]]), by_name(p)))
-    ways = islice(combinations(ends, freedoms // 2), TRIED)
-    held = (way for way in ways if bracing(replace(scene, links={**scene.links, FRAME: (*fixed, *way)})).sound)
-    return list(islice(held, TOLD))
+    choices = islice(combinations(ends, freedoms // 2), TRIED)
+    sound = (pivots for pivots in choices
+             if bracing(replace(scene, links={**scene.links, FRAME: (*fixed, *pivots)})).sound)
+    return list(islice(sound, TOLD))
 
 
 def frame_entry(scene: Scene, way: tuple[str, ...]) -> str:

@@ -60,14 +60,14 @@ class Elimination:
         for i, row in enumerate(self._rows):
             for j in row:
                 users[j].add(i)
-        queue, left = [(len(row), i) for i, row in enumerate(self._rows)], set(range(len(self._rows)))
+        queue, remaining = [(len(row), i) for i, row in enumerate(self._rows)], set(range(len(self._rows)))
         heapify(queue)
         while queue:
-            size, source = heappop(queue)
+            length, source = heappop(queue)
             row = self._rows[source]
-            if source not in left or size != len(row):  # spent, or its length has changed since it was queued
+            if source not in remaining or length != len(row):  # spent, or its length has changed since it was queued
                 continue
-            left.remove(source)
+            remaining.remove(source)
             if not row:
                 self.dependent.append(source)
                 continue
@@ -109,8 +109,9 @@ class Elimination:
         values: list[Any] = [chosen.get(j, 0) for j in range(self.width)]
         for column, i in reversed(self.pivots):
             row, prime = self._rows[i], self._prime
-            rest = sides[i] - sum(v * values[j] for j, v in row.items() if j != column and values[j])
-            values[column] = rest * pow(row[column], -1, prime) % prime if prime else Fraction(rest) / row[column]
+            remainder = sides[i] - sum(v * values[j] for j, v in row.items() if j != column and values[j])
+            values[column] = remainder * pow(row[column], -1,
+                                             prime) % prime if prime else Fraction(remainder) / row[column]
         return values
 
     def _null_vector(self, chosen: Mapping[int, int]) -> list[Any]:
@@ -136,8 +137,8 @@ class Elimination:
     def conflict(self, right: Sequence[Number]) -> frozenset[int]:
         """The rows that contradict each other with this right-hand side."""
         proofs = Elimination(transpose(self._given, self.width), len(self._given))
-        found = (proofs._null_vector({j: 1}) for j in proofs._unbound)
-        against = (y for y in found if sum(a * Fraction(b) for a, b in zip(y, right, strict=True)))
+        null_vectors = (proofs._null_vector({j: 1}) for j in proofs._unbound)
+        against = (y for y in null_vectors if sum(a * Fraction(b) for a, b in zip(y, right, strict=True)))
         return frozenset(i for y in against for i, value in enumerate(y) if value)
 
 
@@ -205,8 +206,8 @@ class System:
     @cached_property
     def unknowns(self) -> tuple[Unknown, ...]:
         """All freedoms, in the scene's order."""
-        links = [(("link", k), way) for k in self.scene.moving for way in WAYS]
-        joints = [(("joint", p), way) for p in self.scene.joints if p not in self.given_points for way in ("x", "y")]
+        links = [(("link", k), axis) for k in self.scene.moving for axis in WAYS]
+        joints = [(("joint", p), axis) for p in self.scene.joints if p not in self.given_points for axis in ("x", "y")]
         return tuple(links + joints)
 
     @cached_property
@@ -217,8 +218,8 @@ class System:
     def equations(self) -> tuple[FreedomEquation, ...]:
         """All equations: of the pairs, of the drives or the balances."""
         loads, scene = self.posed_scene.loads, self.posed_scene
-        held = (loads.balances if loads else ()) if self.balanced else scene.drives
-        return (*self.pairs, *self._equations_of(held))
+        drives = (loads.balances if loads else ()) if self.balanced else scene.drives
+        return (*self.pairs, *self._equations_of(drives))
 
     @cached_property
     def pairs(self) -> tuple[FreedomEquation, ...]:
@@ -226,11 +227,11 @@ class System:
         scene, dropped = self.posed_scene, frozenset(self.scene.redundant)
         points = [pair for pair in scene.pairs if isinstance(pair, DrivenPoint) and pair.at not in scene.joints]
         pins = self._equations_of([*map(self._with_pin, scene.revolutes), *points])
-        others = self._equations_of(pair for pair in scene.binding if not isinstance(pair, Revolute))
+        other_pairs = self._equations_of(pair for pair in scene.binding if not isinstance(pair, Revolute))
         place = {(link, point): i for i, (link, point) in enumerate(
             (link, point) for link in scene.moving for point in scene.links[link])}
         linked = sorted(pins, key=lambda equation: place[equation.fact.link, equation.fact.at])
-        return tuple(equation for equation in (*linked, *others) if equation.fact.condition not in dropped)
+        return tuple(equation for equation in (*linked, *other_pairs) if equation.fact.condition not in dropped)
 
     def _root(self, square: Any) -> Any:
         """The root of a number; in general position the number itself will do."""
@@ -252,9 +253,9 @@ class System:
         terms: dict[Unknown, Any] = {}
         arms: Any = [self.posed_scene.points[point] if point else (0, 0) for _, point in fact.ends]
         for (body, point), weights in zip(fact.ends, fact.weights(arms, self._root), strict=True):
-            thing = ("link", body) if body != PIN else ("joint", point)
-            terms |= {(thing, way): weight for way, weight in zip(WAYS, weights, strict=True)
-                      if weight and (thing, way) in self._free}
+            mover = ("link", body) if body != PIN else ("joint", point)
+            terms |= {(mover, axis): weight for axis, weight in zip(WAYS, weights, strict=True)
+                      if weight and (mover, axis) in self._free}
         return terms
 
 
@@ -266,8 +267,8 @@ def stages(system: System) -> list[tuple[Thing, ...]]:
     owner = matching([tuple(equation.terms) for equation in system.equations])
     depends: dict[Thing, dict[Thing, None]] = {thing: {} for thing, _ in system.unknowns}
     for (thing, _), i in owner.items():
-        depends[thing].update((other, None) for other, _ in system.equations[i].terms if other != thing)
-    return list(rings({thing: tuple(others) for thing, others in depends.items()}))
+        depends[thing].update((needed, None) for needed, _ in system.equations[i].terms if needed != thing)
+    return list(rings({thing: tuple(needed) for thing, needed in depends.items()}))
 
 
 def matching(options: Sequence[Sequence[Node]]) -> dict[Node, int]:
@@ -275,11 +276,11 @@ def matching(options: Sequence[Sequence[Node]]) -> dict[Node, int]:
     owner: dict[Node, int] = {}
     waiting = list(range(len(options)))
     while waiting:  # in one round nothing is visited twice, so each round costs one reading of the equations
-        seen: set[Node] = set()
-        left = [i for i in waiting if not _augment(i, options, owner, seen)]
-        if len(left) == len(waiting):
+        visited: set[Node] = set()
+        unmatched = [i for i in waiting if not _augment(i, options, owner, visited)]
+        if len(unmatched) == len(waiting):
             break
-        waiting = left
+        waiting = unmatched
     return owner
 
 
@@ -311,12 +312,12 @@ def rings(depends: Mapping[Node, Sequence[Node]]) -> Iterator[tuple[Node, ...]]:
     for root in depends:
         path = [] if root in index else [(root, iter(depends[root]))]
         while path:
-            node, others = path[-1]
+            node, neighbours = path[-1]
             if node not in index:
                 index[node] = low[node] = len(index)
                 stack.append(node)
-            other = next((o for o in others if o not in done), None)
-            if other is None:
+            neighbour = next((o for o in neighbours if o not in done), None)
+            if neighbour is None:
                 path.pop()
                 if path:
                     low[path[-1][0]] = min(low[path[-1][0]], low[node])
@@ -326,7 +327,7 @@ def rings(depends: Mapping[Node, Sequence[Node]]) -> Iterator[tuple[Node, ...]]:
                         ring.append(stack.pop())
                     done.update(ring)
                     yield tuple(ring[::-1])
-            elif other in index:
-                low[node] = min(low[node], index[other])
+            elif neighbour in index:
+                low[node] = min(low[node], index[neighbour])
             else:
-                path.append((other, iter(depends[other])))
+                path.append((neighbour, iter(depends[neighbour])))

@@ -31,7 +31,7 @@ class SceneNames:
     """
 
     points: Collection[str]
-    placed: dict[str, Pair] = field(default_factory=dict)
+    places: dict[str, Pair] = field(default_factory=dict)
     links: dict[str, tuple[str, ...]] = field(default_factory=dict)
     link_counts: Counter[str] = field(default_factory=Counter)
     pairs: tuple[KinematicPair, ...] = ()
@@ -151,9 +151,9 @@ class Either(NamedTuple):
         if self.choose:
             form = self.choose(item)
             return form.read(item, names) if form else None
-        given = {*item.value} if isinstance(item.value, dict) else set()
+        keys = {*item.value} if isinstance(item.value, dict) else set()
         for form in reversed(self.forms[1:]):
-            if given & {*form.keys}.difference(*(other.keys for other in self.forms if other is not form)):
+            if keys & {*form.keys}.difference(*(rival.keys for rival in self.forms if rival is not form)):
                 return form.read(item, names)
         return self.forms[0].read(item, names)
 
@@ -177,19 +177,19 @@ class Rows(NamedTuple):
     def read(self, item: Item, names: SceneNames) -> Any:
         """What is made of the tables without faults, in order."""
         rows = [item] if self.single and not isinstance(item.value, list) else item.rows()
-        found: list[Any] = []
-        seen = set()
+        entries: list[Any] = []
+        earlier = set()
         for row in rows:
             entry = self.entry.read(row, names)
             if entry is None:
                 continue
             if self.once:
-                what, told = self.once(entry)
-                if what in seen:
-                    row.fault(f"a second {told}", self.remedy)
-                seen.add(what)
-            found.append(entry)
-        return tuple(found)
+                identity, noun = self.once(entry)
+                if identity in earlier:
+                    row.fault(f"a second {noun}", self.remedy)
+                earlier.add(identity)
+            entries.append(entry)
+        return tuple(entries)
 
 
 class Named(NamedTuple):
@@ -207,11 +207,11 @@ class Named(NamedTuple):
 
     def read(self, item: Item, names: SceneNames) -> Any:
         """What the entries say, without those that say nothing."""
-        found = {}
+        entries = {}
         for name, entry in (item.table() or {}).items():
             self.check(name, entry, names)
-            found[name] = self.entry.read(entry, names)
-        return {name: value for name, value in found.items() if value is not None}
+            entries[name] = self.entry.read(entry, names)
+        return {name: value for name, value in entries.items() if value is not None}
 
 
 Value: TypeAlias = Kind | Table | Either | Rows | Named
@@ -233,9 +233,9 @@ def inner(value: Value) -> Iterator[Field]:
 
 def on_link(row: TableRow, link: str, what: str = "link") -> bool:
     """Whether the point of a row is a point of this link; a fault where it is not."""
-    own = row.names.links.get(link, ())
+    points = row.names.links.get(link, ())
     key = "at" if "at" in row.items else "centre"
-    if own and row[key] not in own:
-        instead = "one of " + ", ".join(sorted(own, key=by_name))
+    if points and row[key] not in points:
+        instead = "one of " + ", ".join(sorted(points, key=by_name))
         row.items[key].fault(f"{row[key]} is not a point of {what} {link}", instead)
-    return row[key] in own
+    return row[key] in points

@@ -120,7 +120,7 @@ class Item:
         """Two numbers: coordinates or components."""
         if not isinstance(self.value, list) or len(self.value) != 2:
             return self.fault(f"{describe(self.value)} where two numbers are wanted", "two numbers such as [10, 5]")
-        x, y = (self.with_value(part).number() for part in self.value)
+        x, y = (self.with_value(number).number() for number in self.value)
         return None if x is None or y is None else (x, y)
 
     def text(self, wanted: str, instead: str) -> str | None:
@@ -229,8 +229,8 @@ def suggestion(name: str, known: Iterable[str], kind: str) -> str:
     from graphplan.mechanism.slips import with_frame
 
     choice = list(known)
-    if meant := with_frame(name, choice):
-        return f"perhaps {meant}"
+    if corrected := with_frame(name, choice):
+        return f"perhaps {corrected}"
     near = get_close_matches(name[:60], choice, n=2, cutoff=0.6)
     folded = [word for word in choice if word.lower() == name.lower()]
     if folded or near:

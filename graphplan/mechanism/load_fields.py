@@ -33,10 +33,10 @@ Pairs = tuple[tuple[Fraction, Fraction], ...]
 def _read_over(item: Item, names: SceneNames) -> str | None:
     name = item.text("what the load changes with", 'over = "travel", or a slide such as over = "3 along frame"')
     slides = [pair.name for pair in names.pairs if isinstance(pair, Slide)]
-    known = [TRAVEL, *slides, SPEED, *(SPEED_OF + slide for slide in slides)]
-    if name is None or name in known or not item.faults.none_in("slides"):
+    choices = [TRAVEL, *slides, SPEED, *(SPEED_OF + slide for slide in slides)]
+    if name is None or name in choices or not item.faults.none_in("slides"):
         return name
-    return item.fault(f"there is no slide {name}", suggestion(name, known, "slide"))
+    return item.fault(f"there is no slide {name}", suggestion(name, choices, "slide"))
 
 
 def _read_values(item: Item, names: SceneNames) -> Pairs | None:
@@ -52,8 +52,8 @@ def _read_powers(item: Item, names: SceneNames) -> tuple[Fraction, ...] | None:
     if not isinstance(item.value, list) or not 1 <= len(item.value) <= 3:
         return item.fault(f"{describe(item.value)} where up to three numbers are wanted",
                           "powers = [c0, c1, c2] of the load c0 + c1 v + c2 v |v|")
-    found = [item.with_value(value).number() for value in item.value]
-    return None if None in found else tuple(c for c in found if c is not None)
+    coefficients = [item.with_value(value).number() for value in item.value]
+    return None if None in coefficients else tuple(c for c in coefficients if c is not None)
 
 
 def _read_file(item: Item, names: SceneNames) -> Pairs | None:
@@ -71,10 +71,10 @@ def _read_file(item: Item, names: SceneNames) -> Pairs | None:
         return item.fault(f"{name} cannot be read ({why})", "a readable file beside the scene")
     if len(text) > MAX_BYTES:
         return item.fault(f"{name} is larger than {MAX_BYTES // 10**6} MB", f"a table of at most {MAX_ROWS} rows")
-    found = _columns(item.with_value(name), text)
-    if found is not None:
-        names.files[name] = found
-    return found
+    rows = _columns(item.with_value(name), text)
+    if rows is not None:
+        names.files[name] = rows
+    return rows
 
 
 def _columns(item: Item, text: str) -> Pairs | None:
@@ -82,16 +82,16 @@ def _columns(item: Item, text: str) -> Pairs | None:
     lines = [(number, line.partition("#")[0].strip()) for number, line in enumerate(text.splitlines(), 1)]
     lines = [(number, line) for number, line in lines if line]
     split = _split([line for _, line in lines])
-    found: list[tuple[Fraction, Fraction]] = []
+    rows: list[tuple[Fraction, Fraction]] = []
     for number, line in lines:
         row = [_numeral(cell) for cell in split(line)]
         if len(row) == 2 and row[0] is not None and row[1] is not None:
-            found.append((row[0], row[1]))
-        elif found or number > lines[0][0] or any(cell is not None for cell in row):
+            rows.append((row[0], row[1]))
+        elif rows or number > lines[0][0] or any(cell is not None for cell in row):
             return item.fault(f"{item.value}, line {number}: {describe(line)} is not a place and a value", COLUMNS)
-        if len(found) > MAX_ROWS:
+        if len(rows) > MAX_ROWS:
             return item.fault(f"{item.value} has more than {MAX_ROWS} rows", f"at most {MAX_ROWS}")
-    return tuple(found)
+    return tuple(rows)
 
 
 def _split(lines: list[str]) -> Any:
@@ -129,30 +129,30 @@ DIRECTION = Field("direction", "of a force with over: the direction in which it 
 
 def table(row: TableRow) -> LoadTable | None:
     """The table of a load, checked; None where the load is constant, or the table has a fault."""
-    over, given = row.values.get("over"), [key for key in ("values", "file", "powers") if key in row.items]
+    over, sources = row.values.get("over"), [key for key in ("values", "file", "powers") if key in row.items]
     if over is None:
-        for key in given[:1]:
+        for key in sources[:1]:
             row.items[key].fault(f"{key} needs the key over", 'over = "travel"')
         return None
-    if len(given) != 1:
-        what = f"{' and '.join(given)} are both given" if given else "values is missing"
-        return row.item.fault(what, f"one of values, file or powers, such as {SUCH}")
+    if len(sources) != 1:
+        problem = f"{' and '.join(sources)} are both given" if sources else "values is missing"
+        return row.item.fault(problem, f"one of values, file or powers, such as {SUCH}")
     if over == "travel" and not any(isinstance(pair, Drive) for pair in row.names.pairs):
         return row.items["over"].fault("the scene has no drive", "a slide, or a scene with a [[drive]]")
-    item, where = row.items[given[0]], row.item.where
-    if given == ["powers"]:
-        found = LoadTable(over, powers=row["powers"], where=where)
-        return found if found.over_speed else item.fault(
+    item, where = row.items[sources[0]], row.item.where
+    if sources == ["powers"]:
+        load_table = LoadTable(over, powers=row["powers"], where=where)
+        return load_table if load_table.over_speed else item.fault(
             "powers are of a speed, and the load is over a position", 'values, or over = "speed"')
-    rows: Pairs = row[given[0]]
-    file = str(item.value) if given == ["file"] else ""
-    found = LoadTable(over, rows, where=where, scene=row.names.scene, file=file)
-    if found.over_position and len(rows) > 3 and rows[0] == rows[-1]:  # it may say that it goes around
-        found = replace(found, rows=rows[:-1] if rows[0][0] == rows[-2][0] else rows)
-    faults = list(_out_of_order(found))
-    for what, instead in faults[:1]:
-        item.fault(f"{file}: {what}" if file else what, instead)
-    return None if faults else replace(found, period=_period(found, row.names))
+    rows: Pairs = row[sources[0]]
+    file = str(item.value) if sources == ["file"] else ""
+    load_table = LoadTable(over, rows, where=where, scene=row.names.scene, file=file)
+    if load_table.over_position and len(rows) > 3 and rows[0] == rows[-1]:  # it may say that it goes around
+        load_table = replace(load_table, rows=rows[:-1] if rows[0][0] == rows[-2][0] else rows)
+    faults = list(_out_of_order(load_table))
+    for problem, instead in faults[:1]:
+        item.fault(f"{file}: {problem}" if file else problem, instead)
+    return None if faults else replace(load_table, period=_period(load_table, row.names))
 
 
 def _out_of_order(table: LoadTable) -> Iterator[tuple[str, str]]:
@@ -174,8 +174,8 @@ def _out_of_order(table: LoadTable) -> Iterator[tuple[str, str]]:
     senses = [step > 0 for step in steps if step]
     turns = sum(a != b for a, b in pairwise(senses))
     if turns != 1:
-        what = "the rows do not come back" if not turns else f"the rows turn back {turns} times"
-        yield (f"{what}: over a slide's position they go once around",
+        problem = "the rows do not come back" if not turns else f"the rows turn back {turns} times"
+        yield (f"{problem}: over a slide's position they go once around",
                "first the outward stroke's rows, then the return's")
 
 
@@ -209,8 +209,8 @@ _STILL: Pair = (Fraction(0), Fraction(0))
 
 def _force(row: TableRow) -> Force | None:
     """A force; of one with a table the value is filled in once the whole scene is read."""
-    changing, found = "over" in row.items, table(row)
-    if not on_link(row, row["on"]) or (changing and found is None):
+    changing, load_table = "over" in row.items, table(row)
+    if not on_link(row, row["on"]) or (changing and load_table is None):
         return None
     if "direction" in row.items and not changing:
         return row.items["direction"].fault("a constant force has its direction in its value", "value, or over")
@@ -219,15 +219,15 @@ def _force(row: TableRow) -> Force | None:
     if "direction" not in row.items:
         return row.item.fault("direction is missing", "the direction of positive values, such as direction = [1, 0]")
     vector, through, _ = row["direction"]
-    return Force(row["on"], row["at"], _STILL, found, vector, through)
+    return Force(row["on"], row["at"], _STILL, load_table, vector, through)
 
 
 def _moment(row: TableRow) -> Moment | None:
     """A moment; of one with a table the value is filled in once the whole scene is read."""
-    changing, found = "over" in row.items, table(row)
-    if changing and found is None:
+    changing, load_table = "over" in row.items, table(row)
+    if changing and load_table is None:
         return None
-    return Moment(row["on"], row.values.get("value", Fraction(0)), found)
+    return Moment(row["on"], row.values.get("value", Fraction(0)), load_table)
 
 
 FORCES = Rows(Table("a force", (
@@ -279,15 +279,15 @@ def _rubbing(row: TableRow) -> Friction | None:
 
 def _sliding(row: TableRow) -> Friction | None:
     item, links = row.items["contact"], row["contact"]
-    known = [pair for pair in row.names.pairs if isinstance(pair, Contact)]
-    found = next((pair for pair in known if {*pair.links} == {*links}), None)
-    if found is None:
-        instead = ", ".join('contact = ["{}", "{}"]'.format(*pair.links) for pair in known) or "[[contacts]] with it"
+    contacts = [pair for pair in row.names.pairs if isinstance(pair, Contact)]
+    contact = next((pair for pair in contacts if {*pair.links} == {*links}), None)
+    if contact is None:
+        instead = ", ".join('contact = ["{}", "{}"]'.format(*pair.links) for pair in contacts) or "[[contacts]] with it"
         return item.fault("no contact of links {} and {}".format(*links), instead) if item.faults.none_in(
             "links", "contacts") else None
-    if found.rolling:
-        return item.fault(f"the contact {found.name} rolls: nothing slides in it", "a contact that slides")
-    return Friction("", None, Fraction(0), row["coefficient"], found.links)
+    if contact.rolling:
+        return item.fault(f"the contact {contact.name} rolls: nothing slides in it", "a contact that slides")
+    return Friction("", None, Fraction(0), row["coefficient"], contact.links)
 
 
 def _friction_pair(friction: Friction) -> tuple[object, str]:

@@ -49,17 +49,17 @@ def filled_in(scene: Scene, travel: Number = Fraction(0)) -> Scene:
         table = load.table
         if table is None:
             return load
-        found, exact = pose.value(table)
+        size, exact = pose.value(table)
         if isinstance(load, Force):
             assert load.direction is not None
             ends = [scene.points[point] for point in load.through or ()]
             direction = minus(ends[1], ends[0]) if ends else load.direction
             length, rational = _length(direction)
             exact = exact and rational and is_exact(direction)
-            x, y = times(found / length, exactly(direction))
+            x, y = times(size / length, exactly(direction))
             filled: Any = replace(load, value=(x, y) if exact else (float(x), float(y)), direction=direction)
         else:
-            filled = replace(load, value=found if exact else float(found))
+            filled = replace(load, value=size if exact else float(size))
         if not exact:
             irrational.append(IRRATIONAL.format(table.where))
         return filled
@@ -72,8 +72,8 @@ def with_moving_drives(scene: Scene) -> Scene:
     """The scene with drives that move: where all stand still the first one as it speeds up, or forwards."""
     if any(drive.rate for drive in scene.drives) or not scene.drives:
         return scene
-    first, *others = scene.drives
-    return scene.with_drives((first.driven_at(Fraction(-1 if first.change < 0 else 1), Fraction(0)), *others))
+    first, *rest_of_drives = scene.drives
+    return scene.with_drives((first.driven_at(Fraction(-1 if first.change < 0 else 1), Fraction(0)), *rest_of_drives))
 
 
 def onward(scene: Scene) -> int:
@@ -124,14 +124,14 @@ class OwnPose:
         fast = max(abs(float(d.rate)) * (1 if d.slides else self.scene.extent)
                    for d in with_moving_drives(self.scene).drives)
         least = DEAD_POINT_TOL * fast * float(length)
-        there = speed if abs(speed) > least else accelerations.get(slide.name, Fraction(0))
-        return (1 if there > 0 else -1) if there else next(iter(table.strokes))
+        direction = speed if abs(speed) > least else accelerations.get(slide.name, Fraction(0))
+        return (1 if direction > 0 else -1) if direction else next(iter(table.strokes))
 
     @cached_property
     def _moving(self) -> tuple[dict[str, Fraction], dict[str, Fraction]]:
         """The rates of the slides while the drives move, at constant speeds."""
-        moved = with_moving_drives(self.scene)
-        return self._rates(moved.with_drives(drive.driven_at(drive.rate, Fraction(0)) for drive in moved.drives))
+        moving = with_moving_drives(self.scene)
+        return self._rates(moving.with_drives(drive.driven_at(drive.rate, Fraction(0)) for drive in moving.drives))
 
     def _rates(self, scene: Scene) -> tuple[dict[str, Fraction], dict[str, Fraction]]:
         """Velocity and acceleration of each slide along its guide's direction, times its length; none where the pose is
@@ -151,9 +151,10 @@ class OwnPose:
         second = rates([_prescribed_rates(fact)[1] + Fraction(fact.left_over(self._sides(fact, first)))
                         for fact in facts])
         slips = {name: (self._sides(fact, first), self._sides(fact, second or first)) for name, fact in along.items()}
-        return ({name: Fraction(dot(along[name].direction, one.slip)) for name, (one, _) in slips.items()},
-                {name: Fraction(dot(along[name].direction, minus(other.slip, one.surplus)))
-                 for name, (one, other) in slips.items() if second})
+        return ({name: Fraction(dot(along[name].direction, velocities.slip)) for name,
+                 (velocities, _) in slips.items()},
+                {name: Fraction(dot(along[name].direction, minus(accelerations.slip, velocities.surplus)))
+                 for name, (velocities, accelerations) in slips.items() if second})
 
     def _row(self, fact: Statement, columns: Mapping[str, int]) -> dict[int, Fraction]:
         """How much each rate of the links counts in a statement."""

@@ -108,16 +108,16 @@ class LoadTable:
             square = place * place if place > 0 else -place * place
             return sum((c * v for c, v in zip(self.powers, (Fraction(1), place, square), strict=False)), Fraction(0))
         place, rows = self._wrap_to_period(place, after), self.strokes[sense]
-        ways, slack = [sense * p for p, _ in rows], self.length * TABLE_END_TOL
+        places, slack = [sense * p for p, _ in rows], self.length * TABLE_END_TOL
         at = sense * place
-        if not ways[0] - slack <= at <= ways[-1] + slack:
+        if not places[0] - slack <= at <= places[-1] + slack:
             raise self.coverage_error(place)
-        found = bisect_right(ways, at + slack) if after else bisect_left(ways, at - slack)
-        if found in (0, len(rows)):
-            return rows[min(found, len(rows) - 1)][1]
-        (p, one), (q, other) = rows[found - 1 : found + 1]
-        part = min(max((place - p) / (q - p), 0 * place), 0 * place + 1)
-        return one + part * (other - one)
+        index = bisect_right(places, at + slack) if after else bisect_left(places, at - slack)
+        if index in (0, len(rows)):
+            return rows[min(index, len(rows) - 1)][1]
+        (p, lower), (q, upper) = rows[index - 1 : index + 1]
+        share = min(max((place - p) / (q - p), 0 * place), 0 * place + 1)
+        return lower + share * (upper - lower)
 
     def level(self, place: Number, sense: int) -> bool:
         """Whether the load is the same all about a place, so that rounding of the place does not change it."""
@@ -137,27 +137,27 @@ class LoadTable:
             terms = 1.0 + 0 * places, places, places * np.abs(places)
             return sum(float(c) * v for c, v in zip(self.powers, terms, strict=False))
         home, senses = self._wrap_to_period(places, after), np.broadcast_to(np.asarray(senses, float), places.shape)
-        found = np.full(places.shape, np.nan)
+        values = np.full(places.shape, np.nan)
         for sense in self.strokes:
-            there = (senses * sense > 0) & np.isfinite(home)
-            found[there] = self._values_of_stroke(home[there], sense, after)
-        return found
+            on_stroke = (senses * sense > 0) & np.isfinite(home)
+            values[on_stroke] = self._values_of_stroke(home[on_stroke], sense, after)
+        return values
 
     def _values_of_stroke(self, places: Any, sense: int, after: bool) -> Any:
         """The loads at places that change in one sense."""
         import numpy as np
 
         rows = self._floats[sense]
-        ways, at, slack = sense * rows[:, 0], sense * places, float(self.length * TABLE_END_TOL)
-        outside = (at < ways[0] - slack) | (at > ways[-1] + slack)
+        marks, at, slack = sense * rows[:, 0], sense * places, float(self.length * TABLE_END_TOL)
+        outside = (at < marks[0] - slack) | (at > marks[-1] + slack)
         if outside.any():
             raise self.coverage_error(float(places[outside][0]))
-        found = np.searchsorted(ways, at + slack, "right") if after else np.searchsorted(ways, at - slack, "left")
-        one, other = np.clip(found - 1, 0, len(rows) - 1), np.clip(found, 0, len(rows) - 1)
-        apart = ways[other] - ways[one]
-        part = np.clip((at - ways[one]) / np.where(apart > 0, apart, 1.0), 0.0, 1.0)
-        value = rows[one, 1] + part * (rows[other, 1] - rows[one, 1])
-        return np.where(found == 0, rows[0, 1], np.where(found == len(rows), rows[-1, 1], value))
+        index = np.searchsorted(marks, at + slack, "right") if after else np.searchsorted(marks, at - slack, "left")
+        lower, upper = np.clip(index - 1, 0, len(rows) - 1), np.clip(index, 0, len(rows) - 1)
+        apart = marks[upper] - marks[lower]
+        share = np.clip((at - marks[lower]) / np.where(apart > 0, apart, 1.0), 0.0, 1.0)
+        value = rows[lower, 1] + share * (rows[upper, 1] - rows[lower, 1])
+        return np.where(index == 0, rows[0, 1], np.where(index == len(rows), rows[-1, 1], value))
 
     def _wrap_to_period(self, places: Any, after: bool) -> Any:
         """Where places lie in the first period of a table of whole turns: its end counts as its beginning, or where the
@@ -175,9 +175,9 @@ class LoadTable:
         """The error that says that this place is not covered."""
         low, high = (f"{float(end):.6g}" for end in (min(self.corners), max(self.corners)))
         table = f"its table {self.file}" if self.file else "its table"
-        what = f"{table} over {self.over} goes from {low} to {high}, and {float(place):.6g} is asked for"
-        where = f"{self.scene}: {self.where}" if self.scene else self.where
-        return Refused(where, what, "rows as far as the motion goes")
+        problem = f"{table} over {self.over} goes from {low} to {high}, and {float(place):.6g} is asked for"
+        location = f"{self.scene}: {self.where}" if self.scene else self.where
+        return Refused(location, problem, "rows as far as the motion goes")
 
 
 @dataclass(frozen=True)
@@ -291,6 +291,6 @@ class Loads:
     def named_balances(self) -> dict[str, Balance]:
         """The balances by their names in results: the link, or where several act on one, more of what tells them apart.
         """
-        borne = Counter(name for balance in self.balances for name in dict.fromkeys(balance.spellings))
-        return {next((name for name in balance.spellings if borne[name] == 1), balance.spellings[-1]): balance
+        counts = Counter(name for balance in self.balances for name in dict.fromkeys(balance.spellings))
+        return {next((name for name in balance.spellings if counts[name] == 1), balance.spellings[-1]): balance
                 for balance in self.balances}

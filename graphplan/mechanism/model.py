@@ -162,7 +162,7 @@ class Assembly:
     point, each with that point. `extreme` is the extreme position that the pose is, where such was asked for.
     """
 
-    given: Scene
+    given_scene: Scene
     travels: tuple[Fraction, ...]
     shifts: tuple[Fraction, ...]
     moves: tuple[Pair, ...]
@@ -233,19 +233,20 @@ class Scene:
 
         The frame has the opposite of all other links' forces.
         """
-        found = {condition.pair for condition in self.repeating}
+        repeating = {condition.pair for condition in self.repeating}
         joints = (f"{link} at {joint.at}" for joint in self.revolutes for link in joint.links[1:]
-                  if not found.isdisjoint(f"{k} at {joint.at}" for k in (joint.links if link == FRAME else (link,))))
-        return (*joints, *(pair.name for pair in self.directed_pairs if pair.name in found))
+                  if not repeating.isdisjoint(f"{k} at {joint.at}"
+                                              for k in (joint.links if link == FRAME else (link,))))
+        return (*joints, *(pair.name for pair in self.directed_pairs if pair.name in repeating))
 
     @cached_property
     def links_of(self) -> dict[str, tuple[str, ...]]:
         """For each point, the links that name it, in the scene's order."""
-        found: dict[str, list[str]] = {point: [] for point in self.points}
+        links: dict[str, list[str]] = {point: [] for point in self.points}
         for link, points in self.links.items():
             for point in points:
-                found[point].append(link)
-        return {point: tuple(links) for point, links in found.items()}
+                links[point].append(link)
+        return {point: tuple(names) for point, names in links.items()}
 
     @cached_property
     def pairs(self) -> tuple[KinematicPair, ...]:
@@ -292,11 +293,11 @@ class Scene:
 
     def turning_alike(self, link: str) -> tuple[str, ...]:
         """The links that turn as one does by the slides between them, itself first."""
-        found = [link]
-        for one in found:
-            found += {other for slide in self.slides if slide.turns_alike and one in slide.links
-                      for other in slide.links} - {*found}
-        return tuple(found)
+        alike = [link]
+        for turning in alike:
+            alike += {neighbour for slide in self.slides if slide.turns_alike and turning in slide.links
+                      for neighbour in slide.links} - {*alike}
+        return tuple(alike)
 
     @property
     def directed_pairs(self) -> tuple[Slide | Gear | Contact, ...]:
@@ -327,16 +328,16 @@ class Scene:
                   length: Callable[[Any], Any] = lambda radius: radius) -> Scene:
         """The scene in another pose, or in other numbers: its points, the direction of each guide and balance, and by
         `length` the radii of its gears. A balance between two moving links keeps to the guide that it drives."""
-        def with_direction(one: Any) -> Any:
-            one = one.with_lengths(length) if isinstance(one, Gear) else one
-            return replace(one, direction=direction(one)) if getattr(one, "direction", None) is not None else one
+        def with_direction(pair: Any) -> Any:
+            pair = pair.with_lengths(length) if isinstance(pair, Gear) else pair
+            return replace(pair, direction=direction(pair)) if getattr(pair, "direction", None) is not None else pair
 
         written = tuple(map(with_direction, self.written))
         guides = {frozenset(pair.links): pair.direction for pair in written if isinstance(pair, Slide)}
 
-        def with_guide(one: Balance) -> Balance:
-            guide = guides.get(frozenset(one.links)) if one.at and one.on != FRAME else None
-            return with_direction(one) if guide is None else replace(one, direction=guide)
+        def with_guide(balance: Balance) -> Balance:
+            guide = guides.get(frozenset(balance.links)) if balance.at and balance.on != FRAME else None
+            return with_direction(balance) if guide is None else replace(balance, direction=guide)
 
         loads = self.loads and replace(self.loads, balances=tuple(map(with_guide, self.loads.balances)))
         return replace(self, points=points, written=written, loads=loads)

@@ -92,11 +92,12 @@ def map_numbers(thing: Any, number: Callable[[Any], Any]) -> Any:
     if isinstance(thing, Fraction | float):
         return number(thing)
     if isinstance(thing, tuple):
-        return tuple(map_numbers(part, number) for part in thing)
+        return tuple(map_numbers(member, number) for member in thing)
     if isinstance(thing, dict):
-        return {name: map_numbers(part, number) for name, part in thing.items()}
+        return {name: map_numbers(member, number) for name, member in thing.items()}
     if is_dataclass(thing) and not isinstance(thing, type):
-        return replace(thing, **{part.name: map_numbers(getattr(thing, part.name), number) for part in fields(thing)})
+        return replace(thing, **{member.name: map_numbers(getattr(thing, member.name), number)
+                                 for member in fields(thing)})
     return thing
 
 
@@ -110,10 +111,10 @@ def _float_heading(degrees: Fraction) -> tuple[Fraction, Fraction]:
 
 def heading(degrees: Fraction, circular: Circular = _float_heading) -> tuple[Fraction, Fraction, bool]:
     """Cosine and sine of an angle, and whether they are exact: so at the multiples of 90 degrees."""
-    quarter, rest = divmod(degrees + 45, 90)
-    c, s = circular(rest - 45)  # within an eighth of a turn, where both functions are at their best
+    quarter, remainder = divmod(degrees + 45, 90)
+    c, s = circular(remainder - 45)  # within an eighth of a turn, where both functions are at their best
     c, s = ((c, s), (-s, c), (-c, -s), (s, -c))[quarter % 4]
-    return c, s, rest == 45
+    return c, s, remainder == 45
 
 
 class Reckoning(NamedTuple):

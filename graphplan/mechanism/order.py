@@ -29,8 +29,9 @@ def sort_scene(scene: Scene) -> Scene:
 
 def without_higher_pairs(scene: Scene) -> Scene:
     """The scene in this order without its higher pairs, where others stand for them."""
-    found = sort_scene(scene)
-    return replace(found, written=tuple(pair for pair in found.written if not isinstance(pair, Gear | Contact)))
+    sorted_scene = sort_scene(scene)
+    return replace(sorted_scene, written=tuple(pair for pair in sorted_scene.written
+                                               if not isinstance(pair, Gear | Contact)))
 
 
 def _ordered_loads(loads: Loads) -> Loads:
@@ -65,10 +66,11 @@ def changing_loads(loads: Loads | None) -> dict[str, Force | Moment]:
 
 def with_values(loads: Loads, values: Mapping[str, Any]) -> Loads:
     """The loads, some with other values by their letters: pairs for forces, numbers for moments; or arrays of them."""
-    found: dict[int, Any] = {id(load): values[name] for name, load in changing_loads(loads).items() if name in values}
+    new_values: dict[int, Any] = {id(load): values[name] for name,
+                                  load in changing_loads(loads).items() if name in values}
 
     def with_value(load: Any) -> Any:
-        return replace(load, value=found[id(load)]) if id(load) in found else load
+        return replace(load, value=new_values[id(load)]) if id(load) in new_values else load
 
     return replace(loads, forces=tuple(map(with_value, loads.forces)), moments=tuple(map(with_value, loads.moments)))
 
@@ -85,7 +87,7 @@ def ordered_links(scene: Scene) -> dict[str, tuple[str, ...]]:
     rank = {link: -1 if link == FRAME else number for number, link in enumerate(links)}
 
     def place(link: str, point: str) -> tuple[int, Key]:
-        first = min((rank[other] for other in scene.links_of[point] if other != link), default=None)
+        first = min((rank[link_before] for link_before in scene.links_of[point] if link_before != link), default=None)
         if first is None:
             return 3, by_name(point)
         return (0 if first < 0 else 1 if first < rank[link] else 2), by_name(point)

@@ -166,9 +166,9 @@ def _in_order(placements: Mapping[str, Placement], table: Item) -> list[str]:
             return list(TopologicalSorter(waiting).static_order())
         except CycleError as error:
             ring = sorted({*error.args[1]}, key=by_name)
-            where = f"{table.where}.{quote_key(ring[0])}"
-            told = f"points {', '.join(ring)} are placed from each other" if ring[1:] else "it is placed from itself"
-            table.faults.add(where, told, "coordinates for one of them")
+            location = f"{table.where}.{quote_key(ring[0])}"
+            problem = f"points {', '.join(ring)} are placed from each other" if ring[1:] else "it is placed from itself"
+            table.faults.add(location, problem, "coordinates for one of them")
             waiting = {name: [p for p in on if p not in ring] for name, on in waiting.items() if name not in ring}
 
 

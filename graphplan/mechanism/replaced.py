@@ -28,12 +28,12 @@ Higher = Gear | Contact
 class StandIn(Slide):
     """What stands for a gear or contact that the scene gives: of a straight profile the block that slides along it."""
 
-    given: Any = field(default=None, compare=False)
+    given_pair: Any = field(default=None, compare=False)
 
     @property
     def given_links(self) -> tuple[str, ...]:
         """The links of the gear or contact; of a straight profile the one that touches it first."""
-        return (straight(self.given) or self.given).links
+        return (straight(self.given_pair) or self.given_pair).links
 
 
 @dataclass(frozen=True)
@@ -102,9 +102,9 @@ def with_lower_pairs(scene: Scene) -> Scene:
         elif pair.name not in lost:
             stand_ins.gear(pair)
     points, links = scene.points | stand_ins.points, {**stand_ins.links, **stand_ins.bars}
-    parts = {part.name: getattr(scene, part.name) for part in fields(Scene)}
-    parts |= {"points": points, "links": links, "written": (*scene.written, *stand_ins.pairs)}
-    return ReplacedScene(**parts, bars=stand_ins.contacts)
+    values = {attribute.name: getattr(scene, attribute.name) for attribute in fields(Scene)}
+    values |= {"points": points, "links": links, "written": (*scene.written, *stand_ins.pairs)}
+    return ReplacedScene(**values, bars=stand_ins.contacts)
 
 
 def scene_beyond(scene: Scene) -> Scene | None:
@@ -160,15 +160,15 @@ class _StandIns:
 
     def gear(self, gear: Gear) -> None:
         """A rolling guide at the pitch point; around equal wheels a belt only makes them turn alike."""
-        B, *others = gear.centres
-        if not others:
+        B, *other_centres = gear.centres
+        if not other_centres:
             self._rack(gear, B)
             return
-        (C,), (one, two) = others, gear.factors
-        if one + two == 0:
-            self.pairs.append(EqualTurning(*gear.links, B, (1, 0), given=gear))
+        (C,), (first, two) = other_centres, gear.factors
+        if first + two == 0:
+            self.pairs.append(EqualTurning(*gear.links, B, (1, 0), given_pair=gear))
             return
-        ratio, direction = one / (one + two), minus(self._place_of(C), self._place_of(B))
+        ratio, direction = first / (first + two), minus(self._place_of(C), self._place_of(B))
         point = self._new_point(gear, plus(self._place_of(B), times(_fraction(ratio), direction)))
         self._roll(gear, point, direction, (B, C), base=B, ratio=ratio)
 
@@ -184,31 +184,31 @@ class _StandIns:
     def contact(self, contact: Contact) -> None:
         """A bar between the centres of curvature, or a block on the straight profile."""
         name, rail = _free("0", {*self.links, *self.bars}), straight(contact)
-        kept = {TOUCHING, ROLLING} - {c.way for c in self.scene.redundant if c.pair == contact.name}
-        if TOUCHING in kept:
+        needed = {TOUCHING, ROLLING} - {c.way for c in self.scene.redundant if c.pair == contact.name}
+        if TOUCHING in needed:
             self.contacts[name] = contact
             self.bars[name] = tuple(filter(None, contact.centres))
-        if TOUCHING in kept and rail:
+        if TOUCHING in needed and rail:
             self.pairs.append(StandIn(name, rail.along, rail.at, rail.direction, rail.through, rail.written, contact))
-        if ROLLING in kept and contact.rolling:
+        if ROLLING in needed and contact.rolling:
             self._rolling(contact, rail)
 
     def _rolling(self, contact: Contact, rail: Slide | None) -> None:
         """A rolling guide where a contact touches: in a point of no link, as it wanders on both."""
         free = not self.scene.links_of[contact.at]
         point = contact.at if free else self._new_point(contact, self._place_of(contact.at))
-        base, *others = filter(None, contact.centres)
+        base, *other_centres = filter(None, contact.centres)
         arm = minus(self._place_of(contact.at), self._place_of(base))
         if rail is None:
-            direction = minus(self._place_of(others[0]), self._place_of(base))
+            direction = minus(self._place_of(other_centres[0]), self._place_of(base))
             share = dot(arm, direction) / dot(direction, direction)
-            self._roll(contact, point, direction, (base, others[0]), base=base, ratio=share)
+            self._roll(contact, point, direction, (base, other_centres[0]), base=base, ratio=share)
             return
         square = quarter_turn(_fractions(rail.direction))
         long, exact = root(_fraction(dot(square, square)))
         length = dot(arm, square) / long
-        drawn = exact or not is_exact(rail.direction, self.scene.points[base])
-        self._roll(contact, point, square, base=base if drawn else "", rail=rail, length=length)
+        drawable = exact or not is_exact(rail.direction, self.scene.points[base])
+        self._roll(contact, point, square, base=base if drawable else "", rail=rail, length=length)
 
     def _roll(self, pair: Higher, at: str, direction: Pair, through: tuple[str, str] | None = None, *, base: str,
               ratio: Number | None = None, rail: Slide | None = None, length: Number | None = None) -> None:

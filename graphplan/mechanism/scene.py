@@ -159,13 +159,13 @@ def _no_toml(text: str, message: str) -> Fault:
     from graphplan.mechanism.slips import slip_in_line
 
     # a numeral that Python refuses to read has no place of its own
-    told = re.fullmatch(r"(.*) \(at (.*)\)", message, re.DOTALL)
-    what, where = (told[1], told[2].replace("end of document", "end of file")) if told else (message, "file")
-    line = re.match(r"line (\d+)", where)
-    if line and (doubled := doubled_key(text, what, int(line[1]))):
+    match = re.fullmatch(r"(.*) \(at (.*)\)", message, re.DOTALL)
+    problem, location = (match[1], match[2].replace("end of document", "end of file")) if match else (message, "file")
+    line = re.match(r"line (\d+)", location)
+    if line and (doubled := doubled_key(text, problem, int(line[1]))):
         return Fault(*doubled)
     slip = slip_in_line(text.splitlines()[int(line[1]) - 1]) if line else None
-    return Fault(where, *(slip or (f"not TOML: {what}", "text that follows toml.io")))
+    return Fault(location, *(slip or (f"not TOML: {problem}", "text that follows toml.io")))
 
 
 def _read(tables: dict[str, object], name: str, faults: Faults,
@@ -187,7 +187,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
             read[key] = value
         if key == "points":
             placements = read.get(key, {})
-            names.placed = place(placements, points)
+            names.places = place(placements, points)
         elif key == "links" and key in read:
             names.take_links(read[key])
         elif key == "units" and key in read:
@@ -196,17 +196,17 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
             names.pairs = _name_higher_pairs((*names.pairs, *read.get(key, ())))
     scene = Scene(
         title=read.get("title", ""), source=read.get("source", ""), name=name, units=names.units,
-        points={point: names.placed.get(point, (Fraction(0), Fraction(0))) for point in names.points},
+        points={point: names.places.get(point, (Fraction(0), Fraction(0))) for point in names.points},
         placements=placements, links=names.links, written=names.pairs, motions=read.get("motion", {}),
         find=read.get("find") or _default_find(names), loads=loads_of(read), flywheel=read.get("flywheel"),
         run=read.get("run"), sheet=read.get("sheet") or Presentation(), vary=read.get("vary", {}))
     scene = scene if len(faults) else _touching_on_normals(scene)
-    kept = by_drive or scene.flywheel or scene.run
-    scene = _kept_by_its_drive(scene) if kept else _without_unasked_loads(scene, tables.get("find"))
+    by_own_drive = by_drive or scene.flywheel or scene.run
+    scene = _kept_by_its_drive(scene) if by_own_drive else _without_unasked_loads(scene, tables.get("find"))
     counting = _counting(scene)
     rounded = [f"points.{quote_key(point)}: {placements[point].how} placement" for point in placements
-               if point in names.placed and point in counting and not is_exact(names.placed[point])]
-    scene = _check_whole(replace(scene, irrational=(*rounded, *names.irrational)), names.placed, faults, by_drive)
+               if point in names.places and point in counting and not is_exact(names.places[point])]
+    scene = _check_whole(replace(scene, irrational=(*rounded, *names.irrational)), names.places, faults, by_drive)
     if not len(faults):
         try:
             scene = filled_in(scene)
@@ -253,15 +253,15 @@ def _counting(scene: Scene) -> set[str]:
     """
     loads = scene.loads
     find = scene.find
-    found = {*scene.joints, *scene.motions, *find.velocity, *find.acceleration,
-             *(p for p, _ in find.curvature_points.values())}
+    points = {*scene.joints, *scene.motions, *find.velocity, *find.acceleration,
+              *(p for p, _ in find.curvature_points.values())}
     for pair in scene.directed_pairs:
-        found |= {point for fact in pair.states(scene) for _, point in fact.ends} | {*(pair.through or ())}
-    found |= {contact.at for contact in scene.contacts if contact.rolling}
+        points |= {point for fact in pair.states(scene) for _, point in fact.ends} | {*(pair.through or ())}
+    points |= {contact.at for contact in scene.contacts if contact.rolling}
     if loads is not None:
-        found |= {point for points in scene.links.values() for point in points}
-        found |= {point for balance in loads.balances for point in points_of(balance.written)}
-    return found
+        points |= {point for points in scene.links.values() for point in points}
+        points |= {point for balance in loads.balances for point in points_of(balance.written)}
+    return points
 
 
 def _default_find(names: SceneNames) -> Find:

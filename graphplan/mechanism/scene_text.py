@@ -42,11 +42,11 @@ def with_numbers(text: str, values: Mapping[str, Fraction]) -> str:
     """The text with other numbers at these paths."""
     places = {str(PLACE_OFFSET + token.start()): token for token in TOKENS.finditer(text) if token[1]}
     numbered = TOKENS.sub(lambda token: str(PLACE_OFFSET + token.start()) if token[1] else token[0], text)
-    where = {tuple(_key(part, places) for part in path): places.get(str(place))
-             for path, place in numbers(tomllib.loads(numbered))}
+    tokens = {tuple(_key(key, places) for key in path): places.get(str(place))
+              for path, place in numbers(tomllib.loads(numbered))}
     edits = {}
     for path, value in values.items():
-        token = where.get(path_parts(path))
+        token = tokens.get(path_parts(path))
         if token is None:
             raise Refused(f"vary.{path}", "its number is not found in the text", "write it as a plain decimal")
         edits[token.span()] = decimal_text(value)
@@ -87,13 +87,13 @@ def with_keys(text: str, table: str, keys: Mapping[str, str]) -> str:
         lines, span = [f"{text.rstrip()}\n\n", f"[{table}]\n"], (1, 2)
     first, end = (span[0] + 1, span[1]) if table else span
     for key, value in reversed([*keys.items()]):
-        own = re.compile(rf"([ \t]*{key}[ \t]*=[ \t]*)(?:\[[^\[\]\n]*\]|\{{[^{{}}\n]*\}}|{QUOTED}|[^\s#]+)")
-        there = next((place for place in range(first, end) if own.match(lines[place])), None)
-        if there is None:
+        assignment = re.compile(rf"([ \t]*{key}[ \t]*=[ \t]*)(?:\[[^\[\]\n]*\]|\{{[^{{}}\n]*\}}|{QUOTED}|[^\s#]+)")
+        line = next((place for place in range(first, end) if assignment.match(lines[place])), None)
+        if line is None:
             lines.insert(first, f"{key} = {value}\n")
             end += 1
         else:
-            lines[there] = own.sub(lambda found, value=value: found[1] + value, lines[there], 1)  # type: ignore[misc]
+            lines[line] = assignment.sub(lambda found, value=value: found[1] + value, lines[line], 1)  # type: ignore[misc]
     return "".join(lines)
 
 
@@ -116,27 +116,27 @@ def _lines_of(text: str, table: str) -> tuple[int, int] | None:
     headers = [place for place, line in enumerate(bare) if HEADER.fullmatch(line)]
     if not table:
         first = 0
-    elif (found := next((place for place in headers if bare[place].strip() == f"[{table}]"), None)) is not None:
-        first = found
+    elif (header := next((place for place in headers if bare[place].strip() == f"[{table}]"), None)) is not None:
+        first = header
     else:
         return None
     following = next((place for place in headers if place > first or not table), len(bare))
-    said = (place for place in range(following - 1, first - 1, -1) if bare[place].strip())
-    return first, next(said, first - 1) + 1
+    filled = (place for place in range(following - 1, first - 1, -1) if bare[place].strip())
+    return first, next(filled, first - 1) + 1
 
 
 def edit_text(text: str, edit: Callable[[str], str], meant: Callable[[Tables], None]) -> str:
     """The text after an edit that does to its tables what is `meant`; fails with `Refused` where it does not."""
     tables = tomllib.loads(text, parse_float=decimal)
     meant(tables)
-    found = edit(text.replace("\r\n", "\n"))
+    edited = edit(text.replace("\r\n", "\n"))
     try:
-        same = tomllib.loads(found, parse_float=decimal) == tables
+        same = tomllib.loads(edited, parse_float=decimal) == tables
     except ValueError:
         same = False
     if not same:
         raise Refused("scene", "its text cannot be edited", "write [sheet] and [vary] as tables of their own")
-    return found
+    return edited
 
 
 # --- keys that stand twice -------------------------------------------------------------------------------------------
@@ -157,19 +157,19 @@ def doubled_key(text: str, message: str, line: int) -> tuple[str, str, str] | No
     """
     if inline := INLINE.fullmatch(message):
         return f"line {line}", f"the key {quote_key(inline[1])} is given twice in one table", "one of the two"
-    seen: dict[Path, tuple[int, str]] = {}
+    earlier: dict[Path, tuple[int, str]] = {}
     for number, sort, path in _entries(text):
         if number > line:
             break
-        whole = next((path[:end] for end in range(1, len(path)) if seen.get(path[:end], (0, ""))[1] == "="), path)
-        first, before = seen.get(whole, (0, ""))
+        whole = next((path[:end] for end in range(1, len(path)) if earlier.get(path[:end], (0, ""))[1] == "="), path)
+        first, before = earlier.get(whole, (0, ""))
         if before and not sort == before == "[[":
             name, wrong = ".".join(map(quote_key, whole)), first if sort == "[[" else number
             return (f"line {number}", f"{name} is given twice, first in line {first}", "each name once") \
                 if "[[" not in (sort, before) else \
                 (f"line {wrong}", f"{name} is a list of tables, but not here", f"[[{name}]] in each place")
         for end in range(1, len(path) + 1) if sort == "=" else (len(path),):
-            seen.setdefault(path[:end], (number, sort if end == len(path) else "."))
+            earlier.setdefault(path[:end], (number, sort if end == len(path) else "."))
     return None
 
 
@@ -198,12 +198,12 @@ def _without_text(token: re.Match[str]) -> str:
 
 def _path(name: str) -> Path:
     """The parts of a key: of points.A both."""
-    parts: list[str] = []
+    keys: list[str] = []
     try:
         tables: object = tomllib.loads(f"{name} = 0")
     except ValueError:  # strange characters in quotes
         return (name,)
     while isinstance(tables, dict):
-        ((part, tables),) = tables.items()
-        parts.append(part)
-    return tuple(parts)
+        ((key, tables),) = tables.items()
+        keys.append(key)
+    return tuple(keys)

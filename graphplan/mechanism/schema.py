@@ -46,8 +46,8 @@ def schema(value: Value) -> Fragment:
         case Table(fields=fields, either=either):
             keys = {field.name: with_description(field.words, schema(field.kind) | (
                 {} if field.default is None else {"default": field.default})) for field in fields}
-            one = {"oneOf": [{"required": [key]} for key in either]} if either else {}
-            return table(keys, [field.name for field in fields if field.wanted]) | one
+            exclusive = {"oneOf": [{"required": [key]} for key in either]} if either else {}
+            return table(keys, [field.name for field in fields if field.wanted]) | exclusive
         case Either(forms=forms):
             return {"anyOf": [with_description(form.says, schema(form)) for form in forms]}
         case Rows(entry=entry, single=single):
@@ -101,9 +101,9 @@ def keys(whole: Table = SCENE) -> Iterator[KeyRow]:
 
 def _rows(fields: Iterable[Field], path: str = "") -> Iterator[KeyRow]:
     """The rows of keys, each before those below it."""
-    for name, words, kind, wanted, default in fields:
-        said = f"default {str(default).lower() if isinstance(default, bool) else default}"
-        more = ["required"] if wanted else [] if default in (None, []) else [said]
+    for name, words, kind, required, default in fields:
+        default_text = f"default {str(default).lower() if isinstance(default, bool) else default}"
+        more = ["required"] if required else [] if default in (None, []) else [default_text]
         yield KeyRow(KEY, f"{path}{name}", ", ".join([kind.says, *more]), words)
         if isinstance(kind, Table):
             yield from _rows(kind.fields, f"{path}{name}.")

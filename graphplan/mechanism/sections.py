@@ -307,8 +307,8 @@ def _presentation(row: TableRow) -> Presentation | None:
         values["k_s"] = values.pop("scale")
     k_s, k_v, k_a = (values.get(key) for key in ("k_s", "k_v", "k_a"))
     if k_s and k_v and k_a and number_text(k_a) != number_text(k_v**2 / k_s):
-        what = f"{number_text(k_a)} does not fit k_s and k_v"
-        row.items["k_a"].fault(what, f"k_v^2/k_s, which is {number_text(k_v**2 / k_s)}")
+        problem = f"{number_text(k_a)} does not fit k_s and k_v"
+        row.items["k_a"].fault(problem, f"k_v^2/k_s, which is {number_text(k_v**2 / k_s)}")
     return Presentation(**{key: value for key, value in values.items() if value})
 
 

@@ -31,18 +31,18 @@ def slip(text: str, key: str = "") -> tuple[str, str] | None:
     wrong = [*(["a decimal comma"] if "," in written["number"] else []), *(["a unit in it"] if unit else [])]
     if not wrong:
         return None
-    what = f'"{text.strip()}" has {" and ".join(wrong)}'
-    return what, _remedy(number, unit, key) if unit else number
+    problem = f'"{text.strip()}" has {" and ".join(wrong)}'
+    return problem, _remedy(number, unit, key) if unit else number
 
 
 def slip_in_line(line: str) -> tuple[str, str] | None:
     """The same of the first such number in a line of a scene, which is no TOML."""
     bare = TEXTS.sub(lambda text: " " * len(text[0]) if text[0][0] == "#" else "_" * len(text[0]), line)
-    found = IN_TEXT.search(bare)
-    if found is None:
+    match = IN_TEXT.search(bare)
+    if match is None:
         return None
-    key = re.search(r"([\w-]+)\s*$", bare[: found.start()])
-    return slip(found["comma"] or found["beside"], key[1] if key else "")
+    key = re.search(r"([\w-]+)\s*$", bare[: match.start()])
+    return slip(match["comma"] or match["beside"], key[1] if key else "")
 
 
 def slips_in_vectors(text: str) -> Iterator[tuple[str, str, str]]:
@@ -63,9 +63,9 @@ def _remedy(number: str, unit: str, key: str) -> str:
     if unit in TURNS and key != "rpm":
         return f"rpm = {number} in the place of omega"
     for quantity, table in BY_QUANTITY.items():
-        found = next((name for name in table if re.match(rf"{name}(?![A-Za-z])", unit)), "")
-        if found and key != "gravity":
-            return f'{number}, with {quantity} = "{found}" in [units]'
+        name = next((name for name in table if re.match(rf"{name}(?![A-Za-z])", unit)), "")
+        if name and key != "gravity":
+            return f'{number}, with {quantity} = "{name}" in [units]'
     return f"{number} alone"
 
 
@@ -91,5 +91,5 @@ def with_frame(text: str, known: Collection[str]) -> str:
     """A link, or several such as `3 along ground`, with frame for each such name that is not known; or nothing where
     the scene knows no such link either."""
     words = [FRAME if is_frame_synonym(word) and word not in known else word for word in text.split()]
-    meant = " ".join(words)
-    return meant if meant != text and meant in known else ""
+    corrected = " ".join(words)
+    return corrected if corrected != text and corrected in known else ""

@@ -49,12 +49,12 @@ def special(scene: Scene) -> Special:
     """The mechanism in its pose, its drives and given motions apart."""
     with localcontext(prec=DIGITS):
         system = System(*fine_pose(replace(scene, motions={}, redundant=())))
-        pairs, found = _in_order(scene, system.pairs), _Echelon()
-        redundant = tuple(equation.fact.condition for equation in pairs if not found.add(equation.terms))
-        repeating = tuple(pairs[i].fact.condition for i in sorted(found.repeating_rows()))
-        freedoms = len(system.unknowns) - found.rank
+        pairs, echelon = _in_order(scene, system.pairs), _Echelon()
+        redundant = tuple(equation.fact.condition for equation in pairs if not echelon.add(equation.terms))
+        repeating = tuple(pairs[i].fact.condition for i in sorted(echelon.repeating_rows()))
+        freedoms = len(system.unknowns) - echelon.rank
         course = _Course(system.posed_scene)
-        moves = course.continues(found, pairs, system.unknowns)
+        moves = course.continues(echelon, pairs, system.unknowns)
         links = tuple(sorted(filter(course.starts, scene.moving), key=by_name))
         return Special(freedoms, links, moves, redundant, repeating)
 
@@ -70,9 +70,9 @@ def _in_order(scene: Scene, equations: Iterable[FreedomEquation]) -> list[Freedo
     pairs = Counter(link for pair in scene.binding for link in pair.links)
 
     def rank(equation: FreedomEquation) -> tuple[bool, bool, int, Key, bool, Key, str, str]:
-        link, on, way, name = equation.fact.condition
-        return (link not in driven, way not in ("x", "y"), -pairs[link], by_name(link), on not in fixed, by_name(on),
-                way, name)
+        link, on, axis, name = equation.fact.condition
+        return (link not in driven, axis not in ("x", "y"), -pairs[link], by_name(link), on not in fixed, by_name(on),
+                axis, name)
 
     return sorted(equations, key=rank)
 
@@ -119,8 +119,8 @@ class _Course:
         self._scene = scene
         bodies: list[Thing] = [("link", link) for link in (*scene.moving, FRAME)]
         bodies += [("joint", point) for point in scene.joints]
-        one, nothing = Decimal(1), Decimal(0)
-        self._attitudes = {body: Attitude(*map(_Series, (nothing, nothing, one, nothing))) for body in bodies}
+        unity, nothing = Decimal(1), Decimal(0)
+        self._attitudes = {body: Attitude(*map(_Series, (nothing, nothing, unity, nothing))) for body in bodies}
 
     def continues(self, found: _Echelon, pairs: Sequence[FreedomEquation], unknowns: Iterable[Unknown]) -> bool:
         """Whether the motion can be continued beyond its velocities, what is free going any way it likes."""
@@ -131,8 +131,8 @@ class _Course:
             values = found.solve([-self.excess(equation.fact) for equation in pairs], any_way)
             if values is None:
                 return False
-            for (body, way), value in values.items():
-                getattr(self._attitudes[body], "sin" if way == "turn" else way).terms[-1] = value
+            for (body, axis), value in values.items():
+                getattr(self._attitudes[body], "sin" if axis == "turn" else axis).terms[-1] = value
         return True
 
     def lengthen(self) -> None:
@@ -153,9 +153,9 @@ class _Course:
         """What the lower orders leave over in a statement at this order."""
         pose = {body: self._attitudes[("link", body) if body != PIN else ("joint", fact.at)]
                 for body in (fact.link, fact.on, FRAME)}
-        one, other = (self._scene.points[point] if point else None for _, point in fact.ends)
-        left: Decimal = fact.residual(pose, (one, other)).terms[-1]
-        return left
+        link_point, on_point = (self._scene.points[point] if point else None for _, point in fact.ends)
+        excess: Decimal = fact.residual(pose, (link_point, on_point)).terms[-1]
+        return excess
 
 
 # --- echelon form in decimals: equations are taken in one by one, those that only repeat the others found out ---------
@@ -210,15 +210,15 @@ class _Echelon:
         sides: list[Decimal] = []
         for row, side in zip(self._rows, right, strict=True):
             sides.append(side - sum((f * sides[i] for i, f in row.taken.items()), Decimal(0)))
-        size = max(map(abs, right), default=Decimal(0))
-        least = SERIES_TOL * size
+        scale = max(map(abs, right), default=Decimal(0))
+        least = SERIES_TOL * scale
         if any(row.pivot is None and abs(side) > least for row, side in zip(self._rows, sides, strict=True)):
             return None
         values = dict(chosen)
         for row, side in zip(reversed(self._rows), reversed(sides), strict=True):
             if row.pivot is not None:
-                known = sum((c * values[k] for k, c in row.terms.items() if k != row.pivot), Decimal(0))
-                values[row.pivot] = (side - known) / row.terms[row.pivot]
+                settled = sum((c * values[k] for k, c in row.terms.items() if k != row.pivot), Decimal(0))
+                values[row.pivot] = (side - settled) / row.terms[row.pivot]
         return values
 
 
@@ -248,13 +248,13 @@ def fine_pose(scene: Scene) -> tuple[Scene, bool, dict[str, Place]]:
 
 def _points(scene: Scene) -> dict[str, tuple[Fraction, Fraction]]:
     """Every point where its placement puts it; where arcs touch to a float's digits only, as the float that it is."""
-    known = {name: exactly(at) for name, at in scene.points.items()}
+    places = {name: exactly(at) for name, at in scene.points.items()}
     if is_exact(*scene.points.values()):
-        return known
+        return places
     try:
-        return known | {name: exactly(at) for name, at in placed_by(scene.placements, FINELY).items()}
+        return places | {name: exactly(at) for name, at in placed_by(scene.placements, FINELY).items()}
     except Misfit:
-        return known
+        return places
 
 
 def _guide(slide: Slide | Balance, points: dict[str, tuple[Fraction, Fraction]]) -> Place:

@@ -102,14 +102,14 @@ def mobility(scene: Scene) -> int:
 
 def structure(scene: Scene) -> Structure:
     """The scene's mobility and groups; a :class:`SceneError` where its drives do not determine its motion."""
-    held = bracing(scene)
-    if not held.sound:
-        fault = Fault("links", f"links {' '.join(held.loose)} are loose", "drives and pairs that hold each link once")
+    hold = bracing(scene)
+    if not hold.sound:
+        fault = Fault("links", f"links {' '.join(hold.loose)} are loose", "drives and pairs that hold each link once")
         raise SceneError(scene.name, (fault,))
     system = System(scene)
-    found = [[name for sort, name in stage if sort == "link"] for stage in stages(system)]
+    links = [[name for sort, name in stage if sort == "link"] for stage in stages(system)]
     order = {link: i for i, link in enumerate(ordered_links(scene))}
-    teams = [tuple(sorted(team, key=order.__getitem__)) for team in found if team]
+    teams = [tuple(sorted(team, key=order.__getitem__)) for team in links if team]
     surroundings = _Surroundings(scene, system.given_points, {link: i for i, team in enumerate(teams) for link in team})
     return Structure(mobility(scene) + len(scene.redundant), tuple(_group(surroundings, team) for team in teams))
 
@@ -118,11 +118,12 @@ def _group(around: _Surroundings, links: tuple[str, ...]) -> Group:
     """What kind of group these links form."""
     body = around.bodies(links)
     bonds = tuple(around.bonds(links, body))
-    bodies = dict.fromkeys([*body.values(), *(one for bond in bonds for one in bond.bodies)])
+    bodies = dict.fromkeys([*body.values(), *(body_name for bond in bonds for body_name in bond.bodies)])
     outer = [bond for bond in bonds if len(bond.bodies) == 1]
     if len(bodies) == 1:
-        held = len([bond for bond in outer if bond.kind != "T"])
-        return Group(links, 1, held, "driving link") if around.is_driven(links) else Group(links, 0, held, "follower")
+        outer_pairs = len([bond for bond in outer if bond.kind != "T"])
+        return Group(links, 1, outer_pairs, "driving link") if around.is_driven(links) else Group(links, 0, outer_pairs,
+                                                                                                  "follower")
     first, *last = sorted((bond.kind for bond in outer), reverse=True)
     form = "".join([first, *(bond.kind for bond in bonds if len(bond.bodies) > 1), *last])
     if len(bodies) == 2 and form in _MODIFICATIONS:  # another form has a pair that special geometry has made redundant
@@ -143,9 +144,9 @@ def _sides(bonds: tuple[_Bond, ...]) -> int:
             if len(bond.bodies) < 2:  # an outer pair is in no loop
                 continue
             fictitious = [("pair", i, body), ("fictitious", i)]  # the link has a pair with each of the two
-            for one, other in pairwise([("body", body), *(fictitious if bond.fictitious else [("pair", i)])]):
-                graph[one].add(other)
-                graph[other].add(one)
+            for node, neighbour in pairwise([("body", body), *(fictitious if bond.fictitious else [("pair", i)])]):
+                graph[node].add(neighbour)
+                graph[neighbour].add(node)
     loops = (length // 2 for length in loop_lengths(graph))  # every other node of a loop is a link
     return max(*pairs.values(), *loops, 2)
 
@@ -183,21 +184,21 @@ class _Surroundings:
         """
         body = {link: link for link in links}
         for drive in self._drives(links):
-            one, other = drive.links
-            joined = drive.slides or set(self.scene.links.get(one, ())) & set(self.scene.links.get(other, ()))
-            if joined and one in links and other in links:
-                kept, lost = body[one], body[other]
-                body.update((link, kept) for link in links if body[link] == lost)
+            first, second = drive.links
+            joined = drive.slides or set(self.scene.links.get(first, ())) & set(self.scene.links.get(second, ()))
+            if joined and first in links and second in links:
+                joint_body, lost = body[first], body[second]
+                body.update((link, joint_body) for link in links if body[link] == lost)
         return body
 
     def bonds(self, links: tuple[str, ...], body: Mapping[str, str]) -> Iterator[_Bond]:
         """The pairs of a group: its inner ones, and the outer ones with what moves already."""
         now = self.stage[links[0]]
         for point in dict.fromkeys(point for link in links for point in self.scene.links[link]):
-            held = [link for link in self.scene.links_of[point] if link in body and self._is_held(link, point)]
-            bodies = tuple(dict.fromkeys(body[link] for link in held))
+            holders = [link for link in self.scene.links_of[point] if link in body and self._is_held(link, point)]
+            bodies = tuple(dict.fromkeys(body[link] for link in holders))
             if point in self.known or self.first[point] < now:
-                yield from (_Bond("R", (one,)) for one in bodies)
+                yield from (_Bond("R", (body_name,)) for body_name in bodies)
             elif len(bodies) > 1:
                 yield _Bond("R", bodies)
         near = dict.fromkeys(pair for link in links for pair in self.pairs[link])
@@ -205,8 +206,8 @@ class _Surroundings:
             bodies = tuple(dict.fromkeys(body[link] for link in pair.links if link in body))
             within_one_body = len(bodies) == 1 and all(link in body for link in pair.links)
             before = all(link == FRAME or self.stage[link] <= now for link in pair.links)
-            kept = self.lost[getattr(pair, "name", "")] < pair.binds
-            if not (pair.letter and kept and before) or within_one_body:
+            binds = self.lost[getattr(pair, "name", "")] < pair.binds
+            if not (pair.letter and binds and before) or within_one_body:
                 continue
             if len(pair.letter) == 1:
                 yield _Bond(pair.letter, bodies, isinstance(pair, Drive))
@@ -226,15 +227,15 @@ Graph = Mapping[Node, Collection[Node]]
 def loop_lengths(graph: Graph) -> list[int]:
     """The numbers of edges of the loops in a smallest set of independent ones, shortest first (Horton 1987)."""
     edges = {edge: i for i, edge in enumerate({frozenset((a, b)): None for a in graph for b in graph[a]})}
-    found: list[int] = []
+    lengths: list[int] = []
     independent: dict[int, int] = {}  # loops as sets of edges, in binary, by their highest edge
     for length, loop in sorted(_candidates(graph, edges)):
         while loop and loop.bit_length() in independent:
             loop ^= independent[loop.bit_length()]
         if loop:
             independent[loop.bit_length()] = loop
-            found.append(length)
-    return found
+            lengths.append(length)
+    return lengths
 
 
 def _candidates(graph: Graph, edges: Mapping[frozenset[Node], int]) -> Iterator[tuple[int, int]]:
@@ -245,11 +246,11 @@ def _candidates(graph: Graph, edges: Mapping[frozenset[Node], int]) -> Iterator[
         queue = deque([root])
         while queue:
             node = queue.popleft()
-            for other in graph[node]:
-                step = 1 << edges[frozenset((node, other))]
-                if other not in paths:
-                    paths[other] = paths[node] | step
-                    queue.append(other)
+            for neighbour in graph[node]:
+                step = 1 << edges[frozenset((node, neighbour))]
+                if neighbour not in paths:
+                    paths[neighbour] = paths[node] | step
+                    queue.append(neighbour)
         for edge, i in edges.items():
             a, b = edge
             if a in paths:
@@ -288,9 +289,9 @@ def bracing(scene: Scene, balanced: bool = False) -> Bracing:
     system = System(scene, balanced)
     columns = {unknown: j for j, unknown in enumerate(system.unknowns)}
     rows = [{columns[unknown]: c for unknown, c in equation.terms.items()} for equation in system.equations]
-    held = Elimination(rows, len(columns), PRIME)
-    loose = {system.unknowns[j][0][1] for j in held.free}
-    proofs = Elimination(transpose(rows, len(columns)), len(rows), PRIME) if held.dependent else None
+    elimination = Elimination(rows, len(columns), PRIME)
+    loose = {system.unknowns[j][0][1] for j in elimination.free}
+    proofs = Elimination(transpose(rows, len(columns)), len(rows), PRIME) if elimination.dependent else None
     repeated = [system.equations[i].fact for i in (proofs.free if proofs else ())]
     overbraced = {link for fact in repeated for link in (fact.link, fact.on)}
-    return Bracing(*(tuple(sorted(found.intersection(scene.moving), key=by_name)) for found in (loose, overbraced)))
+    return Bracing(*(tuple(sorted(links.intersection(scene.moving), key=by_name)) for links in (loose, overbraced)))

@@ -44,17 +44,17 @@ def paces(scene: Scene) -> tuple[float, ...]:
 
     Fails with `Refused` where the first drive stands still while another moves.
     """
-    first, *others = (float(drive.rate) for drive in scene.drives)
-    if first == 0 and any(others):
+    first, *rates = (float(drive.rate) for drive in scene.drives)
+    if first == 0 and any(rates):
         raise Refused("the cycle", said("the first drive stands still while another moves"),
                       "a drive that moves as the first [[drive]]")
-    return (float(sense_of_travel(scene)), *(other / abs(first) if first else 0.0 for other in others))
+    return (float(sense_of_travel(scene)), *(rate / abs(first) if first else 0.0 for rate in rates))
 
 
 def kept_pace(scene: Scene, travel: Fraction) -> tuple[Fraction, ...]:
     """The printed travel of each drive where the first has gone so far and the others keep pace."""
-    first, *others = scene.drives
-    return travel, *(travel * _pace(first, other) for other in others)
+    first, *drives = scene.drives
+    return travel, *(travel * _pace(first, drive) for drive in drives)
 
 
 def _pace(first: Drive, other: Drive) -> Fraction:
@@ -98,16 +98,16 @@ def travel_text(scene: Scene, travel: float, digits: int = 6) -> str:
 def moved_on(given: Scene, shifts: tuple[Fraction, ...], by: Reckoning) -> tuple[Pair, ...]:
     """How each drive of a scene moves its link by so many degrees or lengths, counter-clockwise or along its direction:
     the cosine and sine of a turn, or the vector of a shift."""
-    found: list[Pair] = []
+    moves: list[Pair] = []
     for drive, shift in zip(given.drives, shifts, strict=True):
         if not drive.slides:
-            found.append(by.heading(shift)[:2])
+            moves.append(by.heading(shift)[:2])
             continue
         x, y = given.driven_slide(drive).direction
         square = x * x + y * y
-        part = shift / by.root(Fraction(square) if isinstance(square, float) else square)[0]
-        found.append((x * part, y * part))
-    return tuple(found)
+        share = shift / by.root(Fraction(square) if isinstance(square, float) else square)[0]
+        moves.append((x * share, y * share))
+    return tuple(moves)
 
 
 STILL = Attitude(0, 0, 1, 0)

@@ -36,8 +36,8 @@ TWO_LINKS = Kind("two links", _two_links, {"type": "array", "items": LINK.schema
 
 
 def _flag(item: Item, names: SceneNames) -> bool | None:
-    told = f"{describe(item.value)} where true or false is wanted"
-    return item.value if isinstance(item.value, bool) else item.fault(told, "true or false, without quotes")
+    fault = f"{describe(item.value)} where true or false is wanted"
+    return item.value if isinstance(item.value, bool) else item.fault(fault, "true or false, without quotes")
 
 
 FLAG = Kind("true · false", _flag, {"type": "boolean"})
@@ -46,8 +46,8 @@ FLAG = Kind("true · false", _flag, {"type": "boolean"})
 def _centres(item: Item, names: SceneNames) -> tuple[str, ...] | None:
     if not isinstance(item.value, list) or not item.value:
         return item.fault(f"{describe(item.value)} where centres are wanted", 'points such as ["B", "C"]')
-    found = tuple(POINT.read(item.with_value(name), names) for name in item.value)
-    return None if None in found else found
+    centres = tuple(POINT.read(item.with_value(name), names) for name in item.value)
+    return None if None in centres else centres
 
 
 CENTRES = Kind("centres", _centres, {"type": "array", "items": POINT.schema, "minItems": 1, "maxItems": 2})
@@ -58,11 +58,12 @@ def _two(what: str, such: str, whole: bool = False) -> Kind:
     def read(item: Item, names: SceneNames) -> tuple[Any, ...] | None:
         if not isinstance(item.value, list) or len(item.value) != 2:
             return item.fault(f"{describe(item.value)} where two {what} are wanted", f"two numbers such as {such}")
-        found = tuple(item.with_value(one).positive(f"number of {what}" if whole else "radius") for one in item.value)
-        for number in found if whole else ():
+        numbers = tuple(item.with_value(entry).positive(f"number of {what}" if whole else "radius")
+                        for entry in item.value)
+        for number in numbers if whole else ():
             if number is not None and number.denominator != 1:
                 return item.fault(f"{number_text(number)} {what}", f"whole numbers such as {such}")
-        return None if None in found else found
+        return None if None in numbers else numbers
 
     entry = {"type": "integer", "minimum": 1} if whole else DISTANCE.schema
     return Kind(f"two {what}", read, {"type": "array", "items": entry, "minItems": 2, "maxItems": 2})
@@ -76,8 +77,8 @@ def centres_on(row: TableRow, *wanted: tuple[str, str]) -> bool:
     """Whether each of these centres is a point of its link; a fault for one that is not."""
     astray = [(centre, link) for centre, link in wanted if centre not in row.names.links.get(link, ())]
     for centre, link in astray:
-        if own := row.names.links.get(link, ()):
-            instead = "one of " + ", ".join(sorted(own, key=by_name))
+        if points := row.names.links.get(link, ()):
+            instead = "one of " + ", ".join(sorted(points, key=by_name))
             row.items["centres"].fault(f"{centre} is not a point of link {link}", instead)
     return not astray
 
@@ -116,10 +117,10 @@ def name_list(noun: str, such: str, known: Callable[[SceneNames], Collection[str
         if not isinstance(item.value, list):
             return item.fault(f"{describe(item.value)} where a list of {many} is wanted",
                               f'a list such as {such}, or "all"')
-        parts, choice = [item.with_value(value) for value in item.value], known(names)
-        found = [part.name_of(noun, choice) for part in parts
-                 if not (isinstance(part.value, str) and wrong(part.value, item, names))]
-        return tuple(dict.fromkeys(name for name in found if name is not None))
+        entries, choice = [item.with_value(value) for value in item.value], known(names)
+        chosen = [entry.name_of(noun, choice) for entry in entries
+                  if not (isinstance(entry.value, str) and wrong(entry.value, item, names))]
+        return tuple(dict.fromkeys(name for name in chosen if name is not None))
 
     return Kind(f'list of {many}, or "all"', read,
                 {"anyOf": [{"const": "all"}, {"type": "array", "items": entry.schema}]})
@@ -157,8 +158,8 @@ def _direction(item: Item, names: SceneNames) -> Direction | None:
             return item.fault("the direction is zero", "a vector that is not [0, 0]")
         return components
     if isinstance(item.value, str):
-        if not {*item.value.split()} <= {*names.points} and (told := item.slip()):
-            return item.fault(*told)
+        if not {*item.value.split()} <= {*names.points} and (fault := item.slip()):
+            return item.fault(*fault)
         return item.two_points(names.points, "O A")
     return item.number()
 
@@ -169,15 +170,15 @@ def _guide(item: Item, names: SceneNames) -> tuple[Pair, tuple[str, ...] | None,
     if direction is None:
         return None
     through = points_of(direction)
-    if any(name not in names.placed for name in through):
+    if any(name not in names.places for name in through):
         return (Fraction(1), Fraction(0)), through, direction  # the point has its own fault; look for more
     try:
-        x, y, exact = vector(direction, lambda name: exactly(names.placed[name]))
+        x, y, exact = vector(direction, lambda name: exactly(names.places[name]))
     except Misfit as misfit:
         return item.fault(misfit.what, misfit.instead)
     if not exact:
         names.irrational.append(f"{item.where}: angle")
-    rational = exact and is_exact(*(names.placed[name] for name in through))
+    rational = exact and is_exact(*(names.places[name] for name in through))
     return (x, y) if rational else (float(x), float(y)), through or None, direction
 
 

@@ -39,11 +39,11 @@ def numbers(tables: object, above: tuple[str, ...] = ()) -> Iterator[tuple[tuple
 
 def _value_at(tables: object, path: tuple[str, ...]) -> object:
     """What stands at a path; None where nothing does."""
-    for part in path:
+    for key in path:
         if isinstance(tables, list):
-            tables = tables[int(part)] if part.isdecimal() and int(part) < len(tables) else None
+            tables = tables[int(key)] if key.isdecimal() and int(key) < len(tables) else None
         else:
-            tables = tables.get(part) if isinstance(tables, Mapping) else None
+            tables = tables.get(key) if isinstance(tables, Mapping) else None
     return tables
 
 
@@ -51,13 +51,13 @@ def _path(name: str, item: Item, names: SceneNames) -> None:
     """A fault where there is no such number, or it must be the same for all."""
     path = path_parts(name)
     value = _value_at(names.tables, path)
-    varying = [".".join(map(quote_key, found)) for found, _ in numbers(names.tables) if found[0] not in SAME_FOR_ALL]
+    varying = [".".join(map(quote_key, keys)) for keys, _ in numbers(names.tables) if keys[0] not in SAME_FOR_ALL]
     if path[:1] and path[0] in SAME_FOR_ALL:
         item.fault("this is the same for all variants", "the path of a number of the mechanism or of its motion")
     elif value is None:
         item.faults.unknown(item.where, "number", name, varying)
     elif isinstance(value, Mapping | list) or not any(numbers(value)):
-        such = next((one for one in varying if one.startswith(f"{name}.")), "drive.0.omega")
+        such = next((candidate for candidate in varying if candidate.startswith(f"{name}.")), "drive.0.omega")
         item.fault(f"{describe(value)} is not a number", f"the path of a number, such as {such}")
 
 
@@ -76,12 +76,12 @@ def _range(row: TableRow) -> tuple[Fraction, ...] | None:
 
 def _list(item: Item, names: SceneNames) -> tuple[Fraction, ...] | None:
     """The values one by one."""
-    found = [item.with_value(value).number() for value in item.value] if isinstance(item.value, list) else []
-    if not found:
+    numbers = [item.with_value(value).number() for value in item.value] if isinstance(item.value, list) else []
+    if not numbers:
         return item.fault("an empty list", SUCH)
-    if len(found) > MAX_VALUES:
-        return item.fault(f"{len(found)} values", f"at most {MAX_VALUES}")
-    return tuple(dict.fromkeys(value for value in found if value is not None))
+    if len(numbers) > MAX_VALUES:
+        return item.fault(f"{len(numbers)} values", f"at most {MAX_VALUES}")
+    return tuple(dict.fromkeys(value for value in numbers if value is not None))
 
 
 RANGE = Table("a range", (

@@ -42,7 +42,7 @@ class Placing:
     """The bodies of a scene, of which `placed` are drawn so far; `marks` are those of its points."""
 
     def __init__(self, board: Board, scene: Scene, assembly: Assembly):
-        self.board, self.scene, self.assembly, self.given = board, scene, assembly, assembly.given
+        self.board, self.scene, self.assembly, self.given = board, scene, assembly, assembly.given_scene
         self.net = Network(self.given)
         self.marks: dict[str, Mark] = {}
         self.lines: dict[str, Mark] = {}

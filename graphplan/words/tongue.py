@@ -28,7 +28,7 @@ class Tongue:
 
     def __init__(self, code: str, catalogue: Mapping[str, Mapping[str, Entry]] | None = None):
         self.code, self.catalogue = code, catalogue
-        self.signs = str.maketrans({sign: str(own) for sign, own in (catalogue or {}).get(NUMBERS, {}).items()})
+        self.signs = str.maketrans({sign: str(local) for sign, local in (catalogue or {}).get(NUMBERS, {}).items()})
 
     def __call__(self, text: str) -> str:
         """The text in this tongue; what is no phrase, such as a title, stays as it is."""
@@ -46,8 +46,8 @@ class Tongue:
             return Shaped(_SYMBOL.sub(self._symbol, value.key))
         if value.section == NUMBERS:
             return Shaped(value.key.translate(self.signs))
-        put = [self._in_all_forms(part) for part in value.put]
-        named = {name: self._in_all_forms(part) for name, part in value.named.items()}
+        put = [self._in_all_forms(insert) for insert in value.put]
+        named = {name: self._in_all_forms(insert) for name, insert in value.named.items()}
         forms = self._forms(value)
         return Forms({name: pattern.format(*put, **named) for name, pattern in forms.items()})
 
@@ -94,5 +94,6 @@ def tongue(code: str) -> Tongue:
 
 def catalogue(code: str) -> dict[str, dict[str, Entry]]:
     """The catalogue of a language, section by section."""
-    found: dict[str, dict[str, Entry]] = tomllib.loads(files(__package__).joinpath(f"{code}.toml").read_text("utf-8"))
-    return found
+    text = files(__package__).joinpath(f"{code}.toml").read_text("utf-8")
+    sections: dict[str, dict[str, Entry]] = tomllib.loads(text)
+    return sections

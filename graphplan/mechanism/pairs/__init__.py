@@ -13,5 +13,5 @@ KINDS = sorted(name[:-3] for name in os.listdir(os.path.dirname(__file__)) if na
 def fields() -> list[Any]:
     """The tables of a scene in which pairs are written, each a field; what drives pairs comes last."""
     modules = [import_module(f"{__name__}.{kind}") for kind in KINDS]
-    found = [module.FIELD for module in modules if hasattr(module, "FIELD")]
-    return sorted(found, key=lambda field: field.name == "drive")
+    pair_fields = [module.FIELD for module in modules if hasattr(module, "FIELD")]
+    return sorted(pair_fields, key=lambda field: field.name == "drive")

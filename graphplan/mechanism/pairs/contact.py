@@ -75,16 +75,16 @@ class Contact(KinematicPair):
 
     def normal(self, points: Mapping[str, Any]) -> Any:
         """A vector along the common normal: to the first centre from the second; of any length."""
-        one, other = self.centres
+        first, second = self.centres
         if self.direction is not None:
             return quarter_turn(self.direction)
-        return minus(points[one or ""], points[other or ""])
+        return minus(points[first or ""], points[second or ""])
 
     def foot(self, points: Mapping[str, Any]) -> Pair:
         """The point of the common normal abreast of the point of contact: that point, but for rounding."""
         normal, centre = exactly(self.normal(points)), points[self.curved_side[2]]
-        part = dot(normal, minus(exactly(points[self.at]), exactly(centre))) / dot(normal, normal)
-        return plus(exactly(centre), times(part, normal))
+        share = dot(normal, minus(exactly(points[self.at]), exactly(centre))) / dot(normal, normal)
+        return plus(exactly(centre), times(share, normal))
 
     def states(self, scene: GivenPose) -> Iterator[Statement]:
         """The one profile does not leave the other, nor slips on it where they roll."""
@@ -95,9 +95,9 @@ class Contact(KinematicPair):
             lever = -dot(self.direction, quarter_turn(arm))
             yield Along(link, on, centre, self.direction, ROLLING, lever=lever, name=self.name)
         elif self.rolling:
-            one, other = (centre or "" for centre in self.centres)
-            k1, k2 = (dot(minus(points[end], points[self.at]), normal) for end in (one, other))
-            yield Rolling(link, on, one, other, minus(points[other], points[one]), (k1, -k2), self.name)
+            first, second = (centre or "" for centre in self.centres)
+            k1, k2 = (dot(minus(points[end], points[self.at]), normal) for end in (first, second))
+            yield Rolling(link, on, first, second, minus(points[second], points[first]), (k1, -k2), self.name)
 
 
 def _profiles(item: Item, names: SceneNames) -> tuple[Any, ...] | None:
@@ -105,8 +105,8 @@ def _profiles(item: Item, names: SceneNames) -> tuple[Any, ...] | None:
     if not isinstance(item.value, list) or len(item.value) != 2:
         return item.fault(f"{describe(item.value)} where two centres are wanted",
                           'two centres such as ["C2", "C3"], or a direction in the place of one')
-    found = [_centre(item.with_value(one), names) for one in item.value]
-    return None if None in found else tuple(found)
+    profiles = [_centre(item.with_value(entry), names) for entry in item.value]
+    return None if None in profiles else tuple(profiles)
 
 
 def _centre(item: Item, names: SceneNames) -> Any:
@@ -122,43 +122,43 @@ PROFILES = Kind("two centres, or a direction in the place of one", _profiles,
 
 def _read(row: TableRow) -> Contact | None:
     """A contact whose parts fit each other, before the point and where it is told beyond."""
-    found = _read_contact(row, "centres")
-    if not found or row.values.get("next") is None:
-        return found
+    contact = _read_contact(row, "centres")
+    if not contact or row.values.get("next") is None:
+        return contact
     beyond = _read_contact(row, "next")
-    if beyond and beyond.centres == found.centres and beyond.direction == found.direction:
+    if beyond and beyond.centres == contact.centres and beyond.direction == contact.direction:
         return row.items["next"].fault("the arcs that follow are those before", "another centre, or no next")
-    return beyond and replace(found, beyond=beyond)
+    return beyond and replace(contact, beyond=beyond)
 
 
 def _read_contact(row: TableRow, key: str) -> Contact | None:
     """The contact of the profiles that a key tells of."""
-    links, given = row["links"], row[key]
-    straight = [one for one in given if not isinstance(one, str)]
+    links, profiles = row["links"], row[key]
+    straight = [first for first in profiles if not isinstance(first, str)]
     if links[0] == links[1]:
         return row.item.fault(f"link {links[0]} touches itself", "two different links")
     if len(straight) > 1:
         return row.items[key].fault("both profiles are straight", "[[slides]] for two lines that slide")
-    if not centres_on(row, *((given[k], link) for k, link in enumerate(links) if isinstance(given[k], str))):
+    if not centres_on(row, *((profiles[k], link) for k, link in enumerate(links) if isinstance(profiles[k], str))):
         return None
     direction, through, written = straight[0] if straight else (None, None, None)
-    one, other = (end if isinstance(end, str) else None for end in given)
-    found = Contact(links, row["at"], (one, other), row["rolling"], direction, through, written)
-    return found if _check_normal(found, row, key) else None
+    profile, second = (end if isinstance(end, str) else None for end in profiles)
+    contact = Contact(links, row["at"], (profile, second), row["rolling"], direction, through, written)
+    return contact if _check_normal(contact, row, key) else None
 
 
 def _check_normal(contact: Contact, row: TableRow, key: str) -> bool:
     """Whether the point and the centres are on one normal, and the curvatures differ."""
     named = [point for point in contact.centres if point]
-    if any(point not in row.names.placed for point in (*named, contact.at, *(contact.through or ()))):
+    if any(point not in row.names.places for point in (*named, contact.at, *(contact.through or ()))):
         return True  # the point has its own fault
-    points = {name: exactly(at) for name, at in row.names.placed.items()}
+    points = {name: exactly(at) for name, at in row.names.places.items()}
     normal = exactly(contact.normal(points))
     item = row.items[key]
-    rounding = PLACE_TOL * max(abs(part) for name in (*named, contact.at) for part in points[name])
+    rounding = PLACE_TOL * max(abs(coordinate) for name in (*named, contact.at) for coordinate in points[name])
     if not any(normal):
-        one = "two corners" if points[contact.at] == points[named[0]] else "two profiles of the same curvature"
-        item.fault(f"the centres {' and '.join(named)} coincide: {one}", "centres that lie apart")
+        cause = "two corners" if points[contact.at] == points[named[0]] else "two profiles of the same curvature"
+        item.fault(f"the centres {' and '.join(named)} coincide: {cause}", "centres that lie apart")
         return False
     for point in named:
         arm = minus(points[point], points[contact.at])
@@ -167,11 +167,11 @@ def _check_normal(contact: Contact, row: TableRow, key: str) -> bool:
             return False
         square, long = dot(normal, normal), dot(arm, arm)
         if dot(normal, quarter_turn(arm)) ** 2 > NORMAL_SINE_TOL**2 * square * long + 2 * rounding**2 * (square + long):
-            what = "not square to the direction" if contact.direction is not None else "not in line with the centres"
-            told = (f"{contact.at} and {point} are {what}" if contact.direction is not None
-                    else f"{contact.at} is {what} {' and '.join(named)}")
+            fault = "not square to the direction" if contact.direction is not None else "not in line with the centres"
+            problem = (f"{contact.at} and {point} are {fault}" if contact.direction is not None
+                       else f"{contact.at} is {fault} {' and '.join(named)}")
             such = f'such as {contact.at} = {{ on = "{" ".join(named)}", distance = ... }}' if len(named) > 1 else ""
-            row.items["at"].fault(told, f"a point of contact on the common normal{such and ', '}{such}")
+            row.items["at"].fault(problem, f"a point of contact on the common normal{such and ', '}{such}")
             return False
     return True
 

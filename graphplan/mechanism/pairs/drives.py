@@ -90,9 +90,9 @@ class DrivenPoint(KinematicPair):
 
     def states(self, scene: GivenPose) -> Iterator[Statement]:
         """How the point moves along x and y."""
-        for axis, way in ((X, "x"), (Y, "y")):
+        for axis, name in ((X, "x"), (Y, "y")):
             rates = dot(axis, self.motion.velocity), dot(axis, self.motion.acceleration)
-            yield Along(self.link, FRAME, self.at, axis, way, *rates)
+            yield Along(self.link, FRAME, self.at, axis, name, *rates)
 
 
 def _read_turning(row: TableRow) -> TurningDrive | None:

@@ -92,8 +92,8 @@ class Gear(KinematicPair):
         if self.direction is not None:
             yield OnRack(*self.wheels, self.centres[0], self.direction, ROLLING, name=self.name, radius=self.radius)
         else:
-            (one, other), line = self.centres, self.line(scene.points)
-            yield Rolling(*self.wheels, one, other, line, self.factors, self.name)
+            (first, second), line = self.centres, self.line(scene.points)
+            yield Rolling(*self.wheels, first, second, line, self.factors, self.name)
 
     def line(self, points: Mapping[str, Any]) -> Any:
         """The vector from the first centre to the second."""
@@ -135,8 +135,8 @@ def _read_wheels(row: TableRow) -> Gear | None:
     belt, internal = row.values.get("belt", ""), row.values.get("internal", False)
     if not (_check_centres(row, 2) and _check_ratio(row) and _check_fit(row, belt, internal)):
         return None
-    one, other = row["teeth"] or row["radii"]
-    factors = (one, -other if internal or belt == "open" else other)
+    first, second = row["teeth"] or row["radii"]
+    factors = (first, -second if internal or belt == "open" else second)
     return Gear(row["links"], row["centres"], factors, row["teeth"], row["radii"], internal, belt,
                 tangent=row.values.get("pressure_angle", 0))
 
@@ -181,38 +181,39 @@ def _check_ratio(row: TableRow) -> bool:
 
 def _check_fit(row: TableRow, belt: str, internal: bool) -> bool:
     """Whether wheels of these sizes fit between their centres."""
-    if any(point not in row.names.placed for point in row["centres"]):
+    if any(point not in row.names.places for point in row["centres"]):
         return True  # the point has its own fault
     misfit = _misfit(row, belt, internal)
     if misfit is not None:
-        key, *told = misfit
-        row.items[key].fault(*told)
+        key, *fault = misfit
+        row.items[key].fault(*fault)
     return misfit is None
 
 
 def _misfit(row: TableRow, belt: str, internal: bool) -> tuple[str, str, str] | None:
     """What is wrong between the centres of two wheels, under which key, and what would be right; None where nothing."""
     (r1, r2), key = row["radii"] or row["teeth"], "radii" if row["radii"] else "teeth"
-    ends, of = [row.names.placed[point] for point in row["centres"]], " and ".join(row["centres"])
+    ends, of = [row.names.places[point] for point in row["centres"]], " and ".join(row["centres"])
     apart = minus(*map(exactly, ends))
     distance, _ = root(Fraction(dot(apart, apart)))
-    told = f"the distance {number_text(float(distance))} of the centres {of}"
+    distance_text = f"the distance {number_text(float(distance))} of the centres {of}"
     if not distance:
         return "centres", f"the centres {of} coincide", "centres that lie apart"
     if internal and r1 >= r2:
         sizes = f"{number_text(r1)} and {number_text(r2)}"
         return key, f"the ring, which is the second, is no larger than the gear in it: {sizes}", "a ring that is larger"
     if belt:
-        least, what = (r1 + r2, "r_1 + r_2") if belt == "crossed" else (abs(r1 - r2), "the difference of the radii")
-        what = f"{told} is no more than {what} = {number_text(least)}: the belt cannot be laid"
-        return (key, what, "centres further apart") if key == "radii" and distance <= least else None
-    whole, what = (r2 - r1, "difference") if internal else (r1 + r2, "sum")
-    slack = LENGTH_TOL * max(r1 + r2, distance) + PLACE_TOL * max(abs(part) for end in ends for part in exactly(end))
+        least, limit = (r1 + r2, "r_1 + r_2") if belt == "crossed" else (abs(r1 - r2), "the difference of the radii")
+        limit = f"{distance_text} is no more than {limit} = {number_text(least)}: the belt cannot be laid"
+        return (key, limit, "centres further apart") if key == "radii" and distance <= least else None
+    whole, limit = (r2 - r1, "difference") if internal else (r1 + r2, "sum")
+    slack = LENGTH_TOL * max(r1 + r2,
+                             distance) + PLACE_TOL * max(abs(coordinate) for end in ends for coordinate in exactly(end))
     if key == "teeth" or abs(distance - whole) <= slack:
         return None
     far, near = distinct_texts(distance, whole)
-    return (key, f"the distance {far} of the centres {of} is not the {what} {near} of the radii",
-            f"radii whose {what} is the distance, or teeth")
+    return (key, f"the distance {far} of the centres {of} is not the {limit} {near} of the radii",
+            f"radii whose {limit} is the distance, or teeth")
 
 
 def _pressure(item: Item, names: SceneNames) -> Number | None:

@@ -218,9 +218,9 @@ class Along:
 
     def weights(self, arms: Arms, root: Root) -> tuple[Rate, Rate]:
         """How much each rate of the links counts."""
-        one, other = (dot(self.direction, quarter_turn(arm)) + self.lever for arm in arms)
+        link_turn, on_turn = (dot(self.direction, quarter_turn(arm)) + self.lever for arm in arms)
         (x, y) = self.direction
-        return Rate(x, y, one), Rate(-x, -y, -other)
+        return Rate(x, y, link_turn), Rate(-x, -y, -on_turn)
 
     def left_over(self, sides: LinkSides) -> Number:
         """What the velocities add to `change` on the right-hand side of the accelerations, from the links' surplus."""
@@ -284,12 +284,13 @@ class Touching(Along):
         """
         normal, to = self.direction, times(-self.share, self.direction)
         square = dot(normal, normal)
-        here = LinkSides(*(LinkSide(plus(side.arm, to), side.rate) for side in (sides.link, sides.on)))
-        one, other = here.link.rate.turn, here.on.rate.turn
-        slides = dot(quarter_turn(normal), here.slip) / square
-        turns = other if self.straight else slides + self.share * one + (1 - self.share) * other
-        along = self.share * (turns - one)
-        return dot(normal, here.inwards) + square * (other * (along - slides) - one * along - turns * slides)
+        touching = LinkSides(*(LinkSide(plus(side.arm, to), side.rate) for side in (sides.link, sides.on)))
+        link_turn, on_turn = touching.link.rate.turn, touching.on.rate.turn
+        slides = dot(quarter_turn(normal), touching.slip) / square
+        turns = on_turn if self.straight else slides + self.share * link_turn + (1 - self.share) * on_turn
+        along = self.share * (turns - link_turn)
+        turning_terms = on_turn * (along - slides) - link_turn * along - turns * slides
+        return dot(normal, touching.inwards) + square * turning_terms
 
 
 @dataclass(frozen=True)
@@ -327,16 +328,16 @@ class Rolling:
         link, on, still = pose[self.link], pose[self.on], self.line
         line = minus(on.place_of(arms[1]), link.place_of(arms[0]))
         whole = angle(dot(still, line), dot(quarter_turn(still), line))
-        one, other = angle(link.cos, link.sin), angle(on.cos, on.sin)
+        link_angle, on_angle = angle(link.cos, link.sin), angle(on.cos, on.sin)
         k1, k2 = self.factors
-        return dot(still, still) * (k1 * (one - whole) + k2 * (other - whole))
+        return dot(still, still) * (k1 * (link_angle - whole) + k2 * (on_angle - whole))
 
     def weights(self, arms: Arms, root: Root) -> tuple[Rate, Rate]:
         """How much each rate of the links counts: omega_line is the centres' relative velocity across the line."""
         square, across = dot(self.line, self.line), times(self.factors[0] + self.factors[1], quarter_turn(self.line))
-        one, other = (dot(across, quarter_turn(arm)) for arm in arms)
-        return (Rate(*across, self.factors[0] * square + one), Rate(-across[0], -across[1],
-                                                                     self.factors[1] * square - other))
+        link_turn, on_turn = (dot(across, quarter_turn(arm)) for arm in arms)
+        return (Rate(*across, self.factors[0] * square + link_turn), Rate(-across[0], -across[1],
+                                                                          self.factors[1] * square - on_turn))
 
     def left_over(self, sides: LinkSides) -> Number:
         """The centripetal terms of the centres across the line: its own is along it."""

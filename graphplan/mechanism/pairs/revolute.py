@@ -29,8 +29,8 @@ class Revolute(KinematicPair):
 
     def states(self, scene: GivenPose) -> Iterator[Along]:
         """No link's point leaves that of the one with the pin."""
-        pin, *others = self.pinned
-        for link in others:
+        pin, *links = self.pinned
+        for link in links:
             axis, to = self.axes.get(link, X), link if link in self.axes else FRAME
             yield Along(link, pin, self.at, axis, "x", to=to)
             yield Along(link, pin, self.at, quarter_turn(axis), "y", to=to)

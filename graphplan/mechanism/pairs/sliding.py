@@ -93,7 +93,7 @@ def has_slide(row: TableRow, otherwise: str, few: str = "") -> Slide | None:
     guides = {slide.links: slide for slide in row.names.pairs if isinstance(slide, Slide)}
     if (link, along) in guides or not item.faults.none_in("slides", "links"):
         return guides.get((link, along))
-    known = [f'slide = ["{one}", "{other}"]' for one, other in sorted(guides)]
-    instead = few + ", ".join(known) if known else otherwise
-    meant = f'perhaps slide = ["{along}", "{link}"]' if (along, link) in guides else instead
-    return item.fault(f"no slide of link {link} along link {along}", meant)
+    choices = [f'slide = ["{slider}", "{guide}"]' for slider, guide in sorted(guides)]
+    instead = few + ", ".join(choices) if choices else otherwise
+    suggestion = f'perhaps slide = ["{along}", "{link}"]' if (along, link) in guides else instead
+    return item.fault(f"no slide of link {link} along link {along}", suggestion)

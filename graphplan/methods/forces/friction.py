@@ -67,7 +67,7 @@ def sliding(loading: Loading, forces: DrawnForces) -> Iterator[tuple[Slide, Numb
     coefficients = {frozenset(friction.links): friction.coefficient for friction in loading.loads.frictions}
     for slide in forces.scene.slides:
         coefficient = coefficients.get(frozenset(slide.links))
-        pair = slide.given if isinstance(slide, TouchingGuide) else slide
+        pair = slide.given_pair if isinstance(slide, TouchingGuide) else slide
         if coefficient and pair and not isinstance(slide, RollingGuide) and pair.name not in loading.loads.resting:
             yield slide, coefficient
 

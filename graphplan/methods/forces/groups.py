@@ -164,8 +164,10 @@ def bearing_forces(scene: Scene, loading: Loading, forces: DrawnForces, board: B
             yield kinds.SLIDE_REACTION, slide.name, forces.slides[slide]
             yield kinds.SLIDE_MOMENT, slide.name, _moment(loading, slide, forces)
     for guide in forces.slides:
-        if isinstance(guide, RollingGuide) and isinstance(guide.given, Gear) and is_requested(guide.given.name):
-            yield kinds.GEAR_REACTION, guide.given.name, forces.teeth.get(guide.given, on_first(guide, forces))
+        if isinstance(guide, RollingGuide) and isinstance(guide.given_pair,
+                                                          Gear) and is_requested(guide.given_pair.name):
+            yield kinds.GEAR_REACTION, guide.given_pair.name, forces.teeth.get(guide.given_pair,
+                                                                               on_first(guide, forces))
     for contact in scene.contacts:
         if (touching := touching_force(forces, board, contact)) and is_requested(contact.name):
             yield kinds.CONTACT_REACTION, contact.name, touching
@@ -197,7 +199,7 @@ def touching_force(forces: DrawnForces, board: Board, contact: Contact) -> Span 
         at, link = rolling_point(contact), contact.links[0]
         return reaction_on(forces, board, at, link) if _is_force_known(forces.scene, forces, at, link) else None
     return next((on_first(slide, forces) for slide in forces.slides
-                 if isinstance(slide, TouchingGuide) and slide.given == contact), None)
+                 if isinstance(slide, TouchingGuide) and slide.given_pair == contact), None)
 
 
 def _moment(loading: Loading, slide: Slide, forces: DrawnForces) -> tuple[Mark, ...]:

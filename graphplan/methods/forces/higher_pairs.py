@@ -36,7 +36,7 @@ class TouchingGuide(Slide):
     letter = ""
     binds = 1
     passes = (LINE,)
-    given: Contact | None = field(default=None, compare=False)
+    given_pair: Contact | None = field(default=None, compare=False)
 
 
 def bearing(scene: Scene) -> Scene:
@@ -46,7 +46,7 @@ def bearing(scene: Scene) -> Scene:
         return scene
     points, links, written = dict(lower.points), dict(scene.links), [*scene.written]
     for pair in lower.written[len(scene.written):]:
-        if isinstance(pair, RollingGuide) and isinstance(pair.given, Gear):
+        if isinstance(pair, RollingGuide) and isinstance(pair.given_pair, Gear):
             written.append(pair)
     for contact in scene.contacts:
         if contact.rolling:
@@ -113,8 +113,8 @@ def posed_for(pose: Pose, scene: Scene) -> Pose:
     own.guides = dict(pose.guides)
     touching = (slide for slide in scene.slides if isinstance(slide, TouchingGuide) and slide not in own.guides)
     for slide in touching:
-        if slide.given and slide.given.direction is None:
-            one, two = (pose.points[centre] for centre in slide.given.centres if centre)
+        if slide.given_pair and slide.given_pair.direction is None:
+            one, two = (pose.points[centre] for centre in slide.given_pair.centres if centre)
             with board.on(MECHANISM, (slide.link, slide.along)):
                 own.guides[slide] = board.perpendicular(board.side(one, two), pose.points[slide.at])
     return own
@@ -129,10 +129,10 @@ def press(board: Board, pose: Pose, scene: Scene, forces: DrawnForces) -> None:
     Fails with `Refused` where the centres are held apart by more than one link.
     """
     for guide in scene.slides:
-        if isinstance(guide, RollingGuide) and isinstance(guide.given, Gear):
-            forces.teeth[guide.given] = on_first(guide, forces)
+        if isinstance(guide, RollingGuide) and isinstance(guide.given_pair, Gear):
+            forces.teeth[guide.given_pair] = on_first(guide, forces)
     for guide in inclined_guides(scene):
-        gear: Gear = guide.given
+        gear: Gear = guide.given_pair
         tail, head = forces.teeth[gear]
         bearings = _Bearings(board, scene, gear, forces)
         if tail is head:
@@ -196,19 +196,19 @@ class _Bearings:
 
 def inclined_guides(scene: Scene) -> list[RollingGuide]:
     """The rolling guides of gears whose flanks are inclined."""
-    return [slide for slide in scene.slides if isinstance(slide, RollingGuide) and isinstance(slide.given, Gear)
-            and slide.given.tangent]
+    return [slide for slide in scene.slides if isinstance(slide, RollingGuide) and isinstance(slide.given_pair, Gear)
+            and slide.given_pair.tangent]
 
 
 def on_first(guide: RollingGuide | TouchingGuide, forces: DrawnForces) -> Span:
     """The force on the first link of the gear or contact that a guide stands for."""
-    assert guide.given is not None
-    return with_sign(forces.slides[guide], 1 if guide.link == guide.given.links[0] else -1)
+    assert guide.given_pair is not None
+    return with_sign(forces.slides[guide], 1 if guide.link == guide.given_pair.links[0] else -1)
 
 
 def line_of_pressure(pose: Pose, guide: RollingGuide, tail: Mark, head: Mark) -> Mark:
     """The line of the tooth force, by the circumferential force on the first wheel."""
-    gear: Gear = guide.given
+    gear: Gear = guide.given_pair
     with pose.board.on(MECHANISM, gear.links):
         return pose.board.pressure_line(pose.points[guide.at], pose.points[gear.centres[0]], tail, head,
                                         coefficient=gear.tangent)

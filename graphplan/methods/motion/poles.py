@@ -115,7 +115,7 @@ class Poles:
     def _pitch_point(self, gear: Gear) -> DrawnPole:
         """The pitch point; of equal pulleys of an open belt, which turn alike, the line of centres heads to it."""
         for slide in self.pose.scene.slides:
-            if isinstance(slide, RollingGuide) and slide.given == gear:
+            if isinstance(slide, RollingGuide) and slide.given_pair == gear:
                 return DrawnPole(self.pose.points[slide.at])
         one, *other = (self.pose.points[centre] for centre in gear.centres)
         letter = pole_letter(gear.links)

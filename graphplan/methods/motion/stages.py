@@ -313,7 +313,7 @@ def _reverse_equation(known: Vector, other: Vector) -> Equation:
 
 def pitch_point(guide: RollingGuide) -> Stage:
     """Where the point is drawn at which two links roll on each other."""
-    title = POINT_OF_CONTACT if isinstance(guide.given, Contact) else PITCH_POINT
+    title = POINT_OF_CONTACT if isinstance(guide.given_pair, Contact) else PITCH_POINT
     return Stage(title(guide.at, pair_text(guide.given_links)), ROLLING)
 
 
@@ -321,9 +321,9 @@ def pitch_point_text(guide: RollingGuide) -> Said:
     """How the pitch point divides the line of centres: as the radii, or the numbers of teeth."""
     assert guide.through is not None
     centres = "".join(guide.through)
-    if isinstance(guide.given, Contact):
+    if isinstance(guide.given_pair, Contact):
         return said("the point of contact lies on {0}, the line of the centres of curvature", centres)
-    one, two = guide.given.factors
+    one, two = guide.given_pair.factors
     pattern = INSIDE if (one > 0) == (two > 0) else OUTSIDE
     return pattern(pair_text(guide.given_links), centres, digits(abs(float(one)), 6), digits(abs(float(two)), 6))
 

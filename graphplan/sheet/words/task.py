@@ -152,7 +152,7 @@ QUESTIONS = {  # how kinds of results are asked for, and how those that have the
 
 def data(scene: Scene) -> Iterator[Said]:
     """The mechanism in its pose, what drives it and what loads it, a sentence each."""
-    start = scene if scene.assembly is None else scene.assembly.given
+    start = scene if scene.assembly is None else scene.assembly.given_scene
     yield said("Points, in {0}: {1}.", unit(scene.units.length),
                join(join((name, _pair(at)), " ") for name, at in start.points.items()))
     yield said("Links: {0}.", join(join((link_named(link), f"({' '.join(names)})"), " ")

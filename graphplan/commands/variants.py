@@ -73,12 +73,12 @@ def run(options: argparse.Namespace) -> int:
         raise Refused(f"{options.scene}: vary", "the scene does not say what varies",
                       'a table [vary], such as "drive.0.omega" = [8, 10, 12]')
     draw = partial(drafted, options)
-    own = draw(scene)
+    own_sheet = draw(scene)
     jobs = options.jobs or (cores() if len(students) > FEW else 1)
     with crew(jobs) as shared_out:
-        series = Design(own, draw, shared_out).series(
+        series = Design(own_sheet, draw, shared_out).series(
             len(students), options.seed, lambda done, of: messages.progress(f"variants: {done}/{of}"))
-        files = _files(options, own.composition, series.variants, students, shared_out, messages)
+        files = _files(options, own_sheet.composition, series.variants, students, shared_out, messages)
         messages.progress("")
     write_folder(files, options.output)
     for line in series.lines:
@@ -98,20 +98,21 @@ def _students(options: argparse.Namespace, messages: Messages) -> list[str]:
         from graphplan.marking.classroom.register import read_class_list
         from graphplan.output.pdf_png import lacking
 
-        found = read_class_list(Path(options.names))
-        names = found.students
+        class_list = read_class_list(Path(options.names))
+        names = class_list.students
         for name in names:
             if missing := lacking(name):
                 raise Refused(f"{options.names}: {name}", f"the font of the sheets has no {' '.join(missing)}",
                               "the name in other letters")
-        for line in found.remarks:
+        for line in class_list.remarks:
             messages.remark(line)
     elif not options.count:
         raise Refused("-n", "the number of tasks is missing", "-n 30, or --names CLASS.csv")
-    wanted = options.count or len(names)
-    if wanted < len(names):
-        raise Refused(f"-n {wanted}", f"there are {len(names)} names in {options.names}", f"-n {len(names)}, or no -n")
-    return [*names, *[""] * (wanted - len(names) + options.spare)]
+    count_wanted = options.count or len(names)
+    if count_wanted < len(names):
+        raise Refused(f"-n {count_wanted}", f"there are {len(names)} names in {options.names}",
+                      f"-n {len(names)}, or no -n")
+    return [*names, *[""] * (count_wanted - len(names) + options.spare)]
 
 
 def _files(options: argparse.Namespace, own: Composition, variants: Sequence[ClassVariant], students: Sequence[str],
@@ -126,13 +127,14 @@ def _files(options: argparse.Namespace, own: Composition, variants: Sequence[Cla
                  for variant, student in zip(variants, students, strict=True)]
     pages, sheets = list[PrintedExercise](), list[TaskSheet]()
     work = partial(print_exercise, draw=partial(drafted, options), further=key_rows)
-    for exercise, found in zip(exercises, shared_out(work, exercises), strict=True):
-        page = 1 + sum(len(one.task) for one in pages)
-        sheets.append(TaskSheet(found.code, exercise.variant.number, exercise.student, exercise.file, page))
-        pages.append(found)
+    for exercise, exercise_sheets in zip(exercises, shared_out(work, exercises), strict=True):
+        page = 1 + sum(len(printed_exercise.task) for printed_exercise in pages)
+        sheets.append(TaskSheet(exercise_sheets.code, exercise.variant.number, exercise.student, exercise.file, page))
+        pages.append(exercise_sheets)
         messages.progress(f"sheets: {len(pages)}/{len(exercises)}")
     title = own.plans.drawing.scene.title
-    told = [(one.variant.number, one.student, one.variant.numbers_text) for one in exercises]
+    overview_rows = [(printed_exercise.variant.number, printed_exercise.student, printed_exercise.variant.numbers_text)
+                     for printed_exercise in exercises]
     register = ClassRegister(title, options.seed, _chosen(options), tuple(sheets))
     if twice := register.equal_codes:
         raise Refused(f"--seed {options.seed}", f"the corner marks of variants {twice[0]} and {twice[1]} are the same",
@@ -141,10 +143,11 @@ def _files(options: argparse.Namespace, own: Composition, variants: Sequence[Cla
     messages.progress("booklet.pdf, key.pdf")
     return {
         **{exercise.file: exercise.variant.text for exercise in exercises},
-        "booklet.pdf": pdf([sheet for one in pages for sheet in one.task], title=title),
-        "key.pdf": pdf([*overview(own, told), *(sheet for one in pages for sheet in one.solution)], title=title),
-        "key.csv": key_table((sheet.variant, sheet.student, found.rows)
-                             for sheet, found in zip(sheets, pages, strict=True)),
+        "booklet.pdf": pdf([sheet for printed_exercise in pages for sheet in printed_exercise.task], title=title),
+        "key.pdf": pdf([*overview(own, overview_rows),
+                        *(sheet for printed_exercise in pages for sheet in printed_exercise.solution)], title=title),
+        "key.csv": key_table((sheet.variant, sheet.student, exercise_sheets.rows)
+                             for sheet, exercise_sheets in zip(sheets, pages, strict=True)),
         FILE: register.text,
     }
 

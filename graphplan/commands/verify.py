@@ -88,13 +88,13 @@ def run(options: argparse.Namespace) -> int:
     path, weighed = Path(options.drawing), parse_weights(options.weights)
     ending = _reported(options.report, path, options.scene)
     desk = Desk(on_paper(options), weighed, options)
-    found = (_class if os.path.isdir(path) else _one)(desk, path)
+    findings = (_class if os.path.isdir(path) else _one)(desk, path)
     if options.report:
-        pages = [as_json(found.data)] if ending == ".json" else found.pages(ending)
+        pages = [as_json(findings.data)] if ending == ".json" else findings.pages(ending)
         write_all(list(zip(page_names(options.report, len(pages)), pages, strict=False)))
     say = desk.on_sheet.composition.plans.tongue
-    write(as_json(found.data) if options.json else "".join(f"{say(line)}\n" for line in found.lines))
-    return 0 if found.judged else 2
+    write(as_json(findings.data) if options.json else "".join(f"{say(line)}\n" for line in findings.lines))
+    return 0 if findings.judged else 2
 
 
 def _of_answers(options: argparse.Namespace) -> int | None:
@@ -132,9 +132,9 @@ def _reported(output: str | None, path: Path, scene: str) -> str:
     """What kind of report is asked for; one that would be written over what it is of is refused before it is judged."""
     if output == STANDARD:
         raise Refused("--report -", "standard output has the verdict", "name a file, or --json alone")
-    for kept, what in ((path, "drawing"), (scene, "scene")):
-        if output and _same(output, kept):
-            raise Refused(f"--report {output}", f"the {what} itself would be overwritten", "another name")
+    for source, source_name in ((path, "drawing"), (scene, "scene")):
+        if output and _same(output, source):
+            raise Refused(f"--report {output}", f"the {source_name} itself would be overwritten", "another name")
     folder = os.path.isdir(path)
     return kind(output, CLASS_ENDINGS if folder else ENDINGS, f"report{' of a folder' * folder}", "--report")
 
@@ -157,19 +157,19 @@ def _one(desk: Desk, path: Path) -> Findings:
 
     messages = Messages(desk.options.quiet)
     messages.progress(printable(path.name))
-    one = desk.marked(path)
+    drawing = desk.marked(path)
     messages.progress("")
 
     def pages(ending: str) -> Sequence[str | bytes]:
-        sheets = overlay(one.judgement, one.score)
+        sheets = overlay(drawing.judgement, drawing.score)
         if ending != ".html":
             write_out = back_end(ending[1:])
             return [write_out(sheets)] if ending == ".pdf" else list(map(write_out, sheets))
         from graphplan.output.report_page import marked
 
-        return [marked(one.judgement, one.score, sheets)]
+        return [marked(drawing.judgement, drawing.score, sheets)]
 
-    return Findings(judgement_record(one.judgement, one.score), _lines(one), pages)
+    return Findings(judgement_record(drawing.judgement, drawing.score), _lines(drawing), pages)
 
 
 def _lines(one: MarkedDrawing) -> Iterator[Said]:
@@ -212,26 +212,26 @@ def _class(desk: Desk, folder: Path) -> Findings:
             error(printable(fault.lines[0]))
             unread.append(Unread(printable(path.name), printable(fault.lines[0].removeprefix(f"{path}: "))))
     messages.progress("")
-    found = Classroom(desk.on_sheet.drawing.scene.title, tuple(marked), tuple(unread))
+    classroom = Classroom(desk.on_sheet.drawing.scene.title, tuple(marked), tuple(unread))
 
     def pages(ending: str) -> Sequence[str]:
         from graphplan.output.report_page import class_list
 
-        return [class_list(found, desk.on_sheet.composition.plans.tongue)]
+        return [class_list(classroom, desk.on_sheet.composition.plans.tongue)]
 
-    return Findings(found.data, class_lines(found), pages, bool(marked))
+    return Findings(classroom.data, class_lines(classroom), pages, bool(marked))
 
 
 def _files(folder: Path, report: str | None) -> list[Path]:
     """All in a folder that was handed in, by name: what is hidden was not, nor was an earlier report."""
     try:
-        held = sorted(folder.iterdir())
+        files = sorted(folder.iterdir())
     except OSError as fault:
         raise Refused(f"{folder}", f"it cannot be read ({fault.strerror})", "a readable folder") from None
-    found = [path for path in held if not path.name.startswith(".") and not (report and _same(report, path))]
-    if not found:
+    drawings = [path for path in files if not path.name.startswith(".") and not (report and _same(report, path))]
+    if not drawings:
         raise Refused(f"{folder}", "it contains no drawing", "a folder of drawings, each a file of its own")
-    return found
+    return drawings
 
 
 def _enclosed(path: Path) -> None:
@@ -252,9 +252,9 @@ def of_rotor(options: argparse.Namespace, text: str) -> int:
     from graphplan.machine.rotors.rotor_balance import balanced
     from graphplan.output.subjects.rotor_sheet import one_sheet
 
-    found = balanced(parse(text, options.scene))
-    sheet = one_sheet(found, check_rotor(found), pencil(options))
-    return _judge(options, [_expected(sheet, answer) for answer in found.answers], found.task.sheet.language)
+    balance = balanced(parse(text, options.scene))
+    sheet = one_sheet(balance, check_rotor(balance), pencil(options))
+    return _judge(options, [_expected(sheet, answer) for answer in balance.answers], balance.task.sheet.language)
 
 
 def _judge(options: argparse.Namespace, choices: Sequence[Sequence[TrueNumber]], language: str) -> int:
@@ -275,7 +275,7 @@ def _judge(options: argparse.Namespace, choices: Sequence[Sequence[TrueNumber]],
     say, lines = tongue(options.language or language), []
     for name, each in verdicts.items():
         lines += [name] if path.is_dir() else []
-        lines += [str(say(one.text)) for one in each]
+        lines += [str(say(verdict.text)) for verdict in each]
     write("".join(f"{line}\n" for line in lines))
     return 0
 
@@ -286,10 +286,11 @@ def _judged(choices: Sequence[Sequence[TrueNumber]], path: Path) -> list[AnswerV
     from graphplan.marking.files.tables import read_answers
 
     answers = read_answers(path)
-    for given in answers:
-        if not any(one.matches(given) for one in choices[0]):
-            known = ", ".join(f"{one.quantity},{one.of}" for one in choices[0])
-            raise Refused(given.where, f"{given.quantity!r} of {given.of!r} is not asked for", f"one of {known}")
+    for answer in answers:
+        if not any(number.matches(answer) for number in choices[0]):
+            known_answers = ", ".join(f"{number.quantity},{number.of}" for number in choices[0])
+            raise Refused(answer.where, f"{answer.quantity!r} of {answer.of!r} is not asked for",
+                          f"one of {known_answers}")
     try:
         return max((judge_answers(choice, answers) for choice in choices), key=count_right)
     except ValueError as error:
@@ -301,21 +302,22 @@ def _expected(sheet: RotorSheet, answer: Answer) -> list[TrueNumber]:
     from graphplan.marking.answers import TrueNumber
     from graphplan.mechanism.units import Dimension
 
-    task, sums, found = sheet.balanced.task, sheet.balanced.sums, list[TrueNumber]()
+    task, sums, numbers = sheet.balanced.task, sheet.balanced.sums, list[TrueNumber]()
     mass, length, kg_m, metres = task.units.mass, task.units.length, float(task.kg_m), float(task.metres)
     unbalance, moment = Dimension(0, 2, 1, "U", "kg*m"), Dimension(1, 2, 1, "U", "kg*m^2")
-    for one, off_by in zip(answer, sheet.errors, strict=True):
-        found.append(TrueNumber("correction", one.letter, one.mass_radius * kg_m, 2 * off_by.mass_radius * kg_m,
+    for correction, off_by in zip(answer, sheet.errors, strict=True):
+        numbers.append(TrueNumber("correction", correction.letter, correction.mass_radius * kg_m,
+                                  2 * off_by.mass_radius * kg_m,
                               f"{mass}·{length}", kg_m, unbalance))
-        if one.mass_radius:
-            found.append(TrueNumber("angle", one.letter, one.angle, 2 * off_by.angle, "°"))
+        if correction.mass_radius:
+            numbers.append(TrueNumber("angle", correction.letter, correction.angle, 2 * off_by.angle, "°"))
     off = 2 * kg_m * sheet.errors[0].mass_radius  # the sum of m·r is drawn as well as what balances it
-    found.append(TrueNumber("static unbalance", "", sums.static * kg_m, off, f"{mass}·{length}", kg_m, unbalance))
+    numbers.append(TrueNumber("static unbalance", "", sums.static * kg_m, off, f"{mass}·{length}", kg_m, unbalance))
     if task.rotor.dynamic:
         off = 2 * kg_m * metres * sheet.errors[1].mass_radius * float(task.rotor.between)
-        found.append(TrueNumber("moment", "", sums.dynamic * kg_m * metres, off, f"{mass}·{length}²", kg_m * metres,
+        numbers.append(TrueNumber("moment", "", sums.dynamic * kg_m * metres, off, f"{mass}·{length}²", kg_m * metres,
                               moment))
-    return found
+    return numbers
 
 
 def _record(name: str, verdicts: Sequence[AnswerVerdict]) -> dict[str, Any]:
@@ -323,4 +325,4 @@ def _record(name: str, verdicts: Sequence[AnswerVerdict]) -> dict[str, Any]:
     from graphplan.marking.answers import count_right
 
     return {"name": name, "right": count_right(verdicts), "of": len(verdicts),
-            "answers": [one.record for one in verdicts]}
+            "answers": [verdict.record for verdict in verdicts]}

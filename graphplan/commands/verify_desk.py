@@ -56,9 +56,9 @@ class Desk:
         """The plans that marks may be said to lie on: where none are asked for, those of every way to draw motions."""
         from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, VELOCITY_PLAN
 
-        asked = self.options.method or self.options.plan
-        others = () if asked else (N_PLAN, VELOCITY_PLAN, ACCELERATION_PLAN)
-        return list(dict.fromkeys([*self.on_sheet.composition.views, *others]))
+        named_plan = self.options.method or self.options.plan
+        motion_plans = () if named_plan else (N_PLAN, VELOCITY_PLAN, ACCELERATION_PLAN)
+        return list(dict.fromkeys([*self.on_sheet.composition.views, *motion_plans]))
 
     @cached_property
     def _cycle(self) -> CycleResults:
@@ -84,9 +84,10 @@ class Desk:
         from graphplan.marking.judge.score import score
 
         work = self.on_sheet.drawing, self.on_sheet.composition, submission, self.on_sheet.pencil
-        found = (judge(*work) if self.options.method
+        judgement_of_pose = (judge(*work) if self.options.method
                  else judge_any_method(*work, self.options.plan, self.options.inertia, construct))
-        judgement = replace(with_cycle_numbers(found, self._cycle.expected_result), name=printable(submission.name))
+        judgement = replace(with_cycle_numbers(judgement_of_pose, self._cycle.expected_result),
+                            name=printable(submission.name))
         return MarkedDrawing(judgement, score(judgement, self.weights))
 
 

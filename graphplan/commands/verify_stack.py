@@ -60,10 +60,10 @@ def run(options: argparse.Namespace) -> int:
     if options.report:
         raise Refused(f"--report {options.report}", f"the results of a class are written into {into}", "-o FOLDER")
     classroom = StackDesk(folder, register, into, weighed, options)
-    found = classroom.results(*pages(stack))
-    classroom.write(found)
-    write(as_json(found.data) if options.json else "".join(f"{classroom.say(line)}\n" for line in found.findings()))
-    return 0 if found.with_status(found_results.JUDGED) else 2
+    results = classroom.results(*pages(stack))
+    classroom.write(results)
+    write(as_json(results.data) if options.json else "".join(f"{classroom.say(line)}\n" for line in results.findings()))
+    return 0 if results.with_status(found_results.JUDGED) else 2
 
 
 @dataclass(frozen=True)
@@ -110,12 +110,12 @@ class StackDesk:
         word = assignments(self.options.assign or (), stack, self.register)
         if stack:
             _made(self.keeper.folder)
-        seen, broken = self._seen(stack)
-        whose = place_pages(seen, self.register, word)
+        seen_pages, broken = self._seen(stack)
+        whose = place_pages(seen_pages, self.register, word)
         judged = self._judged(whose)
         whose = list(replace_failed(whose, {page for page, data in judged.items() if FAULT in data}))
         sheets = [*self._sheets(whose, judged), *broken]
-        blank = sum(one.fate == fates.BLANK for one in whose)
+        blank = sum(placed_page.fate == fates.BLANK for placed_page in whose)
         return StackResults(self.register.title, self.say.code, tuple(sheets), blank, tuple(unread))
 
     # ---- page by page ----------------------------------------------------------------------------------------------
@@ -125,42 +125,45 @@ class StackDesk:
         files = {path: file_digest(path) for path in dict.fromkeys(page.path for page in stack)}
         keys = {page: key("sight", __version__, files[page.path], page.number) for page in stack}
         jobs = {name: page for page, name in reversed(keys.items())}
-        found = self._done(looked, jobs, "pages", lambda page: page.name)
-        seen, broken = [], []
+        outcomes = self._done(looked, jobs, "pages", lambda page: page.name)
+        seen_pages, broken = [], []
         for page, name in keys.items():
-            if FAULT in found[name]:
-                broken.append(SheetResult(found_results.FAILED, page.name, look=(found[name][FAULT],)))
+            if FAULT in outcomes[name]:
+                broken.append(SheetResult(found_results.FAILED, page.name, look=(outcomes[name][FAULT],)))
             else:
-                seen.append(SeenPage(page, load_sight(found[name])))
-        return seen, broken
+                seen_pages.append(SeenPage(page, load_sight(outcomes[name])))
+        return seen_pages, broken
 
     def _judged(self, whose: Sequence[PlacedPage]) -> dict[str, Data]:
         """What is found of every sheet, by the name of its page; of equal pictures it is found once."""
         jobs, keys = dict[str, Job](), dict[str, str]()
-        for one in whose:
-            if one.fate in (fates.COUNTS, fates.AGAIN):
-                further = [other for other in whose if other.fate == fates.JOINED and _same(one, other)]
-                name, job = self._job(one, further if one.fate == fates.COUNTS else [])
-                keys[one.seen.page.name] = name
+        for placed_page in whose:
+            if placed_page.fate in (fates.COUNTS, fates.AGAIN):
+                further = [joined_page for joined_page in whose if joined_page.fate == fates.JOINED
+                           and _same(placed_page, joined_page)]
+                name, job = self._job(placed_page, further if placed_page.fate == fates.COUNTS else [])
+                keys[placed_page.seen.page.name] = name
                 jobs.setdefault(name, job)
-        found = self._done(judged, jobs, "sheets", lambda job: job.page.name)
-        return {page: found[name] for page, name in keys.items()}
+        outcomes = self._done(judged, jobs, "sheets", lambda job: job.page.name)
+        return {page: outcomes[name] for page, name in keys.items()}
 
     def _job(self, one: PlacedPage, further: Sequence[PlacedPage]) -> tuple[str, Job]:
         """The job of a sheet, by a digest of all that it hangs on."""
         assert one.sheet is not None
         scene, options = self.folder / one.sheet.scene, self._drawn_by()
-        digests = [seen.seen.sight.digest for seen in (one, *further)]
+        digests = [placed_page.seen.sight.digest for placed_page in (one, *further)]
         made_from = key("judged", __version__, digests, one.mirrored, one.sheet, file_digest(scene),
                         sorted(self.register.options.items()), options.pencil, self.weights)
-        return made_from, Job(one.seen.page, one.mirrored, tuple(other.seen.page for other in further), one.sheet,
+        return made_from, Job(one.seen.page, one.mirrored, tuple(joined_page.seen.page for joined_page in further),
+                              one.sheet,
                               scene, self.keeper.folder / f"{made_from}.pdf", self.weights, options)
 
     def _drawn_by(self) -> argparse.Namespace:
         """The options by which the sheets of the class were drawn, and the pencil of this run."""
         options = parser(("verify",)).parse_args(["verify", self.options.scene, self.options.drawing])
-        if spoken := [name for name in OF_THE_SHEETS if getattr(self.options, name) != getattr(options, name)]:
-            raise Refused(f"--{spoken[0]}", f"the sheets of this class were drawn as its {FILE} says", "leave it out")
+        if conflicting := [name for name in OF_THE_SHEETS if getattr(self.options, name) != getattr(options, name)]:
+            raise Refused(f"--{conflicting[0]}", f"the sheets of this class were drawn as its {FILE} says",
+                          "leave it out")
         for name, kind in OF_THE_SHEETS.items():
             if value := self.register.options.get(name):
                 setattr(options, name, kind(value))
@@ -170,30 +173,31 @@ class StackDesk:
     def _done(self, work: Callable[[Any], Data], jobs: Mapping[str, Any], what: str, named: Callable[[Any], str]
               ) -> dict[str, Data]:
         """What comes of all jobs, told as they are done."""
-        messages, found = Messages(self.options.quiet), dict[str, Data]()
+        messages, outcomes = Messages(self.options.quiet), dict[str, Data]()
         try:
-            for name, made in run_jobs(work, jobs, self.keeper, self.processes):
-                found[name] = {FAULT: made.why} if isinstance(made, Failed) else made
-                messages.progress(f"{what}: {len(found)}/{len(jobs)} {named(jobs[name])}")
+            for name, outcome in run_jobs(work, jobs, self.keeper, self.processes):
+                outcomes[name] = {FAULT: outcome.why} if isinstance(outcome, Failed) else outcome
+                messages.progress(f"{what}: {len(outcomes)}/{len(jobs)} {named(jobs[name])}")
         except KeyboardInterrupt:
-            messages.remark(f"interrupted: {len(found)} of {len(jobs)} {what} are done and kept; run it again to go on")
+            messages.remark(
+                f"interrupted: {len(outcomes)} of {len(jobs)} {what} are done and kept; run it again to go on")
             raise
         messages.progress("")
-        return found
+        return outcomes
 
     # ---- put together ----------------------------------------------------------------------------------------------
 
     def _sheets(self, whose: Sequence[PlacedPage], judged: Mapping[str, Data]) -> Iterator[SheetResult]:
         """The sheets by variant, students without one, then pages that are nobody's."""
-        named = [one for one in whose if one.sheet is not None]
+        named = [placed_page for placed_page in whose if placed_page.sheet is not None]
         for sheet in self.register.sheets:
-            own = [one for one in named if one.sheet == sheet]
-            yield from (self._sheet(one, judged.get(one.seen.page.name)) for one in own)
-            if sheet.student and not any(one.owner == sheet.student for one in named):
+            sheet_pages = [placed_page for placed_page in named if placed_page.sheet == sheet]
+            yield from (self._sheet(placed_page, judged.get(placed_page.seen.page.name)) for placed_page in sheet_pages)
+            if sheet.student and not any(placed_page.owner == sheet.student for placed_page in named):
                 yield SheetResult(found_results.ABSENT, variant=sheet.variant, student=sheet.student)
-        for one in whose:
-            if one.sheet is None and one.fate != fates.BLANK:
-                yield self._sheet(one, None)
+        for placed_page in whose:
+            if placed_page.sheet is None and placed_page.fate != fates.BLANK:
+                yield self._sheet(placed_page, None)
 
     def _sheet(self, one: PlacedPage, data: Data | None) -> SheetResult:
         """One page as a line of the results."""
@@ -204,25 +208,27 @@ class StackDesk:
             return about
         if FAULT in data:
             return replace(about, status=found_results.FAILED, look=(*notes, data[FAULT]))
-        told = {name: data[name] for name in ("score", "groups", "first", "words", "faultless", "kind", "confidence",
+        judged_fields = {name: data[name]
+                         for name in ("score", "groups", "first", "words", "faultless", "kind", "confidence",
                                               "detail", "judgement")}
-        return replace(about, **told, look=(*notes, *data["look"]), corrected=data[FILES][0])
+        return replace(about, **judged_fields, look=(*notes, *data["look"]), corrected=data[FILES][0])
 
     def write(self, found: StackResults) -> None:
         """Write all that is found into the folder, and remove what an earlier run had to hand back."""
         from graphplan.output.results_page import results_page
 
         earlier = self.keeper.get("corrected") or {}
-        to_hand_back = [one for one in found.sheets if one.corrected and one.status == found_results.JUDGED]
-        names = file_names([one.student or self.say(said("variant {0}", one.variant)) for one in to_hand_back])
-        files = {one.page: f"corrected/{name}.pdf" for one, name in zip(to_hand_back, names, strict=True)}
+        to_hand_back = [sheet for sheet in found.sheets if sheet.corrected and sheet.status == found_results.JUDGED]
+        names = file_names([sheet.student or self.say(said("variant {0}", sheet.variant)) for sheet in to_hand_back])
+        files = {sheet.page: f"corrected/{name}.pdf" for sheet, name in zip(to_hand_back, names, strict=True)}
         _made(self.into / "corrected")
-        for one in to_hand_back:
-            write((self.keeper.folder / one.corrected).read_bytes(), str(self.into / files[one.page]))
+        for sheet in to_hand_back:
+            write((self.keeper.folder / sheet.corrected).read_bytes(), str(self.into / files[sheet.page]))
         for file in set(earlier.get("written", ())) - set(files.values()):
             (self.into / "corrected" / Path(file).name).unlink(missing_ok=True)
         self.keeper.put("corrected", {"written": sorted(files.values())})
-        found = replace(found, sheets=tuple(replace(one, corrected=files.get(one.page, "")) for one in found.sheets))
+        found = replace(found,
+                        sheets=tuple(replace(sheet, corrected=files.get(sheet.page, "")) for sheet in found.sheets))
         for name, content in (("results.csv", found.csv), ("results.json", as_json(found.data)),
                               ("results.html", results_page(found, self.say))):
             write(content, str(self.into / name))
@@ -284,23 +290,25 @@ def _judged(job: Job) -> Data:
     if code(composition) != job.sheet.code:
         raise Refused(f"{job.scene}", "its sheet is no longer the one that was printed", "the scenes as they were made")
     submission = read_picture(image, job.page.name, task(composition)[0], desk.frames, job.sheet.code)
-    one, say = desk.judged(submission), composition.plans.tongue
+    marked, say = desk.judged(submission), composition.plans.tongue
     if isinstance(submission.page, PencilPage):
         sheet = straight_picture(image, submission.page.warp)
-        shown = sheet_photograph(sheet)
+        photograph = sheet_photograph(sheet)
     else:  # there is nothing on it
-        shown = whole_photograph(image, max(composition.arrangement.width, composition.arrangement.height))
-    corrections = Corrections(one.judgement, one.score, composition, shown)
+        photograph = whole_photograph(image, max(composition.arrangement.width, composition.arrangement.height))
+    corrections = Corrections(marked.judgement, marked.score, composition, photograph)
     further = [whole_photograph(page_picture(page.path, page.number)) for page in job.further]
     write(pdf(corrections.pages(further)), str(job.corrected))
     detail = corrections.detail(lambda rect: cut_out(sheet, rect))
-    first = one.judgement.first_wrong
-    sure = [verdict.confidence for verdict in one.judgement.counting_verdicts] if first is None else [first.confidence]
-    look = [*reading_lines(one.judgement), *look_at_lines(one.judgement)]
+    first = marked.judgement.first_wrong
+    sure = [verdict.confidence
+            for verdict in marked.judgement.counting_verdicts] if first is None else [first.confidence]
+    look = [*reading_lines(marked.judgement), *look_at_lines(marked.judgement)]
     return {
-        "score": one.score.total, "groups": one.score.groups, "first": one.guilty.short if one.guilty else "",
-        "words": say(opinion(one.judgement)), "faultless": one.faultless, "kind": first.kind if first else "",
+        "score": marked.score.total, "groups": marked.score.groups,
+        "first": marked.guilty.short if marked.guilty else "",
+        "words": say(opinion(marked.judgement)), "faultless": marked.faultless, "kind": first.kind if first else "",
         "confidence": round(min(sure, default=1.0), 3),
-        "look": [say(told) for told in look], "detail": embedded(detail) if detail else "",
-        "judgement": judgement_record(one.judgement, one.score), FILES: [job.corrected.name],
+        "look": [say(line) for line in look], "detail": embedded(detail) if detail else "",
+        "judgement": judgement_record(marked.judgement, marked.score), FILES: [job.corrected.name],
     }  # fmt: skip

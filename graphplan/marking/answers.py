@@ -73,27 +73,27 @@ class AnswerVerdict:
         name = " ".join(filter(None, (self.expected.quantity, self.expected.of)))
         if self.answered is None:
             return said("{0}: missing", name)
-        told = self.expected.number_text(self.answered)
+        answered = self.expected.number_text(self.answered)
         if self.state == RIGHT:
-            return said("{0}: {1}, right", name, told)
+            return said("{0}: {1}, right", name, answered)
         true = self.expected.number_text(self.expected.value)
         if self.hint:
-            return said("{0}: {1}, wrong, it is {2}: {3}", name, told, true, self.hint)
-        return said("{0}: {1}, wrong, it is {2}", name, told, true)
+            return said("{0}: {1}, wrong, it is {2}: {3}", name, answered, true, self.hint)
+        return said("{0}: {1}, wrong, it is {2}", name, answered, true)
 
     @property
     def record(self) -> dict[str, Any]:
         """As data."""
-        one = self.expected.one
+        unit_size = self.expected.one
         return {"quantity": self.expected.quantity, "of": self.expected.of, "unit": self.expected.written,
-                "answered": None if self.answered is None else self.answered / one,
-                "true": self.expected.value / one, "state": self.state, "hint": str(self.hint)}
+                "answered": None if self.answered is None else self.answered / unit_size,
+                "true": self.expected.value / unit_size, "state": self.state, "hint": str(self.hint)}
 
 
 def judge_answers(expected: Sequence[TrueNumber], answers: Sequence[TableAnswer]) -> list[AnswerVerdict]:
     """The verdict on each number that is expected; fails with `ValueError` where an answer has a wrong unit."""
-    return [_judge_answer(one, expected, next((answer for answer in answers if one.matches(answer)), None))
-            for one in expected]
+    return [_judge_answer(number, expected, next((answer for answer in answers if number.matches(answer)), None))
+            for number in expected]
 
 
 def _judge_answer(one: TrueNumber, expected: Sequence[TrueNumber], answer: TableAnswer | None) -> AnswerVerdict:
@@ -109,11 +109,11 @@ def _judge_answer(one: TrueNumber, expected: Sequence[TrueNumber], answer: Table
 
 def _hint(one: TrueNumber, expected: Sequence[TrueNumber], value: float) -> str:
     """What may have gone wrong: a unit, a sense, or another's number."""
-    def is_near(other: TrueNumber, number: float) -> bool:
-        return other.gap(number) <= SURE * max(other.off, 0.01 * abs(other.value) if other.dimension else 0.5)
+    def is_near(rival: TrueNumber, number: float) -> bool:
+        return rival.gap(number) <= SURE * max(rival.off, 0.01 * abs(rival.value) if rival.dimension else 0.5)
 
-    alike = next((other for other in expected if other is not one and other.written == one.written
-                  and is_near(other, value)), None)
+    alike = next((rival for rival in expected if rival is not one and rival.written == one.written
+                  and is_near(rival, value)), None)
     if alike is not None:
         return said("this is that of {0}", " ".join(filter(None, (alike.quantity, alike.of))))
     if one.dimension is None:
@@ -127,4 +127,4 @@ def _hint(one: TrueNumber, expected: Sequence[TrueNumber], value: float) -> str:
 
 def count_right(verdicts: Sequence[AnswerVerdict]) -> int:
     """How many answers are right."""
-    return sum(one.state == RIGHT for one in verdicts)
+    return sum(verdict.state == RIGHT for verdict in verdicts)

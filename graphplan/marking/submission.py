@@ -37,10 +37,10 @@ def read_submission(path: Path, panels: Collection[str], frames: Frames,
         kind = suffix if suffix[1:].isalnum() else "without a suffix that is known"
         raise Refused(f"{path}", f"files of this kind ({kind[:40]}) are not read",
                       f"give one of {' '.join([*FILES, *IMAGES])}")
-    found = _read_data_file(path, suffix, panels, frames, size)
-    if not found.traces and not found.numbers:
+    submission = _read_data_file(path, suffix, panels, frames, size)
+    if not submission.traces and not submission.numbers:
         raise Refused(f"{path}", "it contains no mark and no result", "fill it in")
-    return found
+    return submission
 
 
 def _read_image(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, code: int | None) -> Submission:
@@ -61,7 +61,7 @@ def _read_image(path: Path, frames: Frames, printed: Callable[[], Sheet] | None,
 def silence_stderr() -> Iterator[None]:
     """Within, libraries write nothing where errors are written: what they say of a picture is not for the reader."""
     try:
-        kept = os.dup(STANDARD_ERROR)
+        standard_error = os.dup(STANDARD_ERROR)
     except OSError:  # it is closed
         yield
         return
@@ -70,8 +70,8 @@ def silence_stderr() -> Iterator[None]:
             os.dup2(nowhere.fileno(), STANDARD_ERROR)
         yield
     finally:
-        os.dup2(kept, STANDARD_ERROR)
-        os.close(kept)
+        os.dup2(standard_error, STANDARD_ERROR)
+        os.close(standard_error)
 
 
 def _read_data_file(path: Path, suffix: str, panels: Collection[str], frames: Frames, size: Size) -> Submission:

@@ -67,8 +67,8 @@ class Lettering:
     def names(self) -> list[str]:
         """The marks that are named: several that share a spot stand with commas; other words name none."""
         whole = mark_name(self.text)
-        found = [whole] if whole else [mark_name(part) for part in self.text.split(",")]
-        return found if all(found) else []
+        names = [whole] if whole else [mark_name(piece) for piece in self.text.split(",")]
+        return names if all(names) else []
 
     @property
     def box(self) -> Polygon:
@@ -180,8 +180,8 @@ def bare_name(name: str) -> str:
 
 def mark_name(name: str) -> str:
     """The name spelled, if it reads as that of a mark; else nothing."""
-    found = spell(name)
-    return found if MARK.fullmatch(found) else ""
+    name_spelled = spell(name)
+    return name_spelled if MARK.fullmatch(name_spelled) else ""
 
 
 def is_greek(name: str) -> bool:

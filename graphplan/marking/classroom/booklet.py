@@ -86,8 +86,8 @@ def key_rows(drawing: Construction) -> Iterator[KeyRow]:
         largest = max(map(abs, values.values()), default=0.0) if kind.single else largest_size(values)
         unit = kind.dimension.unit(drawing.scene.units)
         for of, value in values.items():
-            x, y, one = ("", "", value) if kind.single else (*value, "")
-            yield KeyRow(name, of, _six_digits(x, largest), _six_digits(y, largest), _six_digits(one, largest), unit)
+            x, y, single = ("", "", value) if kind.single else (*value, "")
+            yield KeyRow(name, of, _six_digits(x, largest), _six_digits(y, largest), _six_digits(single, largest), unit)
 
 
 def single_row(kind: ResultKind, at: str, value: float, largest: float, units: Units) -> KeyRow:
@@ -123,6 +123,7 @@ def overview(composition: Composition, told: Sequence[tuple[int, str, str]]) -> 
 
     apart, filled = replace(composition, arrangement=page), paginate_tightly(page.set(rows), page)
     first = layout(plans.drawing, composition=composition, document=KEY)
-    for number, placed in enumerate(filled, 1):
-        items = back_to_front([*frame_items(apart), *row_items(placed), *title_items(apart, KEY, number, len(filled))])
+    for number, page_rows in enumerate(filled, 1):
+        items = back_to_front([*frame_items(apart), *row_items(page_rows),
+                               *title_items(apart, KEY, number, len(filled))])
         yield replace(first, width=page.width, height=page.height, frame=page.frame, panels={}, items=tuple(items))

@@ -45,16 +45,16 @@ class ScanStrokes(StudentStrokes):
     def marks(self) -> list[StudentMark]:
         """The marks where they were drawn; where they should be as the student's own plan has it, unless it is turned.
         """
-        found = []
+        marks = []
         for verdict, step in zip(self.judgement.verdicts, self.judgement.composition.plates.steps, strict=True):
             frame = self.judgement.frames.get(step.panel)
             if verdict.trace is None or frame is None:
                 continue
             view = View(self.rect(step.panel), abs(frame.unit), (frame.origin.real, frame.origin.imag))
-            own = verdict.own if abs(cmath.phase(frame.unit)) < TURNED else (math.nan,) * len(verdict.own)
-            found.append(StudentMark(verdict, verdict.trace, verdict.trace.spots,
-                                     replace(step, view=view, value=own), 1.0))
-        return found
+            expected_value = verdict.own if abs(cmath.phase(frame.unit)) < TURNED else (math.nan,) * len(verdict.own)
+            marks.append(StudentMark(verdict, verdict.trace, verdict.trace.spots,
+                                     replace(step, view=view, value=expected_value), 1.0))
+        return marks
 
     def spots(self, trace: Trace, panel: str) -> tuple[Spot, ...]:
         """A trace where it was drawn."""
@@ -110,8 +110,8 @@ class Corrections:
 
     def pages(self, further: Sequence[Photograph] = ()) -> list[Sheet]:
         """The scan with the corrections on it, further pages as they are, then the drawing over the true one."""
-        own = self._page(self.scan, *self._marks())
-        return [own, *(self._page(photograph) for photograph in further), *self.true]
+        first_page = self._page(self.scan, *self._marks())
+        return [first_page, *(self._page(photograph) for photograph in further), *self.true]
 
     def detail(self, cut: Callable[[Rect], Photograph]) -> Sheet | None:
         """The place of the first wrong step alone, as far as it can be seen; `cut` gives a piece of the scan, at the

@@ -46,11 +46,11 @@ class Keeper:
     def get(self, key: str) -> Data | None:
         """What is kept under a key; none where nothing is, nothing that can be read, or one of its files is gone."""
         try:
-            found = json.loads((self.folder / f"{key}.json").read_text(encoding="utf-8"))
+            data = json.loads((self.folder / f"{key}.json").read_text(encoding="utf-8"))
         except (OSError, ValueError, RecursionError):
             return None
-        whole = isinstance(found, dict) and all((self.folder / name).is_file() for name in found.get(FILES, ()))
-        return found if whole else None
+        whole = isinstance(data, dict) and all((self.folder / name).is_file() for name in data.get(FILES, ()))
+        return data if whole else None
 
     def put(self, key: str, data: Data) -> None:
         """Keep data, whole or not at all."""
@@ -75,11 +75,11 @@ def key(*parts: Any) -> str:
 
 def file_digest(path: Path) -> str:
     """A digest of a file's bytes."""
-    found = blake2b(digest_size=16, person=b"graphplan file")
+    digest = blake2b(digest_size=16, person=b"graphplan file")
     with path.open("rb") as file:
         while block := file.read(BLOCK):
-            found.update(block)
-    return found.hexdigest()
+            digest.update(block)
+    return digest.hexdigest()
 
 
 def run_jobs(work: Callable[[Job], Data], jobs: Mapping[str, Job], keeper: Keeper, processes: int
@@ -90,14 +90,14 @@ def run_jobs(work: Callable[[Job], Data], jobs: Mapping[str, Job], keeper: Keepe
     """
     new = dict[str, Job]()
     for name, job in jobs.items():
-        if (kept := keeper.get(name)) is not None:
-            yield name, kept
+        if (data := keeper.get(name)) is not None:
+            yield name, data
         else:
             new[name] = job
-    for name, made in _run_together(work, new, processes):
-        if not isinstance(made, Failed):
-            keeper.put(name, made)
-        yield name, made
+    for name, outcome in _run_together(work, new, processes):
+        if not isinstance(outcome, Failed):
+            keeper.put(name, outcome)
+        yield name, outcome
 
 
 def _run_together(work: Callable[[Job], Data], jobs: Mapping[str, Job], processes: int
@@ -106,11 +106,11 @@ def _run_together(work: Callable[[Job], Data], jobs: Mapping[str, Job], processe
     if min(processes, len(jobs)) < 2:
         yield from ((name, _try_job(work, job)) for name, job in jobs.items())
         return
-    left = dict(jobs)
-    for name, made in _run_in_pool(work, jobs, min(processes, len(jobs))):
-        del left[name]
-        yield name, made
-    for name, job in left.items():
+    waiting = dict(jobs)
+    for name, outcome in _run_in_pool(work, jobs, min(processes, len(jobs))):
+        del waiting[name]
+        yield name, outcome
+    for name, job in waiting.items():
         yield next(iter(_run_in_pool(work, {name: job}, 1)), (name, Failed(DIED)))
 
 

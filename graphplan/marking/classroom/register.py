@@ -54,11 +54,11 @@ class ClassRegister:
     @property
     def equal_codes(self) -> tuple[int, int] | None:
         """The first two variants whose sheets have the same corner marks; None where all differ."""
-        seen: dict[tuple[int, ...], int] = {}
+        variants: dict[tuple[int, ...], int] = {}
         for sheet in self.sheets:
-            other = seen.setdefault(corner_numbers(sheet.code), sheet.variant)
-            if other != sheet.variant:
-                return other, sheet.variant
+            variant = variants.setdefault(corner_numbers(sheet.code), sheet.variant)
+            if variant != sheet.variant:
+                return variant, sheet.variant
         return None
 
     @property
@@ -182,7 +182,8 @@ def _student_cells(rows: Sequence[Sequence[str]]) -> list[tuple[str, ...]]:
     """The cells of each row that name a student; a first row that says what columns are is none."""
     heads = [cell.casefold() for cell in rows[0]] if rows else []
     whole = next((place for place, head in enumerate(heads) if head in WHOLE), None)
-    first, last = (next((place for place, head in enumerate(heads) if head in known), None) for known in (FIRST, LAST))
+    first, last = (next((place for place, head in enumerate(heads) if head in column_names), None)
+                   for column_names in (FIRST, LAST))
     if first is not None and last is not None:
         columns = [first, last]
     elif whole is not None:
@@ -194,12 +195,12 @@ def _student_cells(rows: Sequence[Sequence[str]]) -> list[tuple[str, ...]]:
 
 def _numbered_names(names: Sequence[str]) -> list[str]:
     """The names, equal ones with a number that no other name has."""
-    found: dict[str, None] = {}
+    numbered: dict[str, None] = {}
     taken = set(names)
     for name in names:
-        own, number = name, 1
-        while own in found or (number > 1 and own in taken):
+        unique, number = name, 1
+        while unique in numbered or (number > 1 and unique in taken):
             number += 1
-            own = f"{name} ({number})"
-        found[own] = None
-    return list(found)
+            unique = f"{name} ({number})"
+        numbered[unique] = None
+    return list(numbered)

@@ -92,30 +92,31 @@ class Classroom:
     @property
     def mean(self) -> float | None:
         """The mean score; none where nothing could be judged."""
-        totals = [total for one in self.marked if (total := one.score.total) is not None]
+        totals = [total for drawing in self.marked if (total := drawing.score.total) is not None]
         return fmean(totals) if totals else None
 
     @property
     def histogram(self) -> dict[StepName, int]:
         """How many drawings have each step for their first wrong one, by what it is called, in drawing order."""
-        firsts = (first for one in self.marked if (first := one.guilty) is not None)
+        firsts = (first for drawing in self.marked if (first := drawing.guilty) is not None)
         return dict(sorted(Counter(firsts).items()))
 
     @property
     def mistakes(self) -> dict[str, int]:
         """How many drawings go wrong by each kind of mistake, the most frequent first."""
-        kinds = (first.kind for one in self.marked if (first := one.judgement.first_wrong) is not None and first.kind)
+        kinds = (first.kind
+                 for drawing in self.marked if (first := drawing.judgement.first_wrong) is not None and first.kind)
         return dict(sorted(Counter(kinds).items(), key=lambda found: (-found[1], found[0])))
 
     @property
     def hardest(self) -> StepName | None:
         """The step that is wrong first most often, the earlier of equals."""
-        found = self.histogram
-        return max(found, key=found.__getitem__, default=None)  # the first of equals
+        counts = self.histogram
+        return max(counts, key=counts.__getitem__, default=None)  # the first of equals
 
     def findings(self) -> Iterator[Said]:
         """What there is to say of the class."""
-        faultless = sum(one.faultless for one in self.marked)
+        faultless = sum(drawing.faultless for drawing in self.marked)
         yield said("Drawings: {0}, of which {1} have no wrong step.", len(self.marked), faultless)
         if self.mean is not None:
             yield said("Mean score: {0} of 100.", f"{self.mean:.0f}")
@@ -135,9 +136,10 @@ class Classroom:
         kind = next(iter(self.mistakes), None)
         return {
             "title": self.title,
-            "drawings": [{"file": one.file, "score": one.score.total, "first_wrong": one.guilty and one.guilty.number,
-                          "mistake": None if one.mistake is None else str(one.mistake)} for one in self.marked],
-            "not_judged": [{"file": one.file, "why": one.why} for one in self.unread],
+            "drawings": [{"file": entry.file, "score": entry.score.total,
+                          "first_wrong": entry.guilty and entry.guilty.number,
+                          "mistake": None if entry.mistake is None else str(entry.mistake)} for entry in self.marked],
+            "not_judged": [{"file": entry.file, "why": entry.why} for entry in self.unread],
             "mean_score": self.mean,
             "most_frequent_mistake": kind,
             "most_frequent_first_wrong": hardest and hardest.number,
@@ -154,9 +156,9 @@ def mistake_words(kind: str) -> Said:
 
 def class_lines(found: Classroom) -> Iterator[Said]:
     """The class as text: a line for each drawing and each file that could not be judged, then the findings."""
-    for one in found.marked:
-        points = [] if one.score.total is None else [said("{0} of 100", f"{one.score.total:.0f}")]
-        yield arrange("{0}: {1}", one.file, join((*points, one.text), "; "))
+    for drawing in found.marked:
+        points = [] if drawing.score.total is None else [said("{0} of 100", f"{drawing.score.total:.0f}")]
+        yield arrange("{0}: {1}", drawing.file, join((*points, drawing.text), "; "))
     yield from found.findings()
 
 
@@ -244,11 +246,11 @@ class StackResults:
     @property
     def mistakes(self) -> dict[str, list[SheetResult]]:
         """The sheets that go wrong first by each kind of mistake, the most frequent first."""
-        found: dict[str, list[SheetResult]] = {}
+        sheets_of_kind: dict[str, list[SheetResult]] = {}
         for sheet in self.with_status(JUDGED):
             if sheet.kind:
-                found.setdefault(sheet.kind, []).append(sheet)
-        return dict(sorted(found.items(), key=lambda kind: (-len(kind[1]), kind[0])))
+                sheets_of_kind.setdefault(sheet.kind, []).append(sheet)
+        return dict(sorted(sheets_of_kind.items(), key=lambda kind: (-len(kind[1]), kind[0])))
 
     def findings(self) -> Iterator[Said]:
         """What there is to say of the class."""
@@ -271,7 +273,7 @@ class StackResults:
         if self.blank:
             yield said("Blank pages: {0}.", self.blank)
         if self.unread:
-            yield said("No scans: {0}.", ", ".join(one.file for one in self.unread))
+            yield said("No scans: {0}.", ", ".join(file.file for file in self.unread))
 
     @property
     def csv(self) -> str:
@@ -280,21 +282,23 @@ class StackResults:
         table = csv.writer(written, lineterminator="\n")
         table.writerow(["page", "variant", "student", "status", "score", *GROUPS, "first_wrong_step", "verdict",
                         "kind", "confidence", "look", "corrected"])
-        for one in self.sheets:
-            groups = (_round_score(one.groups.get(group)) for group in GROUPS)
-            table.writerow([one.page, one.variant, one.student, one.status, _round_score(one.score), *groups, one.first,
-                            one.words, one.kind, one.confidence, one.look_text, one.corrected])
+        for sheet in self.sheets:
+            groups = (_round_score(sheet.groups.get(group)) for group in GROUPS)
+            table.writerow([sheet.page, sheet.variant, sheet.student, sheet.status, _round_score(sheet.score), *groups,
+                            sheet.first,
+                            sheet.words, sheet.kind, sheet.confidence, sheet.look_text, sheet.corrected])
         return written.getvalue()
 
     @property
     def data(self) -> dict[str, Any]:
         """All of it but the pictures, as data."""
         left_out = {"detail", "thumbnail"}
-        sheets = [{name: value for name, value in asdict(one).items() if name not in left_out} for one in self.sheets]
+        sheets = [{name: value for name, value in asdict(sheet).items() if name not in left_out}
+                  for sheet in self.sheets]
         return {
             "title": self.title, "sheets": sheets, "blank_pages": self.blank,
             "unread": [asdict(file) for file in self.unread], "mean_score": self.mean, "histogram": self.histogram,
-            "mistakes": {kind: len(found) for kind, found in self.mistakes.items()},
+            "mistakes": {kind: len(sheets_of_kind) for kind, sheets_of_kind in self.mistakes.items()},
         }  # fmt: skip
 
 
@@ -305,14 +309,14 @@ def _round_score(score: float | None) -> float | None:
 
 def file_names(wanted: Sequence[str]) -> list[str]:
     """Names of files for what is called so: safe on any system, no two alike whatever their letters' size."""
-    taken, found = set[str](), list[str]()
+    taken, names = set[str](), list[str]()
     for name in wanted:
         safe = UNSAFE.sub("_", name.strip())[:LONGEST].lstrip(".") or "_"
         safe = f"_{safe}" if RESERVED.match(safe) else safe
-        again, other = 1, safe
-        while other.casefold() in taken:
+        again, unique = 1, safe
+        while unique.casefold() in taken:
             again += 1
-            other = f"{safe}-{again}"
-        taken.add(other.casefold())
-        found.append(other)
-    return found
+            unique = f"{safe}-{again}"
+        taken.add(unique.casefold())
+        names.append(unique)
+    return names

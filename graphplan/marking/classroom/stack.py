@@ -67,14 +67,14 @@ def pages(stack: Path) -> tuple[list[StackPage], list[Unread]]:
 
     Fails with `Refused` where there is nothing to be read.
     """
-    found, unread = list[StackPage](), list[Unread]()
+    scans, unread = list[StackPage](), list[Unread]()
     for path in _files(stack):
         name = printable(path.name)
         try:
-            found += _file_pages(path, name)
+            scans += _file_pages(path, name)
         except GraphplanError as fault:
             unread.append(Unread(name, fault.lines[0].removeprefix(f"{path}: ")))
-    return found, unread
+    return scans, unread
 
 
 def look_at_page(page: StackPage) -> PageSight:
@@ -84,7 +84,7 @@ def look_at_page(page: StackPage) -> PageSight:
 
     image = page_picture(page.path, page.number)
     small = shrink(image, THUMBNAIL**2 * min(image.shape) / max(image.shape))
-    marks, mirrored = (tuple(sorted(marks_of_sheet(seen).values())) for seen in (image, image[:, ::-1]))
+    marks, mirrored = (tuple(sorted(marks_of_sheet(picture).values())) for picture in (image, image[:, ::-1]))
     digest = blake2b(image.tobytes(), digest_size=16, person=b"graphplan page")
     digest.update(repr(image.shape).encode())
     empty = not marks and not mirrored and is_blank(image)
@@ -96,12 +96,12 @@ def _files(stack: Path) -> list[Path]:
     if not stack.is_dir():
         return [stack]
     try:
-        held = [path for path in stack.iterdir() if not path.name.startswith(".")]
+        files = [path for path in stack.iterdir() if not path.name.startswith(".")]
     except OSError as fault:
         raise Refused(f"{stack}", f"it cannot be read ({fault.strerror})", "a readable folder") from None
-    if not held:
+    if not files:
         raise Refused(f"{stack}", "it contains no scan", "a folder of scans, PDF, PNG or JPEG")
-    return sorted(held, key=lambda path: by_name(path.name))
+    return sorted(files, key=lambda path: by_name(path.name))
 
 
 def _file_pages(path: Path, name: str) -> Iterator[StackPage]:
@@ -186,8 +186,8 @@ def decode_page(sight: PageSight, register: ClassRegister) -> DecodedPage:
 def _fitting_sheets(marks: Sequence[int], sheets: Iterable[TaskSheet]) -> Iterator[tuple[TaskSheet, int]]:
     """The sheets and the pages of them that bear these marks: all of them, or at least three."""
     for sheet, page in product(sheets, range(1, PAGES + 1)):
-        own = len(set(marks) & set(corner_numbers(page_code(sheet.code, page))))
-        if own >= SURE or own == len(marks) >= ENOUGH:
+        matching_marks = len(set(marks) & set(corner_numbers(page_code(sheet.code, page))))
+        if matching_marks >= SURE or matching_marks == len(marks) >= ENOUGH:
             yield sheet, page
 
 
@@ -213,11 +213,11 @@ def assignments(told: Sequence[str], pages: Sequence[StackPage], register: Class
 
     Fails with `Refused` where there is no such page, student or variant.
     """
-    found = {}
-    for one in told:
-        for name, student, variant in _assigned_rows(one):
-            found[_page_name(one, name, pages)] = _parse_assignment(one, student, variant, register)
-    return found
+    assigned = {}
+    for entry in told:
+        for name, student, variant in _assigned_rows(entry):
+            assigned[_page_name(entry, name, pages)] = _parse_assignment(entry, student, variant, register)
+    return assigned
 
 
 def _assigned_rows(told: str) -> Iterator[tuple[str, str, str]]:
@@ -252,9 +252,10 @@ def _parse_assignment(told: str, student: str, variant: str, register: ClassRegi
     """Who or what was meant."""
     if ASIDE in (student, variant):
         return Assignment()
-    known = [str(sheet.variant) for sheet in register.sheets]
-    if variant and variant not in known:
-        raise Refused(f"--assign {told}", f"there is no variant {variant}", f"one of {', '.join(dict.fromkeys(known))}")
+    variants = [str(sheet.variant) for sheet in register.sheets]
+    if variant and variant not in variants:
+        raise Refused(f"--assign {told}", f"there is no variant {variant}",
+                      f"one of {', '.join(dict.fromkeys(variants))}")
     return Assignment(student, int(variant or 0))
 
 
@@ -267,9 +268,10 @@ def place_pages(stack: Iterable[SeenPage], register: ClassRegister,
 
     Fails with `Refused` where a page without a code is assigned to a student who has no sheet.
     """
-    found = [_place_page(seen, decode_page(seen.sight, register), register, assigned.get(seen.page.name))
-             for seen in stack]
-    return list(_choose_counting(found))
+    placed_pages = [_place_page(seen_page, decode_page(seen_page.sight, register), register,
+                                assigned.get(seen_page.page.name))
+             for seen_page in stack]
+    return list(_choose_counting(placed_pages))
 
 
 def _place_page(seen: SeenPage, code: DecodedPage, register: ClassRegister, word: Assignment | None) -> PlacedPage:
@@ -320,38 +322,38 @@ def _choose_counting(found: Sequence[PlacedPage]) -> Iterator[PlacedPage]:
     that sheet where there is none."""
     first = dict[str, PlacedPage]()
     for fate in (COUNTS, PERHAPS):
-        for one in found:
-            if one.fate == fate:
-                first.setdefault(_owner_key(one), one)
-    for one in found:
-        counts = first.get(_owner_key(one))
-        if one.fate not in (COUNTS, PERHAPS) or counts is None:
-            yield one
-        elif one is counts:
-            yield replace(one, fate=COUNTS)
-        elif one.fate == PERHAPS:
-            yield replace(one, fate=JOINED)
+        for page in found:
+            if page.fate == fate:
+                first.setdefault(_owner_key(page), page)
+    for page in found:
+        counts = first.get(_owner_key(page))
+        if page.fate not in (COUNTS, PERHAPS) or counts is None:
+            yield page
+        elif page is counts:
+            yield replace(page, fate=COUNTS)
+        elif page.fate == PERHAPS:
+            yield replace(page, fate=JOINED)
         else:
             note = said("handed in twice: page {0} counts", counts.seen.page.name)
-            yield replace(one, fate=AGAIN, notes=(*one.notes, note))
+            yield replace(page, fate=AGAIN, notes=(*page.notes, note))
 
 
 def replace_failed(found: Sequence[PlacedPage], failed: Collection[str]) -> Iterator[PlacedPage]:
     """The same, where some pages by their names cannot be judged: the next scan of the same sheet, if it can be, counts
     in its place."""
-    gone = {_owner_key(one): one for one in found if one.fate == COUNTS and one.seen.page.name in failed}
+    gone = {_owner_key(page): page for page in found if page.fate == COUNTS and page.seen.page.name in failed}
     counts = dict[str, PlacedPage]()
-    for one in found:
-        if one.fate == AGAIN and one.seen.page.name not in failed and _owner_key(one) in gone:
-            counts.setdefault(_owner_key(one), one)
-    for one in found:
-        if counts.get(_owner_key(one)) is one:
-            yield replace(one, fate=COUNTS, notes=(*one.notes[:-1], said("page {0} cannot be judged",
-                                                                          gone[_owner_key(one)].seen.page.name)))
-        elif one.fate == COUNTS and _owner_key(one) in counts:
-            yield replace(one, fate=AGAIN)
+    for page in found:
+        if page.fate == AGAIN and page.seen.page.name not in failed and _owner_key(page) in gone:
+            counts.setdefault(_owner_key(page), page)
+    for page in found:
+        if counts.get(_owner_key(page)) is page:
+            yield replace(page, fate=COUNTS, notes=(*page.notes[:-1], said("page {0} cannot be judged",
+                                                                          gone[_owner_key(page)].seen.page.name)))
+        elif page.fate == COUNTS and _owner_key(page) in counts:
+            yield replace(page, fate=AGAIN)
         else:
-            yield one
+            yield page
 
 
 def _owner_key(one: PlacedPage) -> str:

@@ -104,8 +104,8 @@ def sheet_of(text: str, name: str, draw: Draw) -> Drafted | Flaw:
 
 def find_flaw(text: str, name: str, draw: Draw, own: Quality) -> Flaw | None:
     """Why a scene is no task for the class whose own scene has a sheet of this quality; None where it is one."""
-    found = sheet_of(text, name, draw)
-    return found if isinstance(found, Flaw) else Quality.of_sheet(found).find_flaw(own)
+    sheet = sheet_of(text, name, draw)
+    return sheet if isinstance(sheet, Flaw) else Quality.of_sheet(sheet).find_flaw(own)
 
 
 # ---- variants -------------------------------------------------------------------------------------------------------
@@ -145,10 +145,10 @@ class VariantSeries:
     @property
     def lines(self) -> Iterator[str]:
         """What is to be told of the draw."""
-        kinds = Counter(found.kind for _, _, found in self.drawn_anew)
+        kinds = Counter(flaw.kind for _, _, flaw in self.drawn_anew)
         for kind, count in kinds.most_common():
-            number, values, found = next(one for one in self.drawn_anew if one[2].kind == kind)
-            yield f"drawn anew {count} times, as {kind}: such as variant {number}: {values_text(values)}: {found.told}"
+            number, values, flaw = next(draw for draw in self.drawn_anew if draw[2].kind == kind)
+            yield f"drawn anew {count} times, as {kind}: such as variant {number}: {values_text(values)}: {flaw.told}"
         if self.repeated:
             yield f"[vary] has too few good values: {self.repeated} variants have the numbers of another"
 
@@ -168,11 +168,12 @@ def values_text(values: Values) -> str:
 
 def draw_values(choices: Choices, seed: int) -> Iterator[Values]:
     """Values drawn uniformly, none twice, until the grid is empty."""
-    random, seen = Random(seed).random, set[tuple[int, ...]]()  # of which Python promises the same numbers for ever
-    while len(seen) < math.prod(map(len, choices.values())):
+    # of which Python promises the same numbers for ever
+    random, drawn_places = Random(seed).random, set[tuple[int, ...]]()
+    while len(drawn_places) < math.prod(map(len, choices.values())):
         places = tuple(int(random() * len(values)) for values in choices.values())
-        if places not in seen:
-            seen.add(places)
+        if places not in drawn_places:
+            drawn_places.add(places)
             yield {path: values[place] for (path, values), place in zip(choices.items(), places, strict=True)}
 
 
@@ -201,15 +202,16 @@ class Wording:
                 _set_path(tables, path_parts(path), value)
             tables.pop("vary", None)
             tables["title"] = title
-            own = tomllib.loads("\n".join(f"{key} = {value}" for key, value in self.keys.items()), parse_float=decimal)
-            tables["sheet"] = tables.get("sheet", {}) | own
+            sheet_table = tomllib.loads("\n".join(f"{key} = {value}" for key, value in self.keys.items()),
+                                        parse_float=decimal)
+            tables["sheet"] = tables.get("sheet", {}) | sheet_table
 
         return ClassVariant(number, values, edit_text(self.text, edit, edit_tables))
 
 
 def _set_path(tables: Any, path: Sequence[str], value: Fraction) -> None:
-    for part in path[:-1]:
-        tables = tables[int(part) if isinstance(tables, list) else part]
+    for key in path[:-1]:
+        tables = tables[int(key) if isinstance(tables, list) else key]
     tables[int(path[-1]) if isinstance(tables, list) else path[-1]] = value
 
 
@@ -218,17 +220,17 @@ def _set_path(tables: Any, path: Sequence[str], value: Fraction) -> None:
 
 def sheet_keys(scene: Scene, scales: Scales, paper: str, *, multiples: bool = True) -> Keys:
     """What [sheet] says so that a scene is drawn on this paper at these scales; what it says already is left out."""
-    own = scene.sheet
-    found = {"paper": json.dumps(paper), "language": json.dumps(own.language)}
+    sheet = scene.sheet
+    keys = {"paper": json.dumps(paper), "language": json.dumps(sheet.language)}
     rates = bool(scene.drives or scene.motions)
-    found |= {} if own.k_s else {"k_s": _short_decimal(scales.k_s)}
-    found |= {} if own.k_v or not rates else {"k_v": _short_decimal(scales.k_s / scales.kappa)}
-    found |= {} if own.k_F or not scene.loads else {"k_F": _short_decimal(scales.k_s / scales.phi)}
-    if multiples and scales.multiples and not own.multiples:
+    keys |= {} if sheet.k_s else {"k_s": _short_decimal(scales.k_s)}
+    keys |= {} if sheet.k_v or not rates else {"k_v": _short_decimal(scales.k_s / scales.kappa)}
+    keys |= {} if sheet.k_F or not scene.loads else {"k_F": _short_decimal(scales.k_s / scales.phi)}
+    if multiples and scales.multiples and not sheet.multiples:
         plans = {panel.whole.twin: multiple for panel, multiple in scales.multiples.items()}  # type: ignore[attr-defined]
         entries = ", ".join(f"{json.dumps(str(plan))} = {_short_decimal(multiple)}" for plan, multiple in plans.items())
-        found["multiples"] = f"{{ {entries} }}"
-    return found
+        keys["multiples"] = f"{{ {entries} }}"
+    return keys
 
 
 def _short_decimal(value: Fraction | float) -> str:
@@ -265,13 +267,13 @@ class Design:
     def scales(self, pilots: Sequence[Values]) -> Keys:
         """The scales of the class: the first of some that enough of the first variants fit, else what most fit."""
         most: tuple[int, Keys] | None = None
-        seen: list[Keys] = []
+        tried: list[Keys] = []
         for keys in self._proposals(pilots):
-            if keys in seen:
+            if keys in tried:
                 continue
-            seen.append(keys)
+            tried.append(keys)
             texts = [self.wording(keys).variant(number, values).text for number, values in enumerate(pilots, 1)]
-            fitting = sum(found is None for found in self.shared_out(self._work, texts))
+            fitting = sum(flaw is None for flaw in self.shared_out(self._work, texts))
             if most is None or fitting > most[0]:
                 most = fitting, keys
             if fitting >= ENOUGH * len(pilots):
@@ -282,19 +284,22 @@ class Design:
     def _proposals(self, pilots: Sequence[Values]) -> Iterator[Keys]:
         """The scales of the scene's own sheet; then by how large the other plans of most good variants are drawn at its
         scale of lengths, and at the next coarser one."""
-        composition, given = self.drafted.composition, self.scene.sheet
-        own, paper = composition.scales, composition.arrangement.paper
-        yield sheet_keys(self.scene, own, paper)
-        coarser = round_up(own.k_s * (1 + SCALE_STEP), (1, own.kappa, own.kappa**2))
-        for k_s in dict.fromkeys((own.k_s, own.k_s if given.k_s or given.k_v or given.k_F else float(coarser))):
-            scales = replace(own, k_s=k_s)
+        composition, sheet = self.drafted.composition, self.scene.sheet
+        scales_of_scene, paper = composition.scales, composition.arrangement.paper
+        yield sheet_keys(self.scene, scales_of_scene, paper)
+        coarser = round_up(scales_of_scene.k_s * (1 + SCALE_STEP), (1, scales_of_scene.kappa, scales_of_scene.kappa**2))
+        for k_s in dict.fromkeys((scales_of_scene.k_s,
+                                  scales_of_scene.k_s if sheet.k_s or sheet.k_v or sheet.k_F else float(coarser))):
+            scales = replace(scales_of_scene, k_s=k_s)
             free = self.wording(sheet_keys(self.scene, scales, paper, multiples=False))
             texts = [free.variant(number, values).text for number, values in enumerate(pilots, 1)]
             work = partial(plan_multiples, name=self.scene.name, draw=self.draw, own=self.own_quality)
-            found = [one for one in self.shared_out(work, texts) if one is not None]
-            plans = [plan for plan in own.multiples if all(plan in one for one in found)]
-            ordered = {plan: sorted(one[plan] for one in found) for plan in plans if found}
-            fitted = [{plan: sizes[int(part * len(sizes))] for plan, sizes in ordered.items()} for part in SMALL]
+            variant_multiples = [multiples for multiples in self.shared_out(work, texts) if multiples is not None]
+            plans = [plan
+                     for plan in scales_of_scene.multiples if all(plan in multiples for multiples in variant_multiples)]
+            ordered = {plan: sorted(multiples[plan] for multiples in variant_multiples)
+                       for plan in plans if variant_multiples}
+            fitted = [{plan: sizes[int(share * len(sizes))] for plan, sizes in ordered.items()} for share in SMALL]
             yield from (sheet_keys(self.scene, replace(scales, multiples=sizes), paper) for sizes in fitted if sizes)
 
     @property
@@ -309,20 +314,22 @@ class Design:
         choices = self.scene.vary
         wording = self.wording(self.scales([*islice(draw_values(choices, seed), min(PILOTS, count + 2))]))
         tried = [*islice(draw_values(choices, seed), MOST_TRIES * count + PATIENCE)]
-        found, drawn_anew = list[Values](), list[tuple[int, Values, Flaw]]()
+        good_values, drawn_anew = list[Values](), list[tuple[int, Values, Flaw]]()
         flaws = self.shared_out(self._work, (wording.variant(count, values).text for values in tried))
         for values, wrong in zip(tried, flaws, strict=False):
             if wrong is None:
-                found.append(values)
+                good_values.append(values)
             else:
-                drawn_anew.append((len(found) + 1, values, wrong))
-            progress(len(found), count)
-            if len(found) == count or len(drawn_anew) > PATIENCE + MOST_TRIES * len(found):
+                drawn_anew.append((len(good_values) + 1, values, wrong))
+            progress(len(good_values), count)
+            if len(good_values) == count or len(drawn_anew) > PATIENCE + MOST_TRIES * len(good_values):
                 break
-        if len(found) < count and not (found and len(found) + len(drawn_anew) == math.prod(map(len, choices.values()))):
-            raise self._too_wide(wording, count, found, drawn_anew)
-        variants = (wording.variant(number, found[(number - 1) % len(found)]) for number in range(1, count + 1))
-        return VariantSeries(tuple(variants), tuple(drawn_anew), count - len(found))
+        if (len(good_values) < count
+            and not (good_values and len(good_values) + len(drawn_anew) == math.prod(map(len, choices.values())))):
+            raise self._too_wide(wording, count, good_values, drawn_anew)
+        variants = (wording.variant(number, good_values[(number - 1) % len(good_values)])
+                    for number in range(1, count + 1))
+        return VariantSeries(tuple(variants), tuple(drawn_anew), count - len(good_values))
 
     def _too_wide(self, wording: Wording, count: int, found: Sequence[Values],
                   drawn_anew: Sequence[tuple[int, Values, Flaw]]) -> Refused:
@@ -342,6 +349,6 @@ class Design:
 
 def plan_multiples(text: str, name: str, draw: Draw, own: Quality) -> Mapping[str, Fraction] | None:
     """How large the other plans of a scene are drawn; None where it is no task for the class."""
-    found = sheet_of(text, name, draw)
-    return None if isinstance(found,
-                              Flaw) or Quality.of_sheet(found).find_flaw(own) else found.composition.scales.multiples
+    sheet = sheet_of(text, name, draw)
+    return None if isinstance(sheet,
+                              Flaw) or Quality.of_sheet(sheet).find_flaw(own) else sheet.composition.scales.multiples

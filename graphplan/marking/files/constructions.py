@@ -124,11 +124,11 @@ def _run_command(name: str, arguments: list[Any]) -> Any:
 
     Fails with `ValueError` where it is not known, or not for these arguments.
     """
-    made, kinds = CALLS.get(name, (None, ()))
-    if made is None or len(arguments) > len(kinds) or not all(map(isinstance, arguments, kinds)):
+    command, kinds = CALLS.get(name, (None, ()))
+    if command is None or len(arguments) > len(kinds) or not all(map(isinstance, arguments, kinds)):
         raise ValueError(f"{name} is not known, or not of these")
     try:
-        return made(*arguments)
+        return command(*arguments)
     except (TypeError, ArithmeticError) as error:  # TypeError: it lacks arguments
         raise ValueError(f"{name}: {error}") from None
 
@@ -166,7 +166,7 @@ OPERATIONS: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
 
 def _python_term(term: str, names: list[str]) -> str:
     """A term in Python's grammar; its names are numbered, and gathered."""
-    found, place, term = [], 0, term.rstrip()
+    tokens, place, term = [], 0, term.rstrip()
     while place < len(term):
         token = TOKEN.match(term, place)
         if token is None or len(term) > LONGEST:
@@ -174,14 +174,14 @@ def _python_term(term: str, names: list[str]) -> str:
         numeral, name, sign = token.groups()
         if name:
             names.append(name)
-        found.append(repr(float(numeral)) if numeral else f"n{len(names) - 1}" if name else SIGNS.get(sign, sign))
+        tokens.append(repr(float(numeral)) if numeral else f"n{len(names) - 1}" if name else SIGNS.get(sign, sign))
         place = token.end()
-    return " ".join(found)
+    return " ".join(tokens)
 
 
 def _evaluate(node: ast.AST, names: list[str], known: Mapping[str, Any]) -> Any:
-    def of(part: ast.AST) -> Any:
-        return _evaluate(part, names, known)
+    def of(argument: ast.AST) -> Any:
+        return _evaluate(argument, names, known)
 
     match node:
         case ast.Constant(value=float(value)):
@@ -190,16 +190,16 @@ def _evaluate(node: ast.AST, names: list[str], known: Mapping[str, Any]) -> Any:
             return known[names[int(name[1:])]]
         case ast.Tuple(elts=[x, y]):
             return complex(_number(of(x)), _number(of(y)))
-        case ast.UnaryOp(op=ast.USub(), operand=part):
-            return _times(of(part), -1.0)
-        case ast.BinOp(op=ast.Pow(), left=part, right=ast.Name(id="degree")):
-            return _times(of(part), math.pi / 180)
+        case ast.UnaryOp(op=ast.USub(), operand=argument):
+            return _times(of(argument), -1.0)
+        case ast.BinOp(op=ast.Pow(), left=argument, right=ast.Name(id="degree")):
+            return _times(of(argument), math.pi / 180)
         case ast.BinOp(op=sign, left=one, right=two):
             return OPERATIONS[type(sign)](of(one), of(two))
         case ast.Compare(left=one, ops=[sign], comparators=[two]):
             return OPERATIONS[type(sign)](_number(of(one)), _number(of(two)))
         case ast.Call(func=ast.Name(id=name), args=arguments):
-            return _run_command(names[int(name[1:])], [of(part) for part in arguments])
+            return _run_command(names[int(name[1:])], [of(argument) for argument in arguments])
     raise ValueError("a term is not understood")
 
 
@@ -293,11 +293,11 @@ def _circle_of_conic(matrix: Element | None) -> CircleValue | None:
     """A circle by the coefficients of x², y², 1, xy, x and y, the last three halved; None where it is none."""
     if matrix is None:
         return None
-    xx, yy, one, xy, x, y = (coordinate(matrix.get(f"A{i}", "0")) for i in range(6))
-    if not math.isfinite(xx + yy + one + xy + x + y) or not xx or abs(xx - yy) + abs(xy) > NEAR * abs(xx):
+    xx, yy, constant, xy, x, y = (coordinate(matrix.get(f"A{i}", "0")) for i in range(6))
+    if not math.isfinite(xx + yy + constant + xy + x + y) or not xx or abs(xx - yy) + abs(xy) > NEAR * abs(xx):
         return None
     centre = complex(-x / xx, -y / xx)
-    square = abs(centre) ** 2 - one / xx
+    square = abs(centre) ** 2 - constant / xx
     return CircleValue(centre, math.sqrt(square)) if square > 0 else None
 
 

@@ -47,7 +47,7 @@ def arc_spots(centre: Spot, radius: float, start: float, end: float) -> tuple[Sp
     if sweep == 360:
         return circle_spots(centre, radius)
     z = complex(*centre)
-    spots = [z + cmath.rect(radius, math.radians(start + part * sweep)) for part in (0.0, 0.5, 1.0)]
+    spots = [z + cmath.rect(radius, math.radians(start + share * sweep)) for share in (0.0, 0.5, 1.0)]
     return tuple([(spot.real, spot.imag) for spot in spots])
 
 
@@ -58,8 +58,8 @@ def circle_trace(centre: Spot, radius: float) -> Trace:
 
 def dots_to_points(traces: Sequence[Trace]) -> list[Trace]:
     """The things with points for what stands for them: circles and crosses that are small beside all."""
-    size = extent([spot for trace in traces for spot in trace.spots] or [(0.0, 0.0)])
-    most = min(DOT, size / SMALL)
+    drawing_extent = extent([spot for trace in traces for spot in trace.spots] or [(0.0, 0.0)])
+    most = min(DOT, drawing_extent / SMALL)
     return _crosses_to_points([dot_or_circle(trace, most) for trace in traces], most)
 
 
@@ -67,23 +67,24 @@ def dot_or_circle(trace: Trace, radius: float = DOT) -> Trace:
     """A circle, or the point that a small one stands for."""
     if trace.kind != CIRCLE or len(trace.spots) != RING:
         return trace
-    found = circle_through(*trace.spots[:3])
-    return Trace(POINT, (found[0],)) if found and found[1] < radius else trace
+    rim = circle_through(*trace.spots[:3])
+    return Trace(POINT, (rim[0],)) if rim and rim[1] < radius else trace
 
 
 def _crosses_to_points(traces: Sequence[Trace], most: float) -> list[Trace]:
     """With a point for every two short strokes that halve each other."""
     short = [trace for trace in traces if trace.kind == LINE and math.dist(*trace.spots) < 3 * most]
-    found, crosses = dict[Trace, Trace | None](), STRtree([trace.figure.centroid for trace in short])
-    for one in short:
-        for place in crosses.query(one.figure.centroid, "dwithin", HALVED * one.figure.length):
-            other = short[place]
-            ways = [complex(*trace.spots[1]) - complex(*trace.spots[0]) for trace in (one, other)]
-            across = abs((ways[0].conjugate() * ways[1]).imag)
-            if one not in found and other not in found and across > SQUARED * max(abs(way) for way in ways) ** 2:
-                at = one.figure.centroid
-                found |= {one: Trace(POINT, ((at.x, at.y),)), other: None}
-    return [kept for trace in traces if (kept := found.get(trace, trace))]
+    replacements, crosses = dict[Trace, Trace | None](), STRtree([trace.figure.centroid for trace in short])
+    for first in short:
+        for place in crosses.query(first.figure.centroid, "dwithin", HALVED * first.figure.length):
+            second = short[place]
+            directions = [complex(*trace.spots[1]) - complex(*trace.spots[0]) for trace in (first, second)]
+            across = abs((directions[0].conjugate() * directions[1]).imag)
+            if (first not in replacements and second not in replacements
+                and across > SQUARED * max(abs(direction) for direction in directions) ** 2):
+                at = first.figure.centroid
+                replacements |= {first: Trace(POINT, ((at.x, at.y),)), second: None}
+    return [replacement for trace in traces if (replacement := replacements.get(trace, trace))]
 
 
 def chain_traces(spots: Sequence[Spot], short: float = 0.0) -> Iterator[Trace]:
@@ -91,8 +92,8 @@ def chain_traces(spots: Sequence[Spot], short: float = 0.0) -> Iterator[Trace]:
     what is not longer than `short` shows none."""
     if len(spots) > 2 and (far := extent(spots)) > short and _chord_deviation(spots) <= NEAR * far:
         yield Trace(LINE, (spots[0], spots[-1]))
-    elif len(spots) > ROUND and (found := recognize_curve(spots)):
-        yield found
+    elif len(spots) > ROUND and (curve := recognize_curve(spots)):
+        yield curve
     else:
         for start, end in pairwise(spots):
             if math.dist(start, end) > short:
@@ -106,24 +107,24 @@ def recognize_curve(spots: Sequence[Spot]) -> Trace | None:
     """
     count, far = len(spots) - 1, extent(spots)
     closed = math.dist(spots[0], spots[-1]) < NEAR * far
-    parts = [spots[count * i // 4] for i in range(4)] if closed else [spots[0], spots[count // 2], spots[-1]]
-    found = circle_through(*parts[:3])
-    off = max(abs(math.dist(spot, found[0]) - found[1]) for spot in spots) if found else math.inf
+    rim_spots = [spots[count * i // 4] for i in range(4)] if closed else [spots[0], spots[count // 2], spots[-1]]
+    rim = circle_through(*rim_spots[:3])
+    off = max(abs(math.dist(spot, rim[0]) - rim[1]) for spot in spots) if rim else math.inf
     bulge = _chord_deviation(spots)
     if bulge <= NEAR * far and not BULGE_TOL * far < bulge > FAR_CLOSER * off:
         return Trace(LINE, (spots[0], spots[-1])) if far > SHORT else None
-    if found is None or off > NEAR * found[1]:
+    if rim is None or off > NEAR * rim[1]:
         return None
-    return Trace(CIRCLE, tuple(parts))
+    return Trace(CIRCLE, tuple(rim_spots))
 
 
 def sharp_corners(corners: Sequence[Spot]) -> Iterator[Spot]:
     """The sharp corners of an outline, as the tip of an arrow's head is."""
     spots = [complex(*corner) for corner in corners]
-    for before, here, after in zip([*spots[-1:], *spots], spots, [*spots[1:], *spots[:1]], strict=False):
-        ways = (before - here) * (after - here).conjugate()
-        if ways and abs(cmath.phase(ways)) < SHARP:
-            yield here.real, here.imag
+    for before, vertex, after in zip([*spots[-1:], *spots], spots, [*spots[1:], *spots[:1]], strict=False):
+        turn = (before - vertex) * (after - vertex).conjugate()
+        if turn and abs(cmath.phase(turn)) < SHARP:
+            yield vertex.real, vertex.imag
 
 
 def circle_through(first: Spot, second: Spot, third: Spot) -> tuple[Spot, float] | None:
@@ -190,15 +191,16 @@ def word_at(text: str, at: Spot, size: float, anchor: float = 0.0) -> Lettering:
 def join_words(words: Sequence[Lettering]) -> list[Lettering]:
     """Words that stand apart in a file and together on the sheet, in the order of the file: smaller ones that are set
     lower become subscripts."""
-    found: list[Lettering] = []
+    joined_words: list[Lettering] = []
     end = math.inf
     for word in words:
-        if found and (link := _join_text(found[-1], end, word)) is not None:
-            found[-1] = word_at(found[-1].text + link + word.text, found[-1].at, found[-1].size)
+        if joined_words and (link := _join_text(joined_words[-1], end, word)) is not None:
+            joined_words[-1] = word_at(joined_words[-1].text + link + word.text, joined_words[-1].at,
+                                       joined_words[-1].size)
         else:
-            found.append(word)
+            joined_words.append(word)
         end = word.at[0] + word.long
-    return found
+    return joined_words
 
 
 def _join_text(whole: Lettering, end: float, word: Lettering) -> str | None:
@@ -226,8 +228,8 @@ def follow_leaders(words: Sequence[Lettering], traces: Sequence[Trace], leaders:
         if gap < LED * words[word].size and gap < ends.get(word, (math.inf,))[0]:
             ends[word] = gap, far
             taken.add(stroke)
-    found = [replace(word, leads=ends[place][1]) if place in ends else word for place, word in enumerate(words)]
-    return found, [trace for trace in traces if trace not in taken]
+    led_words = [replace(word, leads=ends[place][1]) if place in ends else word for place, word in enumerate(words)]
+    return led_words, [trace for trace in traces if trace not in taken]
 
 
 def _nearest_letters(boxes: STRtree, near: Spot, far: Spot) -> tuple[float, int, Spot]:
@@ -252,7 +254,8 @@ def _likely_leaders(traces: Sequence[Trace]) -> list[Trace]:
         mark, end = ends if marked[0] else ends[::-1]
         through = (lines[place] for place in strokes.query(mark, "dwithin", AT))
         return len(figures.query(end, "dwithin", FREE)) == 1 and not any(
-            other is not line and distance_off_line(other.spots, (end.x, end.y)) < FREE for other in through)
+            line_through is not line and distance_off_line(line_through.spots, (end.x, end.y)) < FREE
+            for line_through in through)
 
     return [line for line in lines if leader(line)]
 
@@ -283,8 +286,9 @@ def drawing_submission(path: Path, traces: Iterable[Trace], words: Sequence[Lett
     if not once:
         raise Refused(f"{path}", "it contains no point, line or circle", "give the drawing itself")
     sound = [word for word in words if word.size > 0 and on_paper(*word.at, word.size, word.long)]
-    letters, found = follow_leaders(join_words(sound), once, leaders)
-    shows = frozenset({LINE, *(trace.kind for trace in found)})
+    letters, remaining = follow_leaders(join_words(sound), once, leaders)
+    shows = frozenset({LINE, *(trace.kind for trace in remaining)})
     ends = tuple(tip for tip in tips if on_paper(*tip))
-    return Submission(path.name, tuple(found), shows=shows, frames=frames, tips=ends, letters=tuple(letters[:WORDS]),
+    return Submission(path.name, tuple(remaining), shows=shows, frames=frames, tips=ends,
+                      letters=tuple(letters[:WORDS]),
                       millimetres=millimetres)

@@ -61,8 +61,8 @@ def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None
         return reader
 
     reader = read_document(path, contents(path, LARGEST), read_model_space)
-    known = frames if reader.own and same_paper(reader.size, size) else {}
-    return drawing_submission(path, reader.traces, reader.words, known, reader.tips,
+    known_frames = frames if reader.own and same_paper(reader.size, size) else {}
+    return drawing_submission(path, reader.traces, reader.words, known_frames, reader.tips,
                               reader.leaders if reader.own else None,
                    reader.millimetres)
 
@@ -74,8 +74,8 @@ def read_document(path: Path, data: bytes, read_out: Callable[[Any], T]) -> T:
     except Refused:
         raise
     except Exception as error:  # whatever ezdxf stumbles over in a stranger's file
-        said = " ".join(f"{type(error).__name__} {error}".split())[:80]
-        raise Refused(f"{path}", f"the drawing is damaged ({said})", "save it anew") from None
+        reason = " ".join(f"{type(error).__name__} {error}".split())[:80]
+        raise Refused(f"{path}", f"the drawing is damaged ({reason})", "save it anew") from None
 
 
 def _load_document(data: bytes) -> Any:
@@ -93,9 +93,9 @@ def _check_size(path: Path, data: bytes) -> bytes:
         raise Refused(f"{path}", "it is a binary DXF", "save it as DXF in text (ASCII)")
     if b"SECTION" not in data[:4096]:
         raise Refused(f"{path}", "not a DXF file", "give a DXF drawing")
-    for pattern, most, things in ((rb"\n", LINES, "lines"), (rb"\n *0\r?\n", ENTITIES, "entities")):
+    for pattern, most, unit in ((rb"\n", LINES, "lines"), (rb"\n *0\r?\n", ENTITIES, "entities")):
         if sum(1 for _ in re.finditer(pattern, data)) > most:
-            raise Refused(f"{path}", f"it has more than {most} {things}", "a file of the drawing alone")
+            raise Refused(f"{path}", f"it has more than {most} {unit}", "a file of the drawing alone")
     return data
 
 
@@ -133,17 +133,17 @@ class _DxfReader:
             elif entity.dxftype() == "SOLID":  # the last two of its corners come the other way round
                 first, second, *last = map(self._spot, entity.vertices())
                 self.tips += sharp_corners([first, second, *reversed(last)])
-            elif not (self.own and (known := self._own_layer(entity, layer)) in NO_DRAWING):
-                found = list(self._traces(entity))
-                self.budget.spend(len(found))
-                self.traces += found
-            elif known == "letters" and entity.dxftype() == "LINE":
+            elif not (self.own and (own_layer := self._own_layer(entity, layer)) in NO_DRAWING):
+                traces = list(self._traces(entity))
+                self.budget.spend(len(traces))
+                self.traces += traces
+            elif own_layer == "letters" and entity.dxftype() == "LINE":
                 self.leaders += self._traces(entity)
 
     def _own_layer(self, entity: Any, layer: str) -> str:
         """The layer of graphplan's own sheet: what of a step is no drawing bears it, all else is on it."""
-        told = entity.get_xdata(OWN)[0].value if entity.has_xdata(OWN) else ""
-        return told if told in NO_DRAWING else layer.removeprefix(SHEET).partition("-")[0]
+        named_layer = entity.get_xdata(OWN)[0].value if entity.has_xdata(OWN) else ""
+        return named_layer if named_layer in NO_DRAWING else layer.removeprefix(SHEET).partition("-")[0]
 
     def _block(self, insert: Any, depth: int) -> None:
         """A block where it is put, each of its copies."""
@@ -197,15 +197,15 @@ class _DxfReader:
             yield self._circle_of_halves(*polyline.vertices_in_wcs())
             return
         chain: list[Spot] = []
-        for part in polyline.virtual_entities():
-            if part.dxftype() == "LINE":
-                ends = [self._spot(part.dxf.start), self._spot(part.dxf.end)]
+        for segment in polyline.virtual_entities():
+            if segment.dxftype() == "LINE":
+                ends = [self._spot(segment.dxf.start), self._spot(segment.dxf.end)]
                 if chain and chain[-1] != ends[0]:
                     yield from chain_traces(chain, self.short)
                     chain = []
                 chain += ends[len(chain) > 0 :]
-            elif part.dxftype() == "ARC":
-                yield self._arc(part)
+            elif segment.dxftype() == "ARC":
+                yield self._arc(segment)
         yield from chain_traces(chain, self.short)
 
     def _circle_of_halves(self, one: Any, other: Any) -> Trace:
@@ -218,12 +218,12 @@ class _DxfReader:
         for path in hatch.paths.rendering_paths(hatch.dxf.hatch_style):
             if hasattr(path, "vertices"):
                 corners = [self._spot(vertex) for vertex in [*path.vertices, *path.vertices[:1]]]
-                found = self._circle_of_halves(*path.vertices) if len(path.vertices) == 2 else recognize_curve(corners)
+                trace = self._circle_of_halves(*path.vertices) if len(path.vertices) == 2 else recognize_curve(corners)
             else:
                 rings = [edge for edge in path.edges if edge.type.name == "ARC" and len(path.edges) == 1]
-                found = circle_trace(self._spot(rings[0].center), rings[0].radius * self.mm) if rings else None
-            if found and (seen := dot_or_circle(found)).kind == POINT:
-                yield seen
+                trace = circle_trace(self._spot(rings[0].center), rings[0].radius * self.mm) if rings else None
+            if trace and (point := dot_or_circle(trace)).kind == POINT:
+                yield point
 
     def add_endless_lines(self) -> None:
         """Lines without ends, as far as they lie beside the rest."""
@@ -235,16 +235,16 @@ class _DxfReader:
         if entity.dxftype() == "MTEXT":
             text = plain_mtext(HANGING.sub(r"_\1", RAISED.sub(r"\1", entity.text))).strip()
             high, (row, column) = entity.dxf.char_height * self.mm, divmod(entity.dxf.attachment_point - 1, 3)
-            (x, y), lower, part = self._spot(entity.dxf.insert), 1 - row / 2, column / 2
+            (x, y), lower, anchor = self._spot(entity.dxf.insert), 1 - row / 2, column / 2
         else:
             text = entity.plain_text().strip()
             high, (align, first, second) = entity.dxf.height * self.mm, entity.get_placement()
-            part = next((part for name, part in BASE_LINES.items() if align.name.endswith(name)), 0.0)
-            x, y = self._spot(second if part and second is not None else first)
+            anchor = next((anchor for name, anchor in BASE_LINES.items() if align.name.endswith(name)), 0.0)
+            x, y = self._spot(second if anchor and second is not None else first)
             lower = 1.0 if "TOP" in align.name else 0.5 if "MIDDLE" in align.name else 0.0
         if high > 0 and "\n" not in text and not (self.own and x > self.size[0] + BESIDE):
             place = x, y - lower * high
-            self.words.append(word_at(text.replace("^ ", "_").replace("^", ""), place, high / CAPS, part))
+            self.words.append(word_at(text.replace("^ ", "_").replace("^", ""), place, high / CAPS, anchor))
 
     def _spot(self, vector: Any) -> Spot:
         return (vector[0] - self.origin[0]) * self.mm, (vector[1] - self.origin[1]) * self.mm

@@ -73,8 +73,8 @@ def _round(objects: GeoGebraObjects, label: str, name: str) -> Iterator[Trace]:
         angles = [math.degrees(math.atan2((end - centre).imag, (end - centre).real)) for end in ends]
         yield Trace(CIRCLE, arc_spots((centre.real, centre.imag), abs(ends[0] - centre), *angles), name)
     elif isinstance(circle, CircleValue):
-        found = circle_trace((circle.at.real, circle.at.imag), circle.radius)
-        yield Trace(found.kind, found.spots, name)
+        trace = circle_trace((circle.at.real, circle.at.imag), circle.radius)
+        yield Trace(trace.kind, trace.spots, name)
 
 
 def _ends(objects: GeoGebraObjects, label: str) -> tuple[Spot, Spot] | None:
@@ -101,6 +101,6 @@ def _ends(objects: GeoGebraObjects, label: str) -> tuple[Spot, Spot] | None:
 def _letters(label: str, element: Element) -> str:
     """What stands beside an object: its caption where this is shown or the label is no mark's, else its label."""
     mode, caption = element.find("labelMode"), element.find("caption")
-    said = "" if caption is None else caption.get("val", "")
+    caption_text = "" if caption is None else caption.get("val", "")
     captioned = not mark_name(label) or (mode is not None and mode.get("val") == CAPTION)
-    return said if captioned and mark_name(said) else label
+    return caption_text if captioned and mark_name(caption_text) else label

@@ -103,7 +103,7 @@ def student_number(quantity: str, of: str, value: Sequence[float], unit: str, ro
         raise ValueError(f"{quantity!r} is not a quantity")
     if len(value) != (1 if QUANTITIES[kind].single else 2):
         raise ValueError(f"{kind} is {'one number' if QUANTITIES[kind].single else 'a vector'}")
-    if any(abs(part) > LARGEST for part in value):
+    if any(abs(component) > LARGEST for component in value):
         raise ValueError("a number is too large")
     if unit:
         unit_factor(unit, QUANTITIES[kind].dimension, Units())
@@ -132,14 +132,14 @@ def entry_hint(quantity: str, of: str = "") -> str:
     kind, _ = _name_quantity(quantity, of)
     if kind not in QUANTITIES:
         return f"one of {', '.join(QUANTITIES)}"
-    parts = "value" if QUANTITIES[kind].single else "x and y, or size and angle"
-    return f"{parts}, in a unit such as {example_unit(QUANTITIES[kind].dimension)}"
+    columns = "value" if QUANTITIES[kind].single else "x and y, or size and angle"
+    return f"{columns}, in a unit such as {example_unit(QUANTITIES[kind].dimension)}"
 
 
 def in_scene_units(number: StudentNumber, units: Units) -> tuple[float, ...]:
     """A result in the scene's units; one without a unit is in them already. Units were checked as `entry` was made."""
-    one = scene_unit(number, units)
-    return tuple([one * part for part in number.value])
+    unit_size = scene_unit(number, units)
+    return tuple([unit_size * component for component in number.value])
 
 
 def scene_unit(number: StudentNumber, units: Units) -> float:
@@ -168,50 +168,51 @@ def unit_factor(written: str, dimension: Dimension, units: Units) -> float:
 
     Fails with `ValueError` where it is no unit, or none of this dimension.
     """
-    size, powers = 1.0, [0, 0, 0]
+    product, powers = 1.0, [0, 0, 0]
     for name, power in _unit_factors(written):
         if name == TEN:
-            size *= 10.0**power
+            product *= 10.0**power
             continue
-        one, bases = BASES[name]
-        size *= one**power
+        unit_size, bases = BASES[name]
+        product *= unit_size**power
         powers = [total + power * base for total, base in zip(powers, bases, strict=True)]
     if tuple(powers) != dimension[:3]:
         raise ValueError(f"{written!r} is not a unit such as {example_unit(dimension)}")
     if dimension == INERTIA:
-        return size / float(KILOGRAMS[units.mass])
+        return product / float(KILOGRAMS[units.mass])
     force = float(NEWTONS[units.force]) ** dimension.force  # the scene's; its moments are in forces times metres
-    return size / (force if dimension == MOMENT else force * float(METRES[units.length]) ** dimension.length)
+    return product / (force if dimension == MOMENT else force * float(METRES[units.length]) ** dimension.length)
 
 
 def _unit_factors(written: str) -> list[tuple[str, int]]:
     """The factors of a unit with their powers; all that stands after a slash divides."""
     if len(written) > LONGEST:
         raise ValueError(f"{written[:LONGEST]!r}... is not a known unit")
-    found = []
-    for place, part in enumerate(written.translate(RAISED).split("/")):
-        for piece in re.split(r"[\s·*⋅×.]+", part.strip(" ()·*⋅×.")):
+    factors = []
+    for place, numerator_or_denominator in enumerate(written.translate(RAISED).split("/")):
+        for piece in re.split(r"[\s·*⋅×.]+", numerator_or_denominator.strip(" ()·*⋅×.")):
             sign = -1 if place else 1
             if tens := TENS.fullmatch(piece):
-                found.append((TEN, int(tens[1]) * sign))
+                factors.append((TEN, int(tens[1]) * sign))
                 continue
             fits = FACTOR.fullmatch(piece)
             names = _unit_names(fits[1]) if fits else []
             if not (fits and names):
                 raise ValueError(f"{written!r} is not a known unit")
-            found += [(name, 1 * sign) for name in names[:-1]] + [(names[-1], int(fits[2] or 1) * sign)]
-    return found
+            factors += [(name, 1 * sign) for name in names[:-1]] + [(names[-1], int(fits[2] or 1) * sign)]
+    return factors
 
 
 def _unit_names(written: str) -> list[str]:
     """The unit, or the two of a force and a length that are written in one, as in Nm."""
-    known = written if written in BASES else _foreign_units().get(written)
-    if known:
-        return [known]
+    name = written if written in BASES else _foreign_units().get(written)
+    if name:
+        return [name]
     for place in range(1, len(written)):
-        parts = [part if part in BASES else _foreign_units().get(part) for part in (written[:place], written[place:])]
-        if parts[0] in FORCES_NAMED and parts[1] in METRES:
-            return [part for part in parts if part]
+        names = [piece if piece in BASES else _foreign_units().get(piece)
+                 for piece in (written[:place], written[place:])]
+        if names[0] in FORCES_NAMED and names[1] in METRES:
+            return [piece for piece in names if piece]
     return []
 
 
@@ -219,7 +220,7 @@ def _unit_names(written: str) -> list[str]:
 def _foreign_units() -> dict[str, str]:
     """The units by what the catalogues call them, such as mm by мм."""
     tables = (catalogue(code)[UNITS] for code in LANGUAGES if code != "en")
-    return {str(own): unit for table in tables for unit, own in table.items()}
+    return {str(foreign): unit for table in tables for unit, foreign in table.items()}
 
 
 def example_unit(dimension: Dimension) -> str:

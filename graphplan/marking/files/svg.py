@@ -75,13 +75,13 @@ def length(written: str | None, whole: float = 0.0, otherwise: float = 0.0) -> f
     """
     if written is None or written.strip() == "auto":
         return otherwise
-    found = LENGTH.fullmatch(written)
-    if found is None:
+    number_and_unit = LENGTH.fullmatch(written)
+    if number_and_unit is None:
         raise ValueError(f"{written[:40]!r} is not a length")
     sizes = {"": 1.0, "%": whole / 100, "em": 16.0, "rem": 16.0, "ex": 8.0} | {u: mm / MM["px"] for u, mm in MM.items()}
-    if (unit := found[2].lower()) not in sizes:
+    if (unit := number_and_unit[2].lower()) not in sizes:
         raise ValueError(f"{unit!r} is not a unit of length")
-    return float(found[1]) * sizes[unit]
+    return float(number_and_unit[1]) * sizes[unit]
 
 
 def paper(root: Element) -> tuple[Matrix, Viewport, tuple[float, float]]:
@@ -115,8 +115,8 @@ def transform(written: str | None) -> Matrix:
     Fails with `ValueError` where it is none.
     """
     try:
-        found = Matrix(written or "")
-        return Matrix(*(float(getattr(found, part)) for part in "abcdef"))
+        matrix = Matrix(written or "")
+        return Matrix(*(float(getattr(matrix, coefficient)) for coefficient in "abcdef"))
     except (ValueError, TypeError, IndexError):
         raise ValueError(f"{str(written)[:40]!r} is not a transform") from None
 
@@ -143,12 +143,12 @@ def segments(data: str) -> Path:
 def chains(drawn: Path, onto: Matrix) -> Iterator[tuple[bool, list[Spot]]]:
     """The chains of a path on paper, and whether curves join their spots: a new one wherever the pen is lifted, or goes
     over from straight pieces to curves."""
-    parts = (part for part in drawn if not isinstance(part, Close) or part.start != part.end)
-    for smooth, group in groupby(parts, key=_is_curve):
+    segments_drawn = (segment for segment in drawn if not isinstance(segment, Close) or segment.start != segment.end)
+    for smooth, group in groupby(segments_drawn, key=_is_curve):
         chain = list(group)
         if smooth is not None:
-            ends = [part.point(i / PARTS) if i < PARTS else part.end
-                    for part in chain for i in range(1 if smooth else PARTS, PARTS + 1)]
+            ends = [segment.point(i / PARTS) if i < PARTS else segment.end
+                    for segment in chain for i in range(1 if smooth else PARTS, PARTS + 1)]
             yield smooth, [spot(onto, end) for end in (chain[0].start, *ends)]
 
 
@@ -178,8 +178,8 @@ def inherit_look(look: Look, above: Look) -> Look:
 
 
 def _style_entries(style: str) -> dict[str, str]:
-    parts = (part.partition(":") for part in style.split(";"))
-    return {name.strip(): value.strip() for name, _, value in parts if name.strip() in LOOKS}
+    entries = (entry.partition(":") for entry in style.split(";"))
+    return {name.strip(): value.strip() for name, _, value in entries if name.strip() in LOOKS}
 
 
 ANCHORS = {"middle": 0.5, "end": 1.0}
@@ -215,20 +215,20 @@ def words(element: Element, onto: Matrix, view: Viewport, look: Look, looks: Loo
         lines[-1].add(span.tail, lines[-1].drop > 0)
     for line in lines:
         if line.letters:
-            size = line.size * abs(onto.determinant) ** 0.5
-            yield word_at("".join(line.letters), spot(onto, line.at), size, line.anchor)
+            font_size = line.size * abs(onto.determinant) ** 0.5
+            yield word_at("".join(line.letters), spot(onto, line.at), font_size, line.anchor)
 
 
 def _add_span(span: Element, lines: list[_Line], view: Viewport, look: Look, looks: Looks, low: bool) -> None:
     """A span: it goes on in the line, lower or not, or begins another at its own place."""
-    own = looks.look_of(span)
-    look = inherit_look(own, look)
+    span_look = looks.look_of(span)
+    look = inherit_look(span_look, look)
     if span.get("x") is not None:
         lines.append(_begin_line(span, view, look, lines[-1].at))
     else:
         lines[-1].drop += length(_first_length(span.get("dy")), view.high)
     line = lines[-1]
-    low = low or line.drop > 0.05 * line.size or own.get("baseline-shift", "").startswith(("sub", "-"))
+    low = low or line.drop > 0.05 * line.size or span_look.get("baseline-shift", "").startswith(("sub", "-"))
     line.add(span.text, low)
     for inner in span:
         if inner.tag == "tspan":
@@ -267,8 +267,8 @@ def read_svg(path: File, frames: Frames, size: tuple[float, float] | None = None
     if root.tag != "svg":
         raise Refused(f"{path}", f"this is XML of another kind ({root.tag[:20]})", "give an SVG drawing")
     reader = _SvgReader(path, root)
-    known = frames if reader.own and same_paper(reader.size, size) else {}
-    return drawing_submission(path, reader.traces, reader.words, known, reader.tips,
+    known_frames = frames if reader.own and same_paper(reader.size, size) else {}
+    return drawing_submission(path, reader.traces, reader.words, known_frames, reader.tips,
                               reader.leaders if reader.own else None,
                    reader.millimetres)
 
@@ -321,20 +321,20 @@ class _SvgReader:
         onto = transform(element.get("transform")) * place.onto
         if not on_paper(onto.a, onto.b, onto.c, onto.d, onto.e, onto.f):
             raise ValueError("a transform leads off the paper")
-        drawn = place.drawn and element.get("class") not in NOT_DRAWN
-        here = _Place(onto, place.view, inherit_look(look, place.look), place.depth + 1, drawn)
+        is_drawn = place.drawn and element.get("class") not in NOT_DRAWN
+        inner_place = _Place(onto, place.view, inherit_look(look, place.look), place.depth + 1, is_drawn)
         if element.tag in GROUPS:
-            self._group(element, here)
+            self._group(element, inner_place)
         elif element.tag == "use":
-            self._copy(element, here)
-        elif here.look.get("visibility") in ("hidden", "collapse"):
+            self._copy(element, inner_place)
+        elif inner_place.look.get("visibility") in ("hidden", "collapse"):
             return
         elif element.tag == "text":  # letters beside marks stand on layers of a sheet that are no drawing
             self.budget.spend(sum(1 for _ in element.iter()))
             self.letters.spend(sum(map(len, element.itertext())))
-            self.words += words(element, here.onto, here.view, here.look, self.looks)
-        elif drawn:
-            self._shape(element, here)
+            self.words += words(element, inner_place.onto, inner_place.view, inner_place.look, self.looks)
+        elif is_drawn:
+            self._shape(element, inner_place)
 
     def _group(self, element: Element, place: _Place) -> None:
         if element.tag == "svg":
@@ -380,15 +380,16 @@ def _traces(element: Element, onto: Matrix, view: Viewport) -> Iterator[Trace]:
     elif element.tag in CHAINS:
         shape = CHAINS[element.tag](points=element.get("points", ""))
     else:
-        made, keys = SHAPES[element.tag]
+        shape_type, keys = SHAPES[element.tag]
         sizes = {key: view(element, key) for key in keys}
         radii = [sizes[key] for key in ("r", "rx", "ry") if key in sizes]
         if radii and 0 < max(radii) * abs(onto.determinant) ** 0.5 < DOT:
             yield Trace(POINT, (spot(onto, complex(sizes["cx"], sizes["cy"])),))
             return
-        shape = made(**sizes | ({"rx": radii[0] or radii[1], "ry": radii[1] or radii[0]} if "rx" in sizes else {}))
+        shape = shape_type(**sizes | ({"rx": radii[0] or radii[1], "ry": radii[1] or radii[0]} if "rx" in sizes
+                                      else {}))
     for smooth, spots in chains(Path(shape), onto):
         if not smooth:
             yield from chain_traces(spots, SHORT)
-        elif one := recognize_curve(spots):
-            yield one
+        elif curve := recognize_curve(spots):
+            yield curve

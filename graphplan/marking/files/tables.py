@@ -77,11 +77,11 @@ def _row_answers(where: str, row: Mapping[str, str]) -> Iterator[TableAnswer]:
 
 def read_toml(path: Path, panels: Collection[str]) -> Submission:
     """The marks, lines, circles, frames and results of a TOML file."""
-    said = text(path, LARGEST_TOML)
-    if sum(line.count(".") ** 2 for line in said.splitlines()) > DOTS**2:
+    content = text(path, LARGEST_TOML)
+    if sum(line.count(".") ** 2 for line in content.splitlines()) > DOTS**2:
         raise Refused(f"{path}", "its lines have too many dots", "a line for each mark")
     try:
-        tables = tomllib.loads(said, parse_float=toml_float)
+        tables = tomllib.loads(content, parse_float=toml_float)
     except RecursionError:
         raise Refused(f"{path}", "tables or lists are nested too deeply", "[marks] with A = [x, y]") from None
     except ValueError as error:
@@ -103,8 +103,8 @@ class _Reader:
         self.left_out: list[str] = []  # arcs that are too small to be seen
 
     def fault(self, where: str, why: str, do: str) -> Refused:
-        shown = "".join([char if char.isprintable() else " " for char in where[:80]])
-        return Refused(f"{self.path}: {shown}", why, do)
+        place = "".join([char if char.isprintable() else " " for char in where[:80]])
+        return Refused(f"{self.path}: {place}", why, do)
 
     def number(self, where: str, value: Any) -> float:
         if isinstance(value, bool) or not isinstance(value, int | float) or not -1e300 < value < 1e300:
@@ -112,10 +112,10 @@ class _Reader:
         return value if isinstance(value, WrittenNumber) else float(value)
 
     def length(self, where: str, value: Any) -> float:
-        found = self.number(where, value)
-        if not on_paper(found):
-            raise self.fault(where, f"{found:g} mm lies outside any sheet of paper", "millimetres as measured")
-        return found
+        length = self.number(where, value)
+        if not on_paper(length):
+            raise self.fault(where, f"{length:g} mm lies outside any sheet of paper", "millimetres as measured")
+        return length
 
     def pair(self, where: str, value: Any) -> Spot:
         if not isinstance(value, list) or len(value) != 2:
@@ -136,8 +136,8 @@ class _Reader:
     def panel(self, where: str, name: str, do: str = "one of them") -> str:
         """The plan that is meant, or nothing where none is named."""
         if name.strip() and _plan_key(name) not in self.panels:
-            known = ", ".join(self.panels.values())
-            raise self.fault(where, f"the construction has no plan {name.strip()[:40]!r}, but {known}", do)
+            panel_names = ", ".join(self.panels.values())
+            raise self.fault(where, f"the construction has no plan {name.strip()[:40]!r}, but {panel_names}", do)
         return self.panels[_plan_key(name)] if name.strip() else ""
 
     def spots(self, where: str, kind: str, value: Any, fault: Refused) -> tuple[Spot, ...]:
@@ -145,13 +145,13 @@ class _Reader:
         if not isinstance(value, list) or not value:
             raise fault
         if not isinstance(value[0], list):
-            numbers = [self.length(where, part) for part in value]
+            numbers = [self.length(where, coordinate) for coordinate in value]
             self.read_off += numbers
             if kind == CIRCLE and len(numbers) == 3 and numbers[2] >= SHORT:
                 return circle_spots((numbers[0], numbers[1]), numbers[2])
             value = [numbers] if kind == POINT else []
         else:
-            self.read_off += [part for spot in value for part in self.pair(where, spot)]
+            self.read_off += [coordinate for spot in value for coordinate in self.pair(where, spot)]
         spots = [(float(x), float(y)) for x, y in (self.pair(where, spot) for spot in value)]
         good = {POINT: len(spots) == 1, LINE: len(spots) == 2 and math.dist(*spots) >= SHORT,
                 CIRCLE: _shows_circle(spots)}
@@ -179,8 +179,8 @@ class _Reader:
 
 def _shows_circle(spots: list[Spot]) -> bool:
     """Whether spots show a circle by their first, middle and last, by which it is measured."""
-    found = circle_through(spots[0], spots[len(spots) // 2], spots[-1]) if len(spots) >= 3 else None
-    return found is not None and found[1] >= SHORT
+    rim = circle_through(spots[0], spots[len(spots) // 2], spots[-1]) if len(spots) >= 3 else None
+    return rim is not None and rim[1] >= SHORT
 
 
 class _CsvReader(_Reader):
@@ -196,7 +196,7 @@ class _CsvReader(_Reader):
             return Submission(self.path.name, self.with_precision(traces), shows=_shown_kinds(traces), measured=True,
                               stated=stated, left_out=tuple(self.left_out))
         if "quantity" in header:
-            numbers = [found for where, row in rows if (found := self._result(where, row))]
+            numbers = [result for where, row in rows if (result := self._result(where, row))]
             return Submission(self.path.name, numbers=tuple(numbers))
         raise Refused(f"{self.path}", "its first line names no known columns",
                       "mark,x,y for measured points or quantity,of,x,y,unit for results")
@@ -216,9 +216,10 @@ class _CsvReader(_Reader):
         """The names of the columns, and the rows that say something."""
         lines = text(self.path, LARGEST_CSV).splitlines()
         Budget(self.path, TRACES, "lines").spend(len(lines))
-        said = [(f"line {i}", line) for i, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] != "#"]
-        self.separator = next((mark for mark in "\t;" if said and mark in said[0][1]), ",")
-        cells = self._cells(said)
+        numbered_lines = [(f"line {i}", line)
+                          for i, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] != "#"]
+        self.separator = next((mark for mark in "\t;" if numbered_lines and mark in numbered_lines[0][1]), ",")
+        cells = self._cells(numbered_lines)
         where, first = next(cells, ("", []))
         header = [cell.casefold() for cell in first]
         if twice := [name for name in header if name and header.count(name) > 1]:
@@ -247,13 +248,13 @@ class _CsvReader(_Reader):
 
     def _numbers(self, where: str, row: Mapping[str, str], *columns: str) -> list[WrittenNumber]:
         """The numbers in these columns; none where all are empty."""
-        found = []
+        numbers = []
         for column in columns if any(row[column] for column in columns) else ():
             try:
-                found.append(parse_number(row[column] if self.separator == "," else row[column].replace(",", ".", 1)))
+                numbers.append(parse_number(row[column] if self.separator == "," else row[column].replace(",", ".", 1)))
             except ValueError as error:
                 raise self.fault(f"{where}: {column}", str(error), "a decimal number such as 12.5") from None
-        return found
+        return numbers
 
     def _mark_trace(self, where: str, row: Mapping[str, str]) -> Trace | None:
         """The mark in a row; None where it is not measured, as is no line between two marks that are one, and no arc
@@ -278,12 +279,12 @@ class _CsvReader(_Reader):
         """The result in a row; None where it is not filled in."""
         x, value = self._numbers(where, row, "x", "y"), self._numbers(where, row, "value")
         polar = self._numbers(where, row, "size", "angle")
-        given = [found for found in (x, polar, value) if found]
-        if len(given) > 1:
+        results = [columns for columns in (x, polar, value) if columns]
+        if len(results) > 1:
             raise self.fault(where, "the result is given twice", "x and y, or size and angle, or value")
         quantity, of, unit = row["quantity"], row["of"], row["unit"]
         do = entry_hint(quantity, of)
-        return self.result(where, quantity, of, given[0], unit, do, polar=bool(polar)) if given else None
+        return self.result(where, quantity, of, results[0], unit, do, polar=bool(polar)) if results else None
 
 
 def _shown_kinds(traces: Iterable[Trace]) -> frozenset[str]:
@@ -295,9 +296,9 @@ class _TomlReader(_Reader):
     """Reads tables by their names."""
 
     def read(self, tables: Mapping[str, Any]) -> Submission:
-        known = [*TABLES, "precision", "results", "frames"]
-        if unknown := [key for key in tables if key not in known]:
-            raise self.fault(unknown[0], "unknown entry", f"choose one of {', '.join(known)}")
+        known_keys = [*TABLES, "precision", "results", "frames"]
+        if unknown := [key for key in tables if key not in known_keys]:
+            raise self.fault(unknown[0], "unknown entry", f"choose one of {', '.join(known_keys)}")
         self.blur = self.precision("precision", self.length("precision", tables.get("precision", 0.0)))
         self.budget = Budget(self.path, TRACES, "marks")
         traces = [trace for key, kind in TABLES.items()
@@ -306,8 +307,8 @@ class _TomlReader(_Reader):
                    for number in self._results(kind, self._table(f"results.{kind}", table))]
         frames = {self.panel("frames", panel): self._frame(f"frames.{panel}", table)
                   for panel, table in self._table("frames", tables.get("frames", {})).items()}
-        shown = _shown_kinds(traces) if traces else frozenset()
-        return Submission(self.path.name, self.with_precision(traces), tuple(numbers), shown, frames,
+        kinds = _shown_kinds(traces) if traces else frozenset()
+        return Submission(self.path.name, self.with_precision(traces), tuple(numbers), kinds, frames,
                           measured=True, stated="precision" in tables)
 
     def _table(self, where: str, value: Any) -> Mapping[str, Any]:
@@ -335,8 +336,8 @@ class _TomlReader(_Reader):
             if of == "unit" and isinstance(value, str):
                 continue
             polar = isinstance(value, dict) and set(value) == {"size", "angle"}
-            parts = [value["size"], value["angle"]] if polar else value if isinstance(value, list) else [value]
-            numbers = [self.number(where, part) for part in parts]
+            components = [value["size"], value["angle"]] if polar else value if isinstance(value, list) else [value]
+            numbers = [self.number(where, component) for component in components]
             yield self.result(where, kind, of, numbers, str(unit), "such as A = [1.5, 2] with unit = \"m/s\"",
                               polar=polar)
 

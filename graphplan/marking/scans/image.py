@@ -96,14 +96,14 @@ def _decode(path: Path, data: bytes, size: tuple[int, int] | None) -> Grey:
 def _silence() -> Iterator[None]:
     """Nothing is written to standard error within: decoders tell there what they find, past all of Python."""
     sys.stderr.flush()
-    kept, nowhere = os.dup(STDERR), os.open(os.devnull, os.O_WRONLY)
+    standard_error, nowhere = os.dup(STDERR), os.open(os.devnull, os.O_WRONLY)
     try:
         os.dup2(nowhere, STDERR)
         yield
     finally:
-        os.dup2(kept, STDERR)
+        os.dup2(standard_error, STDERR)
         os.close(nowhere)
-        os.close(kept)
+        os.close(standard_error)
 
 
 def count(path: Path) -> int:

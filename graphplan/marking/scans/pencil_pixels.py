@@ -83,8 +83,8 @@ def pencil_ink(image: NDArray[np.float32], sheet: Sheet, light: Light, scale: fl
 
 def _disc(radius: float) -> NDArray[np.uint8]:
     """All that is so many pixels about."""
-    size = 2 * round(radius) + 1
-    return np.asarray(cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (size, size)), np.uint8)
+    diameter = 2 * round(radius) + 1
+    return np.asarray(cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (diameter, diameter)), np.uint8)
 
 
 def _paper_lightness(paper: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -135,7 +135,7 @@ def find_ridges(ink: PencilInk) -> Ridges:
     grain = max(median_deviation(open_ - np.median(open_)), measures.MIN_PAPER_GRAIN)
     floor = float(np.median(open_)) + measures.FAINT_SIGMAS * grain
     row, column = np.nonzero(strength > floor)
-    values = [part[row, column].astype(float) for part in (xx, yy, xy)]
+    values = [derivative[row, column].astype(float) for derivative in (xx, yy, xy)]
     return _crests_at(ink, smooth, row, column, values,
                       (strength[row, column].astype(float) - np.median(open_)) / grain)
 
@@ -161,8 +161,8 @@ def _crests_at(ink: PencilInk, smooth: NDArray[np.float32], row: NDArray[np.intp
 
 def find_dots(ink: PencilInk, smooth: NDArray[np.float32], usual: float) -> list[Trace]:
     """All dark spots of the blurred pencil, whose lines are usually so dark, at their centres of darkness."""
-    size = 2 * round(2 * measures.HALF_DOT_MM * ink.scale) + 1
-    top = (smooth >= cv2.dilate(smooth, np.ones((size, size), np.uint8))) & (smooth > measures.MIN_DOT_DARKNESS)
+    window = 2 * round(2 * measures.HALF_DOT_MM * ink.scale) + 1
+    top = (smooth >= cv2.dilate(smooth, np.ones((window, window), np.uint8))) & (smooth > measures.MIN_DOT_DARKNESS)
     row, column = np.nonzero(top)
     xx, yy, xy = (cv2.Sobel(smooth, cv2.CV_32F, i, j, ksize=3)[row, column] for i, j in ((2, 0), (0, 2), (1, 1)))
     middle, spread = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
@@ -214,12 +214,12 @@ class Ring:
 def find_rings(found: Ridges, ink: PencilInk, usual: float) -> list[Ring]:
     """The rings among crests, of a pencil that is usually so dark, the clearest first."""
     looked = [_fit_ring(ink, *candidate, usual) for candidate in _ring_candidates(found)]
-    kept: list[Ring] = []
+    kept_rings: list[Ring] = []
     for ring in sorted((ring for ring in looked if ring), key=lambda ring: -ring.clear):
-        if all(np.hypot(*(ring.middle - other.middle)) > measures.SAME_RING_SHARE * (ring.radius + other.radius)
-               for other in kept):
-            kept.append(ring)
-    return kept
+        if all(np.hypot(*(ring.middle - kept_ring.middle)) > measures.SAME_RING_SHARE * (ring.radius + kept_ring.radius)
+               for kept_ring in kept_rings):
+            kept_rings.append(ring)
+    return kept_rings
 
 
 def _ring_candidates(found: Ridges) -> Iterator[tuple[Spots, float]]:
@@ -251,29 +251,30 @@ def _voting_sides(found: Ridges, radius: float, wide: int, high: int) -> NDArray
 def _fit_ring(ink: PencilInk, middle: Spots, radius: float, usual: float) -> Ring | None:
     """A ring about a middle, moved to where most of its rim is; None where there is none."""
     turns = np.arange(measures.RING_PLACES) * (2 * math.pi / measures.RING_PLACES)
-    ways = np.column_stack([np.cos(turns), np.sin(turns)])
+    directions = np.column_stack([np.cos(turns), np.sin(turns)])
     for _ in range(2):
         nearest, step = measures.RING_SEARCH_MM
         reach = np.arange(max(nearest, radius - 2 * measures.RING_OFF_MM),
                           radius + measures.RING_SEARCH_RIMS * measures.RING_OFF_MM, step)
-        dark = _darkness(ink, middle + np.multiply.outer(reach, ways))
+        dark = _darkness(ink, middle + np.multiply.outer(reach, directions))
         rim = dark.max(axis=0) > measures.RING_PENCIL_SHARE * usual
         if rim.mean() < measures.MIN_RING_RIM_SHARE * measures.MIN_RING_OPEN_SHARE:
             return None
-        design = np.column_stack([ways[rim], np.ones(int(rim.sum()))])
+        design = np.column_stack([directions[rim], np.ones(int(rim.sum()))])
         u, v, radius = np.linalg.lstsq(design, reach[dark.argmax(axis=0)][rim], rcond=None)[0].tolist()
         middle = middle + np.clip([u, v], -measures.RING_CELL_MM, measures.RING_CELL_MM)
     if radius < measures.MIN_RING_RADIUS_MM:
         return None
     rim = _darkness(ink,
                     middle + np.multiply.outer(radius + np.array([-measures.RING_OFF_MM, 0.0, measures.RING_OFF_MM]),
-                                                ways)).max(axis=0)
+                                                directions)).max(axis=0)
     beside = _darkness(ink, middle + np.multiply.outer(radius + np.array([-measures.RING_BESIDE_MM,
-                                                                      measures.RING_BESIDE_MM]), ways)).max(axis=0)
-    seen = rim >= 0
-    drawn = seen & (rim > measures.RING_PENCIL_SHARE * usual)
-    crest = float((beside[drawn] < measures.RING_LIGHTER_RATIO * rim[drawn]).mean()) if drawn.any() else 0.0
-    if (seen.mean() < measures.MIN_RING_OPEN_SHARE or drawn.sum() < measures.MIN_RING_RIM_SHARE * seen.sum()
+                                                                      measures.RING_BESIDE_MM]),
+                                                       directions)).max(axis=0)
+    is_open = rim >= 0
+    is_drawn = is_open & (rim > measures.RING_PENCIL_SHARE * usual)
+    crest = float((beside[is_drawn] < measures.RING_LIGHTER_RATIO * rim[is_drawn]).mean()) if is_drawn.any() else 0.0
+    if (is_open.mean() < measures.MIN_RING_OPEN_SHARE or is_drawn.sum() < measures.MIN_RING_RIM_SHARE * is_open.sum()
         or crest < measures.MIN_RING_CREST_SHARE):
         return None
     return Ring(middle, radius, crest)
@@ -291,8 +292,8 @@ def ring_point(ring: Ring, drawn: Sequence[Trace]) -> Trace:
     for trace in drawn:
         if trace.kind == LINE:
             start, end = np.array(trace.spots[:2])
-            way = (end - start) / (np.hypot(*(end - start)) or 1.0)
-            along, normal = (ring.middle - start) @ way, np.array([-way[1], way[0]])
+            direction = (end - start) / (np.hypot(*(end - start)) or 1.0)
+            along, normal = (ring.middle - start) @ direction, np.array([-direction[1], direction[0]])
             if -ring.radius < along < np.hypot(*(end - start)) + ring.radius and abs(
                     (ring.middle - start) @ normal) < ring.radius:
                 matrix = matrix + np.outer(normal, normal) / measures.RING_LINE_BLUR_MM**2

@@ -64,15 +64,15 @@ def print_pieces(sheet: Sheet) -> Pieces:
     cut = [piece for chain in chains for piece in pairwise(chain.segmentize(measures.MAX_PIECE_MM).coords)
            if math.dist(*piece) >= measures.MIN_PIECE_MM]
     ends = np.array(cut, float).reshape(-1, 2, 2)
-    way = ends[:, 1] - ends[:, 0]
-    long = np.hypot(way[:, 0], way[:, 1])
-    middles, own = ends.mean(axis=1), np.zeros(len(ends), bool)
+    vectors = ends[:, 1] - ends[:, 0]
+    long = np.hypot(vectors[:, 0], vectors[:, 1])
+    middles, is_own = ends.mean(axis=1), np.zeros(len(ends), bool)
     for panel in sheet.panels.values():
         inside = panel.inset(measures.OWN_PIECE_INSET_MM, measures.OWN_PIECE_INSET_MM, measures.OWN_PIECE_INSET_MM,
                              measures.OWN_PIECE_INSET_MM)
         low, high = (inside.left, inside.bottom), (inside.right, inside.top)
-        own |= (long > measures.MIN_OWN_PIECE_MM) & (middles > low).all(axis=1) & (middles < high).all(axis=1)
-    return Pieces(middles, way / long[:, None], long / 2, own)
+        is_own |= (long > measures.MIN_OWN_PIECE_MM) & (middles > low).all(axis=1) & (middles < high).all(axis=1)
+    return Pieces(middles, vectors / long[:, None], long / 2, is_own)
 
 
 # ---- drawn ---------------------------------------------------------------------------------------------------------
@@ -91,9 +91,9 @@ def _draw_item(canvas: NDArray[np.uint8], item: Item, height: float, scale: floa
         case Arc():
             spots = item.spots()
         case Arrow():
-            for part in (*(Polyline(item.pen, item.layer, item.step, shaft) for shaft in item.shaft),
+            for item_part in (*(Polyline(item.pen, item.layer, item.step, shaft) for shaft in item.shaft),
                          *(Polygon(Pen(0.0, fill=of), item.layer, item.step, figure) for figure, of in item.figures)):
-                _draw_item(canvas, part, height, scale)
+                _draw_item(canvas, item_part, height, scale)
             return
         case _:
             return
@@ -130,12 +130,12 @@ def marks_of_sheet(image: Grey) -> dict[int, int]:
     large_first = sorted(marks, key=lambda mark: -abs(signed_area(mark[1])))
     best: dict[int, int] = {}
     for anchor in large_first:
-        found = [anchor]
-        for other in large_first:
-            if all(_are_consistent(one, other) for one in found):
-                found.append(other)
-        if len(found) > len(best):
-            best = {number >> measures.CORNER_BITS: number for number, _ in found}
+        consistent = [anchor]
+        for candidate in large_first:
+            if all(_are_consistent(chosen, candidate) for chosen in consistent):
+                consistent.append(candidate)
+        if len(consistent) > len(best):
+            best = {number >> measures.CORNER_BITS: number for number, _ in consistent}
     return best
 
 
@@ -174,17 +174,19 @@ def find_marks(image: Grey, code: int | None, name: str) -> dict[int, Spots]:
 
     Fails with `Refused` where the marks are those of another sheet.
     """
-    seen = detect_marks(image)
+    detected_marks = detect_marks(image)
     if code is None:
         # what looks like a mark by chance is small
-        small_first = sorted(seen, key=lambda mark: abs(signed_area(mark[1])))
+        small_first = sorted(detected_marks, key=lambda mark: abs(signed_area(mark[1])))
         return {number >> measures.CORNER_BITS: rim for number, rim in small_first}
-    own = {number: corner for corner, number in enumerate(corner_numbers(code))}
-    found = {own[number]: corners for number, corners in seen if number in own}
-    if not found and _show_one_sheet([(number >> measures.CORNER_BITS, corners) for number, corners in seen]):
+    corner_of_number = {number: corner for corner, number in enumerate(corner_numbers(code))}
+    corners_found = {corner_of_number[number]: corners
+                     for number, corners in detected_marks if number in corner_of_number}
+    if (not corners_found
+        and _show_one_sheet([(number >> measures.CORNER_BITS, corners) for number, corners in detected_marks])):
         raise Refused(name, "the marks in its corners are those of another task",
                       "verify it against its own scene, plan and paper")
-    return found
+    return corners_found
 
 
 def detect_marks(image: Grey) -> list[tuple[int, Spots]]:
@@ -198,16 +200,17 @@ def detect_marks(image: Grey) -> list[tuple[int, Spots]]:
     settings.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
     settings.relativeCornerRefinmentWinSize = measures.CORNER_WINDOW_SHARE
     words = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_ARUCO_ORIGINAL)
-    corners, found, _ = cv2.aruco.ArucoDetector(words, settings).detectMarkers(image)
-    known = [] if found is None else found.ravel()
-    return [(int(number), np.asarray(rim, float).reshape(4, 2)) for number, rim in zip(known, corners, strict=True)]
+    corners, ids, _ = cv2.aruco.ArucoDetector(words, settings).detectMarkers(image)
+    marker_ids = [] if ids is None else ids.ravel()
+    return [(int(number), np.asarray(rim, float).reshape(4, 2))
+            for number, rim in zip(marker_ids, corners, strict=True)]
 
 
 def _show_one_sheet(marks: list[tuple[int, Spots]]) -> bool:
     """Whether the large ones among marks are those of several corners; print may look like a small mark by chance."""
     sizes = [math.sqrt(abs(signed_area(rim))) for _, rim in marks]
-    return len({corner for (corner, _), size in zip(marks, sizes, strict=True)
-                if size * measures.MARK_SIZE_RATIO > max(sizes)}) > 1
+    return len({corner for (corner, _), side in zip(marks, sizes, strict=True)
+                if side * measures.MARK_SIZE_RATIO > max(sizes)}) > 1
 
 
 def signed_area(rim: Spots) -> float:

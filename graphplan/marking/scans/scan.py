@@ -82,9 +82,10 @@ def _pencil_page(image: Grey, printed: Sheet, code: int | None, name: str) -> Pe
     require_contrast(image, name)
     scale = min(measures.PAGE_PX_PER_MM, (measures.MAX_PAGE_PX / (printed.width * printed.height)) ** 0.5)
     light = print_picture(printed, scale)
-    straight, found = _straighten_either_way(shrink(image, measures.MAX_PAGE_PX), printed, light, scale, code, name)
+    straight, registered = _straighten_either_way(shrink(image, measures.MAX_PAGE_PX), printed, light, scale, code,
+                                                  name)
     pencil = pencil_ink(straight, printed, light, scale)
-    return PencilPage(pencil, find_ridges(pencil), found.error, found.warp)
+    return PencilPage(pencil, find_ridges(pencil), registered.error, registered.warp)
 
 
 def _straighten_either_way(image: Grey, printed: Sheet, light: Light, scale: float, code: int | None, name: str
@@ -94,9 +95,9 @@ def _straighten_either_way(image: Grey, printed: Sheet, light: Light, scale: flo
         return straighten(image, printed, light, scale, code, name)
     except Refused as refused:
         with suppress(Refused):
-            straight, found = straighten(np.ascontiguousarray(image[:, ::-1]), printed, light, scale, code, name)
+            straight, registered = straighten(np.ascontiguousarray(image[:, ::-1]), printed, light, scale, code, name)
             mirror = np.array([[-1, 0, image.shape[1] - 1], [0, 1, 0], [0, 0, 1]], float)
-            return straight, replace(found, warp=replace(found.warp, plane=mirror @ found.warp.plane))
+            return straight, replace(registered, warp=replace(registered.warp, plane=mirror @ registered.warp.plane))
         raise refused
 
 
@@ -129,18 +130,19 @@ class PencilPage:
         """The share of some spots, of those that print leaves open, that have a crest, or a dot, so near; None where
         it leaves hardly any."""
         far = self._distances[kind == POINT][self.ink.cells(np.array(spots))]
-        seen = far[far >= 0]
-        return float((seen < within).mean()) if len(seen) > (1 - measures.MAX_HIDDEN_SHARE) * len(far) else None
+        open_distances = far[far >= 0]
+        return (float((open_distances < within).mean())
+                if len(open_distances) > (1 - measures.MAX_HIDDEN_SHARE) * len(far) else None)
 
     def find_line(self, one: Spot, two: Spot, within: float, angle: float = 4.0) -> Trace | None:
         """The line with most crests, no further than `within` mm from the middle of an expected one, and turned by no
         more than this angle, in degrees."""
         ends = np.array([one, two], float)
         long = math.dist(one, two)
-        way = (ends[1] - ends[0]) / long
-        normal, middle = np.array([-way[1], way[0]]), ends.mean(axis=0)
+        direction = (ends[1] - ends[0]) / long
+        normal, middle = np.array([-direction[1], direction[0]]), ends.mean(axis=0)
         out = self.found.spots - middle
-        along, off = out @ way, out @ normal
+        along, off = out @ direction, out @ normal
         steep = math.tan(math.radians(angle))
         near = np.flatnonzero((np.abs(along) < long / 2 + measures.BEYOND_ENDS_MM)
                               & (np.abs(off) < within + np.abs(along) * steep)
@@ -151,7 +153,7 @@ class PencilPage:
             return None
         slope, level, which = lying
         turned = math.atan(slope)
-        aside = normal * math.cos(turned) - way * math.sin(turned)
+        aside = normal * math.cos(turned) - direction * math.sin(turned)
         crests = strokes.crest_row(self.found, middle + level * normal, aside, near[which])
         stretch = _whole_stretch(crests, self.ink, long / 2)
         return None if stretch is None else self._with_page_error(strokes.line_trace(crests, stretch))
@@ -172,11 +174,11 @@ class PencilPage:
         if lying is None:
             return None
         slope, level, which = lying
-        own = near[which]
-        if np.ptp(along[own]) > math.radians(measures.MIN_CENTRE_DEGREES) * radius:
-            rim = strokes.grow_rim(self.found, near, own, self.ink)
+        rim_crests = near[which]
+        if np.ptp(along[rim_crests]) > math.radians(measures.MIN_CENTRE_DEGREES) * radius:
+            rim = strokes.grow_rim(self.found, near, rim_crests, self.ink)
         else:
-            rim = _short_arc(self, middle, radius, aim, along[own], far[own] - radius, slope, level)
+            rim = _short_arc(self, middle, radius, aim, along[rim_crests], far[rim_crests] - radius, slope, level)
         return None if rim is None or rim.stretch.long < measures.MIN_ARC_MM else self._with_page_error(rim.trace())
 
     def find_dot(self, spot: Spot, within: float) -> Trace | None:
@@ -188,14 +190,14 @@ class PencilPage:
     def _distances(self) -> list[NDArray[np.float32]]:
         """How far every pixel is from the next strong crest, and from the next dot, in mm; less than nothing where
         print hides it."""
-        found = []
+        maps = []
         for spots in (self.found.spots[self.found.strength > measures.CLEAR_SIGMAS],
                       self._possible_dot_spots.view(float).reshape(-1, 2)):
             bare = np.ones(self.ink.dark.shape, np.uint8)
             bare[self.ink.cells(spots)] = 0
             far = np.asarray(cv2.distanceTransform(bare, cv2.DIST_L2, 3), np.float32) / np.float32(self.ink.scale)
-            found.append(np.where(self.ink.hidden, np.float32(-1.0), far))
-        return found
+            maps.append(np.where(self.ink.hidden, np.float32(-1.0), far))
+        return maps
 
     @cached_property
     def _strokes(self) -> list[Trace]:
@@ -210,16 +212,17 @@ class PencilPage:
     @cached_property
     def _stroke_darkness(self) -> list[float]:
         """How dark each blurred stroke is along its crest, where print leaves it open."""
-        found, size = [], 2 * round(measures.DARKNESS_REACH_MM * self.ink.scale) + 1
-        crests = cv2.dilate(self._smoothed, np.ones((size, size), np.uint8))
+        darknesses, window = [], 2 * round(measures.DARKNESS_REACH_MM * self.ink.scale) + 1
+        crests = cv2.dilate(self._smoothed, np.ones((window, window), np.uint8))
         for trace in self._strokes:
             ends = np.array(trace.spots)
             along = np.linspace(*measures.DARKNESS_SHARES, measures.DARKNESS_PLACES)[:, None]
             at = ends[0] + along * (ends[1] - ends[0]) if trace.kind == LINE else ends
             rows, columns = self.ink.cells(at)
             dark = crests[rows, columns][~self.ink.hidden[rows, columns]]
-            found.append(max(measures.MIN_DOT_DARKNESS, float(np.median(dark))) if len(dark) else self._clear_darkness)
-        return found
+            darknesses.append(max(measures.MIN_DOT_DARKNESS, float(np.median(dark))) if len(dark)
+                              else self._clear_darkness)
+        return darknesses
 
     @cached_property
     def _usual_darkness(self) -> float:
@@ -348,12 +351,12 @@ def _align(along: Values, off: Values, strength: Values, within: float,
 
 def _whole_stretch(crests: strokes.CrestRow, ink: PencilInk, half: float) -> strokes.CrestStretch | None:
     """All the stretches of a row between the expected ends as one, where enough of it is seen."""
-    drawn = [stretch for stretch in crests.drawn_stretches(ink)
+    parts_seen = [stretch for stretch in crests.drawn_stretches(ink)
              if stretch.seen >= measures.MIN_FAINT_SHARE and stretch.long >= 1.0 and stretch.start < half
              and stretch.end > -half]
-    if sum(stretch.long for stretch in drawn) < measures.MIN_FAINT_MM:
+    if sum(stretch.long for stretch in parts_seen) < measures.MIN_FAINT_MM:
         return None
-    return strokes.CrestStretch(drawn[0].start, drawn[-1].end, measures.MIN_FAINT_SHARE)
+    return strokes.CrestStretch(parts_seen[0].start, parts_seen[-1].end, measures.MIN_FAINT_SHARE)
 
 
 def _short_arc(page: PencilPage, centre: Values, radius: float, aim: float, along: Values, off: Values, slope: float,
@@ -362,13 +365,13 @@ def _short_arc(page: PencilPage, centre: Values, radius: float, aim: float, alon
     turned = math.atan(slope)
     side = np.array([math.cos(aim), math.sin(aim)])
     across = np.array([-side[1], side[0]])
-    moved = centre + across * radius * math.sin(turned) + side * radius * (1 - math.cos(turned))
+    moved_centre = centre + across * radius * math.sin(turned) + side * radius * (1 - math.cos(turned))
 
-    seen = strokes.crest_stretches(along, lambda at: page.ink.are_hidden_or_dark(strokes.rim_spots(centre, radius
+    stretches = strokes.crest_stretches(along, lambda at: page.ink.are_hidden_or_dark(strokes.rim_spots(centre, radius
                                                                                                    + level, aim, at)))
-    drawn = [stretch for stretch in seen if stretch.seen >= measures.MIN_FAINT_SHARE]
-    if not drawn:
+    clear_stretches = [stretch for stretch in stretches if stretch.seen >= measures.MIN_FAINT_SHARE]
+    if not clear_stretches:
         return None
-    stretch = max(drawn, key=lambda stretch: stretch.long)
+    stretch = max(clear_stretches, key=lambda stretch: stretch.long)
     rough = float(np.std(off - slope * along - level))
-    return strokes.Rim(moved, radius + level, aim, stretch, np.arange(len(along)), rough)
+    return strokes.Rim(moved_centre, radius + level, aim, stretch, np.arange(len(along)), rough)

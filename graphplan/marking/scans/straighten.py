@@ -48,20 +48,20 @@ class Warp:
         columns, rows = np.meshgrid(np.arange(0, wide + measures.WARP_GRID_PX, measures.WARP_GRID_PX),
                                     np.arange(0, high + measures.WARP_GRID_PX, measures.WARP_GRID_PX))
         spots = np.column_stack([(columns.ravel() + 0.5) / scale, self.size[1] - (rows.ravel() + 0.5) / scale])
-        seen = self(spots).reshape(*columns.shape, 2)
-        return _interpolate_grid(seen[..., 0], wide, high), _interpolate_grid(seen[..., 1], wide, high)
+        pixels = self(spots).reshape(*columns.shape, 2)
+        return _interpolate_grid(pixels[..., 0], wide, high), _interpolate_grid(pixels[..., 1], wide, high)
 
     def fineness(self) -> float:
         """Pixels per mm in the middle of the sheet."""
         (x, y), half = (self.size[0] / 2, self.size[1] / 2), measures.FINENESS_MM / 2
-        seen = self(np.array([(x - half, y), (x + half, y), (x, y - half), (x, y + half)]))
-        return float(min(np.hypot(*(seen[1] - seen[0])), np.hypot(*(seen[3] - seen[2]))) / measures.FINENESS_MM)
+        pixels = self(np.array([(x - half, y), (x + half, y), (x, y - half), (x, y + half)]))
+        return float(min(np.hypot(*(pixels[1] - pixels[0])), np.hypot(*(pixels[3] - pixels[2]))) / measures.FINENESS_MM)
 
 
 def project(plane: Spots, spots: Spots) -> Spots:
     """Spots through a projective map."""
-    seen = np.column_stack([spots, np.ones(len(spots))]) @ plane.T
-    return np.asarray(seen[:, :2] / seen[:, 2:])
+    homogeneous = np.column_stack([spots, np.ones(len(spots))]) @ plane.T
+    return np.asarray(homogeneous[:, :2] / homogeneous[:, 2:])
 
 
 def polynomial_terms(spots: Spots, size: tuple[float, float], degree: int) -> Spots:
@@ -84,15 +84,15 @@ def _interpolate_grid(coarse: Spots, wide: int, high: int) -> NDArray[np.float32
 
 def warps_by_frame(image: Grey, sheet: Sheet, light: Light) -> list[Warp]:
     """The planes in which the printed frame may be seen, the largest first, each turned so that the print fits."""
-    size = round(sheet.width * measures.PRINT_PX_PER_MM), round(sheet.height * measures.PRINT_PX_PER_MM)
-    small = cv2.resize(light, size, interpolation=cv2.INTER_AREA)
+    print_size = round(sheet.width * measures.PRINT_PX_PER_MM), round(sheet.height * measures.PRINT_PX_PER_MM)
+    small = cv2.resize(light, print_size, interpolation=cv2.INTER_AREA)
     ideal = np.asarray(cv2.GaussianBlur(small, (0, 0), measures.PRINT_PX_PER_MM), np.float32)
-    found = []
+    warps = []
     for rim in _rectangles(image):
         turned = [np.roll(rim, turn, axis=0) for turn in range(4)]
-        tried = [_plane_warp(corners, seen, sheet) for corners in _outlines(sheet) for seen in turned]
-        found.append(max(tried, key=lambda warp: _correlation(image, warp, ideal)))
-    return found
+        tried = [_plane_warp(corners, corners_seen, sheet) for corners in _outlines(sheet) for corners_seen in turned]
+        warps.append(max(tried, key=lambda warp: _correlation(image, warp, ideal)))
+    return warps
 
 
 def _outlines(sheet: Sheet) -> list[Spots]:
@@ -113,18 +113,18 @@ def _rectangles(image: Grey) -> Iterator[Spots]:
     rims, _ = cv2.findContours(dark, cv2.RETR_LIST, cv2.CHAIN_APPROX_SIMPLE)
     large = sorted((rim for rim in rims if cv2.contourArea(rim) > measures.MIN_FRAME_SHARE * small.size),
                    key=cv2.contourArea)
-    known: list[Spots] = []
+    rectangles: list[Spots] = []
     for rim in large[::-1]:
         hull = cv2.convexHull(rim)
         four = cv2.approxPolyDP(hull, measures.FRAME_CORNER_SHARE * cv2.arcLength(rim, True),
                                 True).reshape(-1, 2).astype(float)
         corners = _side_corners(hull.reshape(-1, 2).astype(float), four) if len(four) == 4 else None
-        if corners is None or any(np.abs(corners - other).max() < measures.SAME_RIM_SHARE * measures.FRAME_SEARCH_PX
-                                  for other in known):
+        if corners is None or any(np.abs(corners - rectangle).max() < measures.SAME_RIM_SHARE * measures.FRAME_SEARCH_PX
+                                  for rectangle in rectangles):
             continue
-        known.append(corners)
+        rectangles.append(corners)
         yield (corners + 0.5) / shrink - 0.5
-        if len(known) == measures.MAX_RECTANGLES:
+        if len(rectangles) == measures.MAX_RECTANGLES:
             return
 
 
@@ -134,12 +134,12 @@ def _side_corners(hull: Spots, four: Spots) -> Spots | None:
     around = four if signed_area(four) < 0 else four[::-1]
     around = np.roll(around, -int(around.sum(axis=1).argmin()), axis=0)
     rim = np.array(LinearRing(hull).segmentize(1.0).coords)
-    sides = [_side_line(rim, one, two) for one, two in zip(around, np.roll(around, -1, axis=0), strict=True)]
+    sides = [_side_line(rim, first, second) for first, second in zip(around, np.roll(around, -1, axis=0), strict=True)]
     if any(side is None for side in sides):
         return None
     lines = np.array(sides)
-    return np.array([np.linalg.solve([one[:2], two[:2]], [one[2], two[2]])
-                     for one, two in zip(np.roll(lines, 1, axis=0), lines, strict=True)])
+    return np.array([np.linalg.solve([first[:2], second[:2]], [first[2], second[2]])
+                     for first, second in zip(np.roll(lines, 1, axis=0), lines, strict=True)])
 
 
 def _side_line(rim: Spots, one: Spots, two: Spots) -> tuple[float, float, float] | None:
@@ -158,10 +158,10 @@ def _side_line(rim: Spots, one: Spots, two: Spots) -> tuple[float, float, float]
 def _correlation(image: Grey, warp: Warp, ideal: NDArray[np.float32]) -> float:
     """The correlation of a picture, straightened, with the print."""
     columns, rows = warp.maps(measures.PRINT_PX_PER_MM)
-    seen = cv2.GaussianBlur(cv2.remap(image, columns, rows, cv2.INTER_LINEAR), (0, 0),
+    picture = cv2.GaussianBlur(cv2.remap(image, columns, rows, cv2.INTER_LINEAR), (0, 0),
                             measures.PRINT_PX_PER_MM).astype(np.float32)
-    seen -= cv2.GaussianBlur(seen, (0, 0), measures.SHADE_MM * measures.PRINT_PX_PER_MM)
-    return float(np.corrcoef(seen.ravel(), ideal.ravel())[0, 1])
+    picture -= cv2.GaussianBlur(picture, (0, 0), measures.SHADE_MM * measures.PRINT_PX_PER_MM)
+    return float(np.corrcoef(picture.ravel(), ideal.ravel())[0, 1])
 
 
 @dataclass(frozen=True)
@@ -181,14 +181,15 @@ def register_warp(image: Grey, start: Warp, light: Light, scale: float, pieces: 
     warp, error, near = start, measures.PROFILE_REACH_MM, np.zeros(0, bool)
     ideal = _profiles(light, lambda spots: np.column_stack([spots[:, 0], start.size[1] - spots[:, 1]]) * scale - 0.5,
                       pieces, measures.PROFILE_REACH_MM)
-    seen = ideal.std(axis=1) > measures.MIN_PRINT_CONTRAST
-    pieces, ideal = pieces.selected(seen), ideal[seen]
+    is_visible = ideal.std(axis=1) > measures.MIN_PRINT_CONTRAST
+    pieces, ideal = pieces.selected(is_visible), ideal[is_visible]
     for reach, degree in measures.WARP_ROUNDS if len(ideal) >= measures.MIN_BENT_PIECES else measures.WARP_ROUNDS[:1]:
         shift, match = _profile_shifts(ideal, _profiles(image, warp, pieces, measures.PROFILE_REACH_MM + reach))
         warp, error, near = _fit_warp(warp, pieces, shift, match > measures.MIN_CORRELATION, degree, reach / 4)
     share, mine = float(near.sum() / max(1, len(ideal))), pieces.selected(pieces.own)
-    own = near[pieces.own] | _are_overdrawn(ideal[pieces.own], _profiles(image, warp, mine, measures.PROFILE_REACH_MM))
-    return RegisteredWarp(warp, error, share, float(own.mean()) if len(own) else share)
+    own_found = near[pieces.own] | _are_overdrawn(ideal[pieces.own],
+                                                  _profiles(image, warp, mine, measures.PROFILE_REACH_MM))
+    return RegisteredWarp(warp, error, share, float(own_found.mean()) if len(own_found) else share)
 
 
 def _profiles(image: Grey | Light, warp: Callable[[Spots], Spots], pieces: Pieces, reach: float) -> NDArray[np.float32]:
@@ -198,12 +199,12 @@ def _profiles(image: Grey | Light, warp: Callable[[Spots], Spots], pieces: Piece
     ends = pieces.along * (measures.PROFILE_SHARE * pieces.halves)[:, None]
     middle, end, off = (warp(spots) for spots in (pieces.middles, pieces.middles + ends, pieces.middles + side * reach))
     along, across = np.linspace(-1, 1, measures.PROFILE_PLACES), np.arange(-count, count + 1) / count
-    seen = (middle[:, None, None] + along[None, :, None, None] * (end - middle)[:, None, None]
+    pixels = (middle[:, None, None] + along[None, :, None, None] * (end - middle)[:, None, None]
             + across[None, None, :, None] * (off - middle)[:, None, None])
-    seen = seen.reshape(len(side) * measures.PROFILE_PLACES, -1, 2).astype(np.float32)
-    read = [cv2.remap(image, seen[i : i + measures.PROFILE_ROWS, :, 0], seen[i : i + measures.PROFILE_ROWS, :, 1],
+    pixels = pixels.reshape(len(side) * measures.PROFILE_PLACES, -1, 2).astype(np.float32)
+    read = [cv2.remap(image, pixels[i : i + measures.PROFILE_ROWS, :, 0], pixels[i : i + measures.PROFILE_ROWS, :, 1],
                       cv2.INTER_LINEAR,
-                      borderMode=cv2.BORDER_REPLICATE) for i in range(0, len(seen), measures.PROFILE_ROWS)]
+                      borderMode=cv2.BORDER_REPLICATE) for i in range(0, len(pixels), measures.PROFILE_ROWS)]
     values = np.concatenate(read).astype(np.float32).reshape(len(side), measures.PROFILE_PLACES, -1)
     return np.asarray(values.mean(axis=1), np.float32)
 
@@ -218,9 +219,9 @@ def _profile_shifts(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> tu
     match = np.einsum("ijk,ik->ij", windows, pattern) / spread
     best = np.clip(match.argmax(axis=1), 1, match.shape[1] - 2)
     row = np.arange(len(match))
-    left, top, right = (match[row, best + i] for i in (-1, 0, 1))
-    part = (left - right) / np.minimum(2 * (left - 2 * top + right), -MIN_DIVISOR)
-    return (best + np.clip(part, -1, 1) - match.shape[1] // 2) * measures.PROFILE_STEP_MM, top
+    before, top, right = (match[row, best + i] for i in (-1, 0, 1))
+    offset = (before - right) / np.minimum(2 * (before - 2 * top + right), -MIN_DIVISOR)
+    return (best + np.clip(offset, -1, 1) - match.shape[1] // 2) * measures.PROFILE_STEP_MM, top
 
 
 def _are_overdrawn(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> NDArray[np.bool_]:
@@ -234,20 +235,20 @@ def _fit_warp(warp: Warp, pieces: Pieces, shift: Spots, good: NDArray[np.bool_],
             degree: int, allowed: float) -> tuple[Warp, float, NDArray[np.bool_]]:
     """The warp bent to what the pieces say; also what is left, and which pieces agree."""
     side = np.column_stack([-pieces.along[:, 1], pieces.along[:, 0]])
-    wanted = shift + (warp.displacement(pieces.middles) * side).sum(axis=1)
+    target = shift + (warp.displacement(pieces.middles) * side).sum(axis=1)
     base = polynomial_terms(pieces.middles, warp.size, degree)
     design = np.hstack([base * side[:, :1], base * side[:, 1:]])
     hold = np.tile([0.0 if i + j < 2 else 1.0 for i, j in term_powers(degree)], 2)
     trust = good * pieces.halves
-    weight, left = trust, np.zeros(len(shift))
+    weight, residuals = trust, np.zeros(len(shift))
     for _ in range(measures.WARP_ITERATIONS):
         normal = (design.T @ (design * weight[:, None])
                   + np.diag((measures.PAPER_STIFFNESS * hold + MIN_DIVISOR) * max(weight.sum(), 1.0)))
-        solution = np.linalg.solve(normal, design.T @ (weight * wanted))
-        left = wanted - design @ solution
-        weight = trust * np.clip(1 - (left / allowed) ** 2, 0, None) ** 2
-    near = good & (np.abs(left) < allowed)
-    error = median_deviation(left[near]) if near.any() else measures.PROFILE_REACH_MM
+        solution = np.linalg.solve(normal, design.T @ (weight * target))
+        residuals = target - design @ solution
+        weight = trust * np.clip(1 - (residuals / allowed) ** 2, 0, None) ** 2
+    near = good & (np.abs(residuals) < allowed)
+    error = median_deviation(residuals[near]) if near.any() else measures.PROFILE_REACH_MM
     return replace(warp, degree=degree, bend=solution.reshape(2, -1).T), error, near
 
 
@@ -294,8 +295,8 @@ def _warp_by_marks(found: dict[int, Spots], sheet: Sheet) -> Warp:
     """The plane through the corners of the marks."""
     rects = corner_rects(sheet.width, sheet.height, sheet.frame)
     printed = [spot for corner in found for spot in rects[corner].corners[::-1]]
-    seen = np.concatenate([found[corner] for corner in found])
-    return _plane_warp(np.array(printed), seen, sheet)
+    corners_seen = np.concatenate([found[corner] for corner in found])
+    return _plane_warp(np.array(printed), corners_seen, sheet)
 
 
 def _plane_warp(printed: Spots, seen: Spots, sheet: Sheet) -> Warp:
@@ -310,9 +311,10 @@ def _require_whole(warp: Warp, image: Grey, sheet: Sheet, name: str) -> None:
         raise Refused(name, f"{dpi:.0f} dots per inch are too few to see pencil lines", "scan it at 200 dpi")
     high, wide = image.shape
     for panel, rect in sheet.panels.items():
-        seen = warp(np.array(rect.inset(measures.PANEL_MARGIN_MM, measures.PANEL_MARGIN_MM, measures.PANEL_MARGIN_MM,
+        corners_seen = warp(np.array(rect.inset(measures.PANEL_MARGIN_MM, measures.PANEL_MARGIN_MM,
+                                                measures.PANEL_MARGIN_MM,
                                         measures.PANEL_MARGIN_MM).corners))
-        if (seen < 0).any() or (seen > [wide - 1, high - 1]).any():
+        if (corners_seen < 0).any() or (corners_seen > [wide - 1, high - 1]).any():
             raise Refused(name, f"the {panel} is cut off", "scan or photograph the whole sheet")
 
 
@@ -340,9 +342,9 @@ def sheet_photograph(sheet: Grey) -> Photograph:
 def whole_photograph(image: Grey, longest: float = measures.A4_LONG_MM) -> Photograph:
     """A whole picture, on paper whose longer side is so many mm."""
     small = shrink(image, (longest * measures.FACSIMILE_PX_PER_MM) ** 2 * min(image.shape) / max(image.shape))
-    shown, (high, wide) = sheet_photograph(small), image.shape
-    size = Rect(0.0, 0.0, longest * wide / max(image.shape), longest * high / max(image.shape))
-    return replace(shown, rect=size)
+    photograph, (high, wide) = sheet_photograph(small), image.shape
+    rect = Rect(0.0, 0.0, longest * wide / max(image.shape), longest * high / max(image.shape))
+    return replace(photograph, rect=rect)
 
 
 def cut_out(sheet: Grey, rect: Rect) -> Photograph:

@@ -38,11 +38,11 @@ def crest_stretches(along: NDArray[np.float64], hidden: Callable[[NDArray[np.flo
     """The stretches that crests at these places make; where print hides a line, it may well go on."""
     low = float(along.min())
     count = int((float(along.max()) - low) / measures.STROKE_CELL_MM) + 1
-    drawn = np.zeros(count, bool)
-    drawn[np.minimum(((along - low) / measures.STROKE_CELL_MM).astype(int), count - 1)] = True
-    open_ = ~hidden(np.asarray(low + (np.arange(count) + 0.5) * measures.STROKE_CELL_MM, np.float64)) | drawn
+    is_drawn = np.zeros(count, bool)
+    is_drawn[np.minimum(((along - low) / measures.STROKE_CELL_MM).astype(int), count - 1)] = True
+    open_ = ~hidden(np.asarray(low + (np.arange(count) + 0.5) * measures.STROKE_CELL_MM, np.float64)) | is_drawn
     counted = np.cumsum(open_)  # so much of it could have been seen
-    marked = np.flatnonzero(drawn)
+    marked = np.flatnonzero(is_drawn)
     breaks = np.flatnonzero(np.diff(counted[marked]) > measures.MAX_GAP_MM / measures.STROKE_CELL_MM + 1)
     for first, last in zip([0, *(breaks + 1)], [*breaks, len(marked) - 1], strict=True):
         start, end = int(marked[first]), int(marked[last])
@@ -78,8 +78,8 @@ class CrestRow:
 
 def crest_row(found: Ridges, at: Spots, normal: Spots, which: NDArray[np.intp]) -> CrestRow:
     """Some crests beside a line through a spot, by its normal."""
-    way, out = np.array([normal[1], -normal[0]]), found.spots[which] - at
-    return CrestRow(at, way, normal, which, out @ way, out @ normal)
+    direction, out = np.array([normal[1], -normal[0]]), found.spots[which] - at
+    return CrestRow(at, direction, normal, which, out @ direction, out @ normal)
 
 
 def crests_near_line(found: Ridges, left: NDArray[np.intp], angle: float, shift: float) -> CrestRow | None:
@@ -185,11 +185,11 @@ def _crests_on_circle(found: Ridges, left: NDArray[np.intp], centre: Spots, radi
     if not near.any():
         return None
     along = angles_from(out[near], zero) * radius
-    drawn = crest_stretches(along, lambda at: ink.are_hidden_or_dark(rim_spots(centre, radius, zero, at)))
-    own = [stretch for stretch in drawn if stretch.start <= 1.0 and stretch.end >= -1.0]
-    if not own:
+    stretches = crest_stretches(along, lambda at: ink.are_hidden_or_dark(rim_spots(centre, radius, zero, at)))
+    central = [stretch for stretch in stretches if stretch.start <= 1.0 and stretch.end >= -1.0]
+    if not central:
         return None
-    stretch = max(own, key=lambda stretch: stretch.long)
+    stretch = max(central, key=lambda stretch: stretch.long)
     on = (stretch.start <= along) & (along <= stretch.end)
     return Rim(centre, radius, zero, stretch, left[near][on], float(np.std(far[near][on] - radius)))
 
@@ -239,24 +239,24 @@ class Vote:
 
 def find_strokes(found: Ridges, ink: PencilInk) -> list[Trace]:
     """The lines and rims among crests, the longest lines first; what is taken is no longer there."""
-    vote, left, traces = Vote(found), np.ones(len(found), bool), list[Trace]()
+    vote, is_left, traces = Vote(found), np.ones(len(found), bool), list[Trace]()
     for _ in range(measures.MAX_LINES):
         peak = vote.peak()
         if peak is None:
             break
-        crests = crests_near_line(found, np.flatnonzero(left), *peak)
+        crests = crests_near_line(found, np.flatnonzero(is_left), *peak)
         for stretch in crests.drawn_stretches(ink) if crests else ():
             assert crests
-            own = crests.which[crests.in_stretch(stretch)]
-            own = own[left[own]]
+            crests_taken = crests.which[crests.in_stretch(stretch)]
+            crests_taken = crests_taken[is_left[crests_taken]]
             if (stretch.long >= measures.MIN_LINE_MM and stretch.seen >= measures.MIN_STROKE_SHARE
-                and len(own) >= measures.MIN_CRESTS):
-                rim = grow_rim(found, np.flatnonzero(left), own, ink) if is_bent(crests, stretch) else None
+                and len(crests_taken) >= measures.MIN_CRESTS):
+                rim = grow_rim(found, np.flatnonzero(is_left), crests_taken, ink) if is_bent(crests, stretch) else None
                 if rim and rim.stretch.long < measures.RIM_RATIO * stretch.long:
                     rim = None  # a hand that wobbles bends lines, too, but no further than they go
                 traces.append(rim.trace() if rim else line_trace(crests, stretch))
-                taken = rim.which if rim else own
-                left[taken] = False
+                taken = rim.which if rim else crests_taken
+                is_left[taken] = False
                 vote.remove(taken)
         vote.forget()
     return traces

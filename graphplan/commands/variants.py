@@ -72,7 +72,7 @@ def run(options: argparse.Namespace) -> int:
     if not scene.vary:
         raise Refused(f"{options.scene}: vary", "the scene does not say what varies",
                       'a table [vary], such as "drive.0.omega" = [8, 10, 12]')
-    draw = partial(drafted, options)
+    draw = partial(draft_scene, options)
     own_sheet = draw(scene)
     jobs = options.jobs or (cores() if len(students) > FEW else 1)
     with crew(jobs) as shared_out:
@@ -86,7 +86,7 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def drafted(options: argparse.Namespace, scene: Scene) -> Drafted:
+def draft_scene(options: argparse.Namespace, scene: Scene) -> Drafted:
     """A scene on its sheet, as the options say; fails as `graphplan draw` does."""
     return on_paper(options, make_report(options, load_sheet_scene(options, scene)))
 
@@ -126,7 +126,7 @@ def _files(options: argparse.Namespace, own: Composition, variants: Sequence[Cla
     exercises = [Exercise(variant, student, f"variant-{variant.number:0{max(2, digits)}}.toml")
                  for variant, student in zip(variants, students, strict=True)]
     pages, sheets = list[PrintedExercise](), list[TaskSheet]()
-    work = partial(print_exercise, draw=partial(drafted, options), further=key_rows)
+    work = partial(print_exercise, draw=partial(draft_scene, options), further=key_rows)
     for exercise, exercise_sheets in zip(exercises, shared_out(work, exercises), strict=True):
         page = 1 + sum(len(printed_exercise.task) for printed_exercise in pages)
         sheets.append(TaskSheet(exercise_sheets.code, exercise.variant.number, exercise.student, exercise.file, page))
@@ -135,7 +135,7 @@ def _files(options: argparse.Namespace, own: Composition, variants: Sequence[Cla
     title = own.plans.drawing.scene.title
     overview_rows = [(printed_exercise.variant.number, printed_exercise.student, printed_exercise.variant.numbers_text)
                      for printed_exercise in exercises]
-    register = ClassRegister(title, options.seed, _chosen(options), tuple(sheets))
+    register = ClassRegister(title, options.seed, _register_options(options), tuple(sheets))
     if twice := register.equal_codes:
         raise Refused(f"--seed {options.seed}", f"the corner marks of variants {twice[0]} and {twice[1]} are the same",
                       "another seed")
@@ -152,6 +152,6 @@ def _files(options: argparse.Namespace, own: Composition, variants: Sequence[Cla
     }
 
 
-def _chosen(options: argparse.Namespace) -> dict[str, str]:
+def _register_options(options: argparse.Namespace) -> dict[str, str]:
     """The options by which the sheets of the class can be composed again."""
     return {name: str(getattr(options, name) or "") for name in CHOSEN}

@@ -82,13 +82,13 @@ def run(options: argparse.Namespace) -> int:
         from graphplan.commands import verify_stack
 
         return verify_stack.run(options)
-    _no_stack(options)
+    _refuse_stack_options(options)
     if (status := _of_answers(options)) is not None:
         return status
     path, weighed = Path(options.drawing), parse_weights(options.weights)
-    ending = _reported(options.report, path, options.scene)
+    ending = _report_kind(options.report, path, options.scene)
     desk = Desk(on_paper(options), weighed, options)
-    findings = (_class if os.path.isdir(path) else _one)(desk, path)
+    findings = (_judge_folder if os.path.isdir(path) else _judge_file)(desk, path)
     if options.report:
         pages = [as_json(findings.data)] if ending == ".json" else findings.pages(ending)
         write_all(list(zip(page_names(options.report, len(pages)), pages, strict=False)))
@@ -109,7 +109,7 @@ def _of_answers(options: argparse.Namespace) -> int | None:
     return of_rotor(options, text)
 
 
-def _no_stack(options: argparse.Namespace) -> None:
+def _refuse_stack_options(options: argparse.Namespace) -> None:
     """Refuse options that only a stack of a class has."""
     for name, value in (("--assign", options.assign), ("--jobs", options.jobs), ("--output", options.output)):
         if value:
@@ -128,18 +128,18 @@ class Findings(NamedTuple):
     judged: bool = True
 
 
-def _reported(output: str | None, path: Path, scene: str) -> str:
+def _report_kind(output: str | None, path: Path, scene: str) -> str:
     """What kind of report is asked for; one that would be written over what it is of is refused before it is judged."""
     if output == STANDARD:
         raise Refused("--report -", "standard output has the verdict", "name a file, or --json alone")
     for source, source_name in ((path, "drawing"), (scene, "scene")):
-        if output and _same(output, source):
+        if output and _is_same_file(output, source):
             raise Refused(f"--report {output}", f"the {source_name} itself would be overwritten", "another name")
     folder = os.path.isdir(path)
     return kind(output, CLASS_ENDINGS if folder else ENDINGS, f"report{' of a folder' * folder}", "--report")
 
 
-def _same(one: str, other: str | Path) -> bool:
+def _is_same_file(one: str, other: str | Path) -> bool:
     """Whether two names are those of one file that is there."""
     try:
         return os.path.samefile(one, other)
@@ -150,14 +150,14 @@ def _same(one: str, other: str | Path) -> bool:
 # ---- one drawing ---------------------------------------------------------------------------------------------------
 
 
-def _one(desk: Desk, path: Path) -> Findings:
+def _judge_file(desk: Desk, path: Path) -> Findings:
     """One drawing, judged."""
     from graphplan.marking.judge.findings import judgement_record
     from graphplan.marking.judge.overlay import overlay
 
     messages = Messages(desk.options.quiet)
     messages.progress(printable(path.name))
-    drawing = desk.marked(path)
+    drawing = desk.judge_file(path)
     messages.progress("")
 
     def pages(ending: str) -> Sequence[str | bytes]:
@@ -197,7 +197,7 @@ def _lines(one: MarkedDrawing) -> Iterator[Said]:
 # ---- a class -------------------------------------------------------------------------------------------------------
 
 
-def _class(desk: Desk, folder: Path) -> Findings:
+def _judge_folder(desk: Desk, folder: Path) -> Findings:
     """Every file of a folder, judged; one that cannot be judged is an error line, and the others go on."""
     from graphplan.marking.classroom.results import Classroom, Unread, class_lines
 
@@ -206,8 +206,8 @@ def _class(desk: Desk, folder: Path) -> Findings:
     for number, path in enumerate(paths):
         messages.progress(f"{number}/{len(paths)} {printable(path.name)}")
         try:
-            _enclosed(path)
-            marked.append(desk.marked(path))
+            _require_drawing(path)
+            marked.append(desk.judge_file(path))
         except GraphplanError as fault:
             error(printable(fault.lines[0]))
             unread.append(Unread(printable(path.name), printable(fault.lines[0].removeprefix(f"{path}: "))))
@@ -228,13 +228,14 @@ def _files(folder: Path, report: str | None) -> list[Path]:
         files = sorted(folder.iterdir())
     except OSError as fault:
         raise Refused(f"{folder}", f"it cannot be read ({fault.strerror})", "a readable folder") from None
-    drawings = [path for path in files if not path.name.startswith(".") and not (report and _same(report, path))]
+    drawings = [path
+                for path in files if not path.name.startswith(".") and not (report and _is_same_file(report, path))]
     if not drawings:
         raise Refused(f"{folder}", "it contains no drawing", "a folder of drawings, each a file of its own")
     return drawings
 
 
-def _enclosed(path: Path) -> None:
+def _require_drawing(path: Path) -> None:
     """Refuse what is in a folder and no drawing, whatever it is called."""
     if os.path.isdir(path):
         raise Refused(f"{path}", "this is a folder within the folder", "move its drawings out of it")
@@ -254,10 +255,11 @@ def of_rotor(options: argparse.Namespace, text: str) -> int:
 
     balance = balanced(parse(text, options.scene))
     sheet = one_sheet(balance, check_rotor(balance), pencil(options))
-    return _judge(options, [_expected(sheet, answer) for answer in balance.answers], balance.task.sheet.language)
+    return _judge_tables(options, [_true_numbers(sheet, answer) for answer in balance.answers],
+                         balance.task.sheet.language)
 
 
-def _judge(options: argparse.Namespace, choices: Sequence[Sequence[TrueNumber]], language: str) -> int:
+def _judge_tables(options: argparse.Namespace, choices: Sequence[Sequence[TrueNumber]], language: str) -> int:
     """Judge a table of answers, or each in a folder, by the nearest of the choices, and print the verdicts."""
     from graphplan.words.tongue import tongue
 
@@ -267,10 +269,10 @@ def _judge(options: argparse.Namespace, choices: Sequence[Sequence[TrueNumber]],
     files = sorted(path.glob("*.csv")) if path.is_dir() else [path]
     if not files:
         raise Refused(f"{path}", "it contains no table of answers", "files that end in .csv")
-    verdicts = {file.name: _judged(choices, file) for file in files}
+    verdicts = {file.name: _judge_table(choices, file) for file in files}
     if options.json:
-        write(as_json([_record(name, each) for name, each in verdicts.items()] if path.is_dir() else
-                      _record(path.name, verdicts[path.name]), rows=True))
+        write(as_json([_table_record(name, each) for name, each in verdicts.items()] if path.is_dir() else
+                      _table_record(path.name, verdicts[path.name]), rows=True))
         return 0
     say, lines = tongue(options.language or language), []
     for name, each in verdicts.items():
@@ -280,7 +282,7 @@ def _judge(options: argparse.Namespace, choices: Sequence[Sequence[TrueNumber]],
     return 0
 
 
-def _judged(choices: Sequence[Sequence[TrueNumber]], path: Path) -> list[AnswerVerdict]:
+def _judge_table(choices: Sequence[Sequence[TrueNumber]], path: Path) -> list[AnswerVerdict]:
     """The verdicts on one table, by the choice that it is nearest to."""
     from graphplan.marking.answers import count_right, judge_answers
     from graphplan.marking.files.tables import read_answers
@@ -297,7 +299,7 @@ def _judged(choices: Sequence[Sequence[TrueNumber]], path: Path) -> list[AnswerV
         raise Refused(f"{path}", str(error), f"a unit such as {choices[0][0].written}") from None
 
 
-def _expected(sheet: RotorSheet, answer: Answer) -> list[TrueNumber]:
+def _true_numbers(sheet: RotorSheet, answer: Answer) -> list[TrueNumber]:
     """The true numbers of a rotor: corrections plane by plane, the static unbalance and the moment about plane I."""
     from graphplan.marking.answers import TrueNumber
     from graphplan.mechanism.units import Dimension
@@ -320,7 +322,7 @@ def _expected(sheet: RotorSheet, answer: Answer) -> list[TrueNumber]:
     return numbers
 
 
-def _record(name: str, verdicts: Sequence[AnswerVerdict]) -> dict[str, Any]:
+def _table_record(name: str, verdicts: Sequence[AnswerVerdict]) -> dict[str, Any]:
     """The verdicts on one table as data."""
     from graphplan.marking.answers import count_right
 

@@ -27,12 +27,12 @@ class Desk:
     weights: Weights
     options: argparse.Namespace
 
-    def marked(self, path: Path) -> MarkedDrawing:
+    def judge_file(self, path: Path) -> MarkedDrawing:
         """A drawing judged; fails with `Refused` where it cannot be, whatever happens."""
         try:
             with warnings.catch_warnings():  # what libraries say is not for the reader
                 warnings.simplefilter("ignore")
-                return self.judged(self._read(path))
+                return self.judge_submission(self._read(path))
         except GraphplanError:
             raise
         except MemoryError:
@@ -75,7 +75,7 @@ class Desk:
         views = self.on_sheet.composition.views
         return {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in views.items()}
 
-    def judged(self, submission: Submission) -> MarkedDrawing:
+    def judge_submission(self, submission: Submission) -> MarkedDrawing:
         """A drawing judged by what was read of it."""
         from graphplan.check.trusted import construct
         from graphplan.marking.classroom.results import MarkedDrawing

@@ -17,7 +17,7 @@ from typing import Any
 from graphplan import __version__
 from graphplan.commands import parser
 from graphplan.commands.output import Messages, as_json, write
-from graphplan.commands.variants import drafted
+from graphplan.commands.variants import draft_scene
 from graphplan.commands.verify_desk import Desk
 from graphplan.errors import GraphplanError, Refused
 from graphplan.marking.classroom import results as found_results
@@ -109,10 +109,10 @@ class StackDesk:
         """What is found of a stack."""
         word = assignments(self.options.assign or (), stack, self.register)
         if stack:
-            _made(self.keeper.folder)
-        seen_pages, broken = self._seen(stack)
+            _make_folder(self.keeper.folder)
+        seen_pages, broken = self._look_at_pages(stack)
         whose = place_pages(seen_pages, self.register, word)
-        judged = self._judged(whose)
+        judged = self._judge_pages(whose)
         whose = list(replace_failed(whose, {page for page, data in judged.items() if FAULT in data}))
         sheets = [*self._sheets(whose, judged), *broken]
         blank = sum(placed_page.fate == fates.BLANK for placed_page in whose)
@@ -120,12 +120,12 @@ class StackDesk:
 
     # ---- page by page ----------------------------------------------------------------------------------------------
 
-    def _seen(self, stack: Sequence[StackPage]) -> tuple[list[SeenPage], list[SheetResult]]:
+    def _look_at_pages(self, stack: Sequence[StackPage]) -> tuple[list[SeenPage], list[SheetResult]]:
         """What is seen on every page, and the pages that cannot be opened."""
         files = {path: file_digest(path) for path in dict.fromkeys(page.path for page in stack)}
         keys = {page: key("sight", __version__, files[page.path], page.number) for page in stack}
         jobs = {name: page for page, name in reversed(keys.items())}
-        outcomes = self._done(looked, jobs, "pages", lambda page: page.name)
+        outcomes = self._run_jobs(try_look, jobs, "pages", lambda page: page.name)
         seen_pages, broken = [], []
         for page, name in keys.items():
             if FAULT in outcomes[name]:
@@ -134,23 +134,23 @@ class StackDesk:
                 seen_pages.append(SeenPage(page, load_sight(outcomes[name])))
         return seen_pages, broken
 
-    def _judged(self, whose: Sequence[PlacedPage]) -> dict[str, Data]:
+    def _judge_pages(self, whose: Sequence[PlacedPage]) -> dict[str, Data]:
         """What is found of every sheet, by the name of its page; of equal pictures it is found once."""
         jobs, keys = dict[str, Job](), dict[str, str]()
         for placed_page in whose:
             if placed_page.fate in (fates.COUNTS, fates.AGAIN):
                 further = [joined_page for joined_page in whose if joined_page.fate == fates.JOINED
-                           and _same(placed_page, joined_page)]
+                           and _is_same_owner(placed_page, joined_page)]
                 name, job = self._job(placed_page, further if placed_page.fate == fates.COUNTS else [])
                 keys[placed_page.seen.page.name] = name
                 jobs.setdefault(name, job)
-        outcomes = self._done(judged, jobs, "sheets", lambda job: job.page.name)
+        outcomes = self._run_jobs(try_judge, jobs, "sheets", lambda job: job.page.name)
         return {page: outcomes[name] for page, name in keys.items()}
 
     def _job(self, one: PlacedPage, further: Sequence[PlacedPage]) -> tuple[str, Job]:
         """The job of a sheet, by a digest of all that it hangs on."""
         assert one.sheet is not None
-        scene, options = self.folder / one.sheet.scene, self._drawn_by()
+        scene, options = self.folder / one.sheet.scene, self._sheet_options()
         digests = [placed_page.seen.sight.digest for placed_page in (one, *further)]
         made_from = key("judged", __version__, digests, one.mirrored, one.sheet, file_digest(scene),
                         sorted(self.register.options.items()), options.pencil, self.weights)
@@ -158,7 +158,7 @@ class StackDesk:
                               one.sheet,
                               scene, self.keeper.folder / f"{made_from}.pdf", self.weights, options)
 
-    def _drawn_by(self) -> argparse.Namespace:
+    def _sheet_options(self) -> argparse.Namespace:
         """The options by which the sheets of the class were drawn, and the pencil of this run."""
         options = parser(("verify",)).parse_args(["verify", self.options.scene, self.options.drawing])
         if conflicting := [name for name in OF_THE_SHEETS if getattr(self.options, name) != getattr(options, name)]:
@@ -170,7 +170,7 @@ class StackDesk:
         options.pencil = self.options.pencil
         return options
 
-    def _done(self, work: Callable[[Any], Data], jobs: Mapping[str, Any], what: str, named: Callable[[Any], str]
+    def _run_jobs(self, work: Callable[[Any], Data], jobs: Mapping[str, Any], what: str, named: Callable[[Any], str]
               ) -> dict[str, Data]:
         """What comes of all jobs, told as they are done."""
         messages, outcomes = Messages(self.options.quiet), dict[str, Data]()
@@ -221,7 +221,7 @@ class StackDesk:
         to_hand_back = [sheet for sheet in found.sheets if sheet.corrected and sheet.status == found_results.JUDGED]
         names = file_names([sheet.student or self.say(said("variant {0}", sheet.variant)) for sheet in to_hand_back])
         files = {sheet.page: f"corrected/{name}.pdf" for sheet, name in zip(to_hand_back, names, strict=True)}
-        _made(self.into / "corrected")
+        _make_folder(self.into / "corrected")
         for sheet in to_hand_back:
             write((self.keeper.folder / sheet.corrected).read_bytes(), str(self.into / files[sheet.page]))
         for file in set(earlier.get("written", ())) - set(files.values()):
@@ -238,7 +238,7 @@ FATES = {fates.COUNTS: found_results.JUDGED, fates.AGAIN: found_results.AGAIN, f
          fates.SET_ASIDE: found_results.ASIDE, fates.UNASSIGNED: found_results.UNASSIGNED}
 
 
-def _made(folder: Path) -> None:
+def _make_folder(folder: Path) -> None:
     """Make a folder, unless it is there."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -247,7 +247,7 @@ def _made(folder: Path) -> None:
                       "-o FOLDER, where it can be") from None
 
 
-def _same(one: PlacedPage, other: PlacedPage) -> bool:
+def _is_same_owner(one: PlacedPage, other: PlacedPage) -> bool:
     """Whether two pages are of one student, or of one spare sheet."""
     return one.owner == other.owner and (bool(one.owner) or one.sheet == other.sheet)
 
@@ -255,7 +255,7 @@ def _same(one: PlacedPage, other: PlacedPage) -> bool:
 # ---- in a process of its own ----------------------------------------------------------------------------------------
 
 
-def looked(page: StackPage) -> Data:
+def try_look(page: StackPage) -> Data:
     """What is seen on a page, or why it cannot be opened."""
     try:
         return look_at_page(page).data
@@ -263,15 +263,15 @@ def looked(page: StackPage) -> Data:
         return {FAULT: fault.lines[0].removeprefix(f"{page.path}: ")}
 
 
-def judged(job: Job) -> Data:
+def try_judge(job: Job) -> Data:
     """What is found of a sheet, or why it cannot be judged; its corrections are written."""
     try:
-        return _judged(job)
+        return _judge_sheet_of_job(job)
     except GraphplanError as fault:
         return {FAULT: fault.lines[0].removeprefix(f"{job.page.name}: ")}
 
 
-def _judged(job: Job) -> Data:
+def _judge_sheet_of_job(job: Job) -> Data:
     from graphplan.marking.classroom.corrections import Corrections
     from graphplan.marking.judge.findings import judgement_record, look_at_lines, opinion, reading_lines
     from graphplan.marking.scans.image import page_picture
@@ -285,12 +285,12 @@ def _judged(job: Job) -> Data:
     image = image[:, ::-1] if job.mirrored else image
     scene = load_scene(str(job.scene))
     named = replace(scene.sheet, student=job.sheet.student, variant=str(job.sheet.variant))
-    desk = Desk(drafted(job.options, replace(scene, sheet=named)), job.weights, job.options)
+    desk = Desk(draft_scene(job.options, replace(scene, sheet=named)), job.weights, job.options)
     composition = desk.on_sheet.composition
     if code(composition) != job.sheet.code:
         raise Refused(f"{job.scene}", "its sheet is no longer the one that was printed", "the scenes as they were made")
     submission = read_picture(image, job.page.name, task(composition)[0], desk.frames, job.sheet.code)
-    marked, say = desk.judged(submission), composition.plans.tongue
+    marked, say = desk.judge_submission(submission), composition.plans.tongue
     if isinstance(submission.page, PencilPage):
         sheet = straight_picture(image, submission.page.warp)
         photograph = sheet_photograph(sheet)

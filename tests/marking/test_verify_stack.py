@@ -23,7 +23,7 @@ from graphplan.accuracy.drafted import Drafted  # noqa: E402
 from graphplan.accuracy.hand import Pencil  # noqa: E402
 from graphplan.commands import main, parser  # noqa: E402
 from graphplan.commands.result_schemas import result_schema as printed_schema  # noqa: E402
-from graphplan.commands.variants import drafted  # noqa: E402
+from graphplan.commands.variants import draft_scene  # noqa: E402
 from graphplan.commands.verify_desk import Desk  # noqa: E402
 from graphplan.marking.classroom.register import ClassRegister, TaskSheet  # noqa: E402
 from graphplan.marking.judge.findings import judgement_record  # noqa: E402
@@ -85,7 +85,7 @@ def a_class(folder: Path) -> Class:
         scene = folder / f"variant-{number}.toml"
         scene.write_text(f"# variant {number}\n{SCENE}")
         named = replace((own := load(str(scene))).sheet, student=STUDENTS[number - 1], variant=str(number))
-        sheets.append(drafted(chosen(scene), replace(own, sheet=named)))
+        sheets.append(draft_scene(chosen(scene), replace(own, sheet=named)))
     register = ClassRegister("Four bars", 1, {"paper": "A4"}, tuple(
         TaskSheet(code(sheet.composition), number, student, f"variant-{number}.toml", number)
         for number, (student, sheet) in enumerate(zip(STUDENTS, sheets, strict=True), 1)))
@@ -181,7 +181,7 @@ def test_one_verdict(judged: Judged) -> None:
     desk = Desk(sheet, parse_weights(""), chosen(judged.made.folder / "variant-1.toml"))
     from graphplan.marking.scans.scan import read_picture
 
-    alone = desk.judged(read_picture(image, "scans.pdf#3", task(sheet.composition)[0], desk.frames,
+    alone = desk.judge_submission(read_picture(image, "scans.pdf#3", task(sheet.composition)[0], desk.frames,
                                      code(sheet.composition)))
     found = json.loads((judged.into / "results.json").read_text())["sheets"][0]
     assert found["judgement"] == json.loads(json.dumps(judgement_record(alone.judgement, alone.score)))

@@ -180,7 +180,7 @@ def _python_term(term: str, names: list[str]) -> str:
 
 
 def _evaluate(node: ast.AST, names: list[str], known: Mapping[str, Any]) -> Any:
-    def of(argument: ast.AST) -> Any:
+    def value_of(argument: ast.AST) -> Any:
         return _evaluate(argument, names, known)
 
     match node:
@@ -189,17 +189,17 @@ def _evaluate(node: ast.AST, names: list[str], known: Mapping[str, Any]) -> Any:
         case ast.Name(id=name):
             return known[names[int(name[1:])]]
         case ast.Tuple(elts=[x, y]):
-            return complex(_number(of(x)), _number(of(y)))
+            return complex(_number(value_of(x)), _number(value_of(y)))
         case ast.UnaryOp(op=ast.USub(), operand=argument):
-            return _times(of(argument), -1.0)
+            return _times(value_of(argument), -1.0)
         case ast.BinOp(op=ast.Pow(), left=argument, right=ast.Name(id="degree")):
-            return _times(of(argument), math.pi / 180)
+            return _times(value_of(argument), math.pi / 180)
         case ast.BinOp(op=sign, left=one, right=two):
-            return OPERATIONS[type(sign)](of(one), of(two))
+            return OPERATIONS[type(sign)](value_of(one), value_of(two))
         case ast.Compare(left=one, ops=[sign], comparators=[two]):
-            return OPERATIONS[type(sign)](_number(of(one)), _number(of(two)))
+            return OPERATIONS[type(sign)](_number(value_of(one)), _number(value_of(two)))
         case ast.Call(func=ast.Name(id=name), args=arguments):
-            return _run_command(names[int(name[1:])], [of(argument) for argument in arguments])
+            return _run_command(names[int(name[1:])], [value_of(argument) for argument in arguments])
     raise ValueError("a term is not understood")
 
 

@@ -25,8 +25,7 @@ from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Program, Step, evaluate
-from graphplan.mechanism.model import Scene
+from graphplan.kernel.program import Program, evaluate
 from graphplan.mechanism.travel import paces
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
@@ -58,14 +57,14 @@ class ReachablePoses(NamedTuple):
 
 def reachable_poses(drawing: Construction) -> ReachablePoses | None:
     """Poses around the cycle and with pins dragged a little; none where the scene cannot be followed."""
-    found = relations(drawing.scene, ALONE)
-    if found is None:
+    linkage = relations(drawing.scene, ALONE)
+    if linkage is None:
         return None
-    poses = [pose for pins, travels in _drags(found) if (pose := found.pose(pins, travels)) is not None]
+    poses = [pose for pins, travels in _drags(linkage) if (pose := linkage.pose(pins, travels)) is not None]
     if not poses:
         return None
-    points, guides = ({name: np.array([complex(*pose[part][name]) for pose in poses]) for name in poses[0][part]}
-                      for part in (0, 1))
+    points, guides = ({name: np.array([complex(*pose[kind][name]) for pose in poses]) for name in poses[0][kind]}
+                      for kind in (0, 1))
     return ReachablePoses(points, guides)
 
 
@@ -74,9 +73,9 @@ def _drags(found: Relations) -> list[tuple[dict[str, tuple[float, float]], list[
     scene, rng = found.scene, Random(1)
     rates = paces(scene) if scene.drives else ()
     low, high = found.limits if scene.drives else (0.0, 0.0)
-    part: Array = (1 - np.cos(np.linspace(0.0, np.pi, TRAVELS))) / 2 if scene.drives else []
+    fraction: Array = (1 - np.cos(np.linspace(0.0, np.pi, TRAVELS))) / 2 if scene.drives else []
     drags: list[tuple[dict[str, tuple[float, float]], list[float]]] = [({}, [0.0] * len(rates))]
-    drags += [({}, [rate * (low + (high - low) * p) for rate in rates]) for p in part]
+    drags += [({}, [rate * (low + (high - low) * p) for rate in rates]) for p in fraction]
     for name in found.free * DRAGS:
         x, y = found.places[name].real, found.places[name].imag
         dx, dy = (FAR * scene.extent * rng.uniform(-1, 1) for _ in range(2))
@@ -95,34 +94,34 @@ def constructions(drawing: Construction) -> list[Construction]:
         poses = None
     if poses is None:
         return [drawing]
-    found, held = [drawing], [poses_drawn_right(drawing, poses)]
-    open = ~held[0] & _regular_poses(drawing, poses)
-    while open.any() and len(found) < MOST:
+    drawings, served = [drawing], [poses_drawn_right(drawing, poses)]
+    open = ~served[0] & _regular_poses(drawing, poses)
+    while open.any() and len(drawings) < MOST:
         places = np.flatnonzero(open)
         k = int(places[len(places) // 2])
         open[k] = False
-        other = _construction_for_pose(drawing, *poses.pose(k))
-        if other is not None and (holds := poses_drawn_right(other, poses))[k]:
-            found.append(other)
-            held.append(holds)
+        candidate = _construction_for_pose(drawing, *poses.pose(k))
+        if candidate is not None and (holds := poses_drawn_right(candidate, poses))[k]:
+            drawings.append(candidate)
+            served.append(holds)
             open &= ~holds
-    return _fewest(found, held)
+    return _fewest(drawings, served)
 
 
 def _fewest(found: list[Construction], held: list[Array]) -> list[Construction]:
     """Without those whose poses others draw as well; the first one stays."""
-    kept = list(range(len(found)))
+    needed = list(range(len(found)))
     for k in range(1, len(found)):
-        others = [held[i] for i in kept if i != k]
-        if not (held[k] & ~np.any(others, axis=0)).any():
-            kept.remove(k)
-    return [found[k] for k in kept]
+        rest_of_them = [held[i] for i in needed if i != k]
+        if not (held[k] & ~np.any(rest_of_them, axis=0)).any():
+            needed.remove(k)
+    return [found[k] for k in needed]
 
 
 def _regular_poses(drawing: Construction, poses: ReachablePoses) -> Array:
     """The poses in which the rules give every point that is wanted, shape (n,)."""
-    wanted = _wanted_points(drawing.program, poses, drawing.program.wanted)
-    return np.all([np.isfinite(x) & np.isfinite(y) for x, y in wanted], axis=0) if wanted else np.ones(len(poses), bool)
+    points = _wanted_points(drawing.program, poses, drawing.program.wanted)
+    return np.all([np.isfinite(x) & np.isfinite(y) for x, y in points], axis=0) if points else np.ones(len(poses), bool)
 
 
 def poses_drawn_right(drawing: Construction, poses: ReachablePoses) -> Array:
@@ -133,15 +132,16 @@ def poses_drawn_right(drawing: Construction, poses: ReachablePoses) -> Array:
 
 def _poses_with_true_marks(drawing: Construction, poses: ReachablePoses, values: list[Any]) -> Array:
     """The same, of values of the drawn steps."""
-    drawn, program, full = drawing.drawn, drawing.program, np.zeros(len(poses))
-    pairs = [(i, j) for i, j in zip(drawn.wanted, program.wanted, strict=True) if drawn.steps[i].op.gives == POINT]
+    movements, program, full = drawing.drawn, drawing.program, np.zeros(len(poses))
+    pairs = [(i, j) for i, j in zip(movements.wanted, program.wanted, strict=True)
+             if movements.steps[i].op.gives == POINT]
     if not pairs:
         return np.ones(len(poses), dtype=bool)
     ours = [(values[i][0] + full, values[i][1] + full) for i, _ in pairs]
     truth = _wanted_points(program, poses, [j for _, j in pairs])
-    size = np.max([np.hypot(x, y) for x, y in truth], axis=0)
+    scale = np.max([np.hypot(x, y) for x, y in truth], axis=0)
     gaps = [np.hypot(x - u, y - v) for (x, y), (u, v) in zip(ours, truth, strict=True)]
-    return np.max(gaps, axis=0) <= MARK_TOL * size  # nan is not
+    return np.max(gaps, axis=0) <= MARK_TOL * scale  # nan is not
 
 
 def _wanted_points(program: Program, poses: ReachablePoses, places: Any) -> list[tuple[Array, Array]]:
@@ -159,27 +159,17 @@ def _inputs(program: Program, poses: ReachablePoses) -> dict[Any, dict[str, Any]
 def _construction_for_pose(drawing: Construction, points: dict[str, complex],
                            guides: dict[str, complex]) -> Construction | None:
     """The same program drawn out in forms for a pose; where it has none, what the planner finds for the pose."""
-    given, scene = inputs_in_pose(drawing.program, points, guides), scene_in(drawing.scene, points, guides)
-
-    def there(step: Step) -> Step:
-        other = given.get(step.name) or given.get(step.index)
-        return step.but(params={**step.params, **other}) if other else step
-
-    program = replace(drawing.program, steps=tuple(map(there, drawing.program.steps)))
-    one = replace(drawing, scene=scene, program=program)
-    for afresh in (False, True) if drawing.scene.loads is None else (False,):
+    inputs, scene = inputs_in_pose(drawing.program, points, guides), scene_in(drawing.scene, points, guides)
+    steps = tuple([step.but(params=step.parameters(inputs)) for step in drawing.program.steps])
+    redrawn = replace(drawing, scene=scene, program=replace(drawing.program, steps=steps))
+    for anew in (False, True) if drawing.scene.loads is None else (False,):
         try:
-            found = _construct_anew(scene, drawing) if afresh else one
-            if found.values:
-                return found
+            candidate = construct(scene, plan=drawing.plan, strict=drawing.strict) if anew else redrawn
+            if candidate.values:
+                return candidate
         except (ConstructionError, Refused):
             continue
     return None
-
-
-def _construct_anew(scene: Scene, drawing: Construction) -> Construction:
-    """What the planner finds for a pose, on the same plans."""
-    return construct(scene, plan=drawing.plan, strict=drawing.strict)
 
 
 # ---- compounds that their forms do not hold everywhere ---------------------------------------------------------------
@@ -202,13 +192,14 @@ def best_construction(drawing: Construction) -> tuple[Construction, dict[int, Fa
         poses = None
     if poses is None:
         return drawing, {}
-    wrong, held = failing_compounds(drawing, poses)
-    open = _regular_poses(drawing, poses) & ~held
+    wrong, served = failing_compounds(drawing, poses)
+    open = _regular_poses(drawing, poses) & ~served
     if not open.any():
         return drawing, wrong
-    found = [(drawing, wrong, held), *((one, *failing_compounds(one, poses)) for one in constructions(drawing)[1:])]
-    best = max(found, key=lambda one: int(one[2].sum()))
-    return best[0], best[1]
+    candidates = [(drawing, wrong, served)]
+    candidates += [(other, *failing_compounds(other, poses)) for other in constructions(drawing)[1:]]
+    best, failing, _ = max(candidates, key=lambda candidate: int(candidate[2].sum()))
+    return best, failing
 
 
 def failing_compounds(drawing: Construction, poses: ReachablePoses) -> tuple[dict[int, FailingCompound], Array]:
@@ -217,37 +208,31 @@ def failing_compounds(drawing: Construction, poses: ReachablePoses) -> tuple[dic
 
     Each is read from marks that are put right, where others before it fail.
     """
-    drawn, given, domain = drawing.drawn, _inputs(drawing.drawn, poses), Arrays()
+    movements, inputs, domain = drawing.drawn, _inputs(drawing.drawn, poses), Arrays()
     compounds = {compound.step.index: compound for compound in drawing.compounds
                  if max(compound.step.args) < compound.step.index}  # its form may do without a mark that comes later
-    values, found = list[Any](), dict[int, FailingCompound]()
+    values, failing = list[Any](), dict[int, FailingCompound]()
     with np.errstate(all="ignore"):
-        for step in drawn.steps:
-            other = given.get(step.name) or given.get(step.index)
-            value = domain.mask_refused(step.op.rule(domain, *[values[arg] for arg in step.args],
-                                              **({**step.params, **other} if other else step.params)))
+        for step in movements.steps:
+            value = step.value(domain, values, inputs)
             compound = compounds.get(step.index)  # one that reads its own mark, as lines are drawn once, tells nothing
             if compound is not None and step.index not in compound.step.args and (sign := _sense(drawing, compound)):
-                args = [values[arg] for arg in compound.step.args]
-                truth = domain.mask_refused(compound.step.op.rule(domain, *args, **compound.step.params))
-                truth = tuple(sign * part for part in truth) if step.op.gives == LINE else truth
+                args, truth = [values[arg] for arg in compound.step.args], compound.step.value(domain, values, {})
+                truth = tuple(sign * number for number in truth) if step.op.gives == LINE else truth
                 if (np.isfinite(truth[0]) & ~_coincide(step.op.gives, value, truth, args)).any():
-                    found[step.index], value = FailingCompound(compound, sign < 0), truth
+                    failing[step.index], value = FailingCompound(compound, sign < 0), truth
             values.append(value)
-    return found, _poses_with_true_marks(drawing, poses, values)
+    return failing, _poses_with_true_marks(drawing, poses, values)
 
 
 def corrected_values(drawing: Construction, poses: ReachablePoses, wrong: Mapping[int, FailingCompound]) -> list[Any]:
     """The drawn steps' values in all poses, the marks of some compounds by their rule."""
-    drawn, given, domain, values = drawing.drawn, _inputs(drawing.drawn, poses), Arrays(), list[Any]()
+    movements, inputs, domain, values = drawing.drawn, _inputs(drawing.drawn, poses), Arrays(), list[Any]()
     with np.errstate(all="ignore"):
-        for step in drawn.steps:
-            other = given.get(step.name) or given.get(step.index)
-            one = wrong.get(step.index)
-            by = one.compound.step if one else step
-            params = {**by.params, **other} if other else by.params
-            value = domain.mask_refused(by.op.rule(domain, *[values[arg] for arg in by.args], **params))
-            values.append(tuple(-part for part in value) if one and one.against else value)
+        for step in movements.steps:
+            failing = wrong.get(step.index)
+            value = (failing.compound.step if failing else step).value(domain, values, inputs)
+            values.append(tuple(-number for number in value) if failing and failing.against else value)
     return values
 
 
@@ -260,7 +245,7 @@ def _sense(drawing: Construction, compound: Compound) -> int:
         return 0
     value, args = drawing.values[step.index], [drawing.values[arg] for arg in step.args]
     for sign in (1, -1) if step.op.gives == LINE else (1,):
-        signed = tuple(sign * part for part in truth) if step.op.gives == LINE else truth
+        signed = tuple(sign * number for number in truth) if step.op.gives == LINE else truth
         if bool(np.all(_coincide(step.op.gives, value, signed, args))):
             return sign
     return 0
@@ -268,16 +253,16 @@ def _sense(drawing: Construction, compound: Compound) -> int:
 
 def _coincide(kind: str, value: Any, truth: Any, args: Any) -> Array:
     """Where two marks are one, beside the marks that they were made from."""
-    size: Array = MIN_SIZE
+    scale: Array = MIN_SIZE
     for arg in args:
         if len(arg) == 2:
-            size = np.maximum(size, np.hypot(arg[0], arg[1]))
+            scale = np.maximum(scale, np.hypot(arg[0], arg[1]))
     if kind == LINE:
         (a, b, c), (u, v, w) = value, truth
         n, m = np.hypot(a, b), np.hypot(u, v)
-        return (np.hypot(a / n - u / m, b / n - v / m) <= MARK_TOL) & (np.abs(c / n - w / m) <= MARK_TOL * size)
+        return (np.hypot(a / n - u / m, b / n - v / m) <= MARK_TOL) & (np.abs(c / n - w / m) <= MARK_TOL * scale)
     if kind == POINT:
-        size = np.maximum(size, np.hypot(truth[0], truth[1]))
-        return np.hypot(value[0] - truth[0], value[1] - truth[1]) <= MARK_TOL * size
+        scale = np.maximum(scale, np.hypot(truth[0], truth[1]))
+        return np.hypot(value[0] - truth[0], value[1] - truth[1]) <= MARK_TOL * scale
     return np.all([np.abs(p - q) <= MARK_TOL * np.maximum(MIN_SIZE, np.abs(q))
                    for p, q in zip(value, truth, strict=True)], axis=0)

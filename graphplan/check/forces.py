@@ -18,7 +18,7 @@ from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.units import metre
 from graphplan.methods import kinds
 from graphplan.methods.panels import JointForce
-from graphplan.methods.results import balances
+from graphplan.methods.recorded import balances
 from graphplan.solver.equations import Equations, force_equations
 from graphplan.solver.friction import (
     Frictional,

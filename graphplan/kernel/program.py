@@ -30,7 +30,7 @@ from graphplan.kernel.kinds import (
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.origin import Origin, on_pose, origin
 from graphplan.kernel.panel import Panel as Panel
-from graphplan.kernel.plans import require_one_plan
+from graphplan.kernel.panel import require_one_plan
 from graphplan.kernel.stages import Stage, Teller, group_by_stage
 from graphplan.phrases import Said, arrange, phrase
 
@@ -65,6 +65,16 @@ class Step:
     def root(self) -> int | None:
         """The step of the mark that a point is laid off from, if it is."""
         return None if self.op.root is None else self.args[self.op.root]
+
+    def parameters(self, given: Mapping[Any, Mapping[str, Any]]) -> Mapping[str, Any]:
+        """Its parameters, as they are given by its name or index where they are, else as they were recorded."""
+        changed = given.get(self.name) or given.get(self.index)
+        return {**self.params, **changed} if changed and changed.keys() <= self.params.keys() else self.params
+
+    def value(self, domain: Domain, values: Sequence[Any], given: Mapping[Any, Mapping[str, Any]]) -> Any:
+        """What it makes of the values of the steps before it."""
+        operands = [values[arg] for arg in self.args]
+        return domain.mask_refused(self.op.rule(domain, *operands, **self.parameters(given)))
 
     @property
     def key(self) -> tuple[Any, ...]:
@@ -217,11 +227,11 @@ class Board(Verbs):
 
     def index_mark(self, mark: Mark, key: tuple[Any, ...], args: tuple[Mark, ...]) -> None:
         """Find a mark under its key, and a line by its heading and each point that lies on it by construction."""
-        found = {key: mark}
+        entries = {key: mark}
         for place in incident(mark.step.op):
             line, point = (mark, args[place]) if mark.kind == LINE else (args[place], mark)
-            found[*line.heading, point.step.index] = line
-        for key, line in found.items():
+            entries[*line.heading, point.step.index] = line
+        for key, line in entries.items():
             if key not in self._drawn:
                 self._drawn[key] = mark.keys[key] = line
 
@@ -365,8 +375,7 @@ def about_origin(program: Program, domain: Domain, given: Mapping[Any, Mapping[s
     values: list[Any] = []
     given, origin = given or {}, program.origin
     for step in program.steps:
-        other = given.get(step.name) or given.get(step.index)
-        params = {**step.params, **other} if other and other.keys() <= step.params.keys() else step.params
+        params = step.parameters(given)
         if origin and step.op.movement is Movement.GIVEN:
             params = origin.relative_coordinates(domain, **params)
         try:

@@ -34,13 +34,12 @@ from graphplan.methods.panels import (
     TrianglePlan,
     pole_letter,
 )
-from graphplan.methods.recorded import ReadableDrawing
-from graphplan.methods.results import NamedResults
+from graphplan.methods.recorded import NamedResults, ReadableDrawing
 from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Said, said
 
 if TYPE_CHECKING:
-    from graphplan.methods.batch import Poses
+    from graphplan.methods.replay import Poses
 
 
 class DrawnVector(NamedTuple):
@@ -110,11 +109,11 @@ class Construction(ReadableDrawing, NamedResults):
     def __repr__(self) -> str:
         """One line: the title, and of what can be drawn in this pose how many steps it takes, by which methods."""
         try:
-            ways = [f"; {kind} by {', '.join(map(str, found))}" for kind, found in self.method.items()]
-            told = f"{len(self.drawn) - self.drawn.givens} steps{''.join(ways)}"
+            methods = [f"; {kind} by {', '.join(map(str, names))}" for kind, names in self.method.items()]
+            summary = f"{len(self.drawn) - self.drawn.givens} steps{''.join(methods)}"
         except ConstructionError as singular:
-            told = singular.code
-        return f"<Construction of {self.scene.title}: {told}>"
+            summary = singular.code
+        return f"<Construction of {self.scene.title}: {summary}>"
 
     @cached_property
     def truth(self) -> list[Any]:
@@ -138,7 +137,7 @@ class Construction(ReadableDrawing, NamedResults):
             if step.op.gives == POINT:
                 points.setdefault(step.panel, []).append(truth[step.index])
         least = EXTENT_TOL * float(self.scene.extent)
-        windows = {panel: _window(own, least) for panel, own in points.items()}
+        windows = {panel: _window(places, least) for panel, places in points.items()}
         keep = STRICT if self.strict else BY_SET_SQUARE
         return Expander(program, truth, keep, windows, self.prefer, self.scene.extent, self._faithful.better)
 
@@ -149,24 +148,24 @@ class Construction(ReadableDrawing, NamedResults):
         values, origin = [self._expander.values[index] for index in order], self.program.origin
         if origin is None:
             return program, values, order
-        drawn = replace(program, steps=shift_steps(program.steps, origin.x, origin.y))
-        return drawn, origin.absolute_marks(Floats(), on_pose(program.steps), values), order
+        moved_back = replace(program, steps=shift_steps(program.steps, origin.x, origin.y))
+        return moved_back, origin.absolute_marks(Floats(), on_pose(program.steps), values), order
 
     @cached_property
     def compounds(self) -> Sequence[Compound]:
         """The compounds that take several movements, by their first in drawing order."""
         if self.posed:
             return self.posed.compounds
-        drawn, _, order = self._drawn_out
+        program, _, order = self._drawn_out
         now = {before: index for index, before in enumerate(order)}
         place, whole = [now[before] for before in self._expander.place], dict[int, list[Step]]()
-        for step, before in zip(drawn.steps, order, strict=True):
+        for step, before in zip(program.steps, order, strict=True):
             whole.setdefault(self._expander.serves[before], []).append(step)
 
         def compound(one: Step, steps: list[Step]) -> Compound:
             inner = {name: now[mark.step.index] for mark, name in self._expander.inner[one.index]}
             as_drawn = one.but(index=place[one.index], args=tuple(place[arg] for arg in one.args))
-            return Compound(drawn, as_drawn, tuple(steps), inner)
+            return Compound(program, as_drawn, tuple(steps), inner)
 
         return [compound(self.program.steps[index], steps) for index, steps in whole.items() if len(steps) > 1]
 
@@ -188,12 +187,12 @@ class Construction(ReadableDrawing, NamedResults):
         if self.posed:
             return self.posed.controls
         with suppress(ConstructionError):
-            ends = {one.point: (one.start, one.end) for one in self.arrows if one.kind == kinds.VELOCITY}
+            ends = {vector.point: (vector.start, vector.end) for vector in self.arrows if vector.kind == kinds.VELOCITY}
             window, origin = self._expander.windows.get(MECHANISM, EVERYWHERE), self.program.origin
             if origin:
                 window = window._replace(centre=origin.point(Floats(), window.centre))
-            found = controls(self.scene, self.drawn, self.values, ends, window.holds)
-            return tuple(found) if self.turned else ()
+            visible = controls(self.scene, self.drawn, self.values, ends, window.holds)
+            return tuple(visible) if self.turned else ()
         return ()
 
     @cached_property
@@ -228,7 +227,7 @@ class Construction(ReadableDrawing, NamedResults):
     def _forms(self, rivals: int | None = None) -> list[str]:
         chosen = [(self.drawn.number(step.index), step.choice.reason(rivals)) for step in self.drawn.steps
                   if step.choice and step.choice.others]
-        return [*self.notes, *self._far_pole_notes(), *(said("step {0}: {1}", *told) for told in chosen)]
+        return [*self.notes, *self._far_pole_notes(), *(said("step {0}: {1}", *row) for row in chosen)]
 
     def _far_pole_notes(self) -> Iterator[Said]:
         """The poles that are off the sheet, by the lines that cross in them."""
@@ -248,16 +247,16 @@ class Construction(ReadableDrawing, NamedResults):
     @cached_property
     def method(self) -> dict[str, list[str]]:
         """How velocities, accelerations and forces are found, in a few words each."""
-        found: dict[str, list[str]] = {}
+        methods: dict[str, list[str]] = {}
         for kind in (kinds.VELOCITY, kinds.ACCELERATION):
             if any(reading.marks and reading.kind.group == kind for reading in self.readings):
-                ways: list[str] = list(dict.fromkeys([*self._loci(kind), *self._ring_methods(kind)]))
-                found[kind] = ways or [PLAIN[self.plan, kind]]
+                names: list[str] = list(dict.fromkeys([*self._loci(kind), *self._ring_methods(kind)]))
+                methods[kind] = names or [PLAIN[self.plan, kind]]
         if self.poles_by:
-            found[kinds.POLES] = [*self.poles_by]
+            methods[kinds.POLES] = [*self.poles_by]
         if curved := [*self._curvatures()]:
-            found[kinds.CURVES] = curved
-        return found | (self._force_method() if self.scene.loads else {})
+            methods[kinds.CURVES] = curved
+        return methods | (self._force_method() if self.scene.loads else {})
 
     def _ring_methods(self, kind: str) -> tuple[Said, ...]:
         """How rings of links are broken; of velocities by poles, by which."""
@@ -296,8 +295,8 @@ class Construction(ReadableDrawing, NamedResults):
     def _letters(self) -> list[str]:
         """The letters of the auxiliary points."""
         names = {step.names.get("Q", "") for step in self.program.steps if step.op.claim_operands("locus")}
-        drawn = {step.name for step in self.drawn.steps}
-        return sorted(name for name in names & drawn if name)
+        names_on_sheet = {step.name for step in self.drawn.steps}
+        return sorted(name for name in names & names_on_sheet if name)
 
     @property
     def kappa(self) -> float:
@@ -307,17 +306,17 @@ class Construction(ReadableDrawing, NamedResults):
     @property
     def arrows(self) -> tuple[DrawnVector, ...]:
         """The vectors that were asked for, as marks of the drawn program."""
-        found = []
+        vectors = []
         for reading in self.readings:
             if reading.kind in (kinds.VELOCITY, kinds.ACCELERATION):
                 start, end = (self.drawn.wanted[position] for position in reading.marks)
                 panel = self.drawn.steps[end].panel
-                prefix = "v" if reading.kind == kinds.VELOCITY else "j"
-                found.append(DrawnVector(reading.kind, reading.of, f"{prefix}_{reading.of.lower()}", panel, start, end))
+                letter = f"{'v' if reading.kind == kinds.VELOCITY else 'j'}_{reading.of.lower()}"
+                vectors.append(DrawnVector(reading.kind, reading.of, letter, panel, start, end))
         for force in self.shown:
             start, end = (self.drawn.wanted[position] for position in force.marks)
-            found.append(DrawnVector(force.kind, force.letter, force.letter, self.drawn.steps[end].panel, start, end))
-        return tuple(found)
+            vectors.append(DrawnVector(force.kind, force.letter, force.letter, self.drawn.steps[end].panel, start, end))
+        return tuple(vectors)
 
     def evaluate(self, points: Mapping[str, Any], guides: Mapping[str, Any] | None = None, *,
                  loads: Mapping[str, Any] | None = None, only: Collection[str] | None = None,
@@ -333,7 +332,7 @@ class Construction(ReadableDrawing, NamedResults):
         installed: the same numbers to the last bit, several times faster. `progress` is told how many are done, of how
         many.
         """
-        from graphplan.methods.batch import batch
+        from graphplan.methods.replay import batch
 
         return batch(self, points, guides or {}, loads or {}, only, workers, compiled, progress)
 
@@ -342,11 +341,11 @@ class Construction(ReadableDrawing, NamedResults):
         """All readings, or `only` those of some kinds, with some points elsewhere: for poses that come one by one."""
         from graphplan.methods.replay import replay_of
 
-        given = {name: {"x": z.real, "y": z.imag} for name, z in (points or {}).items()}
+        inputs = {name: {"x": z.real, "y": z.imag} for name, z in (points or {}).items()}
         kinds = self.kinds if only is None else tuple(only)
-        found = replay_of(self, tuple([(name, part) for name in given for part in "xy"]), kinds)
-        return found.read(given) if found is not None else {
-            kind: named for kind, named in self.read(Floats(), given).items() if kind in kinds}
+        reader = replay_of(self, tuple([(name, axis) for name in inputs for axis in "xy"]), kinds)
+        return reader.read(inputs) if reader is not None else {
+            kind: named for kind, named in self.read(Floats(), inputs).items() if kind in kinds}
 
     @cached_property
     def computed(self) -> Mapping[str, Mapping[str, Any]]:

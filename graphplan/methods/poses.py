@@ -28,15 +28,15 @@ class Pose:
         self.assembled = Assembler(board, scene, scene.assembly) if scene.assembly else None
         with board.on(panel):
             self._rolling = rolling_guides(scene)
-            drawn = {guide.at: guide for guide in self._rolling if guide.base}
-            apart = {name: scene.points[name] for name in ordered_points(scene) if name not in {*shared, *drawn}}
+            constructed = {guide.at: guide for guide in self._rolling if guide.base}
+            apart = {name: scene.points[name] for name in ordered_points(scene) if name not in {*shared, *constructed}}
             self.standing: dict[str, Mark] = {
                 name: self.assembled.mark(name) if self.assembled else board.given(x=x, y=y, name=name)
                 for name, (x, y) in apart.items()}
-        self.standing |= {name: self.standing[other] for name, other in shared.items()}
+        self.standing |= {name: self.standing[twin] for name, twin in shared.items()}
         self.points: MutableMapping[str, Mark] = ChainMap({}, self.standing)
         self.guides: dict[Slide, Mark] = {}
-        for name, guide in drawn.items():
+        for name, guide in constructed.items():
             self.standing[name] = self._pitch_point(guide)
         self._letters: dict[str, str] = {}
         self._free = [c for c in "QRSTUVWXYZHIJ" if c not in scene.points]
@@ -55,8 +55,8 @@ class Pose:
                 return self.assembled.guide(slide)
             if slide.through is None:
                 return self.board.guide(self.points[slide.at], dx=slide.direction[0], dy=slide.direction[1])
-            one, two = (self.points[name] for name in slide.through)
-            along = (self.board.line if run else self.board.side)(one, two)
+            first, second = (self.points[name] for name in slide.through)
+            along = (self.board.line if run else self.board.side)(first, second)
             return self.board.parallel(along, self.points[slide.at])
 
     def side(self, one: str, other: str) -> Mark:
@@ -98,7 +98,7 @@ class Pose:
         point, link = place
         at = self.scene.points.get(point)
         for name in ([link] if link else sorted(self.scene.links_of[point], key=by_name)):
-            for other in sorted(self.scene.links[name], key=by_name):
-                if self.scene.points[other] != at:
-                    return self.points[other]
+            for name_of_end in sorted(self.scene.links[name], key=by_name):
+                if self.scene.points[name_of_end] != at:
+                    return self.points[name_of_end]
         return next(mark for name, mark in self.standing.items() if self.scene.points.get(name, at) != at)

@@ -1,9 +1,10 @@
-"""A recorded construction: its program, and what is read from the marks that are wanted."""
+"""A recorded construction: its program, what is read from the marks that are wanted, and results by kind and name."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -14,10 +15,12 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.primitives import dot, meet
 from graphplan.kernel.program import Step, about_origin, error_at
 from graphplan.mechanism import units
-from graphplan.mechanism.model import Number, Pair, Scene
+from graphplan.mechanism.model import FRAME, Number, Pair, Scene
+from graphplan.methods import kinds
 from graphplan.methods.kinds import ResultKind, kind_of
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.time_scale import Tempo
+from graphplan.methods.panels import pole_named, reactions_named
 
 ASIDE = 40  # numbers: some hundreds of bytes
 
@@ -68,10 +71,10 @@ class ReadableDrawing(Drawing):
 
     def read_off(self, values: Sequence[Any], domain: Domain) -> dict[str, dict[str, Any]]:
         """All readings from the value of every step about the program's origin."""
-        origin, found = self.program.origin, self.told([values[index] for index in self.program.wanted], domain)
-        return found if origin is None else {
+        origin, results = self.program.origin, self.told([values[index] for index in self.program.wanted], domain)
+        return results if origin is None else {
             kind: {of: origin.point(domain, at) if kind_of(kind).dimension == units.PLACE else at
-                   for of, at in named.items()} for kind, named in found.items()}
+                   for of, at in named.items()} for kind, named in results.items()}
 
     def told(self, wanted: Sequence[Any], domain: Domain) -> dict[str, dict[str, Any]]:
         """All readings from the values of the wanted marks, by kind and name; what is prescribed as it is given."""
@@ -159,10 +162,10 @@ def _force(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> An
 
 def _moment(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> Any:
     """Of forces, each by its point, tail and head, about the first mark."""
-    pole, *rest = marks
+    pole, *vectors = marks
     phi, long = domain.lift(drawing.phi), domain.lift(units.metre(drawing.scene.units))
     total = 0 * phi
-    for C, tail, head in zip(*[iter(rest)] * 3, strict=True):
+    for C, tail, head in zip(*[iter(vectors)] * 3, strict=True):
         arm, force = _difference(pole, C), _difference(tail, head)
         total = total + (arm[0] * force[1] - arm[1] * force[0])
     return total / phi / long
@@ -181,9 +184,9 @@ def _place(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> An
 def _heading(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> Any:
     """How a line runs, whichever way: to the right, or straight upwards; its two numbers together are one."""
     x, y = marks[0][1], -marks[0][0]
-    size = abs(x) + abs(y)
-    right, up = domain.sign(x, size), domain.sign(y, size)
-    sense = (right + (1 - abs(right)) * up) / size
+    scale = abs(x) + abs(y)
+    right, up = domain.sign(x, scale), domain.sign(y, scale)
+    sense = (right + (1 - abs(right)) * up) / scale
     return x * sense, y * sense
 
 
@@ -193,12 +196,12 @@ def _curving(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> 
     if len(marks) == 3:
         P, M, W = marks
         ray = _difference(M, P)
-        square, part = dot(ray, ray), dot(ray, _difference(M, W))
-        return ray[0] * part / square / square, ray[1] * part / square / square
+        square, component = dot(ray, ray), dot(ray, _difference(M, W))
+        return ray[0] * component / square / square, ray[1] * component / square / square
     velocity, acceleration = _difference(*marks[1:3]), _difference(*marks[3:])
     x, y = velocity if drawing.turned else (-velocity[1], velocity[0])
-    square, part = x * x + y * y, dot((x, y), acceleration)
-    return x * part / square / square, y * part / square / square
+    square, component = x * x + y * y, dot((x, y), acceleration)
+    return x * component / square / square, y * component / square / square
 
 
 READERS: dict[units.Dimension, Callable[[Sequence[Any], Domain, ReadableDrawing], Any]] = {
@@ -210,13 +213,102 @@ READERS: dict[units.Dimension, Callable[[Sequence[Any], Domain, ReadableDrawing]
 
 def prescribed_value(reading: Reading, marks: Sequence[Any], domain: Domain) -> Any:
     """What the scene prescribes, as it is given: a number, a vector, or along a guide a rate."""
-    given = reading.given
-    if isinstance(given, tuple):
-        return tuple(map(domain.lift, given))
+    value = reading.given
+    if isinstance(value, tuple):
+        return tuple(map(domain.lift, value))
     if not reading.kind.pair:
-        return domain.lift(given)
-    if not given:
+        return domain.lift(value)
+    if not value:
         return domain.lift(0), domain.lift(0)
     a, b, _ = marks[0]
-    rate = domain.lift(given) / domain.sqrt(a * a + b * b, "not-rational", "a rate along this line is irrational")
+    rate = domain.lift(value) / domain.sqrt(a * a + b * b, "not-rational", "a rate along this line is irrational")
     return rate * b, -rate * a
+
+
+# ---- results as users ask for them -----------------------------------------------------------------------------------
+
+
+class Vectors(dict[str, Any]):
+    """Vectors by the points that they are asked of; those of the `fixed` points, which nobody needs to ask, are zero.
+    """
+
+    def __init__(self, asked: dict[str, Any], fixed: Collection[str], zero: Any):
+        super().__init__(asked)
+        self.fixed, self.zero = frozenset(fixed), zero
+
+    def __missing__(self, name: str) -> Any:
+        if name in self.fixed:
+            return self.zero
+        raise KeyError(name)
+
+
+class NamedResults(ABC):
+    """Results of one pose or of many, all in scene units: complex numbers or arrays of them for vectors."""
+
+    scene: Scene
+
+    @abstractmethod
+    def named(self, kind: str) -> dict[str, Any]:
+        """The results of a kind."""
+
+    @abstractmethod
+    def zero(self) -> Any:
+        """The vector of a fixed point."""
+
+    @property
+    def velocity(self) -> Vectors:
+        """The velocities of points, of a fixed point 0."""
+        return self._vectors(kinds.VELOCITY)
+
+    @property
+    def acceleration(self) -> Vectors:
+        """The accelerations of points, of a fixed point 0."""
+        return self._vectors(kinds.ACCELERATION)
+
+    def _vectors(self, kind: str) -> Vectors:
+        return Vectors(self.named(kind), self.scene.links.get(FRAME, ()), self.zero())
+
+    @property
+    def curvature(self) -> dict[str, Any]:
+        """The centres of curvature of paths, such as that of `M on 2`, where they are not at infinity."""
+        return self.named(kinds.CENTRE)
+
+    @property
+    def omega(self) -> dict[str, Any]:
+        """The angular velocities of links."""
+        return self.named(kinds.OMEGA)
+
+    @property
+    def alpha(self) -> dict[str, Any]:
+        """The angular accelerations of links."""
+        return self.named(kinds.ALPHA)
+
+    @property
+    def reactions(self) -> dict[str, Any]:
+        """The reactions, on links at joints, such as `2 at B`, of slides, gears and contacts; with friction where they
+        are drawn with it."""
+        return {name: force for kind in kinds.REACTIONS
+                for name, force in (self.named(kind) | self.named(kinds.WITH_FRICTION[kind])).items()}
+
+    @property
+    def balances(self) -> list[Any]:
+        """The balances in the scene's order, with friction where they are drawn with it, by force plans or else by the
+        lever: moments in force * m, forces as complex numbers."""
+        found, ways = {kind: self.named(kind) for kind in kinds.KINDS}, (kinds.RUBBED, kinds.BY_PLANS, kinds.BY_LEVER)
+        return [*balances(self.scene, found, ways).values()]
+
+
+def thing_named(scene: Scene, kind: kinds.ResultKind, of: str) -> str:
+    """What a reading of a kind is of, in words: a slide, a link at a joint, two links, else a point or link by name."""
+    return reactions_named(scene)[of] if kind.pair else pole_named(scene, of) if kind.group == kinds.POLES else of
+
+
+def balances(scene: Scene, results: Mapping[str, Mapping[str, Any]],
+             ways: Sequence[str] = (kinds.BY_PLANS, kinds.BY_LEVER)) -> dict[str, Any]:
+    """The balances among results, by name in the scene's order: each in the first of these ways that gives it."""
+    found: dict[str, Any] = {}
+    for name, balance in scene.loads.named_balances.items() if scene.loads else ():
+        values = [results[kind][name] for kind in (kinds.balance_kind(way, balance) for way in ways)
+                  if name in results.get(kind, {})]
+        found |= {name: values[0]} if values else {}
+    return found

@@ -1,28 +1,45 @@
-"""A construction replayed: the same steps in other poses, one at a time or many, by the tape of its arithmetic."""
+"""A construction replayed: the same steps in other poses, one at a time or many, by the tape of its arithmetic.
+
+Many poses are replayed on arrays, block by block, if need be by several processes.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 from weakref import WeakKeyDictionary
 
+import numpy as np
+
 from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.kinds import Movement
+from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Program
+from graphplan.kernel.program import Program, Step, error_at
 from graphplan.kernel.tape.record import Symbols
 from graphplan.kernel.tape.written import function, places
-from graphplan.mechanism.model import FRAME, Pair, Slide
-from graphplan.mechanism.replaced import guides
-from graphplan.methods.recorded import ReadableDrawing
+from graphplan.mechanism.model import FRAME, Pair, Scene, Slide
+from graphplan.mechanism.order import changing_loads
+from graphplan.mechanism.replaced import guides as straight_guides
+from graphplan.mechanism.replaced import rolling_guides, with_lower_pairs
+from graphplan.methods.executors import crew
+from graphplan.methods.forces.changing import given_loads
+from graphplan.methods.recorded import NamedResults, ReadableDrawing
+from graphplan.methods.tolerances import EXTENT_TOL
+from graphplan.phrases import Said, said
 
 if TYPE_CHECKING:
     from graphplan.kernel.tape.blocks import Blocks
     from graphplan.kernel.tape.machine import Machine
 
 Given = Mapping[Any, Mapping[str, Any]]
+Inputs = dict[str | int, dict[str, Any]]
 Free = tuple[tuple[str | int, str], ...]
 Results = dict[str, dict[str, Any]]
+Faults = dict[int, str]
+Progress = Callable[[int, int], None]
 
 
 class Replay:
@@ -38,14 +55,15 @@ class Replay:
         self._over_arrays: dict[bool, Blocks | Machine] = {}
         domain = Symbols()
         self.tape = domain.tape
-        given: dict[str | int, dict[str, Any]] = {}
+        symbols: dict[str | int, dict[str, Any]] = {}
         for mark, parameter in free:
-            given.setdefault(mark, {})[parameter] = self.tape.input(f"{mark}.{parameter}")
-        self.inputs = [given[mark][parameter].place for mark, parameter in free]
-        results = construction.read(domain, given)
+            symbols.setdefault(mark, {})[parameter] = self.tape.input(f"{mark}.{parameter}")
+        self.inputs = [symbols[mark][parameter].place for mark, parameter in free]
+        results = construction.read(domain, symbols)
         self.told = {kind: {name: self._place(value) for name, value in values.items()}
                      for kind, values in results.items() if kind in kinds}
-        first = {name: min(places(told)) for values in reversed(self.told.values()) for name, told in values.items()}
+        first = {name: min(places(numbers)) for values in reversed(self.told.values())
+                 for name, numbers in values.items()}
         self.rows = sorted(((kind, name) for kind, values in self.told.items() for name in values),
                            key=lambda row: first[row[1]])
         self.outputs = [place for kind, name in self.rows for place in places(self.told[kind][name])]
@@ -57,11 +75,11 @@ class Replay:
     def read(self, given: Given) -> Results:
         """All readings in one pose, in floats; fails as the rules do."""
         try:
-            found: Results | None = self.function(*[given[mark][parameter] for mark, parameter in self.free])
+            results: Results | None = self.function(*[given[mark][parameter] for mark, parameter in self.free])
         except (ZeroDivisionError, OverflowError):
-            found = None
-        if found is not None:
-            return found
+            results = None
+        if results is not None:
+            return results
         return {kind: named for kind, named in self.construction.read(Floats(), given).items() if kind in self.told}
 
     def run(self, given: Given, found: Results, compiled: bool = False) -> Any:
@@ -89,13 +107,13 @@ def replay_of(construction: ReadableDrawing, free: Free, kinds: tuple[str, ...])
 
     None where what stands still cannot be drawn: the rules say why.
     """
-    made = REPLAYS.setdefault(construction, {})
-    if (free, kinds) not in made:
+    replays = REPLAYS.setdefault(construction, {})
+    if (free, kinds) not in replays:
         try:
-            made[free, kinds] = Replay(construction, free, kinds)
+            replays[free, kinds] = Replay(construction, free, kinds)
         except (Undrawable, ZeroDivisionError):
-            made[free, kinds] = None
-    return made[free, kinds]
+            replays[free, kinds] = None
+    return replays[free, kinds]
 
 
 class Moving(NamedTuple):
@@ -111,13 +129,13 @@ class Moving(NamedTuple):
 def moving_parts(construction: ReadableDrawing) -> list[Moving]:
     """The drawn points that are on no frame, and the guides that ride on links in directions given as vectors."""
     scene, steps = construction.scene, construction.program.steps[:construction.program.givens]
-    found = [Moving("point", step.name, scene.points[step.name], (((step.name, "x"),), ((step.name, "y"),)))
+    items = [Moving("point", step.name, scene.points[step.name], (((step.name, "x"),), ((step.name, "y"),)))
              for step in steps if step.name in scene.points and step.name not in scene.links.get(FRAME, ())]
-    for name, slide in guides(scene).items():
-        if slide.through is None and slide.along != FRAME and (drawn := guide_steps(construction, slide)):
-            dx, dy = (tuple((step, part) for step in drawn) for part in ("dx", "dy"))
-            found.append(Moving("guide", name, slide.direction, (dx, dy)))
-    return found
+    for name, slide in straight_guides(scene).items():
+        if slide.through is None and slide.along != FRAME and (steps_of_guide := guide_steps(construction, slide)):
+            dx, dy = (tuple((step, component) for step in steps_of_guide) for component in ("dx", "dy"))
+            items.append(Moving("guide", name, slide.direction, (dx, dy)))
+    return items
 
 
 def guide_steps(construction: ReadableDrawing, slide: Slide) -> list[int]:
@@ -125,9 +143,9 @@ def guide_steps(construction: ReadableDrawing, slide: Slide) -> list[int]:
 
     In the scene's pose two guides through one point, of one direction, are one line; in other poses they are not.
     """
-    for name, other in guides(construction.scene).items():
-        alike = other.at == slide.at and other.direction == slide.direction and other.through is None
-        if alike and other.along not in construction.scene.turning_alike(slide.along):
+    for name, neighbour in straight_guides(construction.scene).items():
+        alike = neighbour.at == slide.at and neighbour.direction == slide.direction and neighbour.through is None
+        if alike and neighbour.along not in construction.scene.turning_alike(slide.along):
             raise Refused(f"guides {slide.name} and {name}", "they are drawn as one line, and turn apart",
                           "two points of its link for the direction of each")
     return guiding_steps(construction.program, slide)
@@ -138,3 +156,217 @@ def guiding_steps(program: Program, slide: Slide) -> list[int]:
     return [step.index for step in program.steps
             if step.op.movement is Movement.GUIDED and step.links == slide.links
             and (step.params["dx"], step.params["dy"]) == slide.direction]
+
+
+# ---- over many poses, block by block ---------------------------------------------------------------------------------
+
+STRETCH = 1 << 16  # poses between two reports of progress, and to one worker at a time
+
+
+@dataclass(frozen=True)
+class Poses(NamedResults):
+    """Results over n poses, by kind and name: complex arrays of shape (n,) for vectors, real ones for numbers.
+
+    All in scene units. Where a pose is singular its results are nan, and `faults` says why, by the pose's place; fixed
+    points stand still in all.
+    """
+
+    scene: Scene
+    n: int
+    results: Results
+    faults: Faults
+
+    def named(self, kind: str) -> dict[str, Any]:
+        return self.results.get(kind, {})
+
+    def zero(self) -> Any:
+        return np.zeros(self.n, dtype=complex)
+
+
+def batch(construction: ReadableDrawing, points: Mapping[str, Any], guides: Mapping[str, Any], loads: Mapping[str, Any],
+          only: Collection[str] | None = None, workers: int | str = 1, compiled: bool = False,
+          progress: Progress | None = None) -> Poses:
+    """The construction replayed over the poses in `points` and `guides`, for all kinds of results or `only` some; the
+    `loads` that change are complex arrays by their letters, real ones of moments, and as they are where left out.
+
+    `workers` is how many processes share the poses out, or the address of a dask scheduler; `compiled` replays in
+    machine code; `progress` is told after each stretch how many poses are done, of how many.
+    """
+    n, inputs = _poses_and_inputs(construction, points, guides, loads)
+    stretches = [slice(start, min(start + STRETCH, n)) for start in range(0, n, STRETCH)] if inputs else [slice(0, n)]
+    results, faults = _result_arrays(construction, n, only), dict[int, str]()
+    faults_by_stretch = _fill_stretches(construction, inputs, stretches, results, workers, compiled)
+    for place, wrong in zip(stretches, faults_by_stretch, strict=True):
+        faults.update((place.start + pose, why) for pose, why in wrong.items())
+        if progress:
+            progress(place.stop, n)
+    _discard_torn_poses(construction, points, results, faults)
+    return Poses(construction.scene, n, results, faults)
+
+
+def _discard_torn_poses(construction: ReadableDrawing, points: Mapping[str, Any], results: Results,
+                        faults: Faults) -> None:
+    """Take the results of poses in which points lie apart on whose coincidence the program relies."""
+    places = {name: complex(*map(float, at)) for name, at in construction.scene.points.items()}
+    close = _coincidence_distance(construction.scene)
+    wandering = {guide.at: guide for guide in rolling_guides(with_lower_pairs(construction.scene))}
+
+    def place(name: str) -> Any:
+        """Where a point is in each pose: a pitch point on its line of centres; of a rack it is not asked."""
+        guide = wandering.get(name)
+        if guide is None or not guide.base:
+            return _poses(points.get(name, places[name]))
+        if guide.ratio is None:
+            return np.array([complex(np.inf)])
+        B = place(guide.base)
+        return B + float(guide.ratio) * (place(guide.other_centre) - B)
+
+    for first, second in construction.relied:
+        gap = np.abs(place(first) - place(second))
+        for pose in np.flatnonzero(gap > close).tolist():
+            faults.setdefault(pose, coincidence_fault(first, second))
+            for named in results.values():
+                for z in named.values():
+                    z[pose] = np.nan
+
+
+def _coincidence_distance(scene: Scene) -> float:
+    """How far apart points may be that coincide."""
+    return EXTENT_TOL * scene.extent
+
+
+def coincidence_fault(one: str, other: str) -> Said:
+    """Why a construction does not hold in a pose in which these points lie apart."""
+    return said("points {0} and {1} coincide in the scene and lie apart here: one mark cannot serve both", one, other)
+
+
+def _result_arrays(construction: ReadableDrawing, n: int, only: Collection[str] | None) -> Results:
+    """Arrays for the results that are wanted."""
+    for kind in only or ():
+        if kind not in construction.kinds:
+            raise Refused(f"results {kind}", "the scene does not ask for them", f"of {', '.join(construction.kinds)}")
+    return {kind: named for kind, named in construction.blank(n, None).items() if only is None or kind in only}
+
+
+def _fill_stretches(construction: ReadableDrawing, given: Inputs, stretches: Iterable[slice], results: Results,
+            workers: int | str, compiled: bool) -> Iterator[Faults]:
+    """Fill the results stretch by stretch, by one hand or many; the faults of each."""
+    if workers == 1:
+        for place in stretches:
+            yield _fill_stretch(construction, _select_poses(given, place), _select_poses(results, place), compiled)
+        return
+    bare = replace(construction)  # without what was computed of it, which a worker has no use for
+    work = partial(_evaluate_stretch, bare, kinds=tuple(results), compiled=compiled)
+    with crew(workers) as shared_out:
+        parts_done = shared_out(work, (_select_poses(given, place) for place in stretches))
+        for place, (values, faults) in zip(stretches, parts_done, strict=True):
+            for kind, named in values.items():
+                for name, value in named.items():
+                    results[kind][name][place] = value
+            yield faults
+
+
+def _select_poses(arrays: Mapping[Any, Mapping[str, Any]], place: Any) -> dict[Any, dict[str, Any]]:
+    """The same arrays, for some of the poses."""
+    return {key: {name: array[place] for name, array in named.items()} for key, named in arrays.items()}
+
+
+def _evaluate_stretch(construction: ReadableDrawing, given: Inputs, kinds: tuple[str, ...],
+            compiled: bool) -> tuple[Results, Faults]:
+    """The results and faults of one stretch of poses."""
+    n = len(next(iter(next(iter(given.values())).values())))
+    results = {kind: named for kind, named in construction.blank(n, None).items() if kind in kinds}
+    return results, _fill_stretch(construction, given, results, compiled)
+
+
+def _fill_stretch(construction: ReadableDrawing, given: Inputs, results: Results, compiled: bool) -> Faults:
+    """Fill the results of one stretch of poses; its faults, by place. Where nothing is asked there are none."""
+    if not results:
+        return {}
+    free = tuple((key, name) for key, numbers in given.items() for name in numbers)
+    replay = replay_of(construction, free, tuple(results))
+    if replay is None or not given:
+        return _fill_by_rules(construction, given, results)
+    undone = replay.run(given, results, compiled)
+    if not undone.size:
+        return {}
+    of_undone = _select_poses(results, undone)
+    faults = _fill_by_rules(construction, _select_poses(given, undone), of_undone)
+    for kind, named in of_undone.items():
+        for name, value in named.items():
+            results[kind][name][undone] = value
+    return {int(undone[pose]): why for pose, why in faults.items()}
+
+
+def _fill_by_rules(construction: ReadableDrawing, given: Inputs, results: Results) -> Faults:
+    """Fill results by the rules themselves, which find the poses that cannot be drawn; their faults, by place."""
+    domain, program, faults = Arrays(), construction.program, dict[int, str]()
+    n = len(next(z for named in results.values() for z in named.values()))
+
+    def note(step: Step) -> None:
+        for code, why, bad in domain.faults:
+            for pose in np.flatnonzero(np.broadcast_to(bad, (n,))):
+                faults.setdefault(int(pose), str(error_at(program, step, Undrawable(code, why))))
+        domain.faults.clear()
+
+    with np.errstate(all="ignore"):
+        values_by_kind = construction.read(domain, given, note)
+    for kind, named in results.items():
+        for name, z in named.items():
+            value = values_by_kind[kind][name]
+            for row, number in [(z.real, value[0]), (z.imag, value[1])] if isinstance(value, tuple) else [(z, value)]:
+                row[:] = number
+    return faults
+
+
+def _poses_and_inputs(construction: ReadableDrawing, points: Mapping[str, Any], guides: Mapping[str, Any],
+           loads: Mapping[str, Any]) -> tuple[int, Inputs]:
+    """The number of poses, and what is given in each: coordinates of points, and by their steps directions of guides
+    and loads."""
+    scene = construction.scene
+    if scene.assembly is not None and (points or guides):
+        raise Refused("points", said("the pose is constructed from the lengths of links"), "the scene as it is given")
+    arrays = {name: _poses(z) for name, z in points.items()}
+    directions = {name: _poses(z) for name, z in guides.items()}
+    for name in arrays:
+        if name not in scene.points:
+            raise Refused(f"point {name}", "the scene has no such point", f"one of {', '.join(scene.points)}")
+    slides = straight_guides(scene)
+    for name in directions:
+        if name not in slides or slides[name].through or slides[name].along == FRAME:
+            free = [n for n, s in slides.items() if s.through is None and s.along != FRAME]
+            raise Refused(f"guide {name}", "no guide on a moving link has its direction given under this name",
+                          f"one of {', '.join(free)}" if free else "points alone: they turn every guide here")
+    changing = changing_loads(scene.loads)
+    for name in loads:
+        if name not in changing:
+            raise Refused(f"load {name}", "the scene has no load of this name that changes",
+                          f"one of {', '.join(changing)}" if changing else "a load with a table")
+    acting = {name: np.atleast_1d(np.asarray(z)) for name, z in loads.items()}
+    shapes = {array.shape for array in (*arrays.values(), *directions.values(), *acting.values())} or {(1,)}
+    if len(shapes) > 1 or len(next(iter(shapes))) != 1:
+        raise Refused("poses", f"the arrays have the shapes {sorted(shapes)}", "one array of shape (n,) a point")
+    for name, at in construction.shared.items():  # one mark serves both
+        if name not in arrays:
+            continue
+        if np.any(np.abs(arrays.setdefault(at, arrays[name]) - arrays[name]) > _coincidence_distance(scene)):
+            why = "they coincide in the scene and differ here"
+            raise Refused(f"points {at} and {name}", why, "the same array for both")
+    for guide in rolling_guides(with_lower_pairs(scene)):
+        if guide.rail and not guide.base and guide.rail.at in arrays and guide.at not in arrays:
+            raise Refused(f"point {guide.at}", f"it moves with {guide.rail.at}, and stands still here",
+                          "its place in each pose")
+    given_points = {step.name for step in construction.program.steps[:construction.program.givens]}
+    inputs: Inputs = {name: _components(z, "x", "y") for name, z in arrays.items() if name in given_points}
+    for name, z in directions.items():
+        inputs |= {step: _components(z, "dx", "dy") for step in guide_steps(construction, slides[name])}
+    inputs |= given_loads(construction.program, scene, construction.phi, acting)
+    return next(iter(shapes))[0], inputs
+
+
+def _poses(z: Any) -> Any:
+    return np.atleast_1d(np.asarray(z, dtype=complex))
+
+
+def _components(z: Any, one: str, two: str) -> dict[str, Any]:
+    return {one: z.real, two: z.imag}

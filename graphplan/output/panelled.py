@@ -209,8 +209,8 @@ class Panelled(ABC):
         filled = paginate_tightly([row.enlarge(self.letters.times) for row in rows], page)
         sheet = self._page(first, 1 + len(filled))
         return [sheet, *(replace(sheet, panels={}, items=tuple(back_to_front([
-            *self._frame_items(page.title, {}, number, 1 + len(filled)), *row_items(placed)])))
-            for number, placed in enumerate(filled, 2))]
+            *self._frame_items(page.title, {}, number, 1 + len(filled)), *row_items(rows_on_page)])))
+            for number, rows_on_page in enumerate(filled, 2))]
 
     def _page(self, rows: Sequence[TextRow], count: int) -> Sheet:
         """The first of so many pages, with these words, as one display list."""
@@ -241,10 +241,10 @@ class Panelled(ABC):
         large, small, room = self.letters.mark, self.letters.text, rect.width - 2 * SIDE
         heading, scales = self.heading(panel)
         runs, y = sentence_runs(self.tongue(heading)), rect.top - 1.6 * large
-        size = large if width(runs, large, bold=True) <= room else small
-        lines = [(line, size, True) for line in wrap(runs, size, room, bold=True)[:2]]
-        told = sentence_runs(self.tongue(scales)) if scales else ()
-        for line, high, bold in [*lines, *((line, small, False) for line in wrap(told, small, room)[:1])]:
+        letter_size = large if width(runs, large, bold=True) <= room else small
+        lines = [(line, letter_size, True) for line in wrap(runs, letter_size, room, bold=True)[:2]]
+        scale_runs = sentence_runs(self.tongue(scales)) if scales else ()
+        for line, high, bold in [*lines, *((line, small, False) for line in wrap(scale_runs, small, room)[:1])]:
             yield Text(pens.LETTERS, "text", None, (rect.left + SIDE, y), line, high, bold=bold)
             y -= 1.5 * small
 
@@ -301,8 +301,8 @@ class Panelled(ABC):
 
     def sentence_with_lengths(self, step: Step) -> Said:
         """A step in words, with its length on paper."""
-        told, lengths = self.values.drawing.program.sentence_with_reason(step.index), self.measure(step.panel)
-        return join((told, *(arrange("{0}.", length.text) for length in lengths.for_step(step))), " ")
+        sentence, lengths = self.values.drawing.program.sentence_with_reason(step.index), self.measure(step.panel)
+        return join((sentence, *(arrange("{0}.", length.text) for length in lengths.for_step(step))), " ")
 
 
 def pages(kind: Callable[[str], Panelled], paper: str | None = None, papers: Sequence[str] = PAPERS) -> list[Sheet]:
@@ -329,16 +329,16 @@ def without_repetitions(steps: Sequence[Step]) -> Iterator[tuple[Sequence[Step],
     Told are the first, until all that is done in the stage has been done once, but of many alike one after the other
     the first alone.
     """
-    shown, left = first_figure(steps)
-    alike = [list(run) for _, run in groupby(shown, kind_of)]
-    told: list[Step] = []
+    first, repeated = first_figure(steps)
+    alike = [list(run) for _, run in groupby(first, kind_of)]
+    spoken: list[Step] = []
     for run in alike:
         if len(run) > MAX_STEPS_LEFT + 1:
-            yield [*told, run[0]], run[1:]
-            told = []
+            yield [*spoken, run[0]], run[1:]
+            spoken = []
         else:
-            told += run
-    yield told, left
+            spoken += run
+    yield spoken, repeated
 
 
 def kind_of(step: Step) -> tuple[Any, str]:
@@ -358,11 +358,11 @@ def first_figure(steps: Sequence[Step]) -> tuple[Sequence[Step], Sequence[Step]]
 
 def divide_across(rect: Rect, *shares: float) -> list[Rect]:
     """A rectangle divided from left to right in these shares."""
-    edges = [rect.left + rect.width * part / sum(shares) for part in accumulate(shares, initial=0.0)]
-    return [replace(rect, left=left, right=right) for left, right in pairwise(edges)]
+    edges = [rect.left + rect.width * share / sum(shares) for share in accumulate(shares, initial=0.0)]
+    return [replace(rect, left=start, right=right) for start, right in pairwise(edges)]
 
 
 def divide_down(rect: Rect, *shares: float) -> list[Rect]:
     """A rectangle divided from the top down in these shares."""
-    edges = [rect.top - rect.height * part / sum(shares) for part in accumulate(shares, initial=0.0)]
+    edges = [rect.top - rect.height * share / sum(shares) for share in accumulate(shares, initial=0.0)]
     return [replace(rect, top=top, bottom=low) for top, low in pairwise(edges)]

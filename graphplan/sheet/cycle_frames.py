@@ -46,39 +46,39 @@ def construction_in_pose(construction: Construction, points: Mapping[str, comple
     None where the pose is singular, its drawing takes other forms than that of the given pose, or points lie apart on
     whose coincidence it relies.
     """
-    if any(points[one] != points[other] for one, other in construction.relied):
+    if any(points[first] != points[second] for first, second in construction.relied):
         return None
     scene, phi = construction.scene, construction.phi
-    drawn, program = (inputs_in_pose(steps, points, guides) | given_loads(steps, scene, phi, loads or {})
+    given_drawn, given = (inputs_in_pose(steps, points, guides) | given_loads(steps, scene, phi, loads or {})
                       for steps in (construction.drawn, construction.program))
     try:
-        values = construction.drawn_out.drawing.mark_values(given=drawn)
-        truth = evaluate(construction.program, Floats(), program)
+        values = construction.drawn_out.drawing.mark_values(given=given_drawn)
+        truth = evaluate(construction.program, Floats(), given)
     except ConstructionError:
         return None
     if not _marks_agree(construction, values, truth):
         return None
-    return construction.with_values(values, construction.read(Floats(), program),
+    return construction.with_values(values, construction.read(Floats(), given),
                                     scene_in(construction.scene, points, guides, loads))
 
 
 def _marks_agree(construction: Construction, values: Values, truth: Sequence[Any]) -> bool:
     """Whether the drawn steps give the points that the rules do."""
-    wanted = zip(construction.drawn.wanted, construction.program.wanted, strict=True)
-    pairs = [(values[i], truth[j]) for i, j in wanted if construction.drawn.steps[i].op.gives == POINT]
-    size = max((math.hypot(*true) for _, true in pairs), default=0.0)
-    return all(math.dist(*pair) <= MARK_TOL * size for pair in pairs)
+    pairs_of_steps = zip(construction.drawn.wanted, construction.program.wanted, strict=True)
+    pairs = [(values[i], truth[j]) for i, j in pairs_of_steps if construction.drawn.steps[i].op.gives == POINT]
+    scale = max((math.hypot(*true) for _, true in pairs), default=0.0)
+    return all(math.dist(*pair) <= MARK_TOL * scale for pair in pairs)
 
 
 def inputs_in_pose(program: Program, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Given:
     """What is given to the steps of a program in a pose."""
     marked = {step.name for step in program.steps[: program.givens]}
-    given: Given = {name: {"x": z.real, "y": z.imag} for name, z in points.items() if name in marked}
+    inputs: Given = {name: {"x": z.real, "y": z.imag} for name, z in points.items() if name in marked}
     for step in program.steps:
         name = " along ".join(step.links)
         if step.op.movement is Movement.GUIDED and name in guides:
-            given[step.index] = {"dx": guides[name].real, "dy": guides[name].imag}
-    return given
+            inputs[step.index] = {"dx": guides[name].real, "dy": guides[name].imag}
+    return inputs
 
 
 def scene_in(scene: Scene, points: Mapping[str, complex], guides: Mapping[str, complex],
@@ -111,15 +111,15 @@ def sheets(composition: Composition, ways: Sequence[tuple[Construction, Places]]
     poses = [next(filter(None, (_drawing_at(drawing, composition, places, guides, loads or {}, k)
                                 for drawing, places in ways)), None) for k in range(count)]
     rows = replace(composition.arrangement, rows=())
-    links = [bounding_box([(z.real, z.imag) for z in here.values()]) for k in range(count)
-             if all(map(cmath.isfinite, (here := _pose_at(k, points)[0]).values()))]
+    links = [bounding_box([(z.real, z.imag) for z in spots.values()]) for k in range(count)
+             if all(map(cmath.isfinite, (spots := _pose_at(k, points)[0]).values()))]
     wide = _enlarge_mechanism_panel(replace(composition, arrangement=rows),
                      bounding_box([spot for box in links for spot in box.corners]))
-    base = _slide_windows(wide, links, [Plans(found) for found in poses if found])
-    for k, found in enumerate(poses):
-        if found:
-            shown = replace(base, plans=replace(base.plans, drawing=found))
-            yield _sheet(shown, [*_clipped_items(shown)]), True
+    base = _slide_windows(wide, links, [Plans(drawing) for drawing in poses if drawing])
+    for k, drawing in enumerate(poses):
+        if drawing:
+            composition_there = replace(base, plans=replace(base.plans, drawing=drawing))
+            yield _sheet(composition_there, [*_clipped_items(composition_there)]), True
         else:
             yield _sheet(base, _mechanism_alone(base, *_pose_at(k, points, guides))), False
 
@@ -135,31 +135,32 @@ def _sheet(composition: Composition, items: Iterable[Item]) -> Sheet:
 def _drawing_at(drawing: Construction, composition: Composition, points: Places, guides: Places, loads: Places,
            k: int) -> Construction | None:
     """A construction in the pose at a place of these arrays, where it can be drawn on these plans."""
-    here, directions, acting = _pose_at(k, points, guides, loads)
-    found = construction_in_pose(drawing, here, directions, acting) if all(map(cmath.isfinite, here.values())) else None
-    return found if found and composition.views.keys() >= {*Plans(found).panels} else None
+    places, directions, acting = _pose_at(k, points, guides, loads)
+    finite = all(map(cmath.isfinite, places.values()))
+    posed = construction_in_pose(drawing, places, directions, acting) if finite else None
+    return posed if posed and composition.views.keys() >= {*Plans(posed).panels} else None
 
 
 def _pose_at(k: int, *arrays: Mapping[str, Any]) -> list[dict[str, Any]]:
     """The pose at a place of arrays."""
-    return [{name: z[k].item() for name, z in one.items()} for one in arrays]
+    return [{name: z[k].item() for name, z in array_of.items()} for array_of in arrays]
 
 
 def _enlarge_mechanism_panel(composition: Composition, links: Rect) -> Composition:
     """The composition with so large a panel for the mechanism that its links have room in all poses; the panels on its
     right and below it make way."""
     window, panels = composition.views[MECHANISM], composition.arrangement.panels
-    needed, own = links.times(window.scale), panels[MECHANISM]
+    needed, panel_rect = links.times(window.scale), panels[MECHANISM]
     wider = max(0.0, needed.width + 2 * MARGIN - window.rect.width)
     higher = max(0.0, needed.height + 2 * MARGIN - window.rect.height)
 
     def larger(rect: Rect) -> Rect:
         return replace(rect, right=rect.right + wider, bottom=rect.bottom - higher)
 
-    views, rects = {str(MECHANISM): replace(window, rect=larger(window.rect))}, {str(MECHANISM): larger(own)}
+    views, rects = {str(MECHANISM): replace(window, rect=larger(window.rect))}, {str(MECHANISM): larger(panel_rect)}
     for panel in panels.keys() - {MECHANISM}:
-        right = wider if panels[panel].left >= own.right - EDGE_SLACK_MM else 0.0
-        down = higher if panels[panel].top <= own.bottom + EDGE_SLACK_MM else 0.0
+        right = wider if panels[panel].left >= panel_rect.right - EDGE_SLACK_MM else 0.0
+        down = higher if panels[panel].top <= panel_rect.bottom + EDGE_SLACK_MM else 0.0
         view = composition.views[panel]
         views[panel] = replace(view, rect=view.rect.inset(right, -down, -right, down),
                                origin=(view.origin[0] + right, view.origin[1] - down))
@@ -179,15 +180,15 @@ def _slide_windows(composition: Composition, links: Sequence[Rect], poses: Seque
         boxes = sorted((plans.extent(panel).core for plans in poses), key=_extent)
         if panel == MECHANISM:
             boxes = [*sorted(links, key=_extent), *boxes]
-        kept = [window.to_plan(spot) for spot in _spots_to_keep(plate)]
-        boxes = [bounding_box(kept), *boxes] if kept and boxes else boxes
+        visible = [window.to_plan(spot) for spot in _spots_to_keep(plate)]
+        boxes = [bounding_box(visible), *boxes] if visible and boxes else boxes
         views[panel] = slide_window(window, _box_that_fits(boxes, window)) if boxes else window
     return replace(composition, views=views)
 
 
 def _spots_to_keep(plate: Plate) -> Iterator[Spot]:
     """What of a plan must be on paper for its steps to be seen: its marks, and of lines the middle of what is drawn."""
-    yield from (drawn.spot for drawn in plate.steps if plate.is_on_panel(drawn))
+    yield from (mark.spot for mark in plate.steps if plate.is_on_panel(mark))
     yield from (interpolate(*stretch.ends, 0.5) for stretch in plate.stretches.values())
 
 
@@ -222,8 +223,8 @@ def _mechanism_alone(composition: Composition, points: Mapping[str, complex],
     window, motion = composition.views[MECHANISM], composition.plans.motion
     scene = scene_in(composition.plans.drawing.scene, points, guides)
     mechanism = DrawnMechanism(scene, window)
-    shown = [*(motion.items(window, scene) if motion else ()), *mechanism.items()]
-    items = [cut for item in shown for cut in clip_item(item, window.rect)]
+    uncut = [*(motion.items(window, scene) if motion else ()), *mechanism.items()]
+    items = [cut for item in uncut for cut in clip_item(item, window.rect)]
     letters = place_letters([*wishes_inside(mechanism_wishes(mechanism), window.rect)], items,
                             [*mechanism.visible_points.values()], window.rect,
                      composition.arrangement.letters)

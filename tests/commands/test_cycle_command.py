@@ -168,11 +168,11 @@ def test_open_chains_have_no_cycle(run: Any) -> None:
 
 def test_where_one_way_fails_another_serves(monkeypatch: pytest.MonkeyPatch) -> None:
     """With the recorded way through a ring spoilt in some poses, another form gives them, and it is noted which."""
-    from graphplan.methods import batch
+    from graphplan.methods import replay
 
     scene = gp.load("class-four")
     sound = cycle(scene, 12)
-    real = batch.batch
+    real = replay.batch
 
     def spoilt(construction: Any, *rest: Any, **more: Any) -> Any:
         poses = real(construction, *rest, **more)
@@ -181,7 +181,7 @@ def test_where_one_way_fails_another_serves(monkeypatch: pytest.MonkeyPatch) -> 
                 z[2] += 1
         return poses
 
-    monkeypatch.setattr(batch, "batch", spoilt)
+    monkeypatch.setattr(replay, "batch", spoilt)
     found = cycle(scene, 12)
     assert list(found.otherwise) == [2]
     assert "false position" in found.otherwise[2]

@@ -16,8 +16,8 @@ from graphplan.kernel import LINE, OPENING, POINT, TABLE, Board, Mark, Primitive
 from graphplan.kernel.expand import Expander
 from graphplan.kernel.numbers import Domain, Fractions
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.panel import PlansApart
 from graphplan.kernel.passes import freeze, gather_by_plan
-from graphplan.kernel.plans import PlansApart
 from graphplan.kernel.program import Panel, evaluate
 
 MECHANISM, N_PLAN = Panel("mechanism"), Panel("N-plan")

@@ -15,9 +15,8 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.tape.blocks import BlockWriter
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.scene import packaged_names
-from graphplan.methods.batch import Poses
 from graphplan.methods.motion.network import Network
-from graphplan.methods.replay import moving_parts, replay_of
+from graphplan.methods.replay import Poses, moving_parts, replay_of
 
 GUIDED = """
 [points]
@@ -149,9 +148,9 @@ def test_a_construction_can_be_sent_elsewhere() -> None:
 
 def test_many_hands_give_what_one_gives(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two processes share the poses out and give the same results and faults, in the same order."""
-    from graphplan.methods import batch
+    from graphplan.methods import replay
 
-    monkeypatch.setattr(batch, "STRETCH", 40)
+    monkeypatch.setattr(replay, "STRETCH", 40)
     drawing = gp.construct(gp.load("four-bar"))
     points = shaken(drawing.scene, 100)
     points["B"][70] = points["A"][70]

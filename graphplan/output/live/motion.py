@@ -38,8 +38,8 @@ from graphplan.mechanism.replaced import guides
 from graphplan.mechanism.tolerances import TABLE_END_TOL
 from graphplan.mechanism.travel import TURN, paces, sense_of_travel, travel_unit
 from graphplan.mechanism.units import inertia, metre, weight
-from graphplan.methods.batch import coincidence_fault
 from graphplan.methods.construction import Construction
+from graphplan.methods.replay import coincidence_fault
 from graphplan.output.live.tapes import Data, PosedTapes, arrow
 from graphplan.phrases import digits, said
 from graphplan.sheet.tolerances import MARK_TOL

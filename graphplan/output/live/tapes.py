@@ -18,10 +18,9 @@ from graphplan.kernel.tape.written import JAVASCRIPT, Writer, asked_of
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides
-from graphplan.methods.batch import coincidence_fault
 from graphplan.methods.construction import Construction
 from graphplan.methods.forces.changing import changing_steps, drawn_components
-from graphplan.methods.replay import guiding_steps
+from graphplan.methods.replay import coincidence_fault, guiding_steps
 
 SOLVED = ("check", "bounds", "arithmetic", "method", "steps")
 """What of the solver's report is another in each pose."""

@@ -12,12 +12,12 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.sheet.lettering.lettering import LetterSizes
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Item
+from graphplan.sheet.plates.display import Circle, Item
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plate, Plates
-from graphplan.sheet.plates.view import View
+from graphplan.sheet.plates.view import View, clip_item
 from graphplan.sheet.tolerances import RADIUS_TOL
 
 DOT_RADIUS_MM = 0.35
@@ -62,8 +62,11 @@ class StyledPlate(Plate):
         return [mark for mark in super().steps if mark.index not in self.plates.hidden]
 
     def items(self) -> Iterator[Item]:
-        for item in super().items():
-            yield replace(item, layer=BACK_LAYER)
+        for mark in self.steps:
+            if pen := self.plates.whole.get(mark.index):
+                circle = Circle(pen, BACK_LAYER, mark.index, mark.spot, mark.radius)
+                yield from clip_item(circle, self.view.rect)
+        yield from (replace(item, layer=BACK_LAYER) for item in super().items())
 
     def dotting(self, drawn: DrawnStep) -> Pen | None:
         return pens.DOT if drawn.kind == POINT else None
@@ -85,8 +88,6 @@ class StyledPlate(Plate):
         yield from ()
 
     def arcs(self, drawn: DrawnStep) -> list[StruckArc]:
-        if drawn.index in self.plates.whole:
-            marks, pen = self.marks(drawn) or [drawn.args[0]], self.plates.whole[drawn.index]
-            return [StruckArc(drawn, marks[0], *halves, pen) for halves in ((180.0, 0.0), (0.0, 180.0))]
-        marks = self.marks(drawn) if drawn.kind == CIRCLE and drawn.radius > RADIUS_TOL else []
+        struck = drawn.kind == CIRCLE and drawn.radius > RADIUS_TOL and drawn.index not in self.plates.whole
+        marks = self.marks(drawn) if struck else []
         return [replace(arc, pen=self.plates.pens.get(drawn.index, arc.pen)) for arc in self.arcs_about(drawn, marks)]

@@ -13,8 +13,7 @@ from graphplan.mechanism.units import Dimension
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
-from graphplan.methods.recorded import Reading
-from graphplan.methods.results import thing_named
+from graphplan.methods.recorded import Reading, thing_named
 from graphplan.phrases import Said, arrange, digits, in_any_case, join, phrase, said, unit
 from graphplan.sheet.tolerances import MIN_LENGTH
 from graphplan.sheet.words.lengths import Length, Lengths, PaperDistance, in_mm, magnitude

@@ -99,13 +99,13 @@ class Errors:
 
     @property
     def worst(self) -> Result | None:
-        """The result whose error is largest beside the largest value of its kind; none where nothing is."""
+        """The result whose error is largest relative to the largest value of its kind; none where nothing is."""
         with_size = [result for result in self.results if result.relative is not None]
         return max(with_size, key=lambda result: result.relative or 0.0, default=None)
 
     @property
     def error(self) -> float:
-        """The worst result's error beside the largest value of its kind."""
+        """The worst result's error relative to the largest value of its kind."""
         return (self.worst.relative or 0.0) if self.worst else 0.0
 
     def step_name(self, index: int) -> Said:

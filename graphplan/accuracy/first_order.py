@@ -44,9 +44,9 @@ SEED = 1939
 
 @dataclass(frozen=True)
 class Result:
-    """The expected error of one reading: in its own unit and in mm, beside the largest value of its kind where there
-    is any, and the share of each drawn step in its variance. An error without bound is shared by the steps that no
-    pencil follows."""
+    """The expected error of one reading: in its own unit and in mm, relative to the largest value of its kind where
+    there is any, and the share of each drawn step in its variance. An error without bound is shared by the steps that
+    no pencil follows."""
 
     kind: ResultKind
     of: str
@@ -94,12 +94,13 @@ def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Resu
         marks = [drawing.drawn.wanted[position] for position in reading.marks]
         of_mm = _of_mm(reading.kind, [hand.values[index] for index in marks], scales, plan_of_step[marks[-1]])
         shares = np.bincount(owner, squares, len(hand.slips))
-        thing = thing_named(drawing.scene, reading.kind, reading.of)
+        subject = thing_named(drawing.scene, reading.kind, reading.of)
         group, arm = _group_and_arm(drawing.scene, reading.kind)
-        beside = math.inf if math.isinf(off) else None
+        relative = math.inf if math.isinf(off) else None
         if largest[group] > ZERO_TOL * arm * off:
-            beside = arm * off / largest[group]
-        results.append(Result(reading.kind, reading.of, thing, Deviation(off, off / of_mm if of_mm else None), beside,
+            relative = arm * off / largest[group]
+        results.append(Result(reading.kind, reading.of, subject, Deviation(off, off / of_mm if of_mm else None),
+                              relative,
                               tuple(shares.tolist())))
     return tuple(results)
 
@@ -164,7 +165,7 @@ def _of_mm(kind: ResultKind, marks: Sequence[Any], scales: Scales, panel: str) -
 
 
 def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, float]:
-    """The largest value of each group of kinds; the places of slides' reactions are seen beside the mechanism."""
+    """The largest value of each group of kinds; the places of slides' reactions are compared with the mechanism."""
     largest = {"place": drawing.scene.extent}
     for reading, _, value in readings(drawing, values, Gradients(0)):
         group, arm = _group_and_arm(drawing.scene, reading.kind)
@@ -173,7 +174,7 @@ def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, fl
 
 
 def _group_and_arm(scene: Scene, kind: ResultKind) -> tuple[str, float]:
-    """What a kind is seen beside, and at what arm."""
+    """What a kind is compared with, and at what arm."""
     return "place" if kind.dimension in (LENGTH, PLACE) else kind.group, float(kind.arm(scene.extent, scene.units))
 
 

@@ -204,9 +204,9 @@ class Pencil:
 
 @dataclass(frozen=True)
 class SeenPencil:
-    """The pencil by which a drawing is judged: so many times as unsteady as the `stated` one; the standard deviation
-    of reading its marks, mm, beside what is stated for each, and the part of that which they show. `marks` is how many
-    of them tell it, 0 if it is assumed.
+    """The pencil by which a drawing is judged: so many times as unsteady as the `stated` one; the standard deviation of
+    reading its marks, mm, relative to what is stated for each, and the part of that which they show. `marks` is how
+    many of them tell it, 0 if it is assumed.
     """
 
     stated: Pencil

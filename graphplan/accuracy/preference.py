@@ -140,7 +140,7 @@ def led_to(draw: Constructing,
 def preferred_form(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "", plan: str = "",
                    strict: bool = False, inertia: str = "couple", paper: str | None = None,
                    construct: Constructing = unchecked) -> Preference:
-    """The form that is quickest, most accurate or, by the product of both beside the best of each, balanced.
+    """The form that is quickest, most accurate or, by the product of both relative to the best of each, balanced.
 
     Fails with `Refused` where a method is named as well, and as the pose's own form does where none can be drawn.
     """
@@ -184,7 +184,8 @@ def _redraft_on(form: Form, one: Drafted, paper: str) -> Form:
 WEIGHED: dict[str, tuple[Phrase, Callable[[Drafted], tuple[float, ...]]]] = dict(zip(PREFERENCES, (
     (phrase("quick"), lambda one: (one.operations, one.error)),  # fewest operations first
     (phrase("accurate"), lambda one: (one.error, one.operations)),  # smallest pencil error first
-    (phrase("balanced"), lambda one: (one.operations * one.error, one.operations)),  # each beside the best of its kind
+    # each relative to the best of its kind
+    (phrase("balanced"), lambda one: (one.operations * one.error, one.operations)),
 ), strict=True))
 
 
@@ -249,7 +250,7 @@ class Comparison:
         return name, draft.paper, *map(str, numbers), flattest, str(len(cost.off_sheet))
 
     def _error_row(self, name: str, draft: Drafted) -> tuple[str, ...]:
-        """One form's row of errors: those of its worst result, and how it scatters beside what is expected."""
+        """One form's row of errors: those of its worst result, and how it scatters relative to what is expected."""
         worst = draft.worst
         if worst is None:
             return name, *[""] * (len(OFF) - 1 + 2 * bool(self.hands))

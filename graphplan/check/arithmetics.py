@@ -1,4 +1,4 @@
-"""The arithmetics in which both opinions are computed: floats with proven errors, enclosures, fractions.
+"""The arithmetics in which construction and solver are computed: floats with proven errors, enclosures, fractions.
 
 All take the scene as it is written: a rational one is exact, and what is not is computed once more from its placements,
 angles and turns a minute.

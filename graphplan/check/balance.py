@@ -1,4 +1,5 @@
-"""The mass centre over the cycle and what shakes the frame, each beside the solver's: the second opinion on balancing.
+"""The mass centre over the cycle and what shakes the frame, each against the solver's: the independent check of
+balancing.
 
 The path is compared with the polygon of masses, velocity and acceleration of the mass centre with the solver's of all
 links, the shaking force and its moment with what the frame bears by the solver's reactions.
@@ -40,8 +41,8 @@ class MassMotion:
     is not reached.
 
     `links` is the motion that they are found from; `points` are where all points are, `path`, `velocity` and
-    `acceleration` are in scene units. `check` says by how much the opinions differ, beside the largest of what they add
-    up.
+    `acceleration` are in scene units. `check` says by how much the independent results differ, relative to the largest
+    of what they add up.
     """
 
     centre: MassCentre
@@ -73,7 +74,7 @@ def mass_motion(scene: Scene, positions: int, links: LinkMotion | None = None) -
     """The mass centre in so many poses of the cycle, constructed and compared.
 
     Reads how the links move, where that is known from the same links with other masses. Fails with `Refused` where no
-    link has a mass or the mechanism does not move, with `Disagreement` where opinions differ by more than rounding.
+    link has a mass or the mechanism does not move, with `Disagreement` where they differ by more than rounding.
     """
     centre = mass_centre(scene)
     links = links or link_motion(scene, positions)
@@ -103,7 +104,7 @@ class Balancing:
 
 def balancing(scene: Scene, positions: int, way: str = "", keep: Sequence[str] = (),
               radii: Mapping[str, float] | None = None, share: float = 0.5) -> Balancing:
-    """The mass centre over the cycle before and after counterweights are added, each opinion compared.
+    """The mass centre over the cycle before and after counterweights are added, and compared with the solver.
 
     Reads how it is to be balanced: fully (the default where it can be), so that the mass centre moves along a guide
     alone, by a share of what reciprocates, or not; the links that keep their masses, and radii of counterweights.
@@ -143,7 +144,8 @@ def _counterweights(scene: Scene, way: str, keep: Sequence[str], radii: Mapping[
 
 
 def _counterweight_gap(motion: MassMotion, way: str) -> dict[str, float]:
-    """How far the mass centre moves that counterweights hold, or across the guide, beside the reach of the links."""
+    """How far the mass centre moves that counterweights hold, or across the guide, relative to the reach of the links.
+    """
     if way not in (FULL, GUIDED):
         return {}
     path, scene = motion.path[np.isfinite(motion.path)], motion.centre.scene
@@ -167,7 +169,7 @@ def _orders_gap(motion: MassMotion, crank_engine: Engine) -> dict[str, float]:
 
 
 def _solver_gaps(motion: MassMotion) -> dict[str, float]:
-    """By how much the opinions differ, each beside the largest of what it adds up."""
+    """By how much the independent results differ, each relative to the largest of what it adds up."""
     centre, scene = motion.centre, motion.centre.scene
     reached = np.flatnonzero(np.isfinite(motion.path))
     points, directions = ({name: z[reached] for name, z in arrays.items()}
@@ -199,7 +201,7 @@ def _solver_gaps(motion: MassMotion) -> dict[str, float]:
 
 def _largest_rate(motion: MassMotion, there: Any) -> float:
     """The largest rate of turning in these poses, in rad/s, or what a link's acceleration comes to from rest; one where
-    the drives stand still: beside it rates are compared."""
+    the drives stand still: relative to it rates are compared."""
     if not any(drive.rate or drive.change for drive in motion.centre.scene.drives):
         return 1.0
     rates = [float(abs(omega[there]).max()) for omega in motion.links.omega.values()]
@@ -208,10 +210,10 @@ def _largest_rate(motion: MassMotion, there: Any) -> float:
 
 
 def _gap(ours: Any, terms: list[Any], size: float = 0.0) -> float:
-    """The largest difference from a sum, beside the largest of its terms, or a size that is larger."""
-    beside = max(size, *(float(np.max(np.abs(term))) for term in terms))
+    """The largest difference from a sum, relative to the largest of its terms, or a size that is larger."""
+    scale = max(size, *(float(np.max(np.abs(term))) for term in terms))
     apart = float(np.max(np.abs(ours - sum(terms))))
-    return apart / beside if beside else apart
+    return apart / scale if scale else apart
 
 
 def _with_inertia_loads_only(scene: Scene) -> Scene:

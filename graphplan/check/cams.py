@@ -1,4 +1,4 @@
-"""A cam's second opinions: the drawn inversion against the contact formula, curvature and law against numbers
+"""The independent checks of a cam: the drawn inversion against the contact formula, curvature and law against numbers
 differentiated, and the scene of the cam, solved by the analytic solver, against the law.
 """
 
@@ -22,9 +22,9 @@ STENCIL = np.array([1, -8, 0, 8, -1]) / 12  # of five neighbours
 
 
 def check_cam(drawing: CamDrawing) -> dict[str, float]:
-    """By how much the opinions differ, relative to what each is compared with.
+    """By how much the independent results differ, relative to what each is compared with.
 
-    Fails with `BrokenClaim` where a drawn step breaks a claim, and with `Disagreement` where opinions differ by more
+    Fails with `BrokenClaim` where a drawn step breaks a claim, and with `Disagreement` where they differ by more
     than rounding or numerical differentiation.
     """
     cam = drawing.cam
@@ -34,13 +34,14 @@ def check_cam(drawing: CamDrawing) -> dict[str, float]:
             "motion": max(_motion_gap(cam, float(angle)) for angle in angles),
             "curvature": _curvature_gap(cam), "law": _law_gap(cam)}
     for quantity, gap in gaps.items():
-        require_agreement(cam.task.name, {quantity: gap}, CAM_TOL[quantity], by="by the second opinion")
+        require_agreement(cam.task.name, {quantity: gap}, CAM_TOL[quantity], by="by the independent check")
     return gaps
 
 
 def _motion_gap(cam: Cam, angle: float) -> float:
-    """By how much the solver's velocity and acceleration of the follower differ from the law's, beside those of a point
-    of the cam as far out as the base circle, or the cam's turning, or beside the largest where that is larger."""
+    """By how much the solver's velocity and acceleration of the follower differ from the law's, relative to those of a
+    point of the cam as far out as the base circle, or the cam's turning, or relative to the largest where that is
+    larger."""
     rates, by_law, omega = solve(parse(scene_text(cam, angle), cam.task.name)), motion(cam, angle), cam.task.cam.omega
     if cam.task.follower.oscillates:
         radius, solved = 1.0, (rates.omega[FOLLOWER], rates.alpha[FOLLOWER])
@@ -77,7 +78,7 @@ def _curvature_gap(cam: Cam) -> float:
 
 
 def _law_gap(cam: Cam) -> float:
-    """Each derivative of the law against the one before it, differentiated, beside the largest."""
+    """Each derivative of the law against the one before it, differentiated, relative to the largest."""
     worst = 0.0
     for order in range(1, ORDERS):
         rows = [(stretch, *_stencil_angles(stretch)) for stretch in cam.law.stretches]

@@ -1,6 +1,6 @@
-"""Certified numbers: construction and second opinion between proven bounds, to as many digits as are asked for.
+"""Certified numbers: construction and solver between proven bounds, to as many digits as are asked for.
 
-The pose is reckoned from the placements as they are written, the construction is replayed on it and the solver's
+The pose is computed from the placements as they are written, the construction is replayed on it and the solver's
 equations are solved, all in enclosures. Where these are too wide, or cannot decide something, the working precision is
 doubled and everything is done once more.
 """
@@ -52,7 +52,7 @@ class Certified(Report):
 
     @cached_property
     def check(self) -> dict[str, Enclosure]:
-        """The most that construction and solver may differ by, beside the largest value of each kind."""
+        """The most that construction and solver may differ by, relative to the largest value of each kind."""
         return {kind: Enclosure(max(map(_upper_bound, self._gaps(kind)), default=Fraction(0)) / self._sizes[kind])
                 for kind in self._kinds_by_group}
 
@@ -139,7 +139,7 @@ class Certified(Report):
                                                   for name, value in ours.items()})
 
     def _texts(self, entry: Any, key: str = "") -> Any:
-        """Printed data with every enclosure as a decimal, beside the largest value of what its key names."""
+        """Printed data with every enclosure as a decimal, relative to the largest value of what its key names."""
         if isinstance(entry, dict):
             return {name: self._texts(item, name) for name, item in entry.items()}
         if isinstance(entry, list):
@@ -308,7 +308,7 @@ def _upper_bound(value: Enclosure) -> Fraction:
 
 
 def decimal(value: Enclosure, digits: int, size: Fraction) -> str:
-    """A number to so many significant digits: its own, or those of `size` where it is next to nothing beside that.
+    """A number to so many significant digits: its own, or those of `size` where it is next to nothing relative to that.
 
     Fails with `Undecided` where the enclosure is too wide.
     """

@@ -1,7 +1,7 @@
-"""One number of a construction beside the solver's: how far the two are apart, what is proven, what cancels in it.
+"""One number of a construction against the solver's: how far the two are apart, what is proven, what cancels in it.
 
-A number counts beside the largest of the terms that it is made of, a vector as a whole. Where these terms vanish, too,
-it counts beside what is next to nothing of all that moves, or of what is drawn as large as the mechanism.
+A number counts relative to the largest of the terms that it is made of, a vector as a whole. Where these terms vanish,
+too, it counts relative to what is next to nothing of all that moves, or of what is drawn as large as the mechanism.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ from graphplan.solver.tolerances import MARGIN
 
 Results = Mapping[str, Mapping[str, Any]]
 Readings = dict[str, dict[str, Any]]  # the same, as it is put together: values by kind and name
-# Of these nothing is proven: they count beside the largest of their group.
+# Of these nothing is proven: they count relative to the largest of their group.
 UNBOUNDED = (kinds.SLIDE_ARM, kinds.POWER, kinds.POWER_MOMENT)
 
 
 class ComparedNumber(NamedTuple):
     """A printed number and the `truth` that the solver says; `gap` is their difference, `bound` how far the number may
-    be off, `size` what both count beside. `apart` says that the two are proven to differ, `close` that they differ by
-    no more than rounding, `near` that they differ by no more than the rounding of what is drawn as large as the
-    mechanism: of a far smaller number beside it, that may be all digits."""
+    be off, `scale` what both count relative to. `apart` says that the two are proven to differ, `close` that they
+    differ by no more than rounding, `near` that they differ by no more than the rounding of what is drawn as large as
+    the mechanism: of a far smaller number that may be all digits."""
 
     value: Any
     truth: Any
@@ -47,7 +47,7 @@ class ComparedNumber(NamedTuple):
         return self.close and bool(self.bound <= PROVEN_TOL * self.scale)
 
     def relative(self, part: str) -> Any:
-        """The gap or the bound beside the number's size."""
+        """The gap or the bound relative to the number's size."""
         number = getattr(self, part)
         return number / self.scale if number else 0
 
@@ -57,7 +57,7 @@ Numbers = dict[str, dict[str, tuple[ComparedNumber, ...]]]
 
 def compare(drawing: Construction, ours: Results, theirs: Results,
             floor: Callable[[str, str], float] = lambda kind, name: 0.0) -> Numbers:
-    """All readings that the solver knows, beside what it says of them; none counts beside less than its `floor`."""
+    """All readings that the solver knows, with what it says of them; none counts relative to less than its `floor`."""
     largest = scales(drawing, theirs)
     numbers: Numbers = {}
     for kind, named in ours.items():
@@ -121,7 +121,7 @@ def components(value: Any) -> tuple[Any, ...]:
 
 def _compare_vector(ours: tuple[Any, ...], theirs: tuple[Any, ...], least: float,
                     scale: float) -> Iterator[ComparedNumber]:
-    """The components of a vector beside the size of the whole."""
+    """The components of a vector relative to the size of the whole."""
     numbers = [_compare_number(*pair, scale) for pair in zip(ours, theirs, strict=True)]
     largest = max([least, *(number.scale for number in numbers)])
     for number in numbers:
@@ -147,7 +147,7 @@ def _compare_number(ours: Any, theirs: Any, scale: float) -> ComparedNumber:
 
 
 def _compare_enclosures(ours: Any, theirs: Any) -> ComparedNumber:
-    """One enclosure beside another: the float that is printed of it, and how far that is off."""
+    """One enclosure against another: the float that is printed of it, and how far that is off."""
     printed = 0.0 if abs(ours.middle) <= ours.error else float(ours.middle)
     bound = upper_float(max(abs(ours.middle - Fraction(printed)), theirs.error) + ours.error)
     truth = float(theirs.middle)

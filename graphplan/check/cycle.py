@@ -1,4 +1,4 @@
-"""The construction all the way round: one recorded program replayed in every pose, beside the analytic solver in each.
+"""The construction all the way round: one recorded program replayed in every pose, against the analytic solver in each.
 
 Where the recorded way through a ring of links cannot be drawn in a pose, or lets rounding grow there, the other forms
 are tried for that pose, and which one served is noted.
@@ -40,9 +40,9 @@ class Cycle:
     """n poses of a scene around its drive's turn, and what the construction gives in each.
 
     `results` are arrays of shape (n,) by kind and name, complex for vectors, nan where there are none; `faults` says
-    why, by the pose's place. `gaps`: for each kind the largest difference of a number from the solver's beside what
-    cancels in it, in each pose. `otherwise`: by the pose's place, the form that served where the recorded one did not.
-    `wrong`: the poses where the difference is more than rounding.
+    why, by the pose's place. `gaps`: for each kind the largest difference of a number from the solver's, relative to
+    what cancels in it, in each pose. `otherwise`: by the pose's place, the form that served where the recorded one did
+    not. `wrong`: the poses where the difference is more than rounding.
     """
 
     scene: Scene

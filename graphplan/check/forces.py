@@ -1,4 +1,4 @@
-"""Forces: what the solver says of them between proven bounds, and a construction's beside that. For loads alone."""
+"""Forces: what the solver says of them between proven bounds, and a construction's against that. For loads alone."""
 
 from __future__ import annotations
 
@@ -179,7 +179,7 @@ def undrawn_forces(scene: Scene, results: Results, truth: Results) -> Readings:
 
 @dataclass(frozen=True)
 class Forces:
-    """The forces that a construction gives, beside the solver's reactions and the power balance.
+    """The forces that a construction gives, against the solver's reactions and the power balance.
 
     `rough` are the reactions with friction as the solver has them; `locks` says why there are none, where a pair should
     rub. `rounds` are those of friction that are drawn; `bounded` says that the results are numbers with bounds. `alone`

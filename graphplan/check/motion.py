@@ -125,7 +125,7 @@ def _wrap_to_cycle(reduction: Reduction, travel: Reals) -> Reals:
 
 
 class _Law(NamedTuple):
-    """A load over a speed, its arm and the speed that it measures being rows of the opinion's table."""
+    """A load over a speed, its arm and the speed that it measures being rows of the reference's table."""
 
     table: LoadTable
     row: int
@@ -181,28 +181,28 @@ class ReferenceMotion:
 
     def _solve_at(self, travel: Reals) -> Reals:
         """Inertia, slope and moment, and of each load over a speed its arm and that speed, as rows."""
-        opinion = ReferenceReduction(self.reduction, travel, 1)
-        truth = opinion.truth
+        reference = ReferenceReduction(self.reduction, travel, 1)
+        truth = reference.truth
         rows = [truth[quantity].value + 0 * travel for quantity in ("inertia", "slope", "moment")]
-        rows[2] += opinion.friction
+        rows[2] += reference.friction
         for load, table in self._loads_over_speeds():
-            rows += [self._arm(opinion, load) + 0 * travel, self._speed(opinion, table) + 0 * travel]
+            rows += [self._arm(reference, load) + 0 * travel, self._speed(reference, table) + 0 * travel]
         return np.array(rows)
 
-    def _arm(self, opinion: ReferenceReduction, load: Any) -> Any:
+    def _arm(self, reference: ReferenceReduction, load: Any) -> Any:
         """The power of a unit of a load at a unit rate."""
         newton = float(NEWTONS[self.reduction.scene.units.force])
         if not isinstance(load, Force):
-            return opinion.rates.omega[load.on].value * newton / opinion.unit
-        x, y, length = opinion.line_of_action(load)
-        vx, vy = (component.value for component in opinion.rates.velocity[load.at])
-        return (vx * x + vy * y) / length * newton * opinion.metres / opinion.unit
+            return reference.rates.omega[load.on].value * newton / reference.unit
+        x, y, length = reference.line_of_action(load)
+        vx, vy = (component.value for component in reference.rates.velocity[load.at])
+        return (vx * x + vy * y) / length * newton * reference.metres / reference.unit
 
-    def _speed(self, opinion: ReferenceReduction, table: LoadTable) -> Any:
+    def _speed(self, reference: ReferenceReduction, table: LoadTable) -> Any:
         """The speed that a table is over, at a unit rate."""
         if table.over == SPEED:
-            return 1.0 / opinion.unit
-        return opinion.slide_component(opinion.slide_of(table), opinion.rates.slide_velocity) / opinion.unit
+            return 1.0 / reference.unit
+        return reference.slide_component(reference.slide_of(table), reference.rates.slide_velocity) / reference.unit
 
     def _piece(self, k: int) -> _Piece:
         """The values between two edges, at as many points as it takes."""
@@ -214,7 +214,7 @@ class ReferenceMotion:
                 values = self._solve_at((low + high) / 2 + (high - low) / 2 * points)
                 terms = abs(np.cos(np.outer(np.arange(count), np.arccos(points))) @ values.T) * 2 / count
                 sizes = abs(values).max(axis=1)
-                sizes[1] = max(sizes[:2])  # a slope that is nothing beside the inertia is noise
+                sizes[1] = max(sizes[:2])  # a slope that is nothing relative to the inertia is noise
                 if (terms[-3:].max(axis=0) <= INTERPOLATION_TOL * sizes).all() or count >= MAX_CHEBYSHEV_POINTS:
                     break
                 count *= 2

@@ -1,4 +1,4 @@
-"""A construction in many poses beside the analytic solver, each number beside what cancels in it."""
+"""A construction in many poses against the analytic solver, each number relative to what cancels in it."""
 
 from __future__ import annotations
 
@@ -85,7 +85,8 @@ def points_where_sound(drawing: Construction, points: Mapping[str, Any], guides:
 
 def pose_gaps(batch: PoseBatch, drawing: Construction, results: Readings,
               progress: Callable[[int, int], None] = lambda done, of: None) -> dict[str, Any]:
-    """For each kind of result the largest difference from the solver beside the number's own size, in each pose."""
+    """For each kind of result the largest difference from the solver relative to the number's own size, in each pose.
+    """
     n, blocks = batch.places.size, list[dict[str, Any]]()
     for start in range(0, n, BLOCK_POSES):
         block = slice(start, min(start + BLOCK_POSES, n))
@@ -128,7 +129,8 @@ def _block_gaps(batch: PoseBatch, drawing: Construction, ours: Readings) -> dict
 
 
 def _relative_vectors_size(scene: Scene, truth: Readings, kind: str, name: str) -> Any:
-    """The size of the vectors that a link's rate is read from, beside its longest side; of any other result nothing."""
+    """The size of the vectors that a link's rate is read from, relative to its longest side; of any other result
+    nothing."""
     if not kind_of(kind).turning:
         return 0.0
     vectors, points = truth[kind_of(kind).group], scene.links[name]
@@ -177,7 +179,7 @@ def _contact_size(scene: Scene, truth: Readings, kind: str, name: str) -> Any:
 def sound_poses(batch: PoseBatch, drawing: Construction, results: Readings, apart: Mapping[str, Any]) -> Any:
     """In which poses the results are there, and differ from the solver's by no more than rounding.
 
-    Where that is proven of a pose, `apart` has the differences beside what is proven to cancel there.
+    Where that is proven of a pose, `apart` has the differences relative to what is proven to cancel there.
     """
     worst = np.max(list(apart.values()), axis=0)
     worst[np.isnan(worst)] = np.inf
@@ -192,11 +194,11 @@ def sound_poses(batch: PoseBatch, drawing: Construction, results: Readings, apar
 
 
 def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Readings, worst: float) -> dict[str, float]:
-    """The differences of one pose that is sound, by group: beside the bounds that are proven there, or where none are,
-    beside the condition; nothing of one that is not.
+    """The differences of one pose that is sound, by group: relative to the bounds that are proven there, or where none
+    are, relative to the condition; nothing of one that is not.
 
-    A pose of a cycle is known to rounding of the mechanism, and so are its numbers: those that are nothing beside the
-    largest of their kind count beside that one.
+    A pose of a cycle is known to rounding of the mechanism, and so are its numbers: those that are nothing relative to
+    the largest of their kind count relative to that one.
     """
     scene = single_pose(pose.posed_scene)
     try:

@@ -1,9 +1,9 @@
-"""A reduction beside the analytic solver: kinetic energy and power at a unit rate in every pose, from its rates alone.
+"""A reduction against the analytic solver: kinetic energy and power at a unit rate in every pose, from its rates alone.
 
 The reduced inertia is twice the kinetic energy, the reduced moment the power of the loads, and the inertia's slope
 twice the power of the inertia forces, taken against them, while the first drive goes at a constant rate of one and the
 others in pace. The solver finds the rates from its linear systems; tables are read where its slides stand and move. A
-number counts beside the size of what cancels in it.
+number counts relative to the size of what cancels in it.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ Gaps = dict[str, Any]
 
 
 def reduction_gaps(reduction: Reduction, travel: Any, side: int = 1) -> Gaps:
-    """For inertia, moment and slope the difference from the solver beside the number's own size, in each pose."""
+    """For inertia, moment and slope the difference from the solver relative to the number's own size, in each pose."""
     travel = np.atleast_1d(np.asarray(travel, dtype=float))
     blocks: dict[str, list[Any]] = {}
     for start in range(0, max(1, travel.size), BLOCK_POSES):
         block = travel[start : start + BLOCK_POSES]
-        opinion = ReferenceReduction(reduction, block, side)
-        for quantity, gap in opinion.gaps(reduction.at(block, side)).items():
+        reference = ReferenceReduction(reduction, block, side)
+        for quantity, gap in reference.gaps(reduction.at(block, side)).items():
             blocks.setdefault(quantity, []).append(gap)
     return {quantity: np.concatenate(gaps) for quantity, gaps in blocks.items()}
 
@@ -54,18 +54,18 @@ def frictionless(found: Reduced, what: str) -> Any:
 def check_reduction(reduction: Reduction, travel: Any, side: int = 1) -> dict[str, float]:
     """The largest difference from the solver in any of these poses, by what differs; with friction where it rubs.
 
-    Fails with `Disagreement` where one is more than rounding, beside the condition of the solver's rates.
+    Fails with `Disagreement` where one is more than rounding, relative to the condition of the solver's rates.
     """
     travel = np.atleast_1d(np.asarray(travel, dtype=float))
     gaps = reduction_gaps(reduction, travel, side)
     for quantity, gap in gaps.items():
         for k in np.flatnonzero(~(gap <= ROUNDING_TOL)):
-            opinion = ReferenceReduction(reduction, travel[k : k + 1], side)
+            reference = ReferenceReduction(reduction, travel[k : k + 1], side)
             ours = frictionless(reduction.at(travel[k : k + 1], side), quantity)[0]
-            truth = opinion.truth[quantity].value[0]
+            truth = reference.truth[quantity].value[0]
             if abs(ours - truth) <= ROUNDING_TOL * getattr(reduction.size, quantity):
-                gap[k] = 0.0  # beside what these masses and loads do elsewhere both are nothing
-            elif not gap[k] <= SAFETY_FACTOR * EPSILON * opinion.condition:
+                gap[k] = 0.0  # relative to what these masses and loads do elsewhere both are nothing
+            elif not gap[k] <= SAFETY_FACTOR * EPSILON * reference.condition:
                 place = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
                 raise Disagreement(place, f"reduced {quantity}", f"{ours:.15g}", f"{truth:.15g}", float(gap[k]))
     other_gaps = {} if reduction.friction is None else {"friction": friction_gap(reduction, travel)}
@@ -75,7 +75,8 @@ def check_reduction(reduction: Reduction, travel: Any, side: int = 1) -> dict[st
 
 
 def weights_gap(reduction: Reduction, travel: Any) -> float:
-    """How far the moments of the weights by the lever are from those by projections, beside the largest in any pose.
+    """How far the moments of the weights by the lever are from those by projections, relative to the largest in any
+    pose.
 
     Fails with `Disagreement` where that is more than rounding.
     """
@@ -90,9 +91,9 @@ def weights_gap(reduction: Reduction, travel: Any) -> float:
 
 
 def check_lever(reduction: Reduction, travel: float = 0.0) -> tuple[Construction, float]:
-    """The lever drawn in one pose, and how far it is from the reduced moment beside the largest of the loads' own.
+    """The lever drawn in one pose, and how far it is from the reduced moment relative to the largest of the loads' own.
 
-    Fails with `Disagreement` where that is more than rounding, beside the condition of the solver's rates.
+    Fails with `Disagreement` where that is more than rounding, relative to the condition of the solver's rates.
     """
     drawing, reduced = reduction.drawing(travel), reduction.at([travel])
     (balance,) = drawing.balances
@@ -112,7 +113,7 @@ def check_lever(reduction: Reduction, travel: float = 0.0) -> tuple[Construction
 
 def friction_gap(reduction: Reduction, travel: Any) -> float:
     """How far the moment of friction is from the solver's, whose reactions lean of themselves, in any of these poses;
-    beside what the drive gives and loses.
+    relative to what the drive gives and loses.
 
     Fails with `Disagreement` where that is more than rounding.
     """

@@ -1,4 +1,4 @@
-"""The construction beside the analytic solver: what both say, by how much they differ, and what is proven of it."""
+"""The construction against the analytic solver: what both say, by how much they differ, and what is proven of it."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ STANDING_ROUNDS = 20  # of friction: where none is drawn, the forces stand after
 @dataclass(frozen=True)
 class ReferenceSolution:
     """The solver's rates of a scene, where there are loads its reactions, too, and those after so many `rounds` of
-    friction; `power` is the third opinion on the balances, where it is known."""
+    friction; `power` is a third, independent result for the balances, where it is known."""
 
     scene: Scene
     rates: Rates
@@ -66,7 +66,7 @@ class ReferenceSolution:
     def drawn_forces(self, drawing: Construction, results: Readings, locks: str = "",
                      exact: bool = False,
                      bounded: bool = False) -> Forces | None:
-        """The forces among the results, of which some are drawn, beside this; none where there are no loads."""
+        """The forces among the results, of which some are drawn, and these; none where there are no loads."""
         if self.reactions is None:
             return None
         from graphplan.check.forces import Forces
@@ -126,19 +126,19 @@ def rates_by_kind(rates: Rates, results: Results) -> dict[str, Any]:
 
 
 def _pole(rates: Rates, name: str, ours: Any, near: bool) -> Any:
-    """The instant centre of two links, or the heading to it beside ours."""
+    """The instant centre of two links, or the heading to it on the side of ours."""
     centre = relative(rates, *rates.equations.scene.link_pair(name))
     if near:
         return centre.centre
     return centre.heading(ours if isinstance(ours, tuple) else (ours.real, ours.imag))
 
 
-# ---- the construction beside it -------------------------------------------------------------------------------------
+# ---- the construction against it -------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Report:
-    """A construction with its numbers and the second opinion on them; `forces` is that on forces.
+    """A construction with its numbers and the solver's; `forces` are those of forces.
 
     `arithmetic` is that in which both were found: floats, enclosures of so many digits, or fractions; `exact` says that
     the numbers themselves are fractions. `numbers` are what is compared, by kind and name, as the results are. `fault`
@@ -168,12 +168,13 @@ class Report:
 
     @cached_property
     def check(self) -> dict[str, Any]:
-        """For each kind the largest difference of a number from the solver's, beside what cancels in the number."""
+        """For each kind the largest difference of a number from the solver's, relative to what cancels in the number.
+        """
         return self._largest("gap") | ({"position": self.displacement} if self.scene.assembly else {})
 
     @cached_property
     def displacement(self) -> float:
-        """How far a constructed point is at most from where the cycle has it, beside the mechanism's extent."""
+        """How far a constructed point is at most from where the cycle has it, relative to the mechanism's extent."""
         drawing = self.drawing
         marks = ((step.index, self.scene.points[step.name]) for step in drawing.program.steps
                  if step.name in self.scene.points and step.name)
@@ -182,7 +183,7 @@ class Report:
 
     @cached_property
     def bounds(self) -> dict[str, Any]:
-        """For each kind how far any number is off at most, beside what cancels in it."""
+        """For each kind how far any number is off at most, relative to what cancels in it."""
         return self._largest("bound")
 
     def _largest(self, measure: str) -> dict[str, Any]:
@@ -241,7 +242,7 @@ class Report:
         return ""
 
     def _fails(self, control: Control) -> bool:
-        """Whether a control does not hold in fractions; beside rounding nobody can tell."""
+        """Whether a control does not hold in fractions; relative to rounding nobody can tell."""
         return self.exact and control.true_deviation(self.scene.points, self.results["velocity"]) != 0
 
     @property

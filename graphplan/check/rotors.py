@@ -1,4 +1,5 @@
-"""A rotor's second opinions: what its drawing gives against equilibrium in complex numbers, and what its bearings bear.
+"""The independent checks of a rotor: what its drawing gives against equilibrium in complex numbers, and what its
+bearings bear.
 
 Nothing of the polygons is used: two equations, of forces and of moments about the origin of the axis, are solved for
 the corrections; then the rotor with them must be without force and moment. Trials are made again: the unbalance that
@@ -24,9 +25,9 @@ Pair = tuple[tuple[Eccentric, ...], Answer]  # unbalances, and what balances the
 
 
 def check_rotor(found: Balanced) -> dict[str, float]:
-    """By how much the opinions differ, relative to the sizes of what they are made of.
+    """By how much the independent results differ, relative to the sizes of what they are made of.
 
-    Fails with `BrokenClaim` where a drawn step breaks a claim, and with `Disagreement` where opinions differ.
+    Fails with `BrokenClaim` where a drawn step breaks a claim, and with `Disagreement` where they differ.
     """
     require_claims(found.task.name, found.drawing)
     pairs = [*zip(found.unbalances, found.answers, strict=True)]
@@ -38,7 +39,7 @@ def check_rotor(found: Balanced) -> dict[str, float]:
         gaps["trials"] = max(_trial_gap(one, -vector(mass)) for masses, _ in pairs
                              for one, mass in zip(found.effects, masses, strict=True))
     require_agreement(found.task.name, {quantity.replace("_", " "): gap for quantity, gap in gaps.items()}, SUM_TOL,
-                      by="by the second opinion")
+                      by="by the independent check")
     return gaps
 
 
@@ -54,19 +55,19 @@ def axial_place(unbalance: Eccentric | Correction) -> float:
 
 
 def _residual_force(pair: Pair) -> float:
-    """The force that is left with the corrections, beside the sum of its parts."""
+    """The force that is left with the corrections, relative to the sum of its parts."""
     return _relative_sum([vector(unbalance) for unbalances in pair for unbalance in unbalances])
 
 
 def _residual_moment(pair: Pair) -> float:
-    """The moment about the middle of all places that is left, beside the sum of its parts."""
+    """The moment about the middle of all places that is left, relative to the sum of its parts."""
     everything = [unbalance for unbalances in pair for unbalance in unbalances]
     middle = sum(map(axial_place, everything)) / len(everything)
     return _relative_sum([(axial_place(unbalance) - middle) * vector(unbalance) for unbalance in everything])
 
 
 def _relative_sum(parts: list[complex]) -> float:
-    """What is left of a sum, beside the sizes of its parts."""
+    """What is left of a sum, relative to the sizes of its parts."""
     return abs(sum(parts)) / (sum(map(abs, parts)) or 1.0)
 
 
@@ -85,7 +86,8 @@ def _plane_distances(rotor: Rotor, masses: Sequence[Eccentric]) -> list[float]:
 
 
 def _correction_gap(rotor: Rotor, masses: Sequence[Eccentric], answer: Answer) -> float:
-    """How far the corrections are from equilibrium's, beside what masses would need that did not help each other."""
+    """How far the corrections are from equilibrium's, relative to what masses would need that did not help each other.
+    """
     wide = abs(float(rotor.planes[-1] - rotor.planes[0])) or math.inf
     scale = sum(mass.size * (1 + abs(arm) / wide) for mass, arm in zip(masses, _plane_distances(rotor, masses),
                                                                        strict=True))
@@ -95,7 +97,7 @@ def _correction_gap(rotor: Rotor, masses: Sequence[Eccentric], answer: Answer) -
 
 
 def _trial_gap(effect: Effect, side: complex) -> float:
-    """By how much the trial would have given other numbers, beside the largest, if this is the correction."""
+    """By how much the trial would have given other numbers, relative to the largest, if this is the correction."""
     trial, mass_radius = effect.trial, float(effect.trial.mass_radius)
     at = cmath.rect(mass_radius, math.radians(float(trial.angle)))
     if isinstance(trial, ThreeRuns):

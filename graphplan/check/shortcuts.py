@@ -73,7 +73,7 @@ def _shortcuts_at(drawing: Construction, carry: Step) -> Iterator[Shortcuts]:
 
 
 def _cost(drawing: Construction, name: str, alpha: Line, beta: Line, gamma: Line) -> Shortcuts:
-    """Draw both shortcuts beside the exact end of the middle."""
+    """Draw both shortcuts and compare them with the exact end of the middle."""
     arrow = next(r for r in drawing.readings if r.kind == "acceleration" and r.of == name)
     a, end = (complex(*drawing.truth[drawing.program.wanted[mark]]) for mark in arrow.marks)
     corner = _meet(beta, gamma)

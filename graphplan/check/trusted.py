@@ -1,8 +1,8 @@
 """The trusted construction: drawn, compared with the analytic solver, and taken another way where the two differ.
 
-Both opinions are computed in floats with proven bounds. Where these do not prove nine digits of each number, or the two
-differ by more than rounding, the next better arithmetic is taken: enclosures of more and more digits, then fractions. A
-construction that is proven to differ is given up for one that goes another way.
+Construction and solver are computed in floats with proven bounds. Where these do not prove nine digits of each number,
+or the two differ by more than rounding, the next better arithmetic is taken: enclosures of more and more digits, then
+fractions. A construction that is proven to differ is given up for one that goes another way.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Bench:
 
     def __init__(self, scene: Scene, how: dict[str, Any], exact: bool, locks: str = ""):
         self.scene, self.how, self.exact, self.locks = scene, how, exact, locks
-        self._opinions: dict[str, ReferenceSolution] = {}
+        self._references: dict[str, ReferenceSolution] = {}
 
     def refuse_singular_forces(self) -> None:
         """Fail where fractions say that the forces are singular here: then no way to draw them is sought."""
@@ -55,7 +55,7 @@ class Bench:
             raise SingularPose(singular.why, singular.links, lines) from None
 
     def judge(self, drawing: Construction) -> Report:
-        """A construction beside the solver, in the first arithmetic that proves the digits or a difference.
+        """A construction against the solver, in the first arithmetic that proves the digits or a difference.
 
         Where none does, the last word is that of floats, with bounds as large as they are.
         """
@@ -73,7 +73,7 @@ class Bench:
             if judged.proven or judged.wrong:
                 return judged
             last, fault = judged, None
-        regular = self._opinions.keys() - {FLOATS.name}  # as better arithmetic has found: then another way may serve
+        regular = self._references.keys() - {FLOATS.name}  # as better arithmetic has found: then another way may serve
         if last is None and (fault is None or (self._singular is not None and not regular)):
             raise self._unproven(drawing)
         if fault is not None:
@@ -110,7 +110,7 @@ class Bench:
             yield Exact()
 
     def _judge_in(self, drawing: Construction, by: Arithmetic) -> Report:
-        """A construction beside the solver in one arithmetic; fails with its doubt where that cannot tell."""
+        """A construction against the solver in one arithmetic; fails with its doubt where that cannot tell."""
         posed_scene, domain = self._reference(by, drawing).scene, by.domain()
         sharp = self._same_construction(posed_scene, drawing) if self.scene.irrational and by is not FLOATS else drawing
         if sharp is None:
@@ -125,18 +125,18 @@ class Bench:
     def _reference(self, by: Arithmetic, drawing: Construction) -> ReferenceSolution:
         """What the solver says in one arithmetic, found once; of a singular pose what fractions say is so."""
         try:
-            if by.name not in self._opinions:
-                self._opinions[by.name] = reference_solution(self.scene, by)
+            if by.name not in self._references:
+                self._references[by.name] = reference_solution(self.scene, by)
         except SingularPose as singular:
             if isinstance(by, Exact):
                 raise SingularPose(singular.why, singular.links, missed_crossing(drawing, by.domain())) from None
             raise
-        return self._opinions[by.name]
+        return self._references[by.name]
 
     @cached_property
     def _singular(self) -> SingularPose | None:
         """Why floats hold the pose for singular, where they do."""
-        if self.exact or FLOATS.name in self._opinions:
+        if self.exact or FLOATS.name in self._references:
             return None
         try:
             solve(self.scene)
@@ -165,7 +165,7 @@ class Bench:
 
     def _report(self, drawing: Construction, by: Arithmetic, ours: Readings) -> Report:
         """The comparison in one arithmetic; fractions that are not asked for are printed as floats."""
-        reference = self._opinions[by.name]
+        reference = self._references[by.name]
         truth = reference.truth(ours, drawing.rounds)
         for kind, named in reference.undrawn_forces(drawing, ours, truth).items():
             ours = ours | {kind: ours.get(kind, {}) | {

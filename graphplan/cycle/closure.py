@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, times
 
 RESIDUE, TRAVEL = -1, -2
-"""Columns of an equation beside those of the unknowns: what it leaves open, and its change with the travel."""
+"""Columns of an equation besides those of the unknowns: what it leaves open, and its change with the travel."""
 
 Vector = tuple[Any, Any]
 

@@ -5,9 +5,9 @@ certain to stay on its branch is halved; where even the finest is not, the linka
 centre), or a change point (such as a parallelogram with all links in line), from which several motions lead on and the
 lengths say not which.
 
-A predicted pose is trusted only where the first correction is small beside the step that it predicts, where each
-further one is small beside the one before, and where no determinant of a group has changed its sign: it does wherever
-two branches meet.
+A predicted pose is trusted only where the first correction is small relative to the step that it predicts, where each
+further one is small relative to the one before, and where no determinant of a group has changed its sign: it does
+wherever two branches meet.
 """
 
 from __future__ import annotations
@@ -200,7 +200,8 @@ class Continuation:
                                           self.pace * travel))
 
     def _scaled_change(self, change: Array, state: Array) -> Array:
-        """The sizes of changes, beside the state where that is a displacement of more than a reach: it may be endless.
+        """The sizes of changes, relative to the state where that is a displacement of more than a reach: it may be
+        endless.
         """
         return np.abs(change) / np.where(self._angle, 1.0, np.maximum(1.0, np.abs(state)))
 

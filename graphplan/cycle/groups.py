@@ -79,8 +79,8 @@ class ClosureGroup:
                 ) -> tuple[list[float], CorrectedPose] | None:
         """The state that closes the group, and the step that led there last; none where it is not to be trusted.
 
-        It is only where the first correction is small beside the `size` of the step that was predicted, and where each
-        further one is small beside the one before.
+        It is only where the first correction is small relative to the `size` of the step that was predicted, and where
+        each further one is small relative to the one before.
         """
         allowed, settled = MAX_FIRST_CORRECTION * size, not self.unknowns
         while True:

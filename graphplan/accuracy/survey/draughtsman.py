@@ -33,8 +33,8 @@ LONG = "with loads this takes many seconds a form; name the scene with --scenes"
 
 @dataclass(frozen=True)
 class Draft:
-    """One form on its sheet: operations, the worst result's error beside the largest of its kind, and whether it is on
-    the front; or why it is not drawn."""
+    """One form on its sheet: operations, the worst result's error relative to the largest of its kind, and whether it
+    is on the front; or why it is not drawn."""
 
     scene: str
     form: str
@@ -113,8 +113,8 @@ def picture(rows: Sequence[Draft], pencil: str) -> Chart:
 
 
 def _relative_to_own(rows: Sequence[Draft]) -> Iterator[tuple[tuple[str, str, str], Place]]:
-    """Each way to draw one scene, method, plan and tools, beside the pose's own form; methods that lead to one form
-    have it in common, but where all do it is the pose's own alone."""
+    """Each way to draw one scene, method, plan and tools, relative to the pose's own form; methods that lead to one
+    form have it in common, but where all do it is the pose's own alone."""
     spots = {(name, row.plan, row.tools): _spot(row) for row in rows if row.error
              for name in ("pose's own" if row.form == "every method" else row.form).split(", ")}
     if own_spot := spots.get(("pose's own", MOTION_PLANS[0], SQUARES)):

@@ -1,7 +1,7 @@
-"""The machine's board: time for a pose against error, of every form in every arithmetic, beside the analytic solver.
+"""The machine's board: time for a pose against error, of every form in every arithmetic, against the analytic solver.
 
 Times are told in poses that LAPACK solves in the same run, many at once; errors are the largest in some sampled poses,
-beside the largest value of their kind, measured against what is true of these very binary numbers.
+relative to the largest value of their kind, measured against what is true of these very binary numbers.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from graphplan.accuracy.tolerances import TIMER_TICK
 T = TypeVar("T")
 Place = float | str  # a number on an axis, or the name of one of its rails
 Spot = tuple[Place, Place]
-Rails = tuple[tuple[str, str], ...]  # lines beside the numbers of an axis, by name, with their labels, possibly empty
+Rails = tuple[tuple[str, str], ...]  # lines next to the numbers of an axis, by name, with their labels, possibly empty
 
 
 @dataclass(frozen=True)

@@ -74,7 +74,7 @@ class Problem:
         return [truth(place_points(self.scene, pose)) for pose in self.sampled_points]
 
     def error(self, run: TimedRun, found: Any) -> float:
-        """The largest error of any number in the sampled poses, beside the largest of its kind."""
+        """The largest error of any number in the sampled poses, relative to the largest of its kind."""
         readings = (run.read(found, j) for j in range(SAMPLED))
         return max(largest_error(results, true.truth(results))
                    for results, true in zip(readings, self.truths, strict=True))
@@ -98,7 +98,8 @@ class Problem:
 
 
 def largest_error(found: Results, true: Results) -> float:
-    """The largest error of any number, beside the largest of its kind; of an enclosure that of its farther bound."""
+    """The largest error of any number, relative to the largest of its kind; of an enclosure that of its farther bound.
+    """
     worst = 0.0
     for kind, named in found.items():
         true_numbers = {name: components(true[kind][name]) for name in named}

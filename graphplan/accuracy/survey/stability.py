@@ -49,7 +49,8 @@ DRAWN, PENCIL, COMPUTED = "drawn in floats", "drawn by pencil", "computed"
 
 @dataclass(frozen=True)
 class Sample:
-    """One way at one distance: the largest error of any number beside the largest of its kind, or why there is none.
+    """One way at one distance: the largest error of any number relative to the largest of its kind, or why there is
+    none.
 
     `how` it is found is one of DRAWN, PENCIL, COMPUTED; `told` says of the pose's own way in which form it is drawn,
     and of `solve` in which arithmetic. `condition` is that of the mechanism in floats, infinite where these hold it for
@@ -185,7 +186,7 @@ def why_not_drawn_so(drawing: Construction, way: str) -> str:
 
 
 def by_pencil(drawing: Construction, pencil: Pencil) -> Found:
-    """The expected error of a drawing by pencil, beside the largest of its kind.
+    """The expected error of a drawing by pencil, relative to the largest of its kind.
 
     Each plan is drawn as large as all its marks allow. None where points that a line is drawn through fall together on
     paper, or the error is as large as what is drawn.

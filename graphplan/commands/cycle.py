@@ -117,7 +117,7 @@ def _paths(options: argparse.Namespace) -> str:
     nothing = replace(scene.find, velocity=(), acceleration=(), links=(), slides=(), reactions=())
     drawing = construct(replace(scene, find=nothing, loads=None))
     composition = compose(drawing, tongue=tongue(scene.sheet.language), protocol="none", motion=traced_motion(scene))
-    return svg(layout(drawing, composition=composition))
+    return svg(layout(composition))
 
 
 def _table(found: Cycle, ending: str) -> str | bytes:

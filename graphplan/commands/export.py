@@ -107,7 +107,7 @@ def _width(text: str) -> float:
 def _sheet(on_sheet: Drafted) -> Any:
     from graphplan.sheet.layout.layout import layout
 
-    return layout(on_sheet.drawing, composition=on_sheet.composition)
+    return layout(on_sheet.composition)
 
 
 def _sheets(on_sheet: Drafted) -> Any:

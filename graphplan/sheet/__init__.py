@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
     from graphplan.sheet.layout.composition import Composition
-    from graphplan.sheet.plates.display import Sheet
 
 
 def svg(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
@@ -20,8 +19,9 @@ def svg(drawing: Construction, paper: str | None = None, check: Mapping[str, Any
     composed already, such as with the expected drawing errors. Fails with `Refused` where the words do not fit.
     """
     from graphplan.output.svg import svg as write
+    from graphplan.sheet.layout.layout import layout
 
-    return write(_laid_out(drawing, paper, check, composition, language))
+    return write(layout(composition or _compose(drawing, paper, check, language)))
 
 
 def pdf(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
@@ -38,16 +38,9 @@ def png(drawing: Construction, paper: str | None = None, check: Mapping[str, Any
         composition: Composition | None = None, language: str | None = None, *, dpi: float = 150) -> bytes:
     """The construction sheet as a picture of so many dots per inch; else reads and fails as :func:`svg` does."""
     from graphplan.output.pdf_png import png as write
-
-    return write(_laid_out(drawing, paper, check, composition, language), dpi)
-
-
-def _laid_out(drawing: Construction, paper: str | None, check: Mapping[str, Any] | None,
-              composition: Composition | None, language: str | None) -> Sheet:
-    """The sheet as a display list, in a language by its code."""
     from graphplan.sheet.layout.layout import layout
 
-    return layout(drawing, composition=composition or _compose(drawing, paper, check, language))
+    return write(layout(composition or _compose(drawing, paper, check, language)), dpi)
 
 
 def _compose(drawing: Construction, paper: str | None, check: Mapping[str, Any] | None,

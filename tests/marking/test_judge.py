@@ -214,7 +214,7 @@ def test_our_own_sheet_is_a_faultless_drawing(name: str, tmp_path: Path) -> None
     """The sheet that graphplan draws, with all its letters and numbers, has no wrong step."""
     drawing, sheet = composed(name)
     path = tmp_path / "sheet.svg"
-    path.write_text(svg(layout(drawing, composition=sheet)))
+    path.write_text(svg(layout(sheet)))
     size = sheet.arrangement.width, sheet.arrangement.height
     submission = read_submission(path, list(sheet.views), frames(drawing, sheet), size=size)
     assert judge(drawing, sheet, submission, PENCIL).first_wrong is None

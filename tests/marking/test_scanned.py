@@ -77,7 +77,7 @@ def test_nothing_is_wrong_on_an_own_sheet_in_a_pdf(tmp_path: Path) -> None:
     pytest.importorskip("pypdfium2")
     drawing, sheet, page, _ = handout()
     path = tmp_path / "sheet.pdf"
-    path.write_bytes(pdf([layout(drawing, composition=sheet)]))
+    path.write_bytes(pdf([layout(sheet)]))
     found = judge(drawing, sheet,
                   read_submission(path, list(sheet.views), frames(drawing, sheet), lambda: page, code(sheet)),
                   Pencil())

@@ -225,7 +225,7 @@ def own(scene: str) -> tuple[Composition, Sheet, dict[str, Spot]]:
     found = composition.plates
     points = [mark for mark in found.all_marks if mark.kind == POINT and mark.view.rect.holds(mark.spot)]
     named = {spell(point.name): point.spot for point in points if point.name and not CORNER.fullmatch(point.name)}
-    return composition, layout(drawing, composition=composition), named
+    return composition, layout(composition), named
 
 
 def apart(traces: Iterable[Trace], trace: Trace) -> float:

@@ -59,8 +59,8 @@ def test_terms_are_written_once() -> None:
 @pytest.mark.parametrize("name", ["jaanimets-10", "rosenauer-basic"])
 def test_marks_stand_where_the_sheet_has_them(name: str) -> None:
     """Every vector of the figure begins and ends where the sheet's does, to the hundredth of a millimetre."""
-    drawing, plates, composition = drafted_plates(name)
-    on_sheet = {item.label: item for item in layout(drawing, composition=composition).items if getattr(item, "head", 0)}
+    _, plates, composition = drafted_plates(name)
+    on_sheet = {item.label: item for item in layout(composition).items if getattr(item, "head", 0)}
     arrows = [stroke for plate in plates for stroke in plate.vectors if stroke.vector]
     found = {f"{arrow.vector.kind} {arrow.vector.point}": arrow for arrow in arrows}
     common = [label for label in on_sheet if label in found and label.split()[0] in ("velocity", "acceleration")]
@@ -116,7 +116,7 @@ def test_a_length_is_carried_over_by_the_scales() -> None:
 def test_strokes_told_by_marks_are_those_of_the_sheet(name: str) -> None:
     """Every straight stroke of the construction and every vector on the sheet is a part of the way between marks."""
     _, plates, composition = drafted_plates(name)
-    sheet = layout(plates.plans.drawing, composition=composition)
+    sheet = layout(composition)
     on_sheet = [item for item in sheet.items if item.layer in ("construction", "vectors")]
     there = {(item.step, item.spots) for item in on_sheet if isinstance(item, Polyline) and len(item.spots) == 2}
     there |= {(item.step, (item.start, item.end)) for item in on_sheet if isinstance(item, Arrow)}
@@ -130,7 +130,7 @@ def test_the_symbols_are_those_of_the_sheet(name: str) -> None:
     """Ground, blocks and the sense of the drive are told as on the sheet: as many strokes, all on its panel."""
     drawing = gp.construct(gp.load(name))
     composition = compose(drawing)
-    found, sheet = composition.plates[MECHANISM].mechanism, layout(drawing, composition=composition)
+    found, sheet = composition.plates[MECHANISM].mechanism, layout(composition)
     for layer in ("ground", "blocks", "drive"):
         there = [item for item in sheet.items if item.layer == layer]
         assert len(there) == len([item for item in found if item.layer == layer]) > 0

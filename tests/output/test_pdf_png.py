@@ -37,7 +37,7 @@ NEAR = 0.2  # mm
 
 @cache
 def sheet_of(name: str) -> Sheet:
-    return layout(gp.construct(gp.load(name)))
+    return layout(compose(gp.construct(gp.load(name))))
 
 
 def lettered(*lines: str) -> Sheet:
@@ -166,8 +166,9 @@ def test_the_bytes_are_the_same_every_time(tmp_path: Path) -> None:
     """A second run, in another process with other hashes and settings of matplotlib, gives the same bytes."""
     settings = tmp_path / "matplotlibrc"
     settings.write_text("savefig.bbox: tight\nsavefig.facecolor: red\npdf.fonttype: 3\npdf.compression: 0\n")
-    code = ("import sys, graphplan as gp; from graphplan.sheet.layout.layout import layout; "
-            "from graphplan.output import pdf_png; sheet = layout(gp.construct(gp.load('four-bar'))); "
+    code = ("import sys, graphplan as gp; from graphplan.sheet.layout.composition import compose; "
+            "from graphplan.sheet.layout.layout import layout; "
+            "from graphplan.output import pdf_png; sheet = layout(compose(gp.construct(gp.load('four-bar')))); "
             "sys.stdout.buffer.write(pdf_png.pdf([sheet]) + pdf_png.png(sheet))")
     env = {"PYTHONHASHSEED": "7", "PYTHONPATH": ":".join(sys.path), "MATPLOTLIBRC": str(settings)}
     run = subprocess.run([sys.executable, "-c", code], env=env, capture_output=True, check=True)

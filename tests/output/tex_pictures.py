@@ -60,7 +60,7 @@ def strokes(composition: Composition) -> Ink:
     """The ink of the sheet's plans without letters."""
     box = paper(composition)
     items = [item for picture in composition.pictures.values() for item in picture.items if not isinstance(item, Text)]
-    sheet = layout(composition.plans.drawing, composition=composition)
+    sheet = layout(composition)
     sheet = replace(sheet, width=box.width, height=box.height,
                     items=tuple(move_item(item, -box.left, -box.bottom) for item in back_to_front(items)))  # fmt: skip
     return imread(io.BytesIO(png(sheet, DPI)))[..., 0] * 255 < DARK

@@ -50,7 +50,7 @@ def composition_of(name: str, paper: str | None = None, plan: str = "orthogonal"
 
 @kept
 def sheet_of(name: str, paper: str | None = None, plan: str = "orthogonal") -> Sheet:
-    return layout(drawing_of(name, plan), composition=composition_of(name, paper, plan))
+    return layout(composition_of(name, paper, plan))
 
 
 @kept

@@ -37,7 +37,7 @@ def test_a_plate_s_centroid_is_drawn_lettered_and_told_on_a_sheet() -> None:
     assert values.values_of_role("centroid") == [(40.0, 20.0)]
     composition = Composer(Plans.of_values(values, gp.load("four-bar")).drawing).compose()
     assert [*composition.views] == ["plate"]
-    sheet = layout(composition.plans.drawing, composition=composition)
+    sheet = layout(composition)
     letters = [item.label for item in sheet.items if isinstance(item, Text) and item.layer == "letters"]
     assert sorted(letters) == ["A", "B", "C", "D", "E", "S"]
     assert sheet.sentences[-1].startswith("Mark S where AD meets BE.")

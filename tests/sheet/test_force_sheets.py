@@ -13,6 +13,7 @@ from sheets import LOADED, drawing_of, outside, sheet_of
 import graphplan as gp
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.methods.panels import ForcePlan
+from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates import pens
@@ -186,7 +187,7 @@ def test_a_lever_with_assumed_velocities_has_no_scale_of_them() -> None:
 def test_the_levers_of_a_reaction_are_named() -> None:
     """A reaction that is asked for by name has two levers, which say what they are for."""
     scene = gp.load("jaanimets-10")
-    sheet = layout(gp.construct(replace(scene, find=replace(scene.find, reactions=("B",))), plan="lever"))
+    sheet = layout(compose(gp.construct(replace(scene, find=replace(scene.find, reactions=("B",))), plan="lever")))
     captions = " ".join(plain(item.runs) for item in sheet.items if isinstance(item, Text) and item.bold)
     assert all(f"Zhukovsky's lever: the force on link 4 at B, along {axis}" in captions for axis in "xy")
     assert outside(sheet) == []

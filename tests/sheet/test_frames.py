@@ -39,7 +39,7 @@ def wishing(scene: Scene, **wishes: Any) -> Scene:
 def sheet_with(name: str, paper: str | None = None, plan: str = "orthogonal", **wishes: Any) -> Sheet:
     """The sheet of a scene with these wishes."""
     drawing = drawing_of(name, plan)
-    return layout(replace(drawing, scene=wishing(drawing.scene, **wishes)), paper)
+    return layout(compose(replace(drawing, scene=wishing(drawing.scene, **wishes)), paper))
 
 
 def texts(sheet: Sheet) -> list[str]:
@@ -69,7 +69,7 @@ def test_in_both_frames_nothing_is_in_the_way(name: str, paper: str | None, plan
     usual = frame == (drawing.scene.sheet.frame or "iso")
     wished = replace(drawing, scene=wishing(drawing.scene, frame=frame))
     composition = composition_of(name, paper, plan) if usual else compose(wished, paper)
-    sheet = sheet_of(name, paper, plan) if usual else layout(wished, composition=composition)
+    sheet = sheet_of(name, paper, plan) if usual else layout(composition)
     assert outside(sheet) == []
     assert clashes(sheet) == []
     assert ("velocity plan" in sheet.panels) == (plan == "polar")
@@ -83,7 +83,7 @@ def test_in_both_frames_nothing_is_in_the_way(name: str, paper: str | None, plan
 @pytest.mark.parametrize("frame", FRAMES)
 def test_a_sheet_is_the_same_every_time(frame: str) -> None:
     """The same scene, read and drawn twice, is the same file to the byte."""
-    one, other = (svg(layout(gp.construct(wishing(gp.load("shaper"), frame=frame)), "A2")) for _ in range(2))
+    one, other = (svg(layout(compose(gp.construct(wishing(gp.load("shaper"), frame=frame)), "A2"))) for _ in range(2))
     assert one == other
 
 
@@ -172,7 +172,7 @@ def test_a4_stands_upright_after_gost() -> None:
     drawing = gp.construct(wishing(replace(scene, find=replace(scene.find, velocity=("A",), acceleration=())),
                                    frame="gost"))
     for paper in (None, "A4"):
-        sheet = layout(drawing, paper)
+        sheet = layout(compose(drawing, paper))
         assert (sheet.width, sheet.height, sheet.frame.width) == (210.0, 297.0, 185.0)
 
 
@@ -216,7 +216,7 @@ def test_what_is_too_long_for_form_1_is_named(field: str) -> None:
     """What has no room in its cell of the block after GOST is refused by the name of its field, and by no other."""
     scene = wishing(gp.load("four-bar"), frame="gost", **{field: "Rosenauer, Nikolai " * 20})
     with pytest.raises(Refused, match=rf"^sheet\.{field}: it is too long .*; fewer words"):
-        layout(replace(drawing_of("four-bar"), scene=scene), "A3")
+        layout(compose(replace(drawing_of("four-bar"), scene=scene), "A3"))
 
 
 def test_form_1_has_names_beside_their_roles() -> None:
@@ -269,4 +269,4 @@ def test_the_command_line_has_the_last_word(tmp_path: Path) -> None:
     assert 'width="420mm"' in told
     assert 'xml:lang="lv"' in told
     assert "№ докум." not in told
-    assert svg(layout(gp.construct(gp.load(scene)))).count("№ докум.") == 1
+    assert svg(layout(compose(gp.construct(gp.load(scene))))).count("№ докум.") == 1

@@ -101,7 +101,7 @@ def test_a_given_vector_that_is_not_asked_for_stays_on_its_plan() -> None:
     """The velocity of the crank, drawn where only another point's is asked for, does not run off the sheet."""
     scene = gp.load("triad")
     asked = replace(scene, find=replace(scene.find, velocity=("E",), acceleration=()))
-    sheet = layout(gp.construct(asked, plan="polar"))
+    sheet = layout(compose(gp.construct(asked, plan="polar")))
     arrows = [item for item in sheet.items if isinstance(item, Arrow)]
     assert len(arrows) == 2
     assert all(sheet.panels["velocity plan"].holds(spot) for arrow in arrows for spot in (arrow.start, arrow.end))

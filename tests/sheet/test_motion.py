@@ -55,7 +55,7 @@ def test_positions_move_no_letter() -> None:
     """Faint lines break off at letters, which stand where they stand without them."""
     composition = composed("slider-crank", (), 12)
     still = replace(composition, plans=replace(composition.plans, motion=None))
-    told = [[item for item in layout(one.plans.drawing, composition=one).items if isinstance(item, Text)]
+    told = [[item for item in layout(one).items if isinstance(item, Text)]
             for one in (composition, still)]
     assert told[0] == told[1]
 
@@ -106,7 +106,7 @@ def test_the_judge_does_not_see_the_motion(ending: str, package: str, tmp_path: 
     pytest.importorskip(package)
     composition, found = composed("four-bar", ("M", "B"), 6), []
     for one in (composition, replace(composition, plans=replace(composition.plans, motion=None))):
-        sheet = layout(one.plans.drawing, composition=one)
+        sheet = layout(one)
         text = back_end(ending)(*([sheet] if ending == "svg" else [[sheet], one.plates]))
         file = tmp_path / f"sheet.{ending}"
         file.write_bytes(text if isinstance(text, bytes) else text.encode())

@@ -67,7 +67,7 @@ def test_a_scale_too_large_is_refused_with_the_largest_that_fits(paper: str) -> 
         scales_of("four-bar", paper=paper, k_s=Fraction(1, 10))
     said = re.search(r"k_s = ([\d.]+)", refusal.value.do)
     assert said
-    assert outside(layout(wishing("four-bar", k_s=Fraction(said[1])), paper)) == []
+    assert outside(layout(compose(wishing("four-bar", k_s=Fraction(said[1])), paper))) == []
 
 
 def test_a_multiple_too_large_is_refused_with_the_largest_that_fits() -> None:
@@ -107,7 +107,7 @@ def test_drawn_per_real_is_one_over_real_per_drawn() -> None:
 
 def test_captions_title_block_and_description_follow_the_convention() -> None:
     """A sheet that tells drawn per real has no scale by the other letter anywhere."""
-    sheet = layout(wishing("four-bar", convention="drawn"), "A3")
+    sheet = layout(compose(wishing("four-bar", convention="drawn"), "A3"))
     told = " ".join([sheet.description, *(plain(item.runs) for item in sheet.items if isinstance(item, Text))])
     assert re.search(r"\bk_?[sva]\b", told) is None
     assert f"1 : {sheet.scales.k_s:g}; μs = {1 / sheet.scales.k_s:g} mm/mm" in told
@@ -120,6 +120,6 @@ def test_scales_are_told_in_the_language_of_the_scene(tmp_path: Path) -> None:
     text = gp.load("jaanimets-10").text.replace("[points]", wishes, 1)
     path = tmp_path / "scene.toml"
     path.write_text(text)
-    sheet = layout(gp.construct(gp.load(path)), "A1")
+    sheet = layout(compose(gp.construct(gp.load(path)), "A1"))
     assert sheet.language == "de"
     assert " mm je mm/s" in sheet.description

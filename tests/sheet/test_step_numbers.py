@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 import pytest
-from sheets import SCENES, composition_of, drawing_of, outside, pages_of, sheet_of, solved_of
+from sheets import SCENES, composition_of, outside, pages_of, sheet_of, solved_of
 
 from graphplan.kernel.kinds import POINT
 from graphplan.sheet.layout.composition import Composition
@@ -22,7 +22,7 @@ NUMBERED = ("point", "line", "arc", "step")
 def numbered(name: str, paper: str | None = None) -> tuple[Composition, Sheet]:
     """A scene composed as ever, and its sheet with numbers."""
     composition = with_numbers(composition_of(name, paper))
-    return composition, layout(drawing_of(name), composition=composition) if paper else solved_of(name)
+    return composition, layout(composition) if paper else solved_of(name)
 
 
 def numbers(sheet: Sheet) -> list[int]:

@@ -122,7 +122,7 @@ def overview(composition: Composition, told: Sequence[tuple[int, str, str]]) -> 
         return [row for number, line in lines for row in words.paragraph(line, wide, number=number)]
 
     apart, filled = replace(composition, arrangement=page), paginate_tightly(page.set(rows), page)
-    first = layout(plans.drawing, composition=composition, document=KEY)
+    first = layout(composition, document=KEY)
     for number, page_rows in enumerate(filled, 1):
         items = back_to_front([*frame_items(apart), *row_items(page_rows),
                                *title_items(apart, KEY, number, len(filled))])

@@ -63,7 +63,7 @@ def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     """The sheet with both drawings and the remarks, and pages of further remarks where there are very many."""
     composition = judgement.composition
     arrangement, tongue = composition.arrangement, composition.plans.tongue
-    solution = layout(judgement.drawing, composition=composition)
+    solution = layout(composition)
     apart = (*arrangement.columns, arrangement.title)
     around = [item for item in solution.items if item.layer in BESIDE and not lies_in(item, apart)]
     empty = [item for item in around if not lies_in(item, arrangement.panels.values())]

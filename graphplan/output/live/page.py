@@ -75,7 +75,7 @@ class LivePage:
         template = files(__package__).joinpath("live.html").read_text("utf-8")
         say = tongue(self.languages[0])
         own = self._spoken(0, say)
-        first = layout(self._own.plans.drawing, composition=self._in(self._own, say))
+        first = layout(self._in(self._own, say))
         parts = {
             **{f"word:{name}": escape(say(word)) for name, word in WORDS.items()},
             "language": say.code, "title": escape(say.title(self.title)),

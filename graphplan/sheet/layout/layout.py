@@ -5,17 +5,15 @@ Of a finished sheet a part can be shown: as it stands after a step, or some step
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Program
-from graphplan.methods.construction import Construction
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
-from graphplan.sheet.layout.composition import Composition, compose
+from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.paper import CAPTION_SIDE
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
@@ -26,20 +24,13 @@ from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 from graphplan.sheet.words.protocol import Protocol
 from graphplan.sheet.words.rows import fill, row_items
 from graphplan.sheet.words.texts import RESULTS
-from graphplan.words.tongue import Tongue
 
 BACK_LAYERS = "paper", BORDER, "ruling", "plates", MOTION, "ground", "wheels", "links"
 FRONT_LAYERS = "blocks", "drive", "pairs", "letters", "blanks", "text", RESULTS
 
 
-def layout(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
-           composition: Composition | None = None, tongue: Tongue | None = None,
-           document: Said = CONSTRUCTION) -> Sheet:
-    """The sheet of a construction, composed already; else `paper` names its size, or the smallest good one is taken.
-
-    `document` is what its title block calls it. Fails with `Refused` where the words do not fit the paper named.
-    """
-    composition = composition or compose(drawing, paper, check, tongue=tongue)
+def layout(composition: Composition, document: Said = CONSTRUCTION) -> Sheet:
+    """The sheet of a composed construction; `document` is what its title block calls it."""
     items = [*frame_items(composition), *captions(composition)]
     for plan in composition.pictures.values():
         items += plan.items
@@ -62,7 +53,7 @@ def sheet(composition: Composition, items: Iterable[Item], document: Said) -> Sh
 
 def pages(composition: Composition, document: Said = CONSTRUCTION) -> list[Sheet]:
     """The sheet of a composed construction, and the pages of its words where they stand apart."""
-    first = layout(composition.plans.drawing, composition=composition, document=document)
+    first = layout(composition, document)
     return [first, *words_pages(first, composition, document)]
 
 

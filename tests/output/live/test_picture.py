@@ -61,7 +61,7 @@ class Stage:
     def __init__(self, name: str, browser: Any):
         self.drawing = gp.construct(gp.load(name))
         self.composition = compose(self.drawing, protocol="none")
-        self.sheet = layout(self.drawing, composition=self.composition)
+        self.sheet = layout(self.composition)
         self.page, self.complaints = browser.new_page(viewport={"width": 1400, "height": 1000}), list[str]()
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
         self.page.on("console", lambda message: self.complaints.append(message.text))

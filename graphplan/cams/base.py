@@ -20,14 +20,14 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.cams.follower import FlatOscillating, FlatTranslating, Lifts, Oscillating, Pair, Translating
-from graphplan.cams.law import ROUNDS, Law, Stretch
+from graphplan.cams.follower import CamPair, FlatOscillating, FlatTranslating, Lifts, Oscillating, Translating
+from graphplan.cams.law import SCAN_ROUNDS, Law, LawPiece
 from graphplan.cams.task import CONVEX, PRESSURE, SMALLEST, Limits, Task
 from graphplan.cams.tolerances import ARM_ANGLE
 from graphplan.errors import Refused
 from graphplan.mechanism.numbers import number_text
 
-SCAN, HALVINGS = 180, 48  # angles of an arm that are tried, before the best is searched between two of them
+TRIED_ANGLES, BISECTIONS = 180, 48  # angles of an arm that are tried, before the best is searched between two of them
 
 
 @dataclass(frozen=True)
@@ -73,8 +73,8 @@ def _tangent(law: Law, degrees: Fraction, way: int) -> Tangent:
     """The tangent to the rise (way 1) or to the return (-1)."""
     slope = math.tan(math.radians(degrees))
 
-    def beyond(angles: Any, one: Stretch) -> Any:
-        s, x = law.times * one.at(angles), way * law.times * one.at(angles, 1)
+    def beyond(angles: Any, one: LawPiece) -> Any:
+        s, x = law.times * one.value_at(angles), way * law.times * one.value_at(angles, 1)
         return np.where(x >= 0, x - slope * s, -np.inf)
 
     return Tangent(*law.extremum(beyond), slope)
@@ -82,17 +82,17 @@ def _tangent(law: Law, degrees: Fraction, way: int) -> Tangent:
 
 def least_flat(law: Law) -> tuple[float, float]:
     """Where a flat face on a straight path needs it most, and the radius at which the profile has a point there."""
-    return law.extremum(lambda angles, one: -(one.at(angles) + one.at(angles, 2)))
+    return law.extremum(lambda angles, one: -(one.value_at(angles) + one.value_at(angles, 2)))
 
 
-def based(task: Task) -> Pair:
+def pair_with_base(task: Task) -> CamPair:
     """Cam and follower with the base circle that is given, or the smallest that limits allow.
 
     Fails with `Refused` where no base circle does.
     """
     follower, cam = task.follower, task.cam
     if follower.flat:
-        return _flat_oscillating(task) if follower.oscillates else _flat(task)
+        return oscillating_flat(task) if follower.oscillates else translating_flat(task)
     roller = float(follower.radius)
     if follower.oscillates:
         return Oscillating(cam.sense, roller, float(follower.arm), float(follower.distance), _arm_angle(task))
@@ -109,7 +109,7 @@ def based(task: Task) -> Pair:
     return Translating(cam.sense, roller, offset, depth)
 
 
-def _flat(task: Task) -> Pair:
+def translating_flat(task: Task) -> CamPair:
     """The base circle for a flat face on a straight path."""
     if task.cam.base != CONVEX:
         return FlatTranslating(task.cam.sense, float(task.cam.base))
@@ -133,7 +133,7 @@ def _arm_angle(task: Task) -> float:
         """By how many degrees the largest pressure angle is too large."""
         return excess(task.law, Oscillating(cam.sense, 0.0, l, a, angle), limits, rounds)
 
-    angle = _first(over, math.pi)
+    angle = first_fitting(over, math.pi)
     if angle is None:
         raise Refused(f"{task.name}: cam.base", f"no base circle keeps the pressure angle at a centre distance of "
                       f"{number_text(a)} and an arm of {number_text(l)}",
@@ -144,7 +144,7 @@ def _arm_angle(task: Task) -> float:
     return angle
 
 
-def _flat_oscillating(task: Task) -> Pair:
+def oscillating_flat(task: Task) -> CamPair:
     """The base circle for a flat face about a pivot."""
     follower, cam = task.follower, task.cam
     a, f = float(follower.distance), float(follower.offset)
@@ -161,61 +161,61 @@ def _flat_oscillating(task: Task) -> Pair:
 
     def over(angle: float, rounds: int) -> float:
         """By how much the smallest radius of curvature is too small."""
-        return float(cam.least) - narrowest(task.law, pair(angle), rounds)[1]
+        return float(cam.least) - smallest_radius(task.law, pair(angle), rounds)[1]
 
-    angle = _first(over, math.pi / 2)
+    angle = first_fitting(over, math.pi / 2)
     if angle is None:
         raise Refused(f"{task.name}: cam.base", "no base circle keeps the profile convex",
                       "a longer centre distance, or a smaller stroke")
     return pair(angle)
 
 
-def _first(over: Callable[[float, int], float], most: float) -> float | None:
+def first_fitting(over: Callable[[float, int], float], most: float) -> float | None:
     """The least value up to the `most` from which on a function is not above 0: first roughly, then between the two
     values that bound it; None where there is none."""
-    tried = [most * k / SCAN for k in range(1, SCAN)]
+    tried = [most * k / TRIED_ANGLES for k in range(1, TRIED_ANGLES)]
     good = next((k for k, value in enumerate(tried) if over(value, 0) <= 0), None)
     if good is None:
         return None
-    low, high = max(0.0, tried[good] - 2 * most / SCAN), tried[min(good + 1, len(tried) - 1)]
-    for _ in range(HALVINGS):
+    low, high = max(0.0, tried[good] - 2 * most / TRIED_ANGLES), tried[min(good + 1, len(tried) - 1)]
+    for _ in range(BISECTIONS):
         middle = (low + high) / 2
-        low, high = (low, middle) if over(middle, ROUNDS) <= 0 else (middle, high)
+        low, high = (low, middle) if over(middle, SCAN_ROUNDS) <= 0 else (middle, high)
     return high
 
 
-def lifts_of(law: Law, one: Stretch, angles: Any) -> Lifts:
+def lifts_of(law: Law, one: LawPiece, angles: Any) -> Lifts:
     """The law's derivatives at angles on one piece."""
-    return lambda order: law.times * one.at(angles, order)
+    return lambda order: law.times * one.value_at(angles, order)
 
 
-def excess(law: Law, pair: Pair, limits: Limits, rounds: int = ROUNDS) -> float:
+def excess(law: Law, pair: CamPair, limits: Limits, rounds: int = SCAN_ROUNDS) -> float:
     """By how many degrees the pressure angle is too large where it is most so."""
-    found = [steepest(law, pair, 1, rounds)[1] - float(limits.rise)]
+    found = [steepest_pressure(law, pair, 1, rounds)[1] - float(limits.rise)]
     if limits.back is not None:
-        found.append(steepest(law, pair, -1, rounds)[1] - float(limits.back))
+        found.append(steepest_pressure(law, pair, -1, rounds)[1] - float(limits.back))
     return max(found)
 
 
-def steepest(law: Law, pair: Pair, way: int, rounds: int = ROUNDS) -> tuple[float, float]:
+def steepest_pressure(law: Law, pair: CamPair, way: int, rounds: int = SCAN_ROUNDS) -> tuple[float, float]:
     """The angle of the cam and the size, in degrees, of the largest pressure angle of the rise (1) or return (-1)."""
 
-    def leaning(angles: Any, one: Stretch) -> Any:
-        touch = pair.touch(lifts_of(law, one, angles))
-        moving = way * one.at(angles, 1) > 0
+    def leaning(angles: Any, one: LawPiece) -> Any:
+        touch = pair.contact(lifts_of(law, one, angles))
+        moving = way * one.value_at(angles, 1) > 0
         return np.where(moving, np.degrees(way * touch.pressure), -np.inf)
 
     return law.extremum(leaning, rounds)
 
 
-def narrowest(law: Law, pair: Pair, rounds: int = ROUNDS) -> tuple[float, float]:
+def smallest_radius(law: Law, pair: CamPair, rounds: int = SCAN_ROUNDS) -> tuple[float, float]:
     """The angle of the cam and the size of the smallest radius of curvature where the profile is convex or hollow.
 
     Of a roller it is that of its centre's path; of a flat face that of the profile, negative where it is hollow.
     """
 
-    def bend(angles: Any, one: Stretch) -> Any:
-        touch = pair.touch(lifts_of(law, one, angles))
+    def bend(angles: Any, one: LawPiece) -> Any:
+        touch = pair.contact(lifts_of(law, one, angles))
         radius = touch.radius + abs(touch.roller - touch.point)
         if isinstance(pair, FlatOscillating | FlatTranslating):
             return -radius

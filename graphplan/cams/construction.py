@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from graphplan.cams.follower import FlatOscillating, Oscillating, Pair, Translating
+from graphplan.cams.follower import CamPair, FlatOscillating, Oscillating, Translating
 from graphplan.cams.profile import Cam
 from graphplan.cams.tolerances import DIRECTION_TOL, ZERO_LENGTH
 from graphplan.kernel.kinds import Quantity
@@ -27,7 +27,7 @@ from graphplan.kernel.stages import Stage
 from graphplan.phrases import digits, said
 
 CAM_PLAN = Panel("cam", said("cam"), said("The cam by inversion"))
-FACE = 1.1  # of the farthest contact from the pivot: where a face is marked that turns
+FACE_REACH = 1.1  # of the farthest contact from the pivot: where a face is marked that turns
 
 
 @dataclass(frozen=True)
@@ -52,17 +52,17 @@ class CamDrawing:
         """The value of each step."""
         return evaluate(self.program, Floats())
 
-    def at(self, name: str) -> list[complex]:
+    def positions(self, name: str) -> list[complex]:
         """The points of a name at all divisions, such as A or K."""
         return [complex(*self.values[one.marks[name]]) for one in self.divisions]
 
 
-def drawn(cam: Cam) -> CamDrawing:
+def draw_cam(cam: Cam) -> CamDrawing:
     """The construction of a cam's profile, over its divisions of the turn."""
-    return _Inversion(cam).drawing
+    return _CamRecorder(cam).drawing
 
 
-class _Inversion:
+class _CamRecorder:
     """Draws one cam on the board."""
 
     def __init__(self, cam: Cam):
@@ -77,7 +77,7 @@ class _Inversion:
         with self.board.on(CAM_PLAN):
             self.O = self.board.given(x=0, y=0, name="O")
         stages = [
-            (said("Base circle and first position"), said("the follower is lowest"), self._first),
+            (said("Base circle and first position"), said("the follower is lowest"), self.draw_first),
             (said("Lifts"), said("the law's lift at each division of the turn"), self._lifts),
             (said("Inversion"), said("the cam stands still, the frame goes round it backwards"), self._round),
             (said("Profile"), said("the follower touches it where the normal through the pole meets the follower"),
@@ -99,19 +99,19 @@ class _Inversion:
         return 360.0 * k / self.count
 
     def _law(self, k: int, order: int) -> float:
-        return float(self.cam.law.at([self._angle(k)], order)[0])
+        return float(self.cam.law.value_at([self._angle(k)], order)[0])
 
     def _guide(self, P: Mark, degrees: float, **notes: Any) -> Mark:
         """The line through a point at an angle."""
         ray = cmath.rect(1.0, math.radians(degrees % 360))
-        return self.board.guide(P, dx=_clean(ray.real), dy=_clean(ray.imag), **notes)
+        return self.board.guide(P, dx=without_rounding(ray.real), dy=without_rounding(ray.imag), **notes)
 
     def _ray(self, k: int) -> Mark:
         """The line through O that was level at first, where it has gone."""
         told = said("division {0}: {1}°, against the turning of the cam", k, digits(self._angle(k)))
         return self._guide(self.O, -self.pair.sense * self._angle(k), why=told)
 
-    def _first(self) -> None:
+    def draw_first(self) -> None:
         """The base circle and the follower where it is lowest."""
         o = self.board.radius(length=self.pair.base, quantity=_length("r_0"), why=said("the radius of the base circle"))
         self.base = self.common["base"] = self.board.circle(self.O, o, why=said("the base circle"))
@@ -125,11 +125,11 @@ class _Inversion:
             o = self.board.radius(length=abs(self._passes), quantity=_length("e"), why=said("the offset"))
             self.offsets = self.common["offsets"] = self.board.circle(self.O, o, why=said("the paths touch it"))
         self.rays = [self._ray(0)]
-        self._placed(0)
+        self.place_follower(0)
         if isinstance(self.pair, FlatOscillating):
-            self.A = self._lifted(0, 0.0)
+            self.A = self.lifted_mark(0, 0.0)
         elif self.oscillates:
-            self.A = self._swung(0, self.base)
+            self.A = self.arm_end(0, self.base)
         else:
             self.A = self.board.line_meets_circle(self.found[0]["path"], self.base, way="on", name="A_0")
 
@@ -145,9 +145,9 @@ class _Inversion:
     @property
     def _reach(self) -> float:
         """The radius at which the turning of an arm is drawn."""
-        return self.pair.arm if isinstance(self.pair, Oscillating) else FACE * self.cam.reach[1]
+        return self.pair.arm if isinstance(self.pair, Oscillating) else FACE_REACH * self.cam.reach[1]
 
-    def _placed(self, k: int) -> None:
+    def place_follower(self, k: int) -> None:
         """The path or the pivot where it has gone."""
         board, ray, marks = self.board, self.rays[k], self.found[k]
         if self.oscillates:
@@ -159,7 +159,7 @@ class _Inversion:
                                              why=said("where the path touches it")) if self._passes else self.O
             marks["path"] = board.perpendicular(ray, T, why=said("the path of the follower"))
 
-    def _swung(self, k: int, circle: Mark) -> Mark:
+    def arm_end(self, k: int, circle: Mark) -> Mark:
         """The end of the arm on a circle about O."""
         return self.board.circles_meet(circle, self.found[k]["arc"], side="left", name=f"A_{k}")
 
@@ -168,9 +168,9 @@ class _Inversion:
         self.lifted = [self.A]
         for k in range(1, self.count):
             s = self._law(k, 0)
-            self.lifted.append(self._lifted(k, s) if abs(s) > ZERO_LENGTH * self.pair.base else self.A)
+            self.lifted.append(self.lifted_mark(k, s) if abs(s) > ZERO_LENGTH * self.pair.base else self.A)
 
-    def _lifted(self, k: int, s: float) -> Mark:
+    def lifted_mark(self, k: int, s: float) -> Mark:
         """The follower lifted by so much where it stands at first."""
         if not self.oscillates:
             return self.board.lay_along(self.found[0]["path"], self.A, length=s, name=f"S_{k}", quantity=_length("s"),
@@ -185,12 +185,12 @@ class _Inversion:
         self.found[0]["A"] = self.A
         for k in range(1, self.count):
             self.rays.append(self._ray(k))
-            self._placed(k)
+            self.place_follower(k)
             lowest = self.lifted[k] is self.A and not isinstance(self.pair, FlatOscillating)
             arc = self.base if lowest else self.board.circle(
                 self.O, self.board.opening(self.O, self.lifted[k]), why=said("the lift is carried round"))
             if self.oscillates:
-                self.found[k]["A"] = self._swung(k, arc)
+                self.found[k]["A"] = self.arm_end(k, arc)
             else:
                 self.found[k]["A"] = self.board.line_meets_circle(self.found[k]["path"], arc, way="on", name=f"A_{k}")
 
@@ -234,7 +234,7 @@ class _Inversion:
         return board.parallel(arm, D, why=said("the flat face"))
 
 
-def pole(pair: Pair, rate: float) -> float:
+def pole(pair: CamPair, rate: float) -> float:
     """How far to the right of O the relative pole of cam and follower lies, where the lift grows at this rate."""
     if isinstance(pair, Oscillating | FlatOscillating):
         return pair.distance * rate / (pair.sense + rate)
@@ -246,6 +246,6 @@ def _length(written: str) -> Quantity:
     return Quantity(written, "length")
 
 
-def _clean(part: float) -> float:
+def without_rounding(part: float) -> float:
     """A component of a direction that is 0, 1 or -1 where rounding alone makes it another."""
     return float(round(part)) if abs(part - round(part)) < DIRECTION_TOL else part

@@ -26,7 +26,7 @@ from graphplan.mechanism.numbers import number_text
 # ---- numbers --------------------------------------------------------------------------------------------------------
 
 
-TABLED = ("lift", "velocity", "acceleration", "jerk")
+LAW_COLUMNS = ("lift", "velocity", "acceleration", "jerk")
 
 
 def numbers(drawing: CamDrawing, count: int, tolerance: float, check: Mapping[str, float]) -> dict[str, Any]:
@@ -37,7 +37,7 @@ def numbers(drawing: CamDrawing, count: int, tolerance: float, check: Mapping[st
     turns = next(word for word, sense in TURNS.items() if sense == cam.pair.sense)
     found: dict[str, Any] = {
         "title": task.title, "units": {"length": task.units.length},
-        "cam": {"turns": turns, "omega": task.cam.omega, "base_radius": cam.pair.base, **_placed(cam)},
+        "cam": {"turns": turns, "omega": task.cam.omega, "base_radius": cam.pair.base, **placement(cam)},
         "pressure_angle": {name: {"at": angle, "largest": size} for name, way in (("rise", 1), ("return", -1))
                            for angle, size in [cam.steepest[way]] if isinstance(cam.pair, Rolled)},
         "least_radius": dict(zip(("at", "radius"), cam.narrowest, strict=True)),
@@ -56,7 +56,7 @@ def numbers(drawing: CamDrawing, count: int, tolerance: float, check: Mapping[st
     return found
 
 
-def _placed(cam: Cam) -> dict[str, Any]:
+def placement(cam: Cam) -> dict[str, Any]:
     """Offset, or the angle of the arm where it is lowest; and the tangents to the curve x(s) where there are such."""
     pair, limits = cam.pair, cam.task.cam.limits
     if not isinstance(pair, Translating):
@@ -78,14 +78,15 @@ def _rate(cam: Cam, value: float, order: int) -> float:
 
 def _positions(cam: Cam, angles: Any) -> list[dict[str, Any]]:
     """Position by position."""
-    touch, rates = cam.touch(angles), [cam.law.at(angles, order) * cam.task.cam.omega**order for order in range(ORDERS)]
+    touch, rates = cam.contact(angles), [cam.law.value_at(angles, order) * cam.task.cam.omega**order
+                                         for order in range(ORDERS)]
     if cam.task.follower.oscillates:
         rates[0] = np.degrees(rates[0])
-    profile, pitch = (cam.pair.turned(spots, angles) for spots in (touch.point, touch.roller))
+    profile, pitch = (cam.pair.to_cam_plane(spots, angles) for spots in (touch.point, touch.roller))
     found = []
     for k, angle in enumerate(angles):
         row: dict[str, Any] = {"angle": float(angle)}
-        row |= {name: float(values[k]) + 0.0 for name, values in zip(TABLED, rates, strict=True)}
+        row |= {name: float(values[k]) + 0.0 for name, values in zip(LAW_COLUMNS, rates, strict=True)}
         row |= {"profile": [float(profile[k].real), float(profile[k].imag)]}
         if cam.roller:
             row |= {"roller": [float(pitch[k].real), float(pitch[k].imag)]}
@@ -101,40 +102,41 @@ def _positions(cam: Cam, angles: Any) -> list[dict[str, Any]]:
 
 CAM, FOLLOWER = "1", "2"
 CENTRE, PIVOT, PROFILE, END, TOUCHED = "O", "B", "C", "A", "K"  # letters of points
-STRAIGHT = 1e12  # of the base circle's radius: a profile so little curved is straight
+STRAIGHT_RADIUS = 1e12  # of the base circle's radius: a profile so little curved is straight
 
 
 def scene_text(cam: Cam, angle: float) -> str:
     """The scene of a cam that has turned by an angle in degrees, as TOML."""
-    touch, pair = cam.touch([angle]), cam.pair
+    touch, pair = cam.contact([angle]), cam.pair
     point, centre, end = (complex(spot[0]) for spot in (touch.point, touch.centre, touch.roller))
     tangent = 1j * complex(touch.normal[0])
-    straight = not abs(touch.radius[0]) < STRAIGHT * pair.base
+    straight = not abs(touch.radius[0]) < STRAIGHT_RADIUS * pair.base
     points = {CENTRE: 0j, TOUCHED: point}
-    own, touching = _follower(cam, points, end)
+    own, touching = follower_lines(cam, points, end)
     middle = "" if straight else CENTRE if abs(centre) < ZERO_LENGTH * pair.base else PROFILE
     if middle == PROFILE:
         points[PROFILE] = centre
     profile = f'"{middle}"' if middle else _vector(tangent)
     body = f"{CENTRE} {PROFILE}" if middle == PROFILE else f"{CENTRE} K{CAM}"
     points |= {} if middle == PROFILE else {f"K{CAM}": point}
-    lines = [*_head(cam, angle), "", "[points]", *(f"{name} = {_vector(spot)}" for name, spot in points.items()),
+    lines = [*heading_lines(cam, angle), "", "[points]",
+             *(f"{name} = {_vector(spot)}" for name, spot in points.items()),
              "", "[links]", f'{CAM} = "{body}"', *own, "", "[[contacts]]", f'links = ["{CAM}", "{FOLLOWER}"]',
              f'at = "{TOUCHED}"', f"centres = [{profile}, {touching if touching else _vector(tangent)}]",
-             "", "[[drive]]", f'link = "{CAM}"', f"omega = {pair.sense * cam.task.cam.omega!r}", *_asked(cam)]
+             "", "[[drive]]", f'link = "{CAM}"', f"omega = {pair.sense * cam.task.cam.omega!r}", *find_lines(cam)]
     return "\n".join(lines) + "\n"
 
 
-def _head(cam: Cam, angle: float) -> Iterator[str]:
+def heading_lines(cam: Cam, angle: float) -> Iterator[str]:
     """Title, source and units."""
     title = cam.task.title or "Cam"
-    yield f"title = {_quoted(f'{title}: at {number_text(angle)} degrees')}"
+    yield f"title = {toml_text(f'{title}: at {number_text(angle)} degrees')}"
     if cam.task.source:
-        yield f"source = {_quoted(cam.task.source)}"
+        yield f"source = {toml_text(cam.task.source)}"
     yield from ("", "[units]", f'length = "{cam.task.units.length}"')
 
 
-def _follower(cam: Cam, points: dict[str, complex], end: complex) -> tuple[list[str], str]:
+def follower_lines(cam: Cam, points: dict[str, complex], end: complex) -> tuple[list[str], str]:
     """The lines of the follower and of what holds it, and its centre of curvature if it has one; its points are added.
     """
     pair, flat = cam.pair, cam.task.follower.flat
@@ -148,7 +150,7 @@ def _follower(cam: Cam, points: dict[str, complex], end: complex) -> tuple[list[
     return held, "" if flat else f'"{END}"'
 
 
-def _asked(cam: Cam) -> Iterator[str]:
+def find_lines(cam: Cam) -> Iterator[str]:
     """What is asked for: the motion of the follower."""
     yield from ("", "[find]", f'velocity = ["{END}"]', f'acceleration = ["{END}"]')
     if cam.task.follower.oscillates:
@@ -160,12 +162,12 @@ def _vector(z: complex) -> str:
     return f"[{z.real + 0.0!r}, {z.imag + 0.0!r}]"
 
 
-def _quoted(text: str) -> str:
+def toml_text(text: str) -> str:
     """A text as TOML."""
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
-def motion(cam: Cam, angle: float) -> tuple[float, float]:
+def law_motion(cam: Cam, angle: float) -> tuple[float, float]:
     """What the law says of the follower there: velocity and acceleration of its point, or its omega and alpha."""
-    rate, change = (float(cam.law.at([angle], order)[0]) * cam.task.cam.omega**order for order in (1, 2))
+    rate, change = (float(cam.law.value_at([angle], order)[0]) * cam.task.cam.omega**order for order in (1, 2))
     return (-rate, -change) if cam.task.follower.oscillates else (rate, change)

@@ -27,7 +27,7 @@ Lifts = Callable[[int], Array]  # the law's derivative of an order, at some angl
 
 
 @dataclass(frozen=True)
-class Touch:
+class Contact:
     """Cam and follower in touch at some angles, in the frame's plane; radii are positive where the cam is convex.
 
     `roller` is the centre of the roller, or the point; of a flat face, as `point`, where it touches. `centre` is that
@@ -43,7 +43,7 @@ class Touch:
 
 
 @dataclass(frozen=True)
-class Pair(ABC):
+class CamPair(ABC):
     """A cam and its follower, with the base circle known; the cam turns with `sense`."""
 
     sense: int
@@ -54,16 +54,16 @@ class Pair(ABC):
         """The radius of the base circle."""
 
     @abstractmethod
-    def touch(self, lifts: Lifts) -> Touch:
+    def contact(self, lifts: Lifts) -> Contact:
         """How they touch, by the law's derivatives."""
 
-    def turned(self, spots: Array, angles: Array) -> Array:
+    def to_cam_plane(self, spots: Array, angles: Array) -> Array:
         """Where spots of the frame lie on the cam, which has turned by so many degrees."""
         return spots * np.exp(-1j * self.sense * np.radians(angles))
 
 
 @dataclass(frozen=True)
-class Rolled(Pair):
+class Rolled(CamPair):
     """A follower that touches with a point or a roller, whose radius is then above 0."""
 
     roller: float
@@ -72,19 +72,19 @@ class Rolled(Pair):
     def path(self, lifts: Lifts) -> tuple[Array, Array, Array, Array]:
         """The centre of the roller with two derivatives by the angle, and the direction in which it is lifted."""
 
-    def bent(self, lifts: Lifts) -> tuple[Array, Array, Array, Array]:
+    def path_curvature(self, lifts: Lifts) -> tuple[Array, Array, Array, Array]:
         """The centre of the roller, the normal, the curvature of its path on the cam, the direction of the lift."""
         A, A1, A2, up = self.path(lifts)
         t = A1 - 1j * self.sense * A
         q = A2 - 2j * self.sense * A1 - A
         return A, 1j * self.sense * t / abs(t), -self.sense * (t.conjugate() * q).imag / abs(t) ** 3, up
 
-    def touch(self, lifts: Lifts) -> Touch:
-        A, n, bend, up = self.bent(lifts)
+    def contact(self, lifts: Lifts) -> Contact:
+        A, n, bend, up = self.path_curvature(lifts)
         with np.errstate(divide="ignore", invalid="ignore"):
             radius = np.where(bend == 0, np.inf, 1 / bend)
             centre = np.where(bend == 0, np.inf, A - n * radius)
-        return Touch(A - self.roller * n, n, centre, radius - self.roller, A, np.angle(n / up) * self.sense)
+        return Contact(A - self.roller * n, n, centre, radius - self.roller, A, np.angle(n / up) * self.sense)
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ class Oscillating(Rolled):
 
 
 @dataclass(frozen=True)
-class Flat(Pair):
+class Flat(CamPair):
     """A follower that touches with a flat face."""
 
     @abstractmethod
@@ -133,12 +133,12 @@ class Flat(Pair):
         """The pressure angle where it touches at a point."""
         return 0 * point.real
 
-    def touch(self, lifts: Lifts) -> Touch:
+    def contact(self, lifts: Lifts) -> Contact:
         n, h, h1, h2, turn, change = self.face(lifts)
         across = h1 / turn
         radius = h + (h2 * turn - h1 * change) / turn**3
         point = n * (h + 1j * across)
-        return Touch(point, n, point - radius * n, radius, point, self.leaning(point, n))
+        return Contact(point, n, point - radius * n, radius, point, self.leaning(point, n))
 
 
 @dataclass(frozen=True)

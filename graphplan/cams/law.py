@@ -41,7 +41,7 @@ class Wave:
     frequency: int
     quarters: int = 0
 
-    def at(self, t: Any) -> Any:
+    def value_at(self, t: Any) -> Any:
         """Its value, in floats."""
         return self.amplitude * np.sin(math.pi * (self.frequency * t + self.quarters / 2))
 
@@ -51,7 +51,7 @@ class Wave:
 
 
 @dataclass(frozen=True)
-class Piece:
+class MotionPiece:
     """A motion from one part of its stage to another: the sum of powers of t, the constant first, and of waves."""
 
     start: Fraction
@@ -59,7 +59,7 @@ class Piece:
     powers: tuple[Fraction, ...]
     waves: tuple[Wave, ...] = ()
 
-    def at(self, t: Any, order: int = 0) -> Any:
+    def value_at(self, t: Any, order: int = 0) -> Any:
         """The lift, or its derivative of an order, at t: a float, an array, or a fraction where there are no waves."""
         piece = self
         for _ in range(order):
@@ -68,32 +68,32 @@ class Piece:
         found: Any = 0 * t
         for power in reversed(piece.powers):
             found = found * t + (power if exact else float(power))
-        return sum((wave.at(t) for wave in piece.waves), found)
+        return sum((wave.value_at(t) for wave in piece.waves), found)
 
-    def times(self, factor: Fraction) -> Piece:
+    def times(self, factor: Fraction) -> MotionPiece:
         """The same motion so many times as large."""
         waves = tuple(replace(wave, amplitude=float(factor) * wave.amplitude) for wave in self.waves)
         return replace(self, powers=tuple(factor * power for power in self.powers), waves=waves)
 
     @property
-    def _derivative(self) -> Piece:
+    def _derivative(self) -> MotionPiece:
         powers = tuple(k * power for k, power in enumerate(self.powers))[1:]
         return replace(self, powers=powers, waves=tuple(wave.derivative for wave in self.waves))
 
 
-def integrated(parts: Sequence[tuple[Fraction, Fraction]], order: int) -> tuple[Piece, ...]:
+def integrate_parts(parts: Sequence[tuple[Fraction, Fraction]], order: int) -> tuple[MotionPiece, ...]:
     """The motion from rest at 0 of which the derivative of an order is constant in parts: (where it begins, value)."""
-    found, state = list[Piece](), (Fraction(0),) * order
+    found, state = list[MotionPiece](), (Fraction(0),) * order
     for (start, value), (end, _) in pairwise((*parts, (Fraction(1), Fraction(0)))):
         derivatives = (*state, value)
         taylor = [rate / math.factorial(k) for k, rate in enumerate(derivatives)]
-        piece = Piece(start, end, _shifted(taylor, start))
+        piece = MotionPiece(start, end, shift_powers(taylor, start))
         found.append(piece)
-        state = tuple(piece.at(end, k) for k in range(order))
+        state = tuple(piece.value_at(end, k) for k in range(order))
     return tuple(found)
 
 
-def _shifted(powers: Sequence[Fraction], by: Fraction) -> tuple[Fraction, ...]:
+def shift_powers(powers: Sequence[Fraction], by: Fraction) -> tuple[Fraction, ...]:
     """The coefficients in t of a sum of powers of t - by."""
     found = [Fraction(0)] * len(powers)
     for n, power in enumerate(powers):
@@ -102,7 +102,7 @@ def _shifted(powers: Sequence[Fraction], by: Fraction) -> tuple[Fraction, ...]:
     return tuple(found)
 
 
-def spline(knots: Sequence[Fraction], lifts: Sequence[Fraction], closed: bool) -> tuple[Piece, ...]:
+def spline(knots: Sequence[Fraction], lifts: Sequence[Fraction], closed: bool) -> tuple[MotionPiece, ...]:
     """The cubic spline through lifts at knots from 0 to 1: at rest at both ends or, `closed`, periodic.
 
     Velocity and acceleration are continuous inside, jerk is not. All coefficients are fractions.
@@ -114,7 +114,7 @@ def spline(knots: Sequence[Fraction], lifts: Sequence[Fraction], closed: bool) -
     for k, (width, rise) in enumerate(zip(widths, rises, strict=True)):
         bend = (rates[k + 1] + rates[k] - 2 * rise) / width**2
         taylor = (lifts[k], rates[k], (rise - rates[k]) / width - bend * width, bend)
-        pieces.append(Piece(knots[k], knots[k + 1], _shifted(taylor, knots[k])))
+        pieces.append(MotionPiece(knots[k], knots[k + 1], shift_powers(taylor, knots[k])))
     return tuple(pieces)
 
 
@@ -124,7 +124,7 @@ def _clamped_rates(widths: Sequence[Fraction], rises: Sequence[Fraction]) -> lis
     rows = [{k - 1: widths[k], k: 2 * (widths[k - 1] + widths[k]), k + 1: widths[k - 1]} for k in inner]
     right = [3 * (widths[k] * rises[k - 1] + widths[k - 1] * rises[k]) for k in inner]
     ends: list[dict[int, Fraction]] = [{0: Fraction(1)}, {len(widths): Fraction(1)}]
-    return _solved([ends[0], *rows, ends[1]], [Fraction(0), *right, Fraction(0)])
+    return solve_rates([ends[0], *rows, ends[1]], [Fraction(0), *right, Fraction(0)])
 
 
 def _periodic_rates(widths: Sequence[Fraction], rises: Sequence[Fraction]) -> list[Fraction]:
@@ -137,30 +137,30 @@ def _periodic_rates(widths: Sequence[Fraction], rises: Sequence[Fraction]) -> li
             row[at % count] = row.get(at % count, Fraction(0)) + value
         rows.append(row)
         right.append(3 * (widths[k] * rises[k - 1] + widths[k - 1] * rises[k]))
-    rates = _solved(rows, right)
+    rates = solve_rates(rows, right)
     return [*rates, rates[0]]
 
 
-def _solved(rows: Sequence[dict[int, Fraction]], right: Sequence[Fraction]) -> list[Fraction]:
+def solve_rates(rows: Sequence[dict[int, Fraction]], right: Sequence[Fraction]) -> list[Fraction]:
     """The solution of a diagonally dominant system, which has one."""
     return Elimination(rows, len(rows)).solve(right) or []
 
 
-def _whole(*powers: int, waves: Sequence[Wave] = ()) -> tuple[Piece, ...]:
+def whole_stage(*powers: int, waves: Sequence[Wave] = ()) -> tuple[MotionPiece, ...]:
     """One piece over the whole stage."""
-    return (Piece(Fraction(0), Fraction(1), tuple(map(Fraction, powers)), tuple(waves)),)
+    return (MotionPiece(Fraction(0), Fraction(1), tuple(map(Fraction, powers)), tuple(waves)),)
 
 
 EIGHTH, STEEPEST = Fraction(1, 8), Fraction(128, 3)
-MOTIONS: dict[str, tuple[Piece, ...]] = {
-    "dwell": _whole(0),
-    "uniform": _whole(0, 1),
-    "parabolic": integrated([(Fraction(0), Fraction(4)), (HALF, Fraction(-4))], 2),
-    "harmonic": (Piece(Fraction(0), Fraction(1), (HALF,), (Wave(-0.5, 1, 1),)),),
-    "sine": _whole(0, 1, waves=(Wave(-0.5 / math.pi, 2),)),
-    "trapezoid": integrated([(Fraction(0), STEEPEST), (EIGHTH, Fraction(0)), (3 * EIGHTH, -STEEPEST),
+MOTIONS: dict[str, tuple[MotionPiece, ...]] = {
+    "dwell": whole_stage(0),
+    "uniform": whole_stage(0, 1),
+    "parabolic": integrate_parts([(Fraction(0), Fraction(4)), (HALF, Fraction(-4))], 2),
+    "harmonic": (MotionPiece(Fraction(0), Fraction(1), (HALF,), (Wave(-0.5, 1, 1),)),),
+    "sine": whole_stage(0, 1, waves=(Wave(-0.5 / math.pi, 2),)),
+    "trapezoid": integrate_parts([(Fraction(0), STEEPEST), (EIGHTH, Fraction(0)), (3 * EIGHTH, -STEEPEST),
                              (5 * EIGHTH, Fraction(0)), (7 * EIGHTH, STEEPEST)], 3),
-    "3-4-5": _whole(0, 0, 0, 10, -15, 6),
+    "3-4-5": whole_stage(0, 0, 0, 10, -15, 6),
 }
 DWELL, TABLE = "dwell", "table"
 
@@ -171,11 +171,12 @@ DWELL, TABLE = "dwell", "table"
 Array = Any
 
 HARD, SOFT = 1, 2  # the orders of the derivatives that jump
-PARTS, FINER, ROUNDS = 90, 16, 9  # of a piece in which the largest value is searched, then so often again
+# of a piece in which the largest value is searched, then so often again
+SCAN_PARTS, REFINED_PARTS, SCAN_ROUNDS = 90, 16, 9
 
 
 @dataclass(frozen=True)
-class Stage:
+class LawStage:
     """A part of the turn: over so many degrees the lift changes by `stroke` in a motion of this name.
 
     Its pieces are lifts over the part of the stage that is behind.
@@ -184,32 +185,32 @@ class Stage:
     angle: Fraction
     stroke: Fraction
     motion: str
-    pieces: tuple[Piece, ...]
+    pieces: tuple[MotionPiece, ...]
 
 
 @dataclass(frozen=True)
-class Stretch:
+class LawPiece:
     """One smooth piece of the law, from one angle to another, in degrees."""
 
     start: Fraction
     end: Fraction
-    stage: Stage
+    stage: LawStage
     begins: Fraction  # the angle at which its stage begins
     lift: Fraction  # the lift there
-    piece: Piece
+    piece: MotionPiece
 
-    def at(self, angle: Any, order: int = 0) -> Any:
+    def value_at(self, angle: Any, order: int = 0) -> Any:
         """The lift, or its derivative by the angle in radians, which may be an array of degrees."""
         part = (angle - float(self.begins)) / float(self.stage.angle)
-        found = self.piece.at(part, order)
+        found = self.piece.value_at(part, order)
         return found + float(self.lift) if order == 0 else found / math.radians(self.stage.angle) ** order
 
-    def divided(self, parts: int) -> Array:
+    def divide(self, parts: int) -> Array:
         """Its angles from end to end, so many parts of it apart."""
         return np.linspace(float(self.start), float(self.end), parts + 1)
 
 
-Value = Callable[[Array, Stretch], Array]
+Value = Callable[[Array, LawPiece], Array]
 
 
 @dataclass(frozen=True)
@@ -226,15 +227,15 @@ class Jump:
 class Law:
     """The stages of one turn; `times` turns lifts into the lengths or radians that are reckoned with."""
 
-    stages: tuple[Stage, ...]
+    stages: tuple[LawStage, ...]
     times: float = 1.0
 
     @cached_property
-    def stretches(self) -> tuple[Stretch, ...]:
+    def stretches(self) -> tuple[LawPiece, ...]:
         """The smooth pieces in order."""
-        found, angle, lift = list[Stretch](), Fraction(0), Fraction(0)
+        found, angle, lift = list[LawPiece](), Fraction(0), Fraction(0)
         for stage in self.stages:
-            found += [Stretch(angle + stage.angle * piece.start, angle + stage.angle * piece.end, stage, angle, lift,
+            found += [LawPiece(angle + stage.angle * piece.start, angle + stage.angle * piece.end, stage, angle, lift,
                               piece) for piece in stage.pieces]
             angle, lift = angle + stage.angle, lift + stage.stroke
         return tuple(found)
@@ -249,7 +250,7 @@ class Law:
         """The angles at which stages begin, and the end of the last."""
         return tuple(accumulate((stage.angle for stage in self.stages), initial=Fraction(0)))
 
-    def at(self, angles: Any, order: int = 0) -> Any:
+    def value_at(self, angles: Any, order: int = 0) -> Any:
         """The lift or a derivative at angles in degrees, an array; where two pieces meet, of the one that begins."""
         turned = np.asarray(angles, float) % 360.0
         starts = np.array([float(one.start) for one in self.stretches])
@@ -258,11 +259,11 @@ class Law:
         for k, one in enumerate(self.stretches):
             own = which == k
             if own.any():
-                found[own] = one.at(turned[own], order)
+                found[own] = one.value_at(turned[own], order)
         return self.times * found
 
     @property
-    def closed(self) -> tuple[Fraction, Fraction]:
+    def turn_and_rest(self) -> tuple[Fraction, Fraction]:
         """How many degrees its stages have, and how high it is after them."""
         return self.bounds[-1], self.lifts[-1]
 
@@ -274,34 +275,34 @@ class Law:
 
     def largest(self, order: int) -> float:
         """About how large the derivative of an order is where it is largest."""
-        found = (abs(one.at(one.divided(8), order)).max() for one in self.stretches)
+        found = (abs(one.value_at(one.divide(8), order)).max() for one in self.stretches)
         return self.times * max(map(float, found))
 
     def _joints(self) -> Iterator[Jump]:
         """What each derivative does where pieces meet; a velocity that jumps says nothing of the acceleration."""
         for before, after in pairwise((self.stretches[-1], *self.stretches)):
             for order in (HARD, SOFT):
-                values = before.at(float(before.end), order), after.at(float(after.start), order)
+                values = before.value_at(float(before.end), order), after.value_at(float(after.start), order)
                 yield Jump(after.start, order, *(self.times * float(value) for value in values))
 
-    def extremum(self, value: Value, rounds: int = ROUNDS) -> tuple[float, float]:
+    def extremum(self, value: Value, rounds: int = SCAN_ROUNDS) -> tuple[float, float]:
         """The angle and the size of the largest value over the turn of a function of (angles, stretch).
 
         The function reads an array of degrees and the piece that they lie on. Each piece is divided, then the parts
         beside the best place so many times again.
         """
-        found = (_highest(lambda angles, one=one: value(angles, one), one, rounds)  # type: ignore[misc]
+        found = (highest_on(lambda angles, one=one: value(angles, one), one, rounds)  # type: ignore[misc]
                  for one in self.stretches)
         return max(found, key=lambda pair: pair[1])
 
 
-def _highest(value: Callable[[Array], Array], one: Stretch, rounds: int) -> tuple[float, float]:
+def highest_on(value: Callable[[Array], Array], one: LawPiece, rounds: int) -> tuple[float, float]:
     """The place and size of the largest value of a function on a piece."""
-    low, high, parts, best = float(one.start), float(one.end), PARTS, (math.nan, -math.inf)
+    low, high, parts, best = float(one.start), float(one.end), SCAN_PARTS, (math.nan, -math.inf)
     for _ in range(rounds + 1):
         angles = np.linspace(low, high, parts + 1)
         values = np.nan_to_num(np.asarray(value(angles), float), nan=-math.inf)
         k = int(np.argmax(values))
         best = max(best, (float(angles[k]), float(values[k])), key=lambda pair: pair[1])
-        low, high, parts = float(angles[max(k - 1, 0)]), float(angles[min(k + 1, parts)]), FINER
+        low, high, parts = float(angles[max(k - 1, 0)]), float(angles[min(k + 1, parts)]), REFINED_PARTS
     return best

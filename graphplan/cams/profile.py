@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.cams.base import based, least_flat, lifts_of, narrowest, steepest
-from graphplan.cams.follower import Flat, Pair, Rolled, Touch
-from graphplan.cams.law import HARD, SOFT, Law, Stretch
+from graphplan.cams.base import least_flat, lifts_of, pair_with_base, smallest_radius, steepest_pressure
+from graphplan.cams.follower import CamPair, Contact, Flat, Rolled
+from graphplan.cams.law import HARD, SOFT, Law, LawPiece
 from graphplan.cams.task import POINTED, PRESSURE, Task
 from graphplan.cams.tolerances import ANGLE_TOL_DEG, FLAT_ARC, LENGTH_TOL
 from graphplan.errors import GraphplanError, SceneError
@@ -26,10 +26,11 @@ from graphplan.mechanism.numbers import number_text
 from graphplan.phrases import Said, arrange, digits, join, phrase, said
 
 Array = Any
-FINE = 4  # samples for a degree where crossings are looked for
-HALF, BETWEEN = 16, 1.02  # samples of half an arc; by so much more it may be off between them
-QUARTER = 90.0  # degrees: no arc of the outline is longer than this part of the turn
-USUAL = {False: (30.0, 60.0), True: (45.0, 70.0)}  # pressure angles of rise and return, as a rule; by oscillating
+SAMPLES_PER_DEGREE = 4  # samples for a degree where crossings are looked for
+HALF_ARC_SAMPLES, SAMPLING_MARGIN = 16, 1.02  # samples of half an arc; by so much more it may be off between them
+MAX_ARC_DEG = 90.0  # degrees: no arc of the outline is longer than this part of the turn
+# pressure angles of rise and return, as a rule; by oscillating
+USUAL_PRESSURE_DEG = {False: (30.0, 60.0), True: (45.0, 70.0)}
 HARD_SHOCK = phrase("at {0} the velocity jumps: a hard shock, the acceleration is infinite")
 SOFT_SHOCK = phrase("at {0} the acceleration jumps: a soft shock")
 
@@ -47,7 +48,7 @@ class Cam:
     """A cam that follows its law: its task, and the pair of cam and follower with the base circle known."""
 
     task: Task
-    pair: Pair
+    pair: CamPair
 
     @property
     def law(self) -> Law:
@@ -58,39 +59,39 @@ class Cam:
         """The radius of the roller, or 0."""
         return float(self.task.follower.radius)
 
-    def touch(self, angles: Array) -> Touch:
+    def contact(self, angles: Array) -> Contact:
         """How they touch at angles in degrees; where pieces of the law meet, as at the beginning of the second."""
         turned = np.asarray(angles, float)
-        return self.pair.touch(lambda order: self.law.at(turned, order))
+        return self.pair.contact(lambda order: self.law.value_at(turned, order))
 
-    def touched(self, one: Stretch, angles: Array) -> Touch:
+    def contact_on(self, one: LawPiece, angles: Array) -> Contact:
         """The same at angles on one piece of the law."""
-        return self.pair.touch(lifts_of(self.law, one, np.asarray(angles, float)))
+        return self.pair.contact(lifts_of(self.law, one, np.asarray(angles, float)))
 
     def on_cam(self, angles: Array) -> Array:
         """The profile's points at angles, in the plane of the cam as it lies before it turns."""
-        return self.pair.turned(self.touch(angles).point, np.asarray(angles, float))
+        return self.pair.to_cam_plane(self.contact(angles).point, np.asarray(angles, float))
 
     def pitch(self, angles: Array) -> Array:
         """The centre of the roller there."""
-        return self.pair.turned(self.touch(angles).roller, np.asarray(angles, float))
+        return self.pair.to_cam_plane(self.contact(angles).roller, np.asarray(angles, float))
 
     @cached_property
     def outline(self) -> Array:
         """Points of the closed profile, some for each degree."""
-        return self._closed(lambda touch: touch.point)
+        return self.closed_curve(lambda touch: touch.point)
 
     @cached_property
     def pitch_curve(self) -> Array:
         """Points of the closed path of the roller's centre."""
-        return self._closed(lambda touch: touch.roller)
+        return self.closed_curve(lambda touch: touch.roller)
 
-    def _closed(self, spot: Callable[[Touch], Array]) -> Array:
+    def closed_curve(self, spot: Callable[[Contact], Array]) -> Array:
         parts = []
         for one in self.law.stretches:
-            count = max(2, math.ceil(float(one.end - one.start) * FINE))
-            angles = one.divided(count)
-            parts.append(self.pair.turned(spot(self.touched(one, angles)), angles))
+            count = max(2, math.ceil(float(one.end - one.start) * SAMPLES_PER_DEGREE))
+            angles = one.divide(count)
+            parts.append(self.pair.to_cam_plane(spot(self.contact_on(one, angles)), angles))
         return np.concatenate(parts)
 
     # ---- true to size ----------------------------------------------------------------------------------------------
@@ -99,53 +100,53 @@ class Cam:
         """The outline as arcs, none further from the profile than the tolerance; one begins where the last ends."""
         found, stretches = list[ArcOfProfile](), self.law.stretches
         for one, after in zip(stretches, (*stretches[1:], stretches[0]), strict=True):
-            steps = max(1, math.ceil(float(one.end - one.start) / QUARTER))
-            for low, high in pairwise(map(float, one.divided(steps))):
-                found += self._fitted(one, low, high, tolerance)
+            steps = max(1, math.ceil(float(one.end - one.start) / MAX_ARC_DEG))
+            for low, high in pairwise(map(float, one.divide(steps))):
+                found += self.fit_arcs(one, low, high, tolerance)
             found += self._corner(one, after)
         return found
 
-    def _fitted(self, one: Stretch, low: float, high: float, tolerance: float) -> Iterator[ArcOfProfile]:
+    def fit_arcs(self, one: LawPiece, low: float, high: float, tolerance: float) -> Iterator[ArcOfProfile]:
         """Arcs through the ends and the middle of parts of a piece, halved until they are close enough."""
-        angles = np.linspace(low, high, 2 * HALF + 1)
-        spots = self.pair.turned(self.touched(one, angles).point, angles)
-        bulge = _bulge(*spots[::HALF])
-        if BETWEEN * _off(spots, bulge) <= tolerance or high - low < ANGLE_TOL_DEG:
+        angles = np.linspace(low, high, 2 * HALF_ARC_SAMPLES + 1)
+        spots = self.pair.to_cam_plane(self.contact_on(one, angles).point, angles)
+        bulge = arc_bulge(*spots[::HALF_ARC_SAMPLES])
+        if SAMPLING_MARGIN * arc_deviation(spots, bulge) <= tolerance or high - low < ANGLE_TOL_DEG:
             yield ArcOfProfile(complex(spots[0]), bulge)
             return
-        yield from self._fitted(one, low, (low + high) / 2, tolerance)
-        yield from self._fitted(one, (low + high) / 2, high, tolerance)
+        yield from self.fit_arcs(one, low, (low + high) / 2, tolerance)
+        yield from self.fit_arcs(one, (low + high) / 2, high, tolerance)
 
-    def _corner(self, one: Stretch, after: Stretch) -> list[ArcOfProfile]:
+    def _corner(self, one: LawPiece, after: LawPiece) -> list[ArcOfProfile]:
         """What joins two pieces where the velocity jumps: an arc of the roller, or a straight line."""
         angle = np.array([float(one.end)])
-        touch = self.touched(one, angle)
-        start, centre = (complex(self.pair.turned(spot, angle)[0]) for spot in (touch.point, touch.roller))
+        touch = self.contact_on(one, angle)
+        start, centre = (complex(self.pair.to_cam_plane(spot, angle)[0]) for spot in (touch.point, touch.roller))
         angle = np.array([float(after.start)])
-        end = complex(self.pair.turned(self.touched(after, angle).point, angle)[0])
+        end = complex(self.pair.to_cam_plane(self.contact_on(after, angle).point, angle)[0])
         if abs(end - start) < LENGTH_TOL * self.pair.base:
             return []
         if not self.roller:
             return [ArcOfProfile(start, 0.0)]
         out = start + end - 2 * centre
-        return [ArcOfProfile(start, _bulge(start, centre + self.roller * out / abs(out), end))]
+        return [ArcOfProfile(start, arc_bulge(start, centre + self.roller * out / abs(out), end))]
 
     # ---- what is told ----------------------------------------------------------------------------------------------
 
     @cached_property
     def steepest(self) -> dict[int, tuple[float, float]]:
         """The angle and size of the largest pressure angle of the rise (1) and of the return (-1), in degrees."""
-        return {way: steepest(self.law, self.pair, way) for way in (1, -1)}
+        return {way: steepest_pressure(self.law, self.pair, way) for way in (1, -1)}
 
     @cached_property
     def narrowest(self) -> tuple[float, float]:
         """The angle and size of the smallest radius of curvature, of the roller's path where that is convex."""
-        return narrowest(self.law, self.pair)
+        return smallest_radius(self.law, self.pair)
 
     @property
     def reach(self) -> tuple[float, float]:
         """How far the contact wanders along a flat face: from the foot of the path or of the pivot."""
-        touch = self.touch(np.linspace(0, 360, 1441))
+        touch = self.contact(np.linspace(0, 360, 1441))
         along = (touch.point - float(self.task.follower.distance)) / (1j * touch.normal)
         return float(along.real.min()), float(along.real.max())
 
@@ -165,14 +166,14 @@ class Cam:
         """Pressure angles beyond those that are usual, where nothing is said of them."""
         if self.task.cam.limits is None:
             names = said("the rise"), said("the return")
-            for way, usual, name in zip((1, -1), USUAL[self.task.follower.oscillates], names, strict=True):
+            for way, usual, name in zip((1, -1), USUAL_PRESSURE_DEG[self.task.follower.oscillates], names, strict=True):
                 angle, size = self.steepest[way]
                 if size > usual + ANGLE_TOL_DEG:
                     yield said("at {0}° the pressure angle of {1} is {2}°; as a rule it is {3}° at most",
                                digits(angle), name, digits(size), digits(usual))
 
 
-def _bulge(start: complex, middle: complex, end: complex) -> float:
+def arc_bulge(start: complex, middle: complex, end: complex) -> float:
     """How far the arc through three points bulges to the right of its chord, as a part of half of it."""
     half = (end - start) / 2
     if abs(half) == 0:
@@ -186,7 +187,7 @@ def _bulge(start: complex, middle: complex, end: complex) -> float:
     return -(centre + math.copysign(radius, y)) if abs(centre) < 1e12 else 0.0
 
 
-def _off(spots: Array, bulge: float) -> float:
+def arc_deviation(spots: Array, bulge: float) -> float:
     """How far spots lie from the arc between the first and the last of them."""
     start, half = complex(spots[0]), complex(spots[-1] - spots[0]) / 2
     if abs(half) == 0:
@@ -201,23 +202,23 @@ def _off(spots: Array, bulge: float) -> float:
 # ---- what forbids it ------------------------------------------------------------------------------------------------
 
 
-def made(task: Task) -> Cam:
+def make_cam(task: Task) -> Cam:
     """The cam of a task; fails with `SceneError`, a line for each reason why it cannot be made."""
-    cam, faults = Cam(task, based(task)), Faults()
-    _pressure(cam, faults)
+    cam, faults = Cam(task, pair_with_base(task)), Faults()
+    check_pressure(cam, faults)
     if isinstance(cam.pair, Flat):
-        _hollow(cam, faults)
+        check_convexity(cam, faults)
     else:
-        _undercut(cam, faults)
+        check_undercut(cam, faults)
     if not len(faults):
-        _crossing(cam, faults)
-        _pivot(cam, faults)
+        check_crossing(cam, faults)
+        check_pivot(cam, faults)
     if len(faults):
         raise SceneError(task.name, tuple(faults))
     return cam
 
 
-def _pressure(cam: Cam, faults: Faults) -> None:
+def check_pressure(cam: Cam, faults: Faults) -> None:
     """Note pressure angles beyond those that are allowed."""
     limits = cam.task.cam.limits
     if limits is None or (cam.task.follower.flat and not cam.task.follower.oscillates):
@@ -226,21 +227,21 @@ def _pressure(cam: Cam, faults: Faults) -> None:
         angle, size = cam.steepest[way]
         if most is not None and size > float(most) + ANGLE_TOL_DEG:
             what = f"at {number_text(angle)} degrees it is {number_text(size)}, above {number_text(most)}"
-            faults.add(f"cam.pressure_angle.{key}", what, _enough(cam.task))
+            faults.add(f"cam.pressure_angle.{key}", what, larger_base(cam.task))
 
 
-def _enough(task: Task) -> str:
+def larger_base(task: Task) -> str:
     """Which base circle keeps the pressure angles; those of a flat face do not hang on it."""
     if task.follower.flat:
         return "a smaller stroke, or a larger angle"
     try:
-        least = based(replace(task, cam=replace(task.cam, base=PRESSURE))).base
+        least = pair_with_base(replace(task, cam=replace(task.cam, base=PRESSURE))).base
     except GraphplanError:
         return "a larger angle"
     return f"a base circle of {number_text(math.ceil(least * 1000) / 1000)} or more, or a larger angle"
 
 
-def _dropping(cam: Cam, what: str, faults: Faults) -> None:
+def check_drops(cam: Cam, what: str, faults: Faults) -> None:
     """Note where the velocity jumps down: only a point follows."""
     for jump in cam.law.jumps:
         if jump.order == HARD and jump.after < jump.before:
@@ -248,19 +249,19 @@ def _dropping(cam: Cam, what: str, faults: Faults) -> None:
                        f"{what} follows", "a motion that comes to rest, or a point that touches")
 
 
-def _hollow(cam: Cam, faults: Faults) -> None:
+def check_convexity(cam: Cam, faults: Faults) -> None:
     """Note where a flat face cannot follow: the profile would be hollow or pointed, or the face overtakes the cam."""
-    _dropping(cam, "flat face", faults)
+    check_drops(cam, "flat face", faults)
     angle, size = cam.narrowest
     least = float(cam.task.cam.least)
     nothing = LENGTH_TOL * cam.pair.base
     if size <= nothing or size < least - nothing:
         why = "it is hollow there, so that the face loses it" if size < -nothing else "it is too narrow"
         what = f"at {number_text(angle)} degrees the profile's radius of curvature is {number_text(size)}: {why}"
-        faults.add("cam.base", what, _broad(cam))
+        faults.add("cam.base", what, convex_base(cam))
 
 
-def _broad(cam: Cam) -> str:
+def convex_base(cam: Cam) -> str:
     """Which base circle keeps the profile convex."""
     if cam.task.follower.oscillates:
         return 'base = "convex"'
@@ -268,11 +269,11 @@ def _broad(cam: Cam) -> str:
     return f'more than {number_text(least)}, or base = "convex" with a least_radius'
 
 
-def _undercut(cam: Cam, faults: Faults) -> None:
+def check_undercut(cam: Cam, faults: Faults) -> None:
     """Note where a roller is too large for the path of its centre."""
     follower, least = cam.task.follower, float(cam.task.cam.least)
     if follower.contact != POINTED:
-        _dropping(cam, "roller", faults)
+        check_drops(cam, "roller", faults)
     angle, size = cam.narrowest
     if size <= cam.roller + LENGTH_TOL * cam.pair.base:
         faults.add("follower.radius", f"at {number_text(angle)} degrees the path of the roller's centre has the "
@@ -285,7 +286,7 @@ def _undercut(cam: Cam, faults: Faults) -> None:
                    "a smaller roller, or a larger base circle")
 
 
-def _pivot(cam: Cam, faults: Faults) -> None:
+def check_pivot(cam: Cam, faults: Faults) -> None:
     """Note where the pivot of a follower is in the way of the cam, or the contact beyond it."""
     follower = cam.task.follower
     if not follower.oscillates:
@@ -300,7 +301,7 @@ def _pivot(cam: Cam, faults: Faults) -> None:
                    "pivot", "a longer centre distance, or a smaller stroke")
 
 
-def _crossing(cam: Cam, faults: Faults) -> None:
+def check_crossing(cam: Cam, faults: Faults) -> None:
     """Note where the profile, or the path of the roller's centre, crosses itself."""
     curves = [("cam.base", "the path of the roller's centre", cam.pitch_curve)] if isinstance(cam.pair, Rolled) else []
     for where, what, curve in [*curves, ("cam.base", "the profile", cam.outline)]:

@@ -11,7 +11,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from graphplan.cams.law import DWELL, MOTIONS, TABLE, Law, Stage, spline
+from graphplan.cams.law import DWELL, MOTIONS, TABLE, Law, LawStage, spline
 from graphplan.cams.tolerances import LIFT_TOL
 from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
 from graphplan.mechanism.items import Faults, Item, Vector, describe
@@ -25,7 +25,7 @@ TRANSLATING, OSCILLATING = "translating", "oscillating"
 POINTED, ROLLER, FLAT = "point", "roller", "flat"
 PRESSURE, CONVEX, SMALLEST = "pressure angle", "convex", "smallest"
 TURNS = {"counter-clockwise": 1, "clockwise": -1}
-LEAST, MOST = 6, 72  # divisions of the turn
+MIN_DIVISIONS, MAX_DIVISIONS = 6, 72  # divisions of the turn
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Limits:
 
 
 @dataclass(frozen=True)
-class Wheel:
+class CamWheel:
     """What is said of the cam itself: sense of turning, speed in rad/s, base circle, limits, divisions of the turn."""
 
     sense: int
@@ -76,9 +76,9 @@ class Task:
     source: str
     name: str
     units: Units
-    stages: tuple[Stage, ...]
+    stages: tuple[LawStage, ...]
     follower: Follower
-    cam: Wheel
+    cam: CamWheel
     sheet: Presentation
 
     @cached_property
@@ -107,21 +107,21 @@ def _rows(item: Item, names: SceneNames) -> tuple[tuple[Fraction, Fraction], ...
     return tuple(found) if len(item.faults) == before else None
 
 
-def _moved(row: TableRow) -> Stage | None:
+def stage_by_motion(row: TableRow) -> LawStage | None:
     """A stage by the name of its motion; one that is no dwell has a stroke."""
     motion, stroke = row["motion"], row.values.get("stroke", Fraction(0))
     if motion == DWELL and stroke:
         row.items["stroke"].fault("a dwell has no stroke", "leave it out, or name another motion")
     if motion != DWELL and not stroke:
         row.item.fault(f"a {motion} motion without a stroke", 'stroke = 25, or -25 of a return, or motion = "dwell"')
-    return Stage(row["angle"], stroke, motion, tuple(piece.times(stroke) for piece in MOTIONS[motion]))
+    return LawStage(row["angle"], stroke, motion, tuple(piece.times(stroke) for piece in MOTIONS[motion]))
 
 
-def _tabled(row: TableRow) -> Stage:
+def stage_by_table(row: TableRow) -> LawStage:
     """A stage by a table of angles and lifts: a cubic spline, at rest at both ends, or periodic where it is all."""
     angles, lifts = zip(*row["table"], strict=True)
     pieces = spline([angle / angles[-1] for angle in angles], lifts, closed=angles[-1] == 360 and not lifts[-1])
-    return Stage(angles[-1], lifts[-1], TABLE, pieces)
+    return LawStage(angles[-1], lifts[-1], TABLE, pieces)
 
 
 _PAIRS = Kind("pairs of numbers", _rows, {"type": "array", "minItems": 3, "items": {
@@ -132,11 +132,11 @@ LAW = Rows(Either((
         Field("motion", "how the follower moves", choice(*MOTIONS), 'such as motion = "sine"'),
         Field("stroke", "by how much the lift changes: a length, degrees of an oscillating follower; negative of a "
               "return", NUMBER),
-    ), _moved),
+    ), stage_by_motion),
     Table("a stage by a table", (
         Field("table", "degrees and lifts from the beginning of the stage; between them a cubic spline runs", _PAIRS,
               "such as table = [[0, 0], [60, 10], [120, 20]]"),
-    ), _tabled))))
+    ), stage_by_table))))
 
 
 # ---- follower and cam -----------------------------------------------------------------------------------------------
@@ -191,18 +191,18 @@ def _angle(item: Item, names: SceneNames) -> Fraction | None:
 
 def _divisions(item: Item, names: SceneNames) -> int | None:
     number = item.number()
-    if number is not None and (number.denominator != 1 or not LEAST <= number <= MOST):
+    if number is not None and (number.denominator != 1 or not MIN_DIVISIONS <= number <= MAX_DIVISIONS):
         return item.fault(f"{number_text(number)} is not a number of divisions",
-                          f"a whole number from {LEAST} to {MOST}")
+                          f"a whole number from {MIN_DIVISIONS} to {MAX_DIVISIONS}")
     return None if number is None else int(number)
 
 
-def _wheel(row: TableRow) -> Wheel | None:
+def _wheel(row: TableRow) -> CamWheel | None:
     values = row.values
     if row["base"] == PRESSURE and "pressure_angle" not in values:
         row.item.fault("pressure_angle is missing", "such as pressure_angle = { rise = 30, return = 30 }")
     omega = float(values["omega"]) if "omega" in values else math.pi * float(values.get("rpm", 0)) / 30
-    return Wheel(TURNS[row["turns"]], omega, row["base"], values.get("pressure_angle"), row["least_radius"],
+    return CamWheel(TURNS[row["turns"]], omega, row["base"], values.get("pressure_angle"), row["least_radius"],
                  row["divisions"])
 
 
@@ -223,7 +223,8 @@ CAM = Table("the cam", (
     Field("least_radius", "the smallest radius of curvature that the profile may have where it is convex", AMOUNT,
           default=0),
     Field("divisions", "in how many parts the turn is divided on the sheet",
-          Kind("whole number", _divisions, {"type": "integer", "minimum": LEAST, "maximum": MOST}), default=24),
+          Kind("whole number", _divisions, {"type": "integer", "minimum": MIN_DIVISIONS, "maximum": MAX_DIVISIONS}),
+          default=24),
 ), _wheel, either=("omega", "rpm"), remedy="one of them, such as rpm = 300")
 
 
@@ -248,30 +249,30 @@ def parse(text: str, name: str) -> Task:
     def made(read: dict[str, Any], units: Units, faults: Faults) -> Task:
         task = Task(read.get("title", ""), read.get("source", ""), name, units, read["law"], read["follower"],
                     read["cam"], read.get("sheet") or Presentation())
-        _checked(task, faults)
+        check_task(task, faults)
         return task
 
     return read_task(TASK, text, name, made)
 
 
-def _checked(task: Task, faults: Faults) -> None:
+def check_task(task: Task, faults: Faults) -> None:
     """Note what does not fit together."""
     law, follower, cam = task.law, task.follower, task.cam
-    turn, rest = law.closed
+    turn, rest = law.turn_and_rest
     if turn != 360:
         faults.add("law", f"its stages take {number_text(turn)} degrees", "stages of 360 degrees together")
     if abs(rest) > LIFT_TOL * law.largest(0) / law.times:
         faults.add("law", f"after one turn the lift is {number_text(rest)}", "strokes that add up to 0")
-    at, depth = law.extremum(lambda angles, one: -one.at(angles))
+    at, depth = law.extremum(lambda angles, one: -one.value_at(angles))
     if depth > LIFT_TOL * law.largest(0) / law.times:
         faults.add("law", f"the lift is {number_text(-depth)} at {number_text(at)} degrees, below where it begins",
                    "begin with the stage in which the follower is lowest")
     if not any(stage.stroke or stage.motion == TABLE for stage in task.stages):
         faults.add("law", "the follower does not move", "a stage with a stroke")
-    _fitting(follower, cam, faults)
+    check_fit(follower, cam, faults)
 
 
-def _fitting(follower: Follower, cam: Wheel, faults: Faults) -> None:
+def check_fit(follower: Follower, cam: CamWheel, faults: Faults) -> None:
     """Note where cam and follower do not fit each other."""
     if cam.base == PRESSURE and follower.flat:
         faults.add("cam.base", "the pressure angle of a flat face does not depend on it", f'a radius, or "{CONVEX}"')

@@ -22,7 +22,12 @@ from graphplan.cycle.positions import MovingLink
 from graphplan.cycle.turn import motion_and_travel, whole_motion
 from graphplan.errors import Disagreement, Refused
 from graphplan.machine.linkages.added_dyads import Dyads, added_dyads
-from graphplan.machine.linkages.counterweights import Counterweight, along_guide, balanced, full
+from graphplan.machine.linkages.counterweights import (
+    Counterweight,
+    add_counterweights,
+    balance_along_guide,
+    balance_fully,
+)
 from graphplan.machine.linkages.engine import Engine, engine
 from graphplan.machine.linkages.mass_centre import MassCentre, Shaking, mass_centre, shaking
 from graphplan.machine.linkages.spanning import spanning_tree
@@ -79,7 +84,7 @@ def mass_motion(scene: Scene, positions: int, links: LinkMotion | None = None) -
     centre = mass_centre(scene)
     links = links or link_motion(scene, positions)
     places, *rates = links.points_motion(scene, centre.points)
-    path, velocity, acceleration = (centre.at(vectors) for vectors in (places, *rates))
+    path, velocity, acceleration = (centre.position_from(vectors) for vectors in (places, *rates))
     motion = MassMotion(centre, links, {**links.points, **places}, path, velocity, acceleration,
                         shaking(centre, places, rates[1], links.alpha), {})
     check = _solver_gaps(motion)
@@ -120,7 +125,7 @@ def balancing(scene: Scene, positions: int, way: str = "", keep: Sequence[str] =
             raise
         weights, note = (), f"{refused.what}: {refused.why}"
     way = way or (NONE if note else FULL)
-    after = mass_motion(balanced(scene, weights), positions, before.links) if weights else None
+    after = mass_motion(add_counterweights(scene, weights), positions, before.links) if weights else None
     driven = crank_engine if crank_engine and crank_engine.omega else None
     check = {**before.check, **_counterweight_gap(after or before, way),
              **(_orders_gap(before, driven) if driven else {})}
@@ -132,9 +137,9 @@ def _counterweights(scene: Scene, way: str, keep: Sequence[str], radii: Mapping[
                     found: Engine | None) -> tuple[Counterweight, ...]:
     """The counterweights of one way."""
     if way == FULL:
-        return full(scene, keep, radii)
+        return balance_fully(scene, keep, radii)
     if way == GUIDED:
-        return along_guide(scene, keep, radii)
+        return balance_along_guide(scene, keep, radii)
     if way == SHARED:
         if found is None:
             raise Refused(f"{scene.name}: counterweights", "not a slider-crank with its mass centres on the lines "

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from graphplan.cams.construction import CamDrawing
-from graphplan.cams.exports import END, FOLLOWER, motion, scene_text
-from graphplan.cams.law import ORDERS, Stretch
+from graphplan.cams.exports import END, FOLLOWER, law_motion, scene_text
+from graphplan.cams.law import ORDERS, LawPiece
 from graphplan.cams.profile import Cam
 from graphplan.check.compared import require_agreement, require_claims
 from graphplan.check.tolerances import CAM_STEP, CAM_TOL
@@ -30,7 +30,7 @@ def check_cam(drawing: CamDrawing) -> dict[str, float]:
     cam = drawing.cam
     require_claims(cam.task.name, drawing)
     angles = np.array([division.angle for division in drawing.divisions])
-    gaps = {"points": float(max(abs(np.array(drawing.at("K")) - cam.on_cam(angles)))) / cam.pair.base,
+    gaps = {"points": float(max(abs(np.array(drawing.positions("K")) - cam.on_cam(angles)))) / cam.pair.base,
             "motion": max(_motion_gap(cam, float(angle)) for angle in angles),
             "curvature": _curvature_gap(cam), "law": _law_gap(cam)}
     for quantity, gap in gaps.items():
@@ -42,7 +42,8 @@ def _motion_gap(cam: Cam, angle: float) -> float:
     """By how much the solver's velocity and acceleration of the follower differ from the law's, relative to those of a
     point of the cam as far out as the base circle, or the cam's turning, or relative to the largest where that is
     larger."""
-    rates, by_law, omega = solve(parse(scene_text(cam, angle), cam.task.name)), motion(cam, angle), cam.task.cam.omega
+    rates, by_law, omega = solve(parse(scene_text(cam, angle), cam.task.name)), law_motion(cam,
+                                                                                           angle), cam.task.cam.omega
     if cam.task.follower.oscillates:
         radius, solved = 1.0, (rates.omega[FOLLOWER], rates.alpha[FOLLOWER])
     else:
@@ -52,7 +53,7 @@ def _motion_gap(cam: Cam, angle: float) -> float:
     return max(gap / radius for gap, radius in zip(gaps, sizes, strict=True))
 
 
-def _stencil_angles(piece: Stretch) -> tuple[Any, float]:
+def _stencil_angles(piece: LawPiece) -> tuple[Any, float]:
     """Angles inside a piece of the law in rows of five neighbours, in degrees, and their distance in radians."""
     low, high = float(piece.start), float(piece.end)
     step = min(CAM_STEP, np.radians(high - low) / MIN_PIECE_STEPS)
@@ -66,8 +67,8 @@ def _curvature_gap(cam: Cam) -> float:
     worst = 0.0
     for stretch in cam.law.stretches:
         angles, step = _stencil_angles(stretch)
-        touch = cam.touched(stretch, angles)
-        spots, normals = (cam.pair.turned(vectors, angles) for vectors in (touch.point, touch.normal))
+        touch = cam.contact_on(stretch, angles)
+        spots, normals = (cam.pair.to_cam_plane(vectors, angles) for vectors in (touch.point, touch.normal))
         velocity, turning = spots @ STENCIL / step, normals @ STENCIL / step
         curvature_radius, n = touch.radius[:, 2], normals[:, 2]
         across, along = (velocity / n).real, (velocity / n).imag
@@ -82,8 +83,8 @@ def _law_gap(cam: Cam) -> float:
     worst = 0.0
     for order in range(1, ORDERS):
         rows = [(stretch, *_stencil_angles(stretch)) for stretch in cam.law.stretches]
-        largest = max(float(abs(stretch.at(angles, order)).max()) for stretch, angles, _ in rows) or 1.0
+        largest = max(float(abs(stretch.value_at(angles, order)).max()) for stretch, angles, _ in rows) or 1.0
         for stretch, angles, step in rows:
-            sloped = stretch.at(angles, order - 1) @ STENCIL / step
-            worst = max(worst, float(abs(sloped - stretch.at(angles[:, 2], order)).max()) / largest)
+            sloped = stretch.value_at(angles, order - 1) @ STENCIL / step
+            worst = max(worst, float(abs(sloped - stretch.value_at(angles[:, 2], order)).max()) / largest)
     return worst

@@ -34,7 +34,7 @@ from graphplan.errors import Disagreement
 from graphplan.machine.flywheel.result import FlywheelResult
 from graphplan.machine.integrals import Reals
 from graphplan.machine.motion.drawing import MotionDrawing
-from graphplan.machine.motion.runs import Run
+from graphplan.machine.motion.runs import MachineMotion
 from graphplan.machine.reduced.reduction import Reduction
 from graphplan.mechanism.loads import SPEED, LoadTable
 from graphplan.mechanism.model import FRAME, Force
@@ -55,7 +55,7 @@ RUNGE_KUTTA_STAGES = ((1 / 5,), (3 / 40, 9 / 40), (44 / 45, -56 / 15, 32 / 9),
 ERROR_WEIGHTS = np.array((71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40))
 
 
-def check_motion(run: Run, drawing: MotionDrawing | None = None) -> dict[str, float]:
+def check_motion(run: MachineMotion, drawing: MotionDrawing | None = None) -> dict[str, float]:
     """The largest relative differences from the solver: of the reduction, and of speed, time and energy.
 
     Fails with `Disagreement` where the motion differs by more than `MOTION_TOL`, or the reduction by more than
@@ -64,12 +64,12 @@ def check_motion(run: Run, drawing: MotionDrawing | None = None) -> dict[str, fl
     name, motion, machine = run.scene.name, run.motion, run.machine
     if drawing is not None:
         require_claims(name, drawing)
-    last = min(motion.last, motion.start + COMPARED_CYCLES * machine.period)
+    last = min(motion.last_travel, motion.start + COMPARED_CYCLES * machine.period)
     places = np.linspace(motion.start, last, COMPARED_TRAVELS)
     gaps = check_reduction(run.reduction, _wrap_to_cycle(run.reduction, places[1:-1] / run.reduction.unit))
     reference = ReferenceMotion(run.reduction, machine.wheel, machine.closing)
-    state = motion.at(places)
-    compared = places[1:] if motion.stop is None or last < motion.last else places[1:-1]
+    state = motion.state_at(places)
+    compared = places[1:] if motion.stop is None or last < motion.last_travel else places[1:-1]
     omegas, times, works = reference.integrate(motion.start, float(state.omega[0]), compared)
     count = len(compared) + 1
     energies, speed, time = state.energy[1:count], float(state.omega.max()), float(state.time[count - 1])
@@ -93,7 +93,7 @@ def check_flywheel(result: FlywheelResult) -> dict[str, float]:
     reduced = {f"reduced {quantity}": gap for quantity, gap in check_reduction(result.reduction, poses).items()}
     gaps = _flywheel_motion_gaps(result)
     if result.reduction.friction:
-        gaps["friction"] = result.reduction.losses.apart
+        gaps["friction"] = result.reduction.losses.relative_gap
     gutjahr = next((method.inertia for method in result.methods if method.name == "gutjahr"), None)
     if gutjahr is not None and not result.given:
         inertia = wheel.inertia + float(abs(cycle.inertia.terms[:, 0]).max())
@@ -106,7 +106,7 @@ def _flywheel_motion_gaps(result: FlywheelResult) -> dict[str, float]:
     """How far the integrated speeds are from those found, relative to the mean, and how far the cycle is from closed.
     """
     wheel, cycle = result.wheel, result.cycle
-    reference = ReferenceMotion(result.reduction.scaled(cycle.factor), wheel.inertia, cycle.closing, cycle.speed)
+    reference = ReferenceMotion(result.reduction.scale_loads(cycle.factor), wheel.inertia, cycle.closing, cycle.speed)
     start = cycle.ends[0]
     places = np.concatenate([[start], *(np.linspace(low, high, SPEED_SAMPLES + 1)[1:]
                                         for low, high in pairwise(reference.edges))])

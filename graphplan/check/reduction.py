@@ -40,7 +40,7 @@ def reduction_gaps(reduction: Reduction, travel: Any, side: int = 1) -> Gaps:
     for start in range(0, max(1, travel.size), BLOCK_POSES):
         block = travel[start : start + BLOCK_POSES]
         reference = ReferenceReduction(reduction, block, side)
-        for quantity, gap in reference.gaps(reduction.at(block, side)).items():
+        for quantity, gap in reference.gaps(reduction.reduce_at(block, side)).items():
             blocks.setdefault(quantity, []).append(gap)
     return {quantity: np.concatenate(gaps) for quantity, gaps in blocks.items()}
 
@@ -61,9 +61,9 @@ def check_reduction(reduction: Reduction, travel: Any, side: int = 1) -> dict[st
     for quantity, gap in gaps.items():
         for k in np.flatnonzero(~(gap <= ROUNDING_TOL)):
             reference = ReferenceReduction(reduction, travel[k : k + 1], side)
-            ours = frictionless(reduction.at(travel[k : k + 1], side), quantity)[0]
+            ours = frictionless(reduction.reduce_at(travel[k : k + 1], side), quantity)[0]
             truth = reference.truth[quantity].value[0]
-            if abs(ours - truth) <= ROUNDING_TOL * getattr(reduction.size, quantity):
+            if abs(ours - truth) <= ROUNDING_TOL * getattr(reduction.machine_size, quantity):
                 gap[k] = 0.0  # relative to what these masses and loads do elsewhere both are nothing
             elif not gap[k] <= SAFETY_FACTOR * EPSILON * reference.condition:
                 place = f"{reduction.scene.name}: at a travel of {travel[k]:.9g}"
@@ -80,9 +80,9 @@ def weights_gap(reduction: Reduction, travel: Any) -> float:
 
     Fails with `Disagreement` where that is more than rounding.
     """
-    by, projected = reduction.at(travel).by, reduction.projections(travel)
+    by, projected = reduction.reduce_at(travel).by, reduction.projections(travel)
     worst = max((float(np.max(np.abs(by[name] - moment))) for name, moment in projected.items()), default=0.0)
-    least = MACHINE_SHARE * reduction.size.moment
+    least = MACHINE_SHARE * reduction.machine_size.moment
     largest = max([least, *(float(np.max(np.abs(moment), initial=0.0)) for moment in projected.values())])
     gap = worst / largest if worst else 0.0
     if gap > ROUNDING_TOL:
@@ -95,7 +95,7 @@ def check_lever(reduction: Reduction, travel: float = 0.0) -> tuple[Construction
 
     Fails with `Disagreement` where that is more than rounding, relative to the condition of the solver's rates.
     """
-    drawing, reduced = reduction.drawing(travel), reduction.at([travel])
+    drawing, reduced = reduction.drawing(travel), reduction.reduce_at([travel])
     (balance,) = drawing.balances
     drive = reduction.motion.scene.drives[0]
     if drive.slides:
@@ -103,7 +103,8 @@ def check_lever(reduction: Reduction, travel: float = 0.0) -> tuple[Construction
         balance = (complex(balance) * complex(x, -y)).real / abs(complex(x, y))
     by_lever = -reduction.sense * balance * float(NEWTONS[reduction.scene.units.force])
     by_reduction = float(frictionless(reduced, "moment")[0])
-    scale = max([MACHINE_SHARE * reduction.size.moment, *(abs(float(moment[0])) for moment in reduced.by.values())])
+    scale = max([MACHINE_SHARE * reduction.machine_size.moment,
+                 *(abs(float(moment[0])) for moment in reduced.by.values())])
     gap = abs(by_lever - by_reduction) / scale if by_lever != by_reduction else 0.0
     if gap > ROUNDING_TOL and not gap <= SAFETY_FACTOR * EPSILON * ReferenceReduction(reduction, np.array([travel]),
                                                                                       1).condition:
@@ -119,11 +120,11 @@ def friction_gap(reduction: Reduction, travel: Any) -> float:
     """
     rubbing = reduction.friction
     assert rubbing is not None
-    travel = rubbing.beside(np.atleast_1d(np.asarray(travel, dtype=float)))
+    travel = rubbing.off_breaks(np.atleast_1d(np.asarray(travel, dtype=float)))
     turn = reduction.motion.turn(travel)
     rates = reduction.motion.velocities(turn)
-    friction_moments, values = rubbing.at(travel), rubbing.loads(travel, turn, rates)
-    worst, usual = 0.0, reduction.size.moment
+    friction_moments, values = rubbing.friction_at(travel), rubbing.loads(travel, turn, rates)
+    worst, usual = 0.0, reduction.machine_size.moment
     for k in range(travel.size):
         assert rubbing.scene.loads is not None
         acting = loads_with(rubbing.scene.loads, {name: complex(z[k]) for name, z in values.items()})
@@ -160,7 +161,7 @@ class ReferenceReduction:
         """The moment of friction, which `friction_gap` compares: it is no part of the truth."""
         if self.rubbing is None:
             return np.zeros(self.travel.shape)
-        return self.rubbing.at(self.travel, self.side).moment
+        return self.rubbing.friction_at(self.travel, self.side).moment
 
     @property
     def _none(self) -> Sized:
@@ -256,7 +257,7 @@ class ReferenceReduction:
     def _table_values(self, table: LoadTable) -> Any:
         """What a table says in every pose."""
         if not table.slide:
-            return table.values_at(self.motion.told(self.travel), 1, self.side > 0)
+            return table.values_at(self.motion.in_scene_units(self.travel), 1, self.side > 0)
         slide = self.slide_of(table)
         (x, y), (dx, dy) = self.posed.points[slide.at], slide.direction
         if origin := guide_origin(self.scene, slide):

@@ -17,14 +17,14 @@ import numpy as np
 from graphplan.check.compared import require_agreement, require_claims
 from graphplan.check.tolerances import SUM_TOL
 from graphplan.machine.rotors.polygons import Correction
-from graphplan.machine.rotors.rotor import Eccentric, Marked, Rotor, ThreeRuns, TrialWeights
-from graphplan.machine.rotors.rotor_balance import Answer, Balanced
+from graphplan.machine.rotors.rotor import Eccentric, MarkedRuns, Rotor, ThreeRuns, TrialWeights
+from graphplan.machine.rotors.rotor_balance import Answer, BalancedRotor
 from graphplan.machine.rotors.trial_runs import Effect, angle_of
 
 Pair = tuple[tuple[Eccentric, ...], Answer]  # unbalances, and what balances them
 
 
-def check_rotor(found: Balanced) -> dict[str, float]:
+def check_rotor(found: BalancedRotor) -> dict[str, float]:
     """By how much the independent results differ, relative to the sizes of what they are made of.
 
     Fails with `BrokenClaim` where a drawn step breaks a claim, and with `Disagreement` where they differ.
@@ -45,8 +45,7 @@ def check_rotor(found: Balanced) -> dict[str, float]:
 
 def vector(unbalance: Eccentric | Correction) -> complex:
     """Mass times radius vector, from its size and angle."""
-    mass_radius = unbalance.size if isinstance(unbalance, Eccentric) else unbalance.mass_radius
-    return cmath.rect(mass_radius, math.radians(unbalance.angle))
+    return cmath.rect(unbalance.mass_radius, math.radians(unbalance.angle))
 
 
 def axial_place(unbalance: Eccentric | Correction) -> float:
@@ -89,7 +88,7 @@ def _correction_gap(rotor: Rotor, masses: Sequence[Eccentric], answer: Answer) -
     """How far the corrections are from equilibrium's, relative to what masses would need that did not help each other.
     """
     wide = abs(float(rotor.planes[-1] - rotor.planes[0])) or math.inf
-    scale = sum(mass.size * (1 + abs(arm) / wide) for mass, arm in zip(masses, _plane_distances(rotor, masses),
+    scale = sum(mass.mass_radius * (1 + abs(arm) / wide) for mass, arm in zip(masses, _plane_distances(rotor, masses),
                                                                        strict=True))
     needed = equilibrium(rotor, masses)
     return max(abs(vector(correction) - needed_vector)
@@ -105,7 +104,7 @@ def _trial_gap(effect: Effect, side: complex) -> float:
         grows = effect.amplitude / mass_radius
         return max(abs(abs(at - side) * grows - second), abs(abs(-at - side) * grows - third),
                    abs(abs(side) * grows - first)) / max(second, third)
-    if isinstance(trial, Marked):
+    if isinstance(trial, MarkedRuns):
         before, after = (cmath.rect(float(run.amplitude), math.radians(float(run.angle)))
                          for run in (trial.first, trial.second))
         return abs(before + (after - before) / at * side) / (abs(before) + abs(after))
@@ -117,7 +116,7 @@ def _trial_gap(effect: Effect, side: complex) -> float:
     return abs(complex(x, y) * mass_radius - side) / (mass_radius * float(max(trial.weights)) or 1.0)
 
 
-def bearing_reactions(balanced: Balanced, answer: Answer = ()) -> list[complex]:
+def bearing_reactions(balanced: BalancedRotor, answer: Answer = ()) -> list[complex]:
     """What the bearings bear of the centrifugal forces, in N, turning with the rotor, with these corrections."""
     rotor = balanced.task.rotor
     unbalances: list[Eccentric | Correction] = [*balanced.masses, *answer]

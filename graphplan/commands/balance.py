@@ -93,14 +93,14 @@ def balance_rotor(text: str, options: argparse.Namespace, ending: str, messages:
     """The rotor of a task's text, balanced."""
     from graphplan.check.rotors import check_rotor
     from graphplan.machine.rotors.rotor import parse
-    from graphplan.machine.rotors.rotor_balance import balanced
+    from graphplan.machine.rotors.rotor_balance import balance_rotor
     from graphplan.output.subjects.rotor_numbers import numbers, table
     from graphplan.output.subjects.rotor_sheet import PAPERS, RotorSheet
 
     for name in ("positions", "counterweights", "radius", "keep", "share"):
         if getattr(options, name):
             raise Refused(f"--{name}", "it does not apply to a rotor", "leave it out")
-    result = balanced(with_presentation(options, parse(text, options.scene)))
+    result = balance_rotor(with_presentation(options, parse(text, options.scene)))
     check, paper = check_rotor(result), result.task.sheet.paper
 
     def sheet(paper: str) -> RotorSheet:

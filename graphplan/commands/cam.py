@@ -79,18 +79,18 @@ def run(options: argparse.Namespace) -> int:
 
 def construct_cam(options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
     """The cam of the task that is named."""
-    from graphplan.cams.construction import drawn
+    from graphplan.cams.construction import draw_cam
     from graphplan.cams.exports import numbers, scene_text
-    from graphplan.cams.profile import made
+    from graphplan.cams.profile import make_cam
     from graphplan.cams.task import load
     from graphplan.check.cams import check_cam
 
     _check_options(options)
     task = with_presentation(options, load(options.task))
     messages.progress("base circle and profile")
-    cam = made(task)
+    cam = make_cam(task)
     messages.progress("inversion")
-    drawing = drawn(cam)
+    drawing = draw_cam(cam)
     check = check_cam(drawing)
     tolerance = TOLERANCE if options.tolerance is None else options.tolerance
 

@@ -61,7 +61,7 @@ class CycleResults:
     def _expected_at(self, found: FlywheelResult, kind: str, travel: float) -> ExpectedCycleNumber:
         import numpy as np
 
-        value = float(found.at(np.array([travel]))[PLACES[kind]][0])
+        value = float(found.values_at(np.array([travel]))[PLACES[kind]][0])
         return ExpectedCycleNumber(value / self._unit(kind), self._read(found, kind))
 
     def _unit(self, kind: str) -> float:
@@ -83,7 +83,7 @@ class CycleResults:
             return
         for kind, name in PLACES.items():
             values = found.plans[name] / self._unit(kind)
-            for travel, value in zip(found.told_travels, values, strict=True):
+            for travel, value in zip(found.travels_in_degrees, values, strict=True):
                 yield single_row(CYCLE[kind], f"{travel:g}", float(value), float(abs(values).max()), units)
         for kind in (CLOSING, FLYWHEEL):
             if expected := self.expected_result(kind, ""):

@@ -53,8 +53,8 @@ def run(options: argparse.Namespace) -> int:
 def find_motion(options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
     """The motion of the scene that is named."""
     from graphplan.check.motion import check_motion
-    from graphplan.machine.motion.drawing import drawn
-    from graphplan.machine.motion.runs import run as motion_of
+    from graphplan.machine.motion.drawing import draw_motion
+    from graphplan.machine.motion.runs import motion_of_scene as motion_of
     from graphplan.output.subjects.motion_numbers import numbers, table
 
     for name in ("speed", "travel"):
@@ -63,11 +63,11 @@ def find_motion(options: argparse.Namespace, ending: str, messages: Messages) ->
     positions = options.positions or POSITIONS
     scene = load_driven(options)
     result = motion_of(scene, options.speed, options.travel, options.steady)
-    drawing = drawn(result.motion, min(positions, MAX_DRAWN))
+    drawing = draw_motion(result.motion, min(positions, MAX_DRAWN))
     check, remarks = check_motion(result, drawing), list[str]()
     if (stop := result.motion.stop) is not None:
         when = f"after {stop.time:.6g} s" if math.isfinite(stop.time) else "and nears it for ever"
-        remarks.append(f"{scene.name}: the machine stops at {result.machine.told(stop.travel)}, {when}")
+        remarks.append(f"{scene.name}: the machine stops at {result.machine.travel_text(stop.travel)}, {when}")
     if result.reduction.friction is not None:
         remarks.append(f"{scene.name}: friction is taken as it is at the speed of the drive in the scene")
 

@@ -250,11 +250,11 @@ def of_rotor(options: argparse.Namespace, text: str) -> int:
     """Judge the answers to the task of a rotor."""
     from graphplan.check.rotors import check_rotor
     from graphplan.machine.rotors.rotor import parse
-    from graphplan.machine.rotors.rotor_balance import balanced
-    from graphplan.output.subjects.rotor_sheet import one_sheet
+    from graphplan.machine.rotors.rotor_balance import balance_rotor
+    from graphplan.output.subjects.rotor_sheet import rotor_sheet
 
-    balance = balanced(parse(text, options.scene))
-    sheet = one_sheet(balance, check_rotor(balance), pencil(options))
+    balance = balance_rotor(parse(text, options.scene))
+    sheet = rotor_sheet(balance, check_rotor(balance), pencil(options))
     return _judge_tables(options, [_true_numbers(sheet, answer) for answer in balance.answers],
                          balance.task.sheet.language)
 
@@ -316,7 +316,7 @@ def _true_numbers(sheet: RotorSheet, answer: Answer) -> list[TrueNumber]:
     off = 2 * kg_m * sheet.errors[0].mass_radius  # the sum of m·r is drawn as well as what balances it
     numbers.append(TrueNumber("static unbalance", "", sums.static * kg_m, off, f"{mass}·{length}", kg_m, unbalance))
     if task.rotor.dynamic:
-        off = 2 * kg_m * metres * sheet.errors[1].mass_radius * float(task.rotor.between)
+        off = 2 * kg_m * metres * sheet.errors[1].mass_radius * float(task.rotor.plane_distance)
         numbers.append(TrueNumber("moment", "", sums.dynamic * kg_m * metres, off, f"{mass}·{length}²", kg_m * metres,
                               moment))
     return numbers

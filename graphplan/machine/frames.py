@@ -32,6 +32,6 @@ class Frame(NamedTuple):
     level: tuple[float, float]
     upright: tuple[float, float]
 
-    def at(self, x: Any, y: Any) -> tuple[Any, Any]:
+    def position(self, x: Any, y: Any) -> tuple[Any, Any]:
         """Where values of both axes stand, in mm of the drawing."""
         return self.origin[0] + self.x.mm(x), self.origin[1] + self.y.mm(y)

@@ -20,11 +20,11 @@ from graphplan.machine.tolerances import COUNT_TOL, SERIES_TOL, SIGN_TOL
 Reals = npt.NDArray[np.float64]
 
 NODES = 16  # of a panel: a full turn of a linkage takes one to four dozen panels
-WIDEST = 8  # panels at least in the whole range, that no wave passes between the nodes
-MOST, DEEPEST = 4096, 64  # panels, and times that one is halved: what needs more has no limit somewhere
-TAIL = 3  # terms at the end of a series that tell how far it is from settled
-SOUGHT = 24  # places in a panel between which a sign is seen to change
-HALVINGS = 60  # of an interval with a root: to the last digit
+MIN_PANELS = 8  # panels at least in the whole range, that no wave passes between the nodes
+MAX_PANELS, MAX_HALVINGS = 4096, 64  # panels, and times that one is halved: what needs more has no limit somewhere
+TAIL_TERMS = 3  # terms at the end of a series that tell how far it is from settled
+SIGN_SAMPLES = 24  # places in a panel between which a sign is seen to change
+BISECTIONS = 60  # of an interval with a root: to the last digit
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,16 +60,16 @@ class Piecewise:
         panel = np.searchsorted(self.edges, x, side="right" if side > 0 else "left") - 1
         panel = np.clip(panel, 0, len(self.edges) - 2)
         low, high = self.edges[panel], self.edges[panel + 1]
-        return _sums(self.terms[..., panel, :], (2 * x - low - high) / (high - low))
+        return legendre_sums(self.terms[..., panel, :], (2 * x - low - high) / (high - low))
 
-    def beside(self, size: npt.ArrayLike) -> Piecewise:
+    def without_rounding(self, size: npt.ArrayLike) -> Piecewise:
         """The same functions, each zero where it is rounding alone beside a size, shape () or (k,)."""
         largest = np.abs(self.terms).max(axis=(-2, -1), initial=0.0)
         kept = (largest > SERIES_TOL * np.asarray(size))[..., None, None]
         return replace(self, terms=np.where(kept, self.terms, 0.0))
 
     @property
-    def whole(self) -> Reals:
+    def total_integral(self) -> Reals:
         """The integral over the whole range, shape (...)."""
         found: Reals = self.terms[..., 0] @ np.diff(self.edges)
         return found
@@ -87,26 +87,26 @@ class Piecewise:
 
     def roots(self) -> Reals:
         """The travels at which it changes its sign, those of jumps too, in their order; of one function."""
-        grid, panels = np.linspace(-1, 1, SOUGHT + 1), len(self.edges) - 1
+        grid, panels = np.linspace(-1, 1, SIGN_SAMPLES + 1), len(self.edges) - 1
         low, high = self.edges[:-1, None], self.edges[1:, None]
         places = ((low + high) / 2 + (high - low) / 2 * grid).ravel()
-        values = _sums(self.terms[:, None, :], grid[None, :]).ravel()
+        values = legendre_sums(self.terms[:, None, :], grid[None, :]).ravel()
         signs = np.where(np.abs(values) > SIGN_TOL * np.abs(values).max(), np.sign(values), 0.0)
         seen = np.flatnonzero(signs)
         changed = signs[seen[:-1]] != signs[seen[1:]]
         first, last = seen[:-1][changed], seen[1:][changed]
-        panel = np.repeat(np.arange(panels), SOUGHT + 1)
+        panel = np.repeat(np.arange(panels), SIGN_SAMPLES + 1)
         inside = (last == first + 1) & (panel[first] == panel[last])
         found: Reals = places[np.minimum(first + 1, last)]  # where it jumps, or is nothing between the two
-        found[inside] = self._halved(panel[first[inside]], places[first[inside]], places[last[inside]])
+        found[inside] = self.bisect_roots(panel[first[inside]], places[first[inside]], places[last[inside]])
         return found
 
-    def _halved(self, panel: npt.NDArray[np.int_], low: Reals, high: Reals) -> Reals:
+    def bisect_roots(self, panel: npt.NDArray[np.int_], low: Reals, high: Reals) -> Reals:
         """The roots between travels in panels at which the signs differ."""
         terms, left, right = self.terms[panel], self.edges[panel], self.edges[panel + 1]
 
         def is_positive(travel: Reals) -> npt.NDArray[np.bool_]:
-            return _sums(terms, (2 * travel - left - right) / (right - left)) > 0
+            return legendre_sums(terms, (2 * travel - left - right) / (right - left)) > 0
 
         before = is_positive(low)
         return bisect(lambda travel: is_positive(travel) == before, low, high)[0]
@@ -124,14 +124,14 @@ class Piecewise:
 def bisect(is_before: Callable[[Reals], npt.NDArray[np.bool_]], low: Reals, high: Reals) -> tuple[Reals, Reals]:
     """The ends of intervals, shape (n,), halved to the last digit; `is_before` tells of places whether what is sought
     lies beyond them."""
-    for _ in range(HALVINGS):
+    for _ in range(BISECTIONS):
         middle = (low + high) / 2
         before = is_before(middle)
         low, high = np.where(before, middle, low), np.where(before, high, middle)
     return low, high
 
 
-def settled(function: Callable[[Reals], Reals], breaks: Sequence[float], size: npt.ArrayLike = 0.0) -> Piecewise:
+def fit_piecewise(function: Callable[[Reals], Reals], breaks: Sequence[float], size: npt.ArrayLike = 0.0) -> Piecewise:
     """A function of travel as polynomials between breaks, to rounding of its largest value, or of `size`.
 
     Reads a function of travels of shape (n,), which gives (n,) or, of several functions at once, (k, n); two or more
@@ -139,42 +139,42 @@ def settled(function: Callable[[Reals], Reals], breaks: Sequence[float], size: n
     function in which larger numbers cancel, how large these are, shape () or (k,): what is rounding beside them is 0.
     Fails with `Refused` where the values have no limit, or are none.
     """
-    waiting = _begun(breaks)
+    waiting = first_panels(breaks)
     whole, kept, count = float(waiting[-1, 1] - waiting[0, 0]), list[tuple[Reals, Reals]](), 0
-    for _ in range(DEEPEST):
-        terms = _series(function, waiting)
+    for _ in range(MAX_HALVINGS):
+        terms = panel_series(function, waiting)
         if not kept:
             limit = SERIES_TOL * np.maximum(size, np.abs(terms).max(axis=(-2, -1)))[..., None]
-        tail, widths = np.abs(terms[..., -TAIL:]).max(axis=-1), (waiting[:, 1] - waiting[:, 0]) / whole
+        tail, widths = np.abs(terms[..., -TAIL_TERMS:]).max(axis=-1), (waiting[:, 1] - waiting[:, 0]) / whole
         fine = ((tail <= limit) | (tail * widths <= limit / 16)).reshape(-1, len(waiting)).all(axis=0)
         kept.append((waiting[fine], terms[..., fine, :]))
         count, rough = count + len(waiting), waiting[~fine]
         if not len(rough):
-            return _joined(kept).beside(size)
-        if count > MOST:
+            return join_panels(kept).without_rounding(size)
+        if count > MAX_PANELS:
             break
-        waiting = _split(rough)
+        waiting = halve_panels(rough)
     raise Refused(f"travel {rough[0].mean():.6g}", "the reduced moment or inertia diverges there (limit position)",
                   "a range without a limit position")
 
 
-def _begun(breaks: Sequence[float]) -> Reals:
+def first_panels(breaks: Sequence[float]) -> Reals:
     """The first panels, shape (p, 2)."""
     edges = np.unique(np.asarray(breaks, dtype=float))
-    parts = np.ceil(np.diff(edges) / (edges[-1] - edges[0]) * WIDEST - COUNT_TOL).astype(int)
+    parts = np.ceil(np.diff(edges) / (edges[-1] - edges[0]) * MIN_PANELS - COUNT_TOL).astype(int)
     rows = [np.linspace(low, high, count + 1) for low, high, count in zip(edges, edges[1:], parts, strict=False)]
     return np.concatenate([np.stack([row[:-1], row[1:]], axis=1) for row in rows])
 
 
-def _split(panels: Reals) -> Reals:
+def halve_panels(panels: Reals) -> Reals:
     """Panels halved."""
     middles = panels.mean(axis=1)
     return np.concatenate([np.stack([panels[:, 0], middles], axis=1), np.stack([middles, panels[:, 1]], axis=1)])
 
 
-def _series(function: Callable[[Reals], Reals], panels: Reals) -> Reals:
+def panel_series(function: Callable[[Reals], Reals], panels: Reals) -> Reals:
     """The terms of the function's series in panels, shape (..., p, n)."""
-    nodes, matrix = _gauss()
+    nodes, matrix = gauss_rule()
     places = panels.mean(axis=1)[:, None] + (panels[:, 1] - panels[:, 0])[:, None] / 2 * nodes
     values = np.asarray(function(places.ravel()), dtype=float)
     if not np.isfinite(values).all():
@@ -185,7 +185,7 @@ def _series(function: Callable[[Reals], Reals], panels: Reals) -> Reals:
     return found
 
 
-def _joined(kept: Sequence[tuple[Reals, Reals]]) -> Piecewise:
+def join_panels(kept: Sequence[tuple[Reals, Reals]]) -> Piecewise:
     """The panels in the order of travel."""
     panels = np.concatenate([panels for panels, _ in kept])
     terms, order = np.concatenate([terms for _, terms in kept], axis=-2), np.argsort(panels[:, 0])
@@ -194,7 +194,7 @@ def _joined(kept: Sequence[tuple[Reals, Reals]]) -> Piecewise:
 
 
 @cache
-def _gauss() -> tuple[Reals, Reals]:
+def gauss_rule() -> tuple[Reals, Reals]:
     """The nodes of a panel, and what makes the terms of a series of the values there."""
     from numpy.polynomial.legendre import leggauss, legvander
 
@@ -203,7 +203,7 @@ def _gauss() -> tuple[Reals, Reals]:
     return nodes, matrix
 
 
-def _sums(terms: Reals, x: Reals) -> Reals:
+def legendre_sums(terms: Reals, x: Reals) -> Reals:
     """Series of Legendre polynomials, terms in the last axis, at x in [-1, 1], by Clenshaw's recurrence."""
     after = following = np.zeros(np.broadcast_shapes(terms.shape[:-1], x.shape))
     for k in range(terms.shape[-1] - 1, 0, -1):

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from graphplan.cams.base import based, excess, narrowest, region, steepest
+from graphplan.cams.base import excess, pair_with_base, region, smallest_radius, steepest_pressure
 from graphplan.cams.task import Limits, Task, parse
 from graphplan.errors import Refused, SceneError
 
@@ -35,7 +35,7 @@ def test_centres_of_the_textbook(offset: str, cam: str, radius: float) -> None:
     """Harmonic rise and return with 30 degrees: O1, O2, O3 and Om of Ozols' figure 20-6."""
     for turns in ("clockwise", "counter-clockwise"):
         given = parse(text(f"{ROLLER}offset = {offset}\n", cam, turns=turns), "cam.toml")
-        pair = based(given)
+        pair = pair_with_base(given)
         assert pair.base == pytest.approx(radius, abs=5e-5)
         assert given.cam.limits
         assert abs(excess(given.law, pair, given.cam.limits)) < 1e-9
@@ -46,8 +46,8 @@ def test_smallest_of_two_tangents() -> None:
     given = task(f'{ROLLER}offset = "smallest"\n', BOTH)
     offset, depth = region(given.law, Limits(Fraction(30), Fraction(30))).corner
     assert (offset, -depth) == pytest.approx((-2.9649, -27.4340), abs=5e-5)
-    pair = based(given)
-    assert [steepest(given.law, pair, way)[1] for way in (1, -1)] == pytest.approx([30.0, 30.0], abs=1e-9)
+    pair = pair_with_base(given)
+    assert [steepest_pressure(given.law, pair, way)[1] for way in (1, -1)] == pytest.approx([30.0, 30.0], abs=1e-9)
 
 
 @pytest.mark.parametrize("turns", ["clockwise", "counter-clockwise"])
@@ -55,7 +55,7 @@ def test_arm_uses_up_its_angle(turns: str) -> None:
     """The base circle of an oscillating follower is the least that keeps its pressure angles."""
     given = parse(text(ARM, 'base = "pressure angle"\npressure_angle = { rise = 35, return = 35 }\n', stroke=20,
                        turns=turns), "cam.toml")
-    pair = based(given)
+    pair = pair_with_base(given)
     assert excess(given.law, pair, Limits(Fraction(35), Fraction(35))) == pytest.approx(0.0, abs=1e-9)
 
 
@@ -65,7 +65,7 @@ def test_flat_faces_keep_the_profile_convex(follower: str) -> None:
     """The tangent of 45 degrees gives the base circle of which the smallest radius of curvature is that asked for."""
     for motion in ("sine", "harmonic", "parabolic"):
         given = task(follower, 'base = "convex"\nleast_radius = 5\n', motion, 20)
-        assert narrowest(given.law, based(given))[1] == pytest.approx(5.0, abs=1e-9)
+        assert smallest_radius(given.law, pair_with_base(given))[1] == pytest.approx(5.0, abs=1e-9)
 
 
 def test_faults_come_all_at_once() -> None:
@@ -104,14 +104,14 @@ def test_a_profile_that_is_always_convex_has_no_smallest_base_circle() -> None:
     law = '[[law]]\ntable = [[0, 0], [90, 0.5], [180, 1], [270, 0.5], [360, 0]]\n'
     flat = f'{law}[follower]\nmoves = "translating"\ncontact = "flat"\n[cam]\nrpm = 60\nbase = "convex"\n'
     with pytest.raises(Refused, match="convex on any base circle"):
-        based(parse(flat, "cam.toml"))
-    assert based(parse(f"{flat}least_radius = 8\n", "cam.toml")).base == pytest.approx(8)
+        pair_with_base(parse(flat, "cam.toml"))
+    assert pair_with_base(parse(f"{flat}least_radius = 8\n", "cam.toml")).base == pytest.approx(8)
 
 
 def test_what_no_base_circle_can_do_is_refused() -> None:
     """An arm that is lifted too fast has no base circle within the angles, and says so."""
     with pytest.raises(Refused, match="no base circle keeps the pressure angle at a centre distance of 100"):
-        based(task(ARM, 'base = "pressure angle"\npressure_angle = { rise = 5, return = 5 }\n', "sine", 60))
+        pair_with_base(task(ARM, 'base = "pressure angle"\npressure_angle = { rise = 5, return = 5 }\n', "sine", 60))
 
 
 def test_sheets_of_tasks_have_no_keys_of_scenes() -> None:

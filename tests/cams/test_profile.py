@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from test_base import ARM, BOTH, ROLLER, text
 
-from graphplan.cams.base import based
-from graphplan.cams.construction import drawn
+from graphplan.cams.base import pair_with_base
+from graphplan.cams.construction import draw_cam
 from graphplan.cams.exports import scene_text
-from graphplan.cams.profile import Cam, made
+from graphplan.cams.profile import Cam, make_cam
 from graphplan.cams.task import parse
 from graphplan.check.cams import check_cam
 from graphplan.errors import SceneError
@@ -36,13 +36,13 @@ EVERYWHERE = [(name, turns) for name in CAMS for turns in SENSES]
 @cache
 def cam(name: str, turns: str) -> Cam:
     """One of the cams."""
-    return made(parse(text(*CAMS[name], turns=turns), "cam.toml"))
+    return make_cam(parse(text(*CAMS[name], turns=turns), "cam.toml"))
 
 
 @pytest.mark.parametrize(("name", "turns"), EVERYWHERE)
 def test_second_opinions_agree(name: str, turns: str) -> None:
     """The drawn inversion, the contact formula, curvature and law by numbers, and the solver agree."""
-    found = check_cam(drawn(cam(name, turns)))
+    found = check_cam(draw_cam(cam(name, turns)))
     assert max(found["points"], found["motion"]) < 1e-12
     assert max(found["curvature"], found["law"]) < 1e-6
 
@@ -51,7 +51,7 @@ def test_second_opinions_agree(name: str, turns: str) -> None:
 def test_the_follower_nowhere_enters_the_cam(name: str, turns: str) -> None:
     """The roller touches the profile and never cuts it; the flat face never does either."""
     made, angles = cam(name, turns), np.arange(0.5, 360, 3.0)
-    touch, outline = made.touch(angles), made.outline
+    touch, outline = made.contact(angles), made.outline
     for k, angle in enumerate(angles):
         own = outline * np.exp(1j * made.pair.sense * np.radians(angle))
         if made.task.follower.flat:
@@ -90,10 +90,10 @@ def test_a_roller_in_a_corner_leaves_its_arc() -> None:
     """Where the velocity jumps up the roller rests in a corner of its own radius; where it drops none can follow."""
     law = '[[law]]\nangle = 90\nmotion = "uniform"\nstroke = 6\n[[law]]\nangle = 270\nmotion = "sine"\nstroke = -6\n'
     given = parse(f"{law}[follower]\n{ROLLER}[cam]\nrpm = 60\nbase = 40\n", "cam.toml")
-    hollow = [arc for arc in Cam(given, based(given)).arcs(0.01) if arc.bulge * given.cam.sense > 0]
+    hollow = [arc for arc in Cam(given, pair_with_base(given)).arcs(0.01) if arc.bulge * given.cam.sense > 0]
     assert len(hollow) == 1
     with pytest.raises(SceneError, match="at 90 degrees the velocity drops at once"):
-        made(given)
+        make_cam(given)
 
 
 REFUSED = [
@@ -114,7 +114,7 @@ REFUSED = [
 def test_what_cannot_be_made_is_refused(follower: str, base: str, motion: str, line: str) -> None:
     """A cam that cannot be made is refused with the reason, the angle, and what would be right."""
     with pytest.raises(SceneError) as fault:
-        made(parse(text(follower, base, motion), "cam.toml"))
+        make_cam(parse(text(follower, base, motion), "cam.toml"))
     assert re.match(f"cam.toml: {line}", fault.value.lines[0]), fault.value.lines
 
 
@@ -124,7 +124,7 @@ def test_a_path_that_crosses_itself_is_refused() -> None:
                   for angle, motion, stroke in ((90, "sine", 200), (90, "sine", -200), (180, "dwell", 0)))
     follower = 'moves = "oscillating"\ncontact = "point"\narm = 60\ncentre_distance = 100\n'
     with pytest.raises(SceneError, match=r"crosses itself at \(-?\d+.*\); a larger base circle"):
-        made(parse(f"{law}[follower]\n{follower}[cam]\nrpm = 60\nbase = 60\n", "cam.toml"))
+        make_cam(parse(f"{law}[follower]\n{follower}[cam]\nrpm = 60\nbase = 60\n", "cam.toml"))
 
 
 def test_pivots_in_the_way_are_refused() -> None:
@@ -134,14 +134,14 @@ def test_pivots_in_the_way_are_refused() -> None:
             ((arm, "base = 40\n", "sine", 40), r"the profile reaches out to 76\.\d+, over the pivot at 62"),
             ((FACE, CONVEX, "parabolic", 20), r"the contact runs to -9\.\d+ along the face, past the pivot")):
         with pytest.raises(SceneError, match=rf"follower\.centre_distance: {line}"):
-            made(parse(text(follower, base, motion, stroke, "counter-clockwise"), "cam.toml"))
+            make_cam(parse(text(follower, base, motion, stroke, "counter-clockwise"), "cam.toml"))
 
 
 def test_notes_tell_shocks_and_steep_angles() -> None:
     """Shocks of the law, and pressure angles beyond the usual where no limit is given, are told."""
     notes = list(map(str, cam("point", "clockwise").notes))
     assert notes[0] == "at 0°, 120°, 180°, 270° the velocity jumps: a hard shock, the acceleration is infinite"
-    steep = made(parse(text(ROLLER, "base = 25\n", "sine"), "cam.toml"))
+    steep = make_cam(parse(text(ROLLER, "base = 25\n", "sine"), "cam.toml"))
     assert [str(note).split(" is ")[1] for note in steep.notes][:1] == ["33.73°; as a rule it"]
 
 
@@ -150,7 +150,7 @@ def test_drawn_steps_keep_their_claims() -> None:
     from graphplan.kernel.claims import broken_claims
 
     for name, turns in EVERYWHERE:
-        found = drawn(cam(name, turns))
+        found = draw_cam(cam(name, turns))
         assert not list(broken_claims(found.program, found.values, FORM_TOL))
 
 

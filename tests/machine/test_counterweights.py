@@ -13,7 +13,7 @@ from linkages_with_masses import four_bar, scene, slider_crank
 from graphplan.check.balance import balancing, mass_motion
 from graphplan.commands import main
 from graphplan.errors import Refused
-from graphplan.machine.linkages.counterweights import along_guide, balanced, full
+from graphplan.machine.linkages.counterweights import add_counterweights, balance_along_guide, balance_fully
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
 from graphplan.output.subjects.balance_numbers import links, variant
@@ -31,7 +31,7 @@ def s_of(found: Scene) -> list[float]:
 def test_full_balance_of_a_four_bar() -> None:
     """Ozols (16.10), in numbers: with s_2 = 0.15 s_1 = -0.0857143 and s_3 = 0.3964286 m, S at x = 0.2349206 m."""
     given = four_bar(FOUR_BAR)
-    found = balanced(given, full(given, ["2"], {"1": 1e9, "3": 1e9}))
+    found = add_counterweights(given, balance_fully(given, ["2"], {"1": 1e9, "3": 1e9}))
     assert s_of(found) == pytest.approx([-0.0857143, 0.15, 0.3964286], abs=5e-8)
     path = mass_motion(found, 36).path
     assert np.abs(path - 0.2349206).max() < 5e-8
@@ -41,7 +41,8 @@ def test_full_balance_of_a_four_bar() -> None:
 def test_full_balance_of_a_slider_crank() -> None:
     """Ozols (16.11), in numbers: s_1 = -0.35, s_2 = -0.53333 m, with an offset of the guide, too."""
     given = slider_crank(ENGINE)
-    assert s_of(balanced(given, full(given, radii=FAR))) == pytest.approx([-0.35, -0.533333], abs=5e-7)
+    assert s_of(add_counterweights(given, balance_fully(given, radii=FAR))) == pytest.approx([-0.35, -0.533333],
+                                                                                             abs=5e-7)
 
 
 def test_partial_balance_of_a_slider_crank() -> None:
@@ -49,7 +50,7 @@ def test_partial_balance_of_a_slider_crank() -> None:
     the guide passes the crank's hinge."""
     for offset in (0.03, 0.0):
         given = slider_crank(ENGINE, 0.0, offset=offset)
-        found = balanced(given, along_guide(given, ["2"], {"1": 1e9}))
+        found = add_counterweights(given, balance_along_guide(given, ["2"], {"1": 1e9}))
         assert s_of(found) == pytest.approx([-0.09375, 0.15], abs=5e-7)
         path = mass_motion(found, 12).path
         assert np.ptp(path.imag) < 1e-15
@@ -62,7 +63,7 @@ def test_partial_balance_of_a_slider_crank() -> None:
 def test_variants(masses: list[tuple[float, float, float]], kept: list[str], wanted: str) -> None:
     """Table 16-1 has all that can be: which variant it becomes hangs on the link that keeps its masses."""
     given = four_bar(masses)
-    found = mass_motion(balanced(given, full(given, kept)), 12)
+    found = mass_motion(add_counterweights(given, balance_fully(given, kept)), 12)
     assert variant(found) == wanted
     (m_1, s_1, l_1), (m_2, s_2, l_2), (m_3, s_3, l_3) = (
         (link["mass"], link["s"], link["length"]) for link in links(found).values())

@@ -10,9 +10,9 @@ import pytest
 
 from graphplan.errors import Refused
 from graphplan.kernel.claims import broken_claims
-from graphplan.machine.flywheel.drawing import drawn
+from graphplan.machine.flywheel.drawing import draw_flywheel
 from graphplan.machine.flywheel.other_methods import methods, rectangles
-from graphplan.machine.flywheel.steady_cycle import by_mean_energy, sized, steady, turning
+from graphplan.machine.flywheel.steady_cycle import by_mean_energy, size_flywheel, steady_cycle, turn_with
 from graphplan.machine.reduced.reduction import MachineSize
 
 TURN = 2 * math.pi
@@ -33,7 +33,7 @@ class Yoke:
 
 @pytest.fixture(scope="module")
 def cycle():
-    return steady(Yoke(), SPEED)
+    return steady_cycle(Yoke(), SPEED)
 
 
 def test_closing_moment_and_energy(cycle):
@@ -49,16 +49,16 @@ def test_closing_moment_and_energy(cycle):
 
 def test_loads_that_change_close_the_cycle():
     """With closes = "load" the loads that change get a factor and the drive nothing; without such it is refused."""
-    scaled = steady(Yoke(), SPEED, "load", ["F_1"])
+    scaled = steady_cycle(Yoke(), SPEED, "load", ["F_1"])
     assert (scaled.closing, scaled.factor) == (0, pytest.approx(25 * TURN / 800))
     assert scaled.energy.at(TURN) == pytest.approx(0, abs=1e-9)
     with pytest.raises(Refused, match="no load changes"):
-        steady(Yoke(), SPEED, "load")
+        steady_cycle(Yoke(), SPEED, "load")
 
 
 def test_wittenbauer(cycle):
     """Tangents of prescribed slope: intercepts, origin, travels and the flywheel; on a parallel axis the same."""
-    wheel = sized(cycle, UNEVENNESS)
+    wheel = size_flywheel(cycle, UNEVENNESS)
     assert wheel.inertia == pytest.approx(49.379, abs=5e-4)
     assert (wheel.upper.cut, wheel.lower.cut) == pytest.approx((-1155.61, -1525.96), abs=0.005)
     assert wheel.origin == pytest.approx(-6897.5, abs=0.05)
@@ -73,21 +73,21 @@ def test_wittenbauer(cycle):
 
 def test_speeds_with_a_given_flywheel(cycle):
     """With the flywheel that is found the unevenness is that asked for; without one, and by (15.7), the source's."""
-    wheel = sized(cycle, UNEVENNESS)
-    assert turning(cycle, wheel.inertia).unevenness == pytest.approx(UNEVENNESS, rel=1e-12)
-    own = turning(cycle, 0.0)
+    wheel = size_flywheel(cycle, UNEVENNESS)
+    assert turn_with(cycle, wheel.inertia).unevenness == pytest.approx(UNEVENNESS, rel=1e-12)
+    own = turn_with(cycle, 0.0)
     assert (own.omega_max + own.omega_min) / 2 == pytest.approx(SPEED, rel=1e-13)
     printed = by_mean_energy(cycle, 0.0)
     assert (printed.omega_max, printed.omega_min) == pytest.approx((16.470, 13.870), abs=5e-4)
     assert printed.unevenness == pytest.approx(0.1714, abs=5e-5)
     with pytest.raises(Refused, match=r"needs no flywheel.*0\.1716"):
-        sized(cycle, 0.18)
+        size_flywheel(cycle, 0.18)
 
 
 def test_other_methods(cycle):
     """Gutjahr with the right pairing finds Wittenbauer's flywheel, the area vectors a far smaller one."""
     found = {method.name: method for method in methods(cycle, UNEVENNESS)}
-    assert found["gutjahr"].inertia == pytest.approx(sized(cycle, UNEVENNESS).inertia, rel=1e-12)
+    assert found["gutjahr"].inertia == pytest.approx(size_flywheel(cycle, UNEVENNESS).inertia, rel=1e-12)
     assert found["gutjahr"].stored == pytest.approx(445.35, abs=0.005)
     assert found["area vectors"].inertia == pytest.approx(11.227, abs=5e-4)
     assert sum(area.work for area in found["area vectors"].figures["areas"]) == pytest.approx(0, abs=1e-9)
@@ -109,18 +109,18 @@ def test_a_motor_that_gives_way(cycle):
 def test_cycles_that_do_not_close():
     """A machine that does not come back is refused, and a weight that does work over the cycle."""
     with pytest.raises(Refused, match="does not close"):
-        steady(SimpleNamespace(closed=False, ends=(0.0, 1.0), unit=1.0), SPEED)
+        steady_cycle(SimpleNamespace(closed=False, ends=(0.0, 1.0), unit=1.0), SPEED)
     falling = Yoke()
     falling.at = lambda travel: SimpleNamespace(**{**vars(Yoke().at(travel)), "by": {"G_2": 1 + np.sin(travel)}})
     with pytest.raises(Refused, match="G_2"):
-        steady(falling, SPEED)
+        steady_cycle(falling, SPEED)
 
 
 def test_drawn_construction(cycle):
     """Every drawn step is what it claims to be; with more plans the drawn flywheel comes to that of the true curve."""
-    wheel, gaps = sized(cycle, UNEVENNESS), []
+    wheel, gaps = size_flywheel(cycle, UNEVENNESS), []
     for positions in (12, 24, 48, 96):
-        drawing = drawn(cycle, wheel, positions)
+        drawing = draw_flywheel(cycle, wheel, positions)
         assert not [*broken_claims(drawing.program, drawing.values)]
         gaps.append(abs(drawing.inertia / wheel.inertia - 1))
     assert gaps == sorted(gaps, reverse=True)
@@ -132,12 +132,13 @@ def test_drawn_construction(cycle):
 
 def test_drawn_scales(cycle):
     """Moments, energies and inertias stand where the scales have them, and k_E = H k_M k_phi."""
-    drawing = drawn(cycle, sized(cycle, UNEVENNESS))
+    drawing = draw_flywheel(cycle, size_flywheel(cycle, UNEVENNESS))
     moment, energy, inertia = (drawing.frames[name] for name in ("moment", "energy", "inertia"))
     assert energy.y.unit == pytest.approx(drawing.pole * moment.y.unit * math.radians(moment.x.unit))
-    assert np.transpose(moment.at(drawing.travels, cycle.moment.at(np.radians(drawing.travels)))) == pytest.approx(
+    assert np.transpose(moment.position(drawing.travels,
+                                        cycle.moment.at(np.radians(drawing.travels)))) == pytest.approx(
         np.array(drawing.spots("moments")), abs=1e-6)
-    levels = energy.at(drawing.travels, cycle.energy.at(np.radians(drawing.travels)))[1]
+    levels = energy.position(drawing.travels, cycle.energy.at(np.radians(drawing.travels)))[1]
     assert np.array(drawing.spots("energies"))[:, 1] == pytest.approx(levels, abs=0.5)
     assert np.array(drawing.spots("points"))[:, 0] == pytest.approx(
         np.array(drawing.spots("inertias"))[:-1, 0])
@@ -148,4 +149,4 @@ def test_drawn_scales(cycle):
 def test_too_few_or_many_plans(cycle, positions):
     """A drawing through too few plans, or more than can be told apart, is refused."""
     with pytest.raises(Refused, match="positions"):
-        drawn(cycle, sized(cycle, UNEVENNESS), positions)
+        draw_flywheel(cycle, size_flywheel(cycle, UNEVENNESS), positions)

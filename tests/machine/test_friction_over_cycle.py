@@ -10,7 +10,7 @@ import pytest
 import graphplan as gp
 from graphplan.check.reduction import check_reduction, friction_gap
 from graphplan.errors import Refused
-from graphplan.machine.reduced.friction import Rubbed
+from graphplan.machine.reduced.friction import FrictionMoments
 from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
@@ -33,9 +33,9 @@ def lambda_mechanism() -> Reduction:
     return reduction(gp.load("kinytskyi"))
 
 
-def rubbed(found: Reduction, travel: np.ndarray) -> Rubbed:
+def rubbed(found: Reduction, travel: np.ndarray) -> FrictionMoments:
     assert found.friction
-    return found.friction.at(travel)
+    return found.friction.friction_at(travel)
 
 
 def heavier(scene: Scene, times: int) -> Scene:
@@ -51,7 +51,7 @@ def simple_balance(found: Reduction, travel: np.ndarray) -> np.ndarray:
     rubbing, turn = found.friction, found.motion.turn(travel)
     assert rubbing
     assert rubbing.scene.loads
-    poses = rubbing.recordings.first.evaluate(turn.points, turn.guides)
+    poses = rubbing.recordings.first_construction.evaluate(turn.points, turn.guides)
     omega = {"frame": 0.0, **poses.omega}
     total = np.zeros(travel.shape)
     for one in rubbing.scene.loads.frictions:
@@ -71,7 +71,7 @@ def test_kinytskyi_over_the_cycle(lambda_mechanism: Reduction) -> None:
     assert max(check_reduction(lambda_mechanism, travel).values()) < 1e-13
     found = rubbed(lambda_mechanism, travel)
     assert sum(found.losses.values()) == pytest.approx(found.moment, rel=1e-10)
-    assert found.moment == pytest.approx(lambda_mechanism.at(travel).by["M_F"])
+    assert found.moment == pytest.approx(lambda_mechanism.reduce_at(travel).by["M_F"])
     assert found.balance[[0, 4]] == pytest.approx([5.729, -6.307], abs=5e-4)
     assert found.efficiency[[0, 1, 3, 4, 8]] == pytest.approx([0.893, 0.925, 0.903, 0.849, 0.003], abs=1e-3)
     assert simple_balance(lambda_mechanism, travel)[:6] == pytest.approx([0.672, 0.416, 0.087, 0.453, 0.979, 0.676],
@@ -87,7 +87,7 @@ def test_losses_over_the_cycle_close_its_energy(lambda_mechanism: Reduction) -> 
     losses = lambda_mechanism.losses
     assert losses.lost == pytest.approx(2.6731966584607685, rel=1e-10)
     assert losses.given == pytest.approx(losses.lost, rel=1e-9)
-    assert losses.apart < 1e-12
+    assert losses.relative_gap < 1e-12
     assert losses.efficiency == pytest.approx(0, abs=1e-9)
     assert sum(losses.pairs.values()) == pytest.approx(losses.lost, rel=1e-10)
     assert [*losses.pairs] == ["O 1", "A 2", "B 3", "C 3", "D 4", "E 5", "F 5"]
@@ -133,7 +133,7 @@ def test_loads_by_tables_rub_too() -> None:
     """The moment of friction follows loads that change, jumps with them, and the pairs take all that is lost."""
     found = reduction(parse(PISTON.replace("[balance]", f"{TABLED}[balance]"), "piston"))
     assert friction_gap(found, np.linspace(0.1, 6.2, 7)) < 1e-11
-    assert found.losses.apart < 1e-10
+    assert found.losses.relative_gap < 1e-10
 
 
 def test_a_roller_rubs_on_its_pin() -> None:

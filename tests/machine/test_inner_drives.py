@@ -96,5 +96,5 @@ def test_friction_over_the_cycle_with_inner_drives(excavator: Scene) -> None:
     assert friction_gap(found, travel) < 1e-12
     assert max(check_reduction(found, travel).values()) < 1e-12
     assert found.friction
-    rubbed = found.friction.at(travel)
+    rubbed = found.friction.friction_at(travel)
     assert sum(rubbed.losses.values()) == pytest.approx(rubbed.moment, rel=1e-9)

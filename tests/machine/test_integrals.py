@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from graphplan.errors import Refused
-from graphplan.machine.integrals import settled
+from graphplan.machine.integrals import fit_piecewise
 
 TURN = 2 * math.pi
 KINK = 2.0  # a travel that no break names
@@ -24,7 +24,7 @@ KINK = 2.0  # a travel that no break names
 ], ids=["wave", "growing", "peak", "corner", "jump", "nothing"])
 def test_running_integral(function, breaks, integral):
     """A running integral is that of the closed form anywhere, whether breaks name the corners or not."""
-    found = settled(function, breaks).integral()
+    found = fit_piecewise(function, breaks).integral()
     if integral is None:
         assert found.at(TURN) == pytest.approx(TURN / math.sqrt(1.01**2 - 1), rel=1e-11)
         return
@@ -35,15 +35,15 @@ def test_running_integral(function, breaks, integral):
 
 def test_sides_of_a_jump():
     """At a break a function has two values, one from each side, and its integral has one."""
-    found = settled(lambda x: np.where(x < 1, x, 5.0), (0, 1, 2))
+    found = fit_piecewise(lambda x: np.where(x < 1, x, 5.0), (0, 1, 2))
     assert (found.at(1.0, side=-1), found.at(1.0, side=1)) == pytest.approx((1, 5))
     assert found.integral().at([1.0, 1.0], side=-1) == pytest.approx([0.5, 0.5])
-    assert found.whole == pytest.approx(5.5)
+    assert found.total_integral == pytest.approx(5.5)
 
 
 def test_several_functions_at_once():
     """Functions of the same travels share panels, add up, and are each as they are alone."""
-    sine, cosine = settled(lambda x: np.array([np.sin(x), np.cos(x)]), (0, TURN))
+    sine, cosine = fit_piecewise(lambda x: np.array([np.sin(x), np.cos(x)]), (0, TURN))
     assert (sine * 3 + cosine + 2).at(1.0) == pytest.approx(3 * math.sin(1) + math.cos(1) + 2, abs=1e-12)
     assert sine.roots() == pytest.approx([math.pi], abs=1e-14)
     assert cosine.roots() == pytest.approx([math.pi / 2, 3 * math.pi / 2], abs=1e-14)
@@ -53,15 +53,15 @@ def test_several_functions_at_once():
 
 def test_roots_at_jumps_and_zeros():
     """A sign changes at a jump, and on a stretch where the function is nothing; where it only touches it does not."""
-    assert settled(lambda x: np.where(x < 1, -1.0, 2.0), (0, 1, 3)).roots() == pytest.approx([1])
-    assert settled(lambda x: (x - 1) ** 2, (0, 3)).roots() == pytest.approx([])
-    flat = settled(lambda x: np.where(x < 1, x - 1, np.where(x < 2, 0.0, x - 2)), (0, 1, 2, 3)).roots()
+    assert fit_piecewise(lambda x: np.where(x < 1, -1.0, 2.0), (0, 1, 3)).roots() == pytest.approx([1])
+    assert fit_piecewise(lambda x: (x - 1) ** 2, (0, 3)).roots() == pytest.approx([])
+    flat = fit_piecewise(lambda x: np.where(x < 1, x - 1, np.where(x < 2, 0.0, x - 2)), (0, 1, 2, 3)).roots()
     assert [1 <= root <= 2 for root in flat] == [True]
 
 
 def test_noise_of_what_cancels():
     """Where large numbers cancel, their rounding is no wave to be followed."""
-    noise = settled(lambda x: (np.sin(x) + 1e6) - 1e6 - np.sin(x), (0, TURN), size=1e6)
+    noise = fit_piecewise(lambda x: (np.sin(x) + 1e6) - 1e6 - np.sin(x), (0, TURN), size=1e6)
     assert len(noise.edges) < 20
 
 
@@ -69,4 +69,4 @@ def test_noise_of_what_cancels():
 def test_no_limit(function):
     """A function that grows beyond all bounds, or is unknown somewhere, is refused with the travel."""
     with np.errstate(invalid="ignore"), pytest.raises(Refused, match="travel"):
-        settled(function, (0, 1, 3))
+        fit_piecewise(function, (0, 1, 3))

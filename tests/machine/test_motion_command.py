@@ -14,7 +14,7 @@ import pytest
 
 from graphplan.commands import main
 from graphplan.commands.result_schemas import result_schema
-from graphplan.machine.motion.driven import driven
+from graphplan.machine.motion.driven import driven_machine
 from graphplan.machine.reduced.reduction import reduction
 from graphplan.mechanism.scene import load, parse, source_text
 
@@ -100,7 +100,7 @@ def test_steady_cycle_with_its_flywheel(tmp_path: Path) -> None:
 def test_driving_moments_of_the_yoke(tmp_path: Path) -> None:
     """The moments that example 13-6 asks of the drive, running up at 35.8 rad/s^2 and at 15 rad/s; and with the former
     as a table over the travel the yoke runs up so."""
-    machine = driven(reduction(load("ozols-13-6")))
+    machine = driven_machine(reduction(load("ozols-13-6")))
     degrees = np.arange(0, 181, 30)
     travel = np.radians((degrees - 60) % 360)  # the scene stands at 60 degrees
 

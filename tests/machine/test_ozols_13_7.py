@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphplan.check.motion import check_motion
-from graphplan.machine.motion.runs import Run, run
+from graphplan.machine.motion.runs import MachineMotion, motion_of_scene
 from graphplan.machine.motion.strips import by_energy, parabola, times
 from graphplan.mechanism.scene import load
 from graphplan.mechanism.units import NEWTONS
@@ -18,12 +18,12 @@ PRINTED = ((2, 357.945, 0.351934, 0.343911, 2.9077), (4, 370.890, 0.365529, 0.45
 
 
 @pytest.fixture(scope="module")
-def lowered() -> Run:
+def lowered() -> MachineMotion:
     """The loader's motion."""
-    return run(load("ozols-13-7"))
+    return motion_of_scene(load("ozols-13-7"))
 
 
-def test_printed_table(lowered: Run) -> None:
+def test_printed_table(lowered: MachineMotion) -> None:
     """Weight, arm of the cylinder and speed by steps of two degrees are the printed ones, as is the time."""
     machine = lowered.machine
     steps = np.radians([*range(0, 81, 2), 81.5])
@@ -41,9 +41,9 @@ def test_printed_table(lowered: Run) -> None:
     assert (time[2], time[-1]) == pytest.approx((0.25386, 3.3544), abs=6e-5)
 
 
-def test_accurate_motion(lowered: Run) -> None:
+def test_accurate_motion(lowered: MachineMotion) -> None:
     """Euler's steps are 9 percent high in speed at first and 2 percent short in time; a second opinion agrees."""
-    found = lowered.motion.at(np.radians([0, 2, 4, 6, 81.5]))
+    found = lowered.motion.state_at(np.radians([0, 2, 4, 6, 81.5]))
     assert found.omega == pytest.approx([0, 0.3161, 0.4241, 0.4933, 0.32778], abs=5e-5)
     assert found.time[-1] == pytest.approx(3.423, abs=5e-4)
     assert max(check_motion(lowered).values()) < 1e-10

@@ -198,7 +198,7 @@ def test_closed_forms_of_the_scotch_yoke(omega: str) -> None:
     assert found.closed
     assert found.breaks == pytest.approx([math.pi], abs=1e-13)
     phi = np.linspace(0.0, 7.0, 57)
-    told = found.at(phi)
+    told = found.reduce_at(phi)
     assert told.inertia == pytest.approx(10 + 4 * np.sin(phi) ** 2, rel=1e-14)
     assert told.slope == pytest.approx(4 * np.sin(2 * phi), abs=1e-13)
     assert told.moment == pytest.approx(-200 * np.abs(np.sin(phi)), abs=1e-11)
@@ -211,10 +211,10 @@ def test_breaks_over_a_slide_are_where_it_passes_the_places() -> None:
     found = reduction(yoke(PEAKS))
     passed = math.acos(0.5), math.acos(-0.25)  # of 0.1 and -0.05 m, on the way there and back
     assert found.breaks == pytest.approx([*passed, math.pi, *(2 * math.pi - phi for phi in passed[::-1])], abs=1e-13)
-    assert found.at(math.pi, -1).by["P_3"] == pytest.approx([0.0], abs=1e-10)
+    assert found.reduce_at(math.pi, -1).by["P_3"] == pytest.approx([0.0], abs=1e-10)
     for travel in found.breaks:
-        sides = [found.at(np.array([travel]), side).moment[0] for side in (-1, 1)]
-        near = [found.at(np.array([travel + side * 1e-7])).moment[0] for side in (-1, 1)]
+        sides = [found.reduce_at(np.array([travel]), side).moment[0] for side in (-1, 1)]
+        near = [found.reduce_at(np.array([travel + side * 1e-7])).moment[0] for side in (-1, 1)]
         assert sides == pytest.approx(near, abs=1e-3)
     assert max(check_reduction(found, np.linspace(0.01, 6.2, 40)).values()) < 1e-13
 
@@ -225,14 +225,14 @@ def test_a_table_over_two_turns_makes_a_cycle_of_two() -> None:
     assert found.ends == pytest.approx((0, 4 * math.pi))
     assert found.breaks == pytest.approx([2 * math.pi])
     force = np.array([-1000 + 1000 / 360 * 90, -1000 / 360 * 90])
-    assert found.at([math.pi / 2, 5 * math.pi / 2]).moment == pytest.approx(-0.2 * force)
+    assert found.reduce_at([math.pi / 2, 5 * math.pi / 2]).moment == pytest.approx(-0.2 * force)
 
 
 def test_loads_over_speeds_come_apart() -> None:
     """A damper's force by a slide's speed is no part of the moment: arm and rate tell it for any speed of the drive."""
     found = reduction(yoke('direction = [1, 0]\nover = "speed of 3 along frame"\npowers = [0, -100]'))
     phi = np.array([0.4, 2.0, 5.0])
-    reduced = found.at(phi)
+    reduced = found.reduce_at(phi)
     assert not reduced.moment.any()
     (damper,) = reduced.speed_loads
     assert damper.moment(7.0) == pytest.approx(-100 * 7.0 * (0.2 * np.sin(phi)) ** 2)
@@ -246,13 +246,13 @@ COEFFICIENTS = {"I_1": ((1, 0, 0, 0), 1.0), "m_2": ((0, 1, 0, 0), 0.02907), "I_C
 def test_reduced_inertia_of_a_slider_crank() -> None:
     """Ozols 13-2 with the dimensions of 5-1: I_r = I_1 + 0.02907 m_2 + 0.1113 I_C + 0.02241 m_3."""
     for name, (masses, value) in COEFFICIENTS.items():
-        assert slider_crank(MASSES.format(*masses)).at(0).inertia == pytest.approx([value], rel=5e-4), name
+        assert slider_crank(MASSES.format(*masses)).reduce_at(0).inertia == pytest.approx([value], rel=5e-4), name
 
 
 def test_reduced_force_of_a_piston() -> None:
     """Ozols 13-3: the force at the crank pin is P v_B / v_A, 0.5988 P here; the moment is OA times as large."""
     found = slider_crank('[[forces]]\non = "3"\nat = "B"\nvalue = [-1000, 0]\n[balance]\nlink = "1"\n')
-    assert found.at(0).moment == pytest.approx([0.25 * 598.8], rel=5e-4)
+    assert found.reduce_at(0).moment == pytest.approx([0.25 * 598.8], rel=5e-4)
 
 
 def test_reduced_inertia_of_a_hoist() -> None:
@@ -261,7 +261,7 @@ def test_reduced_inertia_of_a_hoist() -> None:
     The printed 0.7123 is of the ratio of other teeth than those that are given.
     """
     found = reduction(parse(HOIST, "hoist"), (0, 90))
-    assert found.at(0).inertia == pytest.approx([0.7113], abs=5e-5)
+    assert found.reduce_at(0).inertia == pytest.approx([0.7113], abs=5e-5)
     assert max(check_reduction(found, [0.0, 0.7, 1.4]).values()) < 1e-13
 
 
@@ -269,11 +269,11 @@ def test_reduced_weight_of_an_oscillating_cylinder() -> None:
     """Ozols 13-4 in numbers: 0.11314 kgf m against a clockwise drive, also by the projections of orthogonal velocities,
     and an inertia of 0.304355 kg m^2 beside the crank's own."""
     found = reduction(gp.load("ozols-10-1"))
-    assert found.at(0).inertia == pytest.approx([0.304355], abs=1e-6)
-    assert found.at(0).by["G_2"] == pytest.approx([-9.81 * 0.11314], rel=1e-4)
+    assert found.reduce_at(0).inertia == pytest.approx([0.304355], abs=1e-6)
+    assert found.reduce_at(0).by["G_2"] == pytest.approx([-9.81 * 0.11314], rel=1e-4)
     phi = np.linspace(0, 6, 13)
     for name, moment in found.projections(phi).items():
-        assert moment == pytest.approx(found.at(phi).by[name], abs=1e-12)
+        assert moment == pytest.approx(found.reduce_at(phi).by[name], abs=1e-12)
 
 
 @pytest.mark.parametrize(("angle", "force"), [(0.5, 679.38), (0.8, 535.68)])
@@ -282,7 +282,7 @@ def test_half_of_a_governor(angle: float, force: float) -> None:
     centrifugal = 2 * 2.29 * 25**2 * (0.02 + 0.25 * math.sin(angle))
     text = GOVERNOR.format(angle=math.degrees(angle) - 90, speed=1, force=centrifugal)
     found = reduction(parse(text, "governor"), (-0.01, 0.01))
-    assert found.at(0).moment == pytest.approx([force], abs=0.01)
+    assert found.reduce_at(0).moment == pytest.approx([force], abs=0.01)
     resting = parse(text.replace("speed = 1", "speed = 0"), "governor")
     assert gp.construct(resting).balances == pytest.approx([-1j * force], abs=0.01)
 
@@ -294,10 +294,10 @@ def test_a_mass_reduces_to_a_sliding_drive() -> None:
     masses = MASSES.format(2, 3, 4, 5)
     piston = reduction(parse(text + masses, "piston"), (-20, 20))
     crank = slider_crank(masses)
-    speed = math.sqrt(slider_crank(MASSES.format(0, 0, 0, 1)).at(0).inertia[0])
-    assert piston.at(0).inertia == pytest.approx(crank.at(0).inertia / speed**2)
-    ends = piston.at([-1e-3, 1e-3]).inertia
-    assert piston.at(0).slope == pytest.approx([(ends[1] - ends[0]) / 2e-6], rel=1e-5)
+    speed = math.sqrt(slider_crank(MASSES.format(0, 0, 0, 1)).reduce_at(0).inertia[0])
+    assert piston.reduce_at(0).inertia == pytest.approx(crank.reduce_at(0).inertia / speed**2)
+    ends = piston.reduce_at([-1e-3, 1e-3]).inertia
+    assert piston.reduce_at(0).slope == pytest.approx([(ends[1] - ends[0]) / 2e-6], rel=1e-5)
     assert max(check_reduction(piston, np.linspace(-20, 20, 9)).values()) < 1e-13
 
 
@@ -330,7 +330,7 @@ REFUSED = {
     "the mechanism stops at a limit position at": (lambda: reduction(gp.load("walschaerts-loaded"), (0, 90)), Refused),
     "the mass -1 is negative": (lambda: slider_crank(MASSES.format(0, -1, 0, 0)), SceneError),
     "and 180 is asked for": (lambda: reduction(yoke(
-        'direction = [1, 0]\nover = "travel"\nvalues = [[0, -1000], [90, 0]]')).at(math.pi), Refused),
+        'direction = [1, 0]\nover = "travel"\nvalues = [[0, -1000], [90, 0]]')).reduce_at(math.pi), Refused),
     "no turn closes its travel": (lambda: reduction(parse(GOVERNOR.format(angle=-60, speed=1, force=1), "")), Refused),
 }
 

@@ -14,9 +14,9 @@ import pytest
 from graphplan.check.rotors import bearing_reactions, check_rotor, equilibrium
 from graphplan.commands import main
 from graphplan.errors import Refused, SceneError
-from graphplan.machine.rotors.polygons import State
+from graphplan.machine.rotors.polygons import UnbalanceState
 from graphplan.machine.rotors.rotor import parse
-from graphplan.machine.rotors.rotor_balance import Balanced, balanced
+from graphplan.machine.rotors.rotor_balance import BalancedRotor, balance_rotor
 
 THREE = """
 [rotor]
@@ -30,9 +30,9 @@ masses = [
 ONE = "[rotor]\nplanes = [0]\n[trial]\n"
 
 
-def found(text: str) -> Balanced:
+def found(text: str) -> BalancedRotor:
     """A rotor, balanced, all its opinions compared."""
-    rotor = balanced(parse(text, "rotor.toml"))
+    rotor = balance_rotor(parse(text, "rotor.toml"))
     check_rotor(rotor)
     return rotor
 
@@ -42,7 +42,7 @@ def masses(*rows: str, planes: str = "[0, 5]") -> str:
     return f"[rotor]\nplanes = {planes}\nmasses = [{', '.join(f'{{ {row} }}' for row in rows)}]\n"
 
 
-def vectors(rotor: Balanced) -> list[complex]:
+def vectors(rotor: BalancedRotor) -> list[complex]:
     """The corrections as vectors."""
     return [cmath.rect(one.mass_radius, math.radians(one.angle)) for one in rotor.corrections]
 
@@ -69,20 +69,23 @@ def test_numbers_of_three_masses(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("text", "state", "corrections"), [
-    (masses("mass = 1, radius = 2, angle = 0, at = 1", "mass = 1, radius = 2, angle = 180, at = 3"), State.DYNAMIC,
+    (masses("mass = 1, radius = 2, angle = 0, at = 1", "mass = 1, radius = 2, angle = 180, at = 3"),
+     UnbalanceState.DYNAMIC,
      [-0.8, 0.8]),
-    (masses("mass = 1, radius = 2, angle = 90, at = 0"), State.STATIC, [-2j, 0]),
-    (masses("mass = 1, radius = 2, angle = 90, at = 5"), State.STATIC, [0, -2j]),
-    (masses("mass = 1, x = 3, y = 4, at = 10", "mass = 2, x = -3, y = -4, at = 5"), State.STATIC, [3 + 4j, 0]),
-    (masses(*(f"mass = 1, radius = 2, angle = {angle}, at = 3" for angle in (10, 130, 250))), State.BALANCED, [0, 0]),
-    (masses("mass = 0, radius = 2, angle = 90, at = 0", "mass = 3, radius = 0, angle = 0, at = 9"), State.BALANCED,
+    (masses("mass = 1, radius = 2, angle = 90, at = 0"), UnbalanceState.STATIC, [-2j, 0]),
+    (masses("mass = 1, radius = 2, angle = 90, at = 5"), UnbalanceState.STATIC, [0, -2j]),
+    (masses("mass = 1, x = 3, y = 4, at = 10", "mass = 2, x = -3, y = -4, at = 5"), UnbalanceState.STATIC, [3 + 4j, 0]),
+    (masses(*(f"mass = 1, radius = 2, angle = {angle}, at = 3" for angle in (10, 130, 250))),
+     UnbalanceState.BALANCED, [0, 0]),
+    (masses("mass = 0, radius = 2, angle = 90, at = 0", "mass = 3, radius = 0, angle = 0, at = 9"),
+     UnbalanceState.BALANCED,
      [0, 0]),
-    (masses("mass = 1, x = 3, y = 4, at = 2", planes="[0]"), State.STATIC, [-3 - 4j]),
-    (masses("mass = 1, x = 3, y = 4", planes="[7]"), State.STATIC, [-3 - 4j]),
+    (masses("mass = 1, x = 3, y = 4, at = 2", planes="[0]"), UnbalanceState.STATIC, [-3 - 4j]),
+    (masses("mass = 1, x = 3, y = 4", planes="[7]"), UnbalanceState.STATIC, [-3 - 4j]),
     (masses("mass_radius = 3, angle = 0, at = 0", "mass_radius = 5, angle = 0, at = 0.6", planes="[0.05, 0.45]"),
-     State.STATIC, [-1.5, -6.5]),
+     UnbalanceState.STATIC, [-1.5, -6.5]),
 ])  # fmt: skip
-def test_special_rotors(text: str, state: State, corrections: list[complex]) -> None:
+def test_special_rotors(text: str, state: UnbalanceState, corrections: list[complex]) -> None:
     """Rotors out of balance in force or in moment alone, in one plane, by transfer to others, or not at all."""
     rotor = found(text)
     assert rotor.sums.state is state
@@ -143,7 +146,7 @@ def test_trial_weights_run_as_a_cosine() -> None:
     weights = [60 + 14 * math.cos(math.radians(angle - 75)) for angle in angles]
     rotor = found(f"{ONE}radius = 150\nangle = 20\nweights = {weights}\n")
     assert vectors(rotor) == pytest.approx([cmath.rect(150 * 14, math.radians(75))], rel=1e-12)
-    assert found(f"{ONE}radius = 150\nweights = [4, 4, 4, 4]\n").sums.state is State.BALANCED
+    assert found(f"{ONE}radius = 150\nweights = [4, 4, 4, 4]\n").sums.state is UnbalanceState.BALANCED
 
 
 def test_trials_in_other_planes_are_carried_over() -> None:
@@ -219,6 +222,6 @@ def test_rotors_are_no_linkages(tmp_path: Path, capsys: pytest.CaptureFixture[st
 def test_what_cannot_be_is_refused(text: str, line: str) -> None:
     """What no rotor is and no measurement gives is one line with the reason."""
     with pytest.raises((SceneError, Refused)) as fault:
-        balanced(parse(text, "rotor.toml"))
+        balance_rotor(parse(text, "rotor.toml"))
     assert str(fault.value).startswith(f"rotor.toml: {line}")
     assert fault.value.status == 2

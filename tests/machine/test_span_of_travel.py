@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from graphplan.errors import Refused
-from graphplan.machine.motion.true_motion import _inside
+from graphplan.machine.motion.true_motion import require_within_span
 
 
 def machine(begin: float, period: float) -> Any:
@@ -19,12 +19,12 @@ def machine(begin: float, period: float) -> Any:
 @pytest.mark.parametrize("begin", [-200.0, -100.0, 0.0, 300.0])
 def test_a_travel_to_the_end_of_the_span_is_within_it(begin: float) -> None:
     """The last travel is reached where it is below zero, zero or above, and rounding beyond it as well."""
-    _inside(machine(begin, 100.0), begin + 20.0, begin + 100.0)
-    _inside(machine(begin, 100.0), begin + 20.0, begin + 100.0 + 5e-11)
+    require_within_span(machine(begin, 100.0), begin + 20.0, begin + 100.0)
+    require_within_span(machine(begin, 100.0), begin + 20.0, begin + 100.0 + 5e-11)
 
 
 @pytest.mark.parametrize("begin", [-200.0, -100.0, 0.0])
 def test_a_travel_beyond_the_span_is_refused(begin: float) -> None:
     """What goes on by more than rounding is refused."""
     with pytest.raises(Refused):
-        _inside(machine(begin, 100.0), begin + 20.0, begin + 100.0 + 1e-8)
+        require_within_span(machine(begin, 100.0), begin + 20.0, begin + 100.0 + 1e-8)

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from cams import lifted, outline, task_text
 
-from graphplan.cams.base import based
-from graphplan.cams.profile import Cam, made
+from graphplan.cams.base import pair_with_base
+from graphplan.cams.profile import Cam, make_cam
 from graphplan.cams.task import parse
 from graphplan.errors import GraphplanError, SceneError
 
@@ -28,7 +28,7 @@ def off_law(cam: Cam, seed: int) -> float:
     spots, random = outline(cam.arcs(FINE * cam.pair.base)), Random(seed)
     angles = np.array([random.uniform(0, 360) for _ in range(ANGLES)])
     apart = [abs(lifted(cam, spots, angle) - lift)
-             for angle, lift in zip(angles.tolist(), cam.law.at(angles).tolist(), strict=True)]
+             for angle, lift in zip(angles.tolist(), cam.law.value_at(angles).tolist(), strict=True)]
     return max(apart) / (1 if cam.task.follower.oscillates else cam.pair.base)
 
 
@@ -38,7 +38,7 @@ def test_cams_follow_their_laws(first: int) -> None:
     cams = 0
     for seed in range(first, first + TOGETHER):
         try:
-            cam = made(parse(task_text(seed), f"cam {seed}"))
+            cam = make_cam(parse(task_text(seed), f"cam {seed}"))
         except GraphplanError as refused:
             assert "crosses itself" not in str(refused), seed
             continue
@@ -50,7 +50,7 @@ def test_cams_follow_their_laws(first: int) -> None:
 def test_a_face_that_leans_too_far_is_refused() -> None:
     """A flat face on an arm beyond the pressure angle that is allowed is refused in words."""
     with pytest.raises(SceneError, match="a smaller stroke"):
-        made(parse(task_text(719), "cam 719"))
+        make_cam(parse(task_text(719), "cam 719"))
 
 
 def test_a_cam_that_crosses_itself_does_not_follow_its_law() -> None:
@@ -60,5 +60,5 @@ def test_a_cam_that_crosses_itself_does_not_follow_its_law() -> None:
     task = parse(f'{law}[follower]\nmoves = "oscillating"\ncontact = "point"\narm = 60\ncentre_distance = 100\n'
                  "[cam]\nrpm = 60\nbase = 60\n", "cam")
     with pytest.raises(SceneError, match="crosses itself"):
-        made(task)
-    assert off_law(Cam(task, based(task)), 1) > 100 * CLOSE
+        make_cam(task)
+    assert off_law(Cam(task, pair_with_base(task)), 1) > 100 * CLOSE

@@ -15,7 +15,7 @@ from graphplan.check import motion as of_motions
 from graphplan.check.balance import balancing
 from graphplan.errors import Refused
 from graphplan.machine.flywheel.result import flywheel
-from graphplan.machine.motion.runs import run
+from graphplan.machine.motion.runs import motion_of_scene
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 
@@ -32,7 +32,7 @@ def machine(seed: int) -> Scene:
 def test_a_machine_runs_as_evenly_as_was_asked_for(seed: int) -> None:
     """Its flywheel is found, and the speeds of its motion; only a machine that is even enough needs no flywheel."""
     scene = machine(seed)
-    found = run(scene)
+    found = motion_of_scene(scene)
     assert max(of_motions.check_motion(found).values()) <= CLOSE
     assert found.steady is not None
     assert scene.flywheel is not None

@@ -13,7 +13,7 @@ from tiers import sample
 from graphplan.check.reduction import check_reduction
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import GraphplanError, Refused
-from graphplan.machine.integrals import settled
+from graphplan.machine.integrals import fit_piecewise
 from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.mechanism.model import Scene
 from graphplan.solver import poses
@@ -65,15 +65,15 @@ def test_reductions_agree_with_the_solver_and_close_the_energy_balance(first: in
 
         def powers(travel: np.ndarray, scene: Scene = scene, found: Reduction = found) -> np.ndarray:
             done = delivered_by_balances(scene, found, travel) / (abs(float(scene.drives[0].rate)) or 1.0)
-            return np.array([done, found.at(travel).moment * found.unit])
+            return np.array([done, found.reduce_at(travel).moment * found.unit])
 
         try:
             if not np.isfinite(powers(np.linspace(low, high, 9))).all():  # the balances cannot hold it in some pose
                 continue
-            works = settled(powers, (low, high), size=NOTHING).whole
+            works = fit_piecewise(powers, (low, high), size=NOTHING).total_integral
         except GraphplanError:
             continue
-        energy = rate**2 / 2 * found.at(found.ends).inertia
+        energy = rate**2 / 2 * found.reduce_at(found.ends).inertia
         size = max(abs(works).sum() + energy.sum(), NOTHING)
         assert abs(works.sum() - (energy[1] - energy[0])) <= 1e-9 * size, f"linkage {seed}"
         closed += 1

@@ -7,8 +7,8 @@ from graphplan.kernel.drawing import Drawing, Values, record_drawing
 from graphplan.kernel.panel import Panel
 from graphplan.kernel.program import Board
 from graphplan.kernel.stages import Stage
-from graphplan.machine.motion.drawing import drawn
-from graphplan.machine.motion.runs import run
+from graphplan.machine.motion.drawing import draw_motion
+from graphplan.machine.motion.runs import motion_of_scene
 from graphplan.output.svg import svg
 from graphplan.phrases import said
 from graphplan.sheet.layout.composition import Composer
@@ -47,7 +47,7 @@ def test_a_plate_s_centroid_is_drawn_lettered_and_told_on_a_sheet() -> None:
 def test_the_drawing_of_a_motion_is_lettered_as_any_other() -> None:
     """Every named point of a machine's motion has its letter in the window of its plan."""
     scene = gp.load("ozols-13-7")
-    motion = drawn(run(scene, None, None, False).motion, 24)
+    motion = draw_motion(motion_of_scene(scene, None, None, False).motion, 24)
     values = motion.values if isinstance(motion.values, Values) else Values(Drawing(motion.program), motion.values)
     plans = Plans.of_values(values, scene)
     _, views = windows({panel: Rect(0.0, 0.0, 380.0, 270.0) for panel in plans.panels}, plans)

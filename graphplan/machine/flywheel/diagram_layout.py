@@ -15,19 +15,20 @@ from typing import NamedTuple
 import numpy as np
 
 from graphplan.cycle.curves import round_scale
-from graphplan.machine.flywheel.steady_cycle import Flywheel, SteadyCycle
+from graphplan.machine.flywheel.steady_cycle import FlywheelSpeeds, SteadyCycle
 from graphplan.machine.frames import AxisScale, Frame
 from graphplan.machine.integrals import Reals
 from graphplan.machine.tolerances import MOMENT_JUMP, ORDINATE_TOL
 
-NEAREST, FARTHEST = 12.0, 45.0  # the pole from the axis, in mm
-GAP, HEAD = 20.0, 16.0  # between the columns and the rows of diagrams, in mm
-OFF = 1.3  # on the axis I = 0 the intercept may be so much longer than on a parallel, for that axis to be drawn
-MISSED = 0.005  # of the energy's range: a chord that is more off passes a corner by
+MIN_POLE_MM, MAX_POLE_MM = 12.0, 45.0  # the pole from the axis, in mm
+COLUMN_GAP_MM, ROW_GAP_MM = 20.0, 16.0  # between the columns and the rows of diagrams, in mm
+# on the axis I = 0 the intercept may be so much longer than on a parallel, for that axis to be drawn
+MAX_AXIS_RATIO = 1.3
+MISSED_CORNER_SHARE = 0.005  # of the energy's range: a chord that is more off passes a corner by
 
 
 @dataclass(frozen=True)
-class Room:
+class DiagramSizes:
     """How large the diagrams may be, in mm: the common abscissa, the ordinates of moments, energies and inertias, and
     the abscissa of the turned diagram."""
 
@@ -39,7 +40,7 @@ class Room:
 
 
 @dataclass(frozen=True)
-class Plans:
+class CyclePlans:
     """What the plans give: travels in radians, the moments on either side of each, and the inertias."""
 
     travels: Reals
@@ -74,7 +75,7 @@ class Plans:
         gaps, (low, high) = self.gaps(cycle), sorted((j, k))
         return float(min(gaps[low:high].sum(), gaps[:low].sum() + gaps[high:].sum()))
 
-    def around(self, travels: Reals, places: Sequence[int]) -> Reals:
+    def travels_around(self, travels: Reals, places: Sequence[int]) -> Reals:
         """The travels of plans, those beyond the last in the next cycle."""
         count = len(travels) - 1
         return np.array([travels[k % count] + (travels[-1] - travels[0]) * (k // count) for k in places])
@@ -103,27 +104,27 @@ class Plans:
         return bool(abs(self.right[k] - self.left[k]) > MOMENT_JUMP * size)
 
 
-def plans_of(cycle: SteadyCycle, positions: int) -> Plans:
+def plans_of(cycle: SteadyCycle, positions: int) -> CyclePlans:
     """The plans at even travels, and at corners: where the moment jumps, or where a chord would pass one by."""
     even = np.linspace(*cycle.ends, positions + 1)
     plans = _plans_at(cycle, even)
     strips = np.clip(np.searchsorted(even, cycle.corners, side="right") - 1, 0, positions - 1)
     jumped = np.abs(cycle.moment.at(cycle.corners) - cycle.moment.at(cycle.corners, -1))
-    missed = plans.gaps(cycle)[strips] > MISSED * np.ptp(plans.energies)
+    missed = plans.gaps(cycle)[strips] > MISSED_CORNER_SHARE * np.ptp(plans.energies)
     return _plans_at(cycle, even, cycle.corners[missed | (jumped > MOMENT_JUMP * np.abs(plans.right).max())])
 
 
-def _plans_at(cycle: SteadyCycle, even: Reals, corners: Reals | None = None) -> Plans:
+def _plans_at(cycle: SteadyCycle, even: Reals, corners: Reals | None = None) -> CyclePlans:
     """The plans at even travels and corners; one that is near a corner to rounding is there."""
     corners = np.empty(0) if corners is None else corners
     near = np.abs(even[:, None] - corners).min(axis=1, initial=np.inf) <= ORDINATE_TOL * (even[-1] - even[0])
     travels = np.sort(np.concatenate([even[~near], corners]))
     left, right = cycle.moment.at(travels, -1), cycle.moment.at(travels)
     left[0], right[-1] = left[-1], right[0]  # the cycle goes on as it began
-    return Plans(travels, left, right, cycle.inertia.at(travels))
+    return CyclePlans(travels, left, right, cycle.inertia.at(travels))
 
 
-class Layout(NamedTuple):
+class FlywheelLayout(NamedTuple):
     """The frames of the diagrams, the distance of the pole in mm, and the inertia at which the tangents are cut."""
 
     frames: dict[str, Frame]
@@ -131,7 +132,7 @@ class Layout(NamedTuple):
     axis: float
 
 
-def laid_out(cycle: SteadyCycle, wheel: Flywheel, plans: Plans, room: Room) -> Layout:
+def lay_out(cycle: SteadyCycle, wheel: FlywheelSpeeds, plans: CyclePlans, room: DiagramSizes) -> FlywheelLayout:
     """The largest round scales for which there is room.
 
     The distance of the pole follows from them. Of the tangents' intercepts those on the axis I = 0 are drawn if they
@@ -142,28 +143,29 @@ def laid_out(cycle: SteadyCycle, wheel: Flywheel, plans: Plans, room: Room) -> L
     k_phi, k_turned = (float(round_scale(degrees / size)) for size in (room.travel, room.turned))
     axis, k_I = _parallel(plans, room)
     spans = {at: _span(plans, wheel, at) for at in (0.0, axis)}
-    roomy = np.ptp(spans[0.0]) <= OFF * np.ptp(spans[axis]) and plans.inertias.max() <= OFF * room.inertia * k_I
-    if roomy and wheel.inertia > 0:
+    intercepts_fit = np.ptp(spans[0.0]) <= MAX_AXIS_RATIO * np.ptp(spans[axis])
+    inertias_fit = plans.inertias.max() <= MAX_AXIS_RATIO * room.inertia * k_I
+    if intercepts_fit and inertias_fit and wheel.inertia > 0:
         axis = 0.0
     k_E = float(round_scale(np.ptp(spans[axis]) / room.energy))
     moments = np.array([0.0, plans.mean, *plans.left, *plans.right])
-    k_M = float(round_scale(max(np.ptp(moments) / room.moment, k_E / (FARTHEST * k_phi * degree))))
-    if k_E < NEAREST * k_M * k_phi * degree:
-        k_E = float(round_scale(NEAREST * k_M * k_phi * degree))
+    k_M = float(round_scale(max(np.ptp(moments) / room.moment, k_E / (MAX_POLE_MM * k_phi * degree))))
+    if k_E < MIN_POLE_MM * k_M * k_phi * degree:
+        k_E = float(round_scale(MIN_POLE_MM * k_M * k_phi * degree))
     length, width = degrees / k_phi, float(plans.inertias.max() - axis) / k_I
     low, high = spans[axis][0] / k_E, spans[axis][1] / k_E
     M = Frame((0.0, 0.0), AxisScale(k_phi, begin), AxisScale(k_M), (0.0, length),
               (float(moments.min()) / k_M, float(moments.max()) / k_M))
-    drop, beside = M.upright[0] - HEAD - high, length + GAP
+    drop, beside = M.upright[0] - ROW_GAP_MM - high, length + COLUMN_GAP_MM
     E = Frame((0.0, drop), M.x, AxisScale(k_E), (0.0, length), (low, high))
-    I = Frame((beside, drop + high + HEAD), AxisScale(k_I, axis), AxisScale(k_turned, begin), (0.0, width),
+    I = Frame((beside, drop + high + ROW_GAP_MM), AxisScale(k_I, axis), AxisScale(k_turned, begin), (0.0, width),
               (0.0, degrees / k_turned))
-    return Layout({"moment": M, "energy": E, "inertia": I,
+    return FlywheelLayout({"moment": M, "energy": E, "inertia": I,
                     "energy-mass": Frame((beside, drop), I.x, E.y, (0.0, width), (low, high))},
                    k_E / (k_M * k_phi * degree), axis)
 
 
-def _parallel(plans: Plans, room: Room) -> tuple[float, float]:
+def _parallel(plans: CyclePlans, room: DiagramSizes) -> tuple[float, float]:
     """A round inertia a little less than the least, and the scale at which the others have room right of it."""
     least, most = float(plans.inertias.min()), float(plans.inertias.max())
     varies = most - least > ORDINATE_TOL * most
@@ -172,7 +174,7 @@ def _parallel(plans: Plans, room: Room) -> tuple[float, float]:
     return (math.floor(least / step) * step if varies else least), k_I
 
 
-def _span(plans: Plans, wheel: Flywheel, axis: float) -> tuple[float, float]:
+def _span(plans: CyclePlans, wheel: FlywheelSpeeds, axis: float) -> tuple[float, float]:
     """From where to where the energies go, with those at which the tangents cut a parallel."""
     m, n = (one.cut + one.slope * axis for one in (wheel.upper, wheel.lower))
     energies = plans.energies

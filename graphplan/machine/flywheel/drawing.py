@@ -23,15 +23,15 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage
-from graphplan.machine.flywheel.diagram_layout import Room, laid_out, plans_of
-from graphplan.machine.flywheel.steady_cycle import Flywheel, SteadyCycle, Touch
+from graphplan.machine.flywheel.diagram_layout import DiagramSizes, lay_out, plans_of
+from graphplan.machine.flywheel.steady_cycle import FlywheelSpeeds, SteadyCycle, Tangency
 from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Reals
 from graphplan.machine.tolerances import LINE_TOL_MM, PLAN_TOL
 from graphplan.phrases import Said, digits, said
 
 FLYWHEEL = Panel("flywheel", said("flywheel"), said("Moment, energy, inertia and the energy-mass diagram"))
-FEW, MOST = 6, 720  # plans, those included with which the error of the strips is found
+MIN_POSITIONS, MAX_POSITIONS = 6, 720  # plans, those included with which the error of the strips is found
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +44,7 @@ class FlywheelDrawing:
     """
 
     cycle: SteadyCycle
-    wheel: Flywheel
+    wheel: FlywheelSpeeds
     program: Program
     travels: Reals
     frames: dict[str, Frame]
@@ -114,19 +114,21 @@ class FlywheelDrawing:
         return float(first + (read - first) % (last - first))
 
 
-def drawn(cycle: SteadyCycle, wheel: Flywheel, positions: int = 24, room: Room | None = None) -> FlywheelDrawing:
+def draw_flywheel(cycle: SteadyCycle, wheel: FlywheelSpeeds, positions: int = 24,
+                  room: DiagramSizes | None = None) -> FlywheelDrawing:
     """The drawing of the flywheel, from so many plans of the cycle; fails with `Refused` where these are too few."""
-    if not FEW <= positions <= MOST:
-        raise Refused(f"{positions} positions", "the curves are drawn through them", f"from {FEW} to {MOST}")
-    return _Sheet(cycle, wheel, positions, room or Room()).drawing
+    if not MIN_POSITIONS <= positions <= MAX_POSITIONS:
+        raise Refused(f"{positions} positions", "the curves are drawn through them",
+                      f"from {MIN_POSITIONS} to {MAX_POSITIONS}")
+    return _FlywheelRecorder(cycle, wheel, positions, room or DiagramSizes()).drawing
 
 
-class _Sheet:
+class _FlywheelRecorder:
     """Draws one flywheel on the board."""
 
-    def __init__(self, cycle: SteadyCycle, wheel: Flywheel, positions: int, room: Room):
+    def __init__(self, cycle: SteadyCycle, wheel: FlywheelSpeeds, positions: int, room: DiagramSizes):
         self.cycle, self.wheel, self.plans = cycle, wheel, plans_of(cycle, positions)
-        self.scales = laid_out(cycle, wheel, self.plans, room)
+        self.scales = lay_out(cycle, wheel, self.plans, room)
         self.frames, self.board = self.scales.frames, Board()
         self.found: dict[str, list[Mark]] = {}
         self.told = np.degrees(self.plans.travels)
@@ -137,7 +139,7 @@ class _Sheet:
     def drawing(self) -> FlywheelDrawing:
         """The finished program."""
         with self.board.on(FLYWHEEL):
-            self._given()
+            self.draw_given()
             for title, law, draw in self._stages():
                 with self.board.on(FLYWHEEL, stage=Stage(title, law)):
                     draw()
@@ -165,10 +167,10 @@ class _Sheet:
 
     def _mark(self, frame: str, x: float, y: float, name: str) -> Mark:
         """A point given by two values."""
-        at = self.frames[frame].at(x, y)
+        at = self.frames[frame].position(x, y)
         return self.board.given(x=float(at[0]), y=float(at[1]), name=name)
 
-    def _given(self) -> None:
+    def draw_given(self) -> None:
         """What the plans give: moments on both sides of each travel, and inertias."""
         plans, last = self.plans, len(self.told) - 1
         self.before, self.after = list[Mark](), list[Mark]()
@@ -231,7 +233,7 @@ class _Sheet:
             self.found |= {which: [board.parallel(guide, cut, why=said("the tangent"))], letter: [cut],
                            f"{which} apex": [apex]}
 
-    def _outermost(self, guide: Mark, touch: Touch, letter: str) -> tuple[Mark, Mark]:
+    def _outermost(self, guide: Mark, touch: Tangency, letter: str) -> tuple[Mark, Mark]:
         """Where the tangent cuts the axis, and the point over the travel at which it touches.
 
         Parallels through three neighbours cut the axis; their cuts, over the travels of these, are points of a parabola
@@ -240,13 +242,13 @@ class _Sheet:
         k, three = self._neighbours(touch.slope, above=letter == "m")
         if len(three) == 1:
             cut = self.board.meet(self.axis, self.board.parallel(guide, self.points[k]), name=letter)
-            return cut, self._over(cut, k)
+            return cut, self.level_over(cut, k)
         round_trip = len(self.points) - 1
         cuts = [self.board.meet(self.axis, self.board.parallel(guide, self.points[j % round_trip]),
                                 name=f"{letter}_{self.numbers[j % round_trip]}") for j in three]
-        A, B, C = (self.board.give_name(self._over(cut, j), f"{name}_{letter}")
+        A, B, C = (self.board.give_name(self.level_over(cut, j), f"{name}_{letter}")
                    for name, cut, j in zip("ABC", cuts, three, strict=True))
-        first, middle, last = self.plans.around(self.told, three)
+        first, middle, last = self.plans.travels_around(self.told, three)
         return self._vertex(A, B, C, float((middle - first) / (last - first)), letter)
 
     def _neighbours(self, slope: float, above: bool) -> tuple[int, list[int]]:
@@ -256,9 +258,9 @@ class _Sheet:
         middle = k or len(self.told) - 1
         three = [middle - 1, middle, middle + 1]
         mm = plans.heights(slope)[np.array(three) % (len(self.told) - 1)] / self.frames["energy"].y.unit
-        return k, [k] if plans.jumps(k) or _straight(plans.around(self.told, three), mm) else three
+        return k, [k] if plans.jumps(k) or are_in_line(plans.travels_around(self.told, three), mm) else three
 
-    def _over(self, cut: Mark, k: int) -> Mark:
+    def level_over(self, cut: Mark, k: int) -> Mark:
         """The level of a cut over the travel of a plan."""
         board, energies = self.board, self.energies
         at = energies[k] if k < len(energies) else board.transfer(
@@ -285,7 +287,7 @@ class _Sheet:
         return cut, board.divide(F, C, G, L, K, name=f"T_{letter}")
 
 
-def _straight(travels: Reals, heights: Reals) -> bool:
+def are_in_line(travels: Reals, heights: Reals) -> bool:
     """Whether three points lie on a line."""
     first, middle, last = heights
     part = (travels[1] - travels[0]) / (travels[2] - travels[0])

@@ -26,7 +26,7 @@ NEGLECTS_NOTHING = said("neglects nothing")
 
 
 @dataclass(frozen=True)
-class Found:
+class MethodResult:
     """A flywheel as one method finds it, in kg m^2; the energy A that it stores, in J; and what is neglected."""
 
     name: str
@@ -36,7 +36,7 @@ class Found:
     figures: dict[str, object] = field(default_factory=dict)
 
 
-def methods(cycle: SteadyCycle, unevenness: float, motor: Speeds | None = None) -> list[Found]:
+def methods(cycle: SteadyCycle, unevenness: float, motor: Speeds | None = None) -> list[MethodResult]:
     """What each of the other methods finds for an unevenness; `motor` gives the moment of a motor at a speed."""
     found = [gutjahr(cycle, unevenness), area_vectors(cycle, unevenness), power(cycle, unevenness)]
     return found if motor is None else [*found, characteristic(cycle, unevenness, motor)]
@@ -55,17 +55,17 @@ class Area(NamedTuple):
 
 def areas(cycle: SteadyCycle) -> list[Area]:
     """The areas between the nodes of the whole moment, from the first node on and once around."""
-    nodes = cycle.whole.roots()
+    nodes = cycle.closed_moment.roots()
     if not len(nodes):
         return []
     (first, last), energy = cycle.ends, cycle.energy
     edges = [float(at) for at in np.unique(np.where(nodes >= last, first, nodes))]
     edges.append(edges[0] + cycle.span)
-    found = [Area(low, high, _between(energy, low, high)) for low, high in pairwise(edges)]
-    return [*_merged(found, AREA_TOL * sum(abs(area.work) for area in found))]
+    found = [Area(low, high, work_between(energy, low, high)) for low, high in pairwise(edges)]
+    return [*merge_areas(found, AREA_TOL * sum(abs(area.work) for area in found))]
 
 
-def _between(energy: Piecewise, low: float, high: float) -> float:
+def work_between(energy: Piecewise, low: float, high: float) -> float:
     """The work from one travel to another, which may be beyond the end of the cycle."""
     first, last = energy.edges[0], energy.edges[-1]
     if high <= last:
@@ -73,7 +73,7 @@ def _between(energy: Piecewise, low: float, high: float) -> float:
     return float(energy.at(last, -1) - energy.at(low) + energy.at(high - last + first, -1))
 
 
-def _merged(found: list[Area], nothing: float) -> Iterator[Area]:
+def merge_areas(found: list[Area], nothing: float) -> Iterator[Area]:
     """Areas without those that are nothing; neighbours of one sign are one."""
     last = None
     for area in found:
@@ -89,14 +89,14 @@ def _merged(found: list[Area], nothing: float) -> Iterator[Area]:
         yield last
 
 
-def area_vectors(cycle: SteadyCycle, unevenness: float) -> Found:
+def area_vectors(cycle: SteadyCycle, unevenness: float) -> MethodResult:
     """The largest surplus A by the areas laid one after the other: the distance of the outermost levels."""
     found = areas(cycle)
     levels = [0.0, *accumulate(area.work for area in found)]
     stored = max(levels) - min(levels)
     nodes = [*(area.start for area in found), *(area.end for area in found[-1:])]
     low, high = (nodes[int(best(levels))] if nodes else 0.0 for best in (np.argmin, np.argmax))
-    return Found("area vectors", stored / _divisor(cycle, unevenness), stored,
+    return MethodResult("area vectors", stored / energy_divisor(cycle, unevenness), stored,
                  said("takes the reduced inertia as constant, and leaves it out"),
                  {"areas": found, "least_at": low, "most_at": high})
 
@@ -104,7 +104,7 @@ def area_vectors(cycle: SteadyCycle, unevenness: float) -> Found:
 # ---- Gutjahr ---------------------------------------------------------------------------------------------------------
 
 
-def gutjahr(cycle: SteadyCycle, unevenness: float) -> Found:
+def gutjahr(cycle: SteadyCycle, unevenness: float) -> MethodResult:
     """The flywheel by the curves of E - I omega^2/2, drawn with the largest and with the least speed.
 
     The first has its maximum where the speed is largest, the second its minimum where it is least.
@@ -113,11 +113,11 @@ def gutjahr(cycle: SteadyCycle, unevenness: float) -> Found:
     square, ends = cycle.speed**2 / 2, list[tuple[float, float]]()
     for way in (1, -1):
         squared = (1 + way * unevenness / 2) ** 2 * square
-        curve, rate = cycle.energy + (cycle.inertia + -least) * -squared, cycle.whole + cycle.slope * -squared
+        curve, rate = cycle.energy + (cycle.inertia + -least) * -squared, cycle.closed_moment + cycle.slope * -squared
         ends.append(curve.extremes(rate)[way > 0])
     (fast, most), (slow, lowest) = ends
-    inertia = (most - lowest) / _divisor(cycle, unevenness) - least
-    return Found("gutjahr", inertia, most - lowest, NEGLECTS_NOTHING,
+    inertia = (most - lowest) / energy_divisor(cycle, unevenness) - least
+    return MethodResult("gutjahr", inertia, most - lowest, NEGLECTS_NOTHING,
                  {"omega_max_at": fast, "omega_min_at": slow, "least_inertia": least})
 
 
@@ -137,7 +137,7 @@ def rectangles(work: float, work_time: float, idle: float, idle_time: float) -> 
     return Rectangles(mean, (work - mean) * work_time)
 
 
-def power(cycle: SteadyCycle, unevenness: float) -> Found:
+def power(cycle: SteadyCycle, unevenness: float) -> MethodResult:
     """The flywheel by the powers of one working stroke and of all the rest, at the mean speed.
 
     The stroke is the longest run of travel over which energy is taken from the flywheel.
@@ -148,8 +148,8 @@ def power(cycle: SteadyCycle, unevenness: float) -> Found:
                for work, length in ((taken.work, span), (-taken.work, cycle.span - span))]
     (work, work_time), (idle, idle_time) = strokes
     found = rectangles(work + drive, work_time, idle + drive, idle_time)
-    inertia = found.surplus / _divisor(cycle, unevenness) - cycle.mean_inertia
-    return Found("power", inertia, found.surplus,
+    inertia = found.surplus / energy_divisor(cycle, unevenness) - cycle.mean_inertia
+    return MethodResult("power", inertia, found.surplus,
                  said("takes one working stroke and idling, each of constant power, and the mean of the inertia"),
                  {"work": work + drive, "work_time": work_time, "idle": idle + drive, "idle_time": idle_time,
                   "mean": found.mean})
@@ -158,31 +158,32 @@ def power(cycle: SteadyCycle, unevenness: float) -> Found:
 # ---- the motor's characteristic --------------------------------------------------------------------------------------
 
 
-def characteristic(cycle: SteadyCycle, unevenness: float, motor: Speeds) -> Found:
+def characteristic(cycle: SteadyCycle, unevenness: float, motor: Speeds) -> MethodResult:
     """The flywheel where a motor gives way: the larger of the areas between its moment and that of the load.
 
     Where the load has the motor's moment of the largest speed work begins, and it ends where it has that of the least;
     between these places the motor's moment runs straight, and straight back while the machine idles.
     """
-    rest, (first, _) = cycle.whole + -motor(cycle.speed), cycle.ends
+    rest, (first, _) = cycle.closed_moment + -motor(cycle.speed), cycle.ends
     levels = [motor((1 + way * unevenness / 2) * cycle.speed) for way in (1, -1)]
-    (slow, _), (fast, _) = cycle.energy.extremes(cycle.whole)
-    start, end = (_nearest(cycle, (rest + level).roots(), at) for level, at in zip(levels, (fast, slow), strict=True))
+    (slow, _), (fast, _) = cycle.energy.extremes(cycle.closed_moment)
+    start, end = (nearest_travel(cycle, (rest + level).roots(), at) for level,
+                  at in zip(levels, (fast, slow), strict=True))
     load, middle, worked = rest.integral(), sum(levels) / 2, (end - start) % cycle.span
-    works = [_between(load, low, low + length) + middle * length
+    works = [work_between(load, low, low + length) + middle * length
              for low, length in ((start, worked), (first + (end - first) % cycle.span, cycle.span - worked))]
     stored = max(map(abs, works))
-    return Found("characteristic", stored / _divisor(cycle, unevenness) - cycle.mean_inertia, stored,
+    return MethodResult("characteristic", stored / energy_divisor(cycle, unevenness) - cycle.mean_inertia, stored,
                  said("lets the motor's moment run straight between its two levels, and takes the mean of the inertia"),
                  {"moment_at_omega_max": levels[0], "moment_at_omega_min": levels[1], "work": (start, end)})
 
 
-def _nearest(cycle: SteadyCycle, places: Reals, to: float) -> float:
+def nearest_travel(cycle: SteadyCycle, places: Reals, to: float) -> float:
     """The nearest of some travels on the round of the cycle; the travel itself where there is none."""
     around = [abs((at - to + cycle.span / 2) % cycle.span - cycle.span / 2) for at in places]
     return float(places[int(np.argmin(around))]) if around else to
 
 
-def _divisor(cycle: SteadyCycle, unevenness: float) -> float:
+def energy_divisor(cycle: SteadyCycle, unevenness: float) -> float:
     """What divides an energy: delta omega^2."""
     return unevenness * cycle.speed**2

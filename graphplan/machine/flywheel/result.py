@@ -12,16 +12,16 @@ from typing import Any
 import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.machine.flywheel.drawing import FlywheelDrawing, drawn
-from graphplan.machine.flywheel.other_methods import Found, Speeds, methods
+from graphplan.machine.flywheel.drawing import FlywheelDrawing, draw_flywheel
+from graphplan.machine.flywheel.other_methods import MethodResult, Speeds, methods
 from graphplan.machine.flywheel.steady_cycle import (
-    Flywheel,
+    FlywheelSpeeds,
     SteadyCycle,
     by_mean_energy,
     reduced_rows,
-    sized,
-    steady,
-    turning,
+    size_flywheel,
+    steady_cycle,
+    turn_with,
 )
 from graphplan.machine.integrals import Reals
 from graphplan.machine.reduced.reduction import Reduction, reduction
@@ -31,7 +31,7 @@ from graphplan.mechanism.travel import TURN, printed_travels
 from graphplan.mechanism.units import KILOGRAMS
 from graphplan.phrases import Said, digits, said
 
-PLANS, MANY = 24, 120  # of a turn, and of many turns, where nothing is said
+PLANS_PER_TURN, MAX_PLANS = 24, 120  # of a turn, and of many turns, where nothing is said
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,10 +41,10 @@ class FlywheelResult:
 
     reduction: Reduction
     cycle: SteadyCycle
-    wheel: Flywheel
+    wheel: FlywheelSpeeds
     unevenness: float
     given: bool
-    methods: tuple[Found, ...]
+    methods: tuple[MethodResult, ...]
     positions: int
     check: Mapping[str, float] = field(default_factory=dict)
 
@@ -58,7 +58,7 @@ class FlywheelResult:
         cycle = self.cycle
         if cycle.factor != 1:
             yield said("the loads that change are multiplied by {0}, so that the cycle closes", digits(cycle.factor, 6))
-        if self.reduction.at(self.travels[:1]).speed_loads:
+        if self.reduction.reduce_at(self.travels[:1]).speed_loads:
             yield said("loads over a speed are taken as they are at the mean speed")
 
     @property
@@ -67,16 +67,16 @@ class FlywheelResult:
         return np.linspace(*self.cycle.ends, self.positions + 1)
 
     @property
-    def told_travels(self) -> Any:
+    def travels_in_degrees(self) -> Any:
         """The same in degrees."""
-        return self.told(self.travels)
+        return self.in_degrees(self.travels)
 
     @cached_property
     def plans(self) -> dict[str, Reals]:
         """What there is at each plan."""
-        return self.at(self.travels)
+        return self.values_at(self.travels)
 
-    def at(self, travels: Reals) -> dict[str, Reals]:
+    def values_at(self, travels: Reals) -> dict[str, Reals]:
         """What there is at some travels: inertia, moment of the loads, whole moment, energy and speed."""
         cycle = self.cycle
         names, (inertia, _, *moments) = reduced_rows(self.reduction, travels, cycle.speed)
@@ -85,7 +85,7 @@ class FlywheelResult:
         return {"inertia": inertia, "moment": moment, "whole": moment + cycle.closing,
                 "energy": cycle.energy.at(travels) - cycle.energy.at(cycle.ends[0]), "omega": self.omega(travels)}
 
-    def told(self, travel: Any) -> Any:
+    def in_degrees(self, travel: Any) -> Any:
         """Travels in degrees."""
         return printed_travels(self.scene, travel)
 
@@ -95,19 +95,19 @@ class FlywheelResult:
         return np.sqrt(2 * stored / (self.cycle.inertia.at(travel) + self.wheel.inertia))
 
     @property
-    def own(self) -> Flywheel | None:
+    def without_flywheel(self) -> FlywheelSpeeds | None:
         """The speeds without a flywheel; none where the machine then does not come round."""
-        return _if_it_comes_round(turning, self.cycle)
+        return speeds_if_it_turns(turn_with, self.cycle)
 
     @property
-    def by_mean_energy(self) -> Flywheel | None:
+    def by_mean_energy(self) -> FlywheelSpeeds | None:
         """The speeds without a flywheel, the origin found by the mean energy, as the textbook has it."""
-        return _if_it_comes_round(by_mean_energy, self.cycle)
+        return speeds_if_it_turns(by_mean_energy, self.cycle)
 
     @cached_property
     def drawing(self) -> FlywheelDrawing:
         """The drawing with as many plans."""
-        return drawn(self.cycle, self.wheel, self.positions)
+        return draw_flywheel(self.cycle, self.wheel, self.positions)
 
     @cached_property
     def strip_error(self) -> float:
@@ -115,7 +115,7 @@ class FlywheelResult:
         return self.drawing.strip_error * self.drawing.change(self.given)
 
     @property
-    def measured(self) -> float:
+    def drawn_result(self) -> float:
         """The drawn flywheel, in kg m^2 (kg), or the drawn unevenness with a given one."""
         return self.drawing.unevenness if self.given else self.drawing.inertia
 
@@ -133,29 +133,29 @@ def flywheel(scene: Scene, positions: int | None = None, *, what: str = "flywhee
         reduced = reduction(scene)
     except Refused as fault:
         raise Refused(what, f"the cycle does not close: {fault.why}", "a first drive that makes full turns") from None
-    cycle = steady(reduced, float(wish.speed), wish.closes, reduced.changing, what)
+    cycle = steady_cycle(reduced, float(wish.speed), wish.closes, reduced.changing, what)
     if wish.inertia is not None:
-        wheel = turning(cycle, float(wish.inertia) * float(KILOGRAMS[scene.units.mass]), what)
+        wheel = turn_with(cycle, float(wish.inertia) * float(KILOGRAMS[scene.units.mass]), what)
         unevenness = wheel.unevenness
     else:
         unevenness = float(wish.unevenness or 0)
-        wheel = sized(cycle, unevenness, what)
+        wheel = size_flywheel(cycle, unevenness, what)
     found = tuple(methods(cycle, unevenness, motor(reduced))) if unevenness > 0 else ()
-    plans = positions or min(PLANS * max(1, round(cycle.span / TURN)), MANY)
+    plans = positions or min(PLANS_PER_TURN * max(1, round(cycle.span / TURN)), MAX_PLANS)
     return FlywheelResult(reduced, cycle, wheel, unevenness, wish.inertia is not None, found, plans)
 
 
 def motor(reduced: Reduction) -> Speeds | None:
     """The moment at a speed of the loads over the drive's speed, whatever the travel; none where there are none."""
     first, last = reduced.ends
-    loads = [load for load in reduced.at(np.linspace(first, last, 7)[:-1]).speed_loads
+    loads = [load for load in reduced.reduce_at(np.linspace(first, last, 7)[:-1]).speed_loads
              if all(np.ptp(part) <= MOTOR_TOL * np.abs(part).max() for part in (load.arm, load.rate))]
     return (lambda omega: math.fsum(float(np.ravel(load.moment(omega))[0]) for load in loads)) if loads else None
 
 
-def _if_it_comes_round(find: Any, cycle: SteadyCycle) -> Flywheel | None:
+def speeds_if_it_turns(find: Any, cycle: SteadyCycle) -> FlywheelSpeeds | None:
     try:
-        found: Flywheel = find(cycle, 0.0)
+        found: FlywheelSpeeds = find(cycle, 0.0)
     except Refused:
         return None
     return found

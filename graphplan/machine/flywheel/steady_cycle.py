@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.machine.integrals import Piecewise, Reals, settled
+from graphplan.machine.integrals import Piecewise, Reals, fit_piecewise
 from graphplan.machine.tolerances import CANCELLED_WORK_TOL, EVENNESS_TOL, MACHINE_SHARE, SPEED_TOL, WORK_TOL
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 DRIVE, LOAD = "drive", "load"
 WEIGHT = "G_"  # what the names of weights begin with
-SAMPLES = 25  # travels that tell how large inertia and moments are
+SIZE_SAMPLES = 25  # travels that tell how large inertia and moments are
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,18 +55,18 @@ class SteadyCycle:
     @cached_property
     def moment(self) -> Piecewise:
         """The moment of all loads, without the closing moment."""
-        return _sum(self.loads.values(), self.inertia)
+        return sum_of_functions(self.loads.values(), self.inertia)
 
     @cached_property
-    def whole(self) -> Piecewise:
+    def closed_moment(self) -> Piecewise:
         """The moment of all loads and of the drive: its integral over the cycle is nothing."""
         size = sum(float(np.abs(load.terms).max()) for load in self.loads.values())
-        return (self.moment + self.closing).beside(size)
+        return (self.moment + self.closing).without_rounding(size)
 
     @cached_property
     def energy(self) -> Piecewise:
         """The kinetic energy beyond that at the beginning of the cycle, in J."""
-        return self.whole.integral()
+        return self.closed_moment.integral()
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -81,14 +81,14 @@ class SteadyCycle:
     @property
     def mean_inertia(self) -> float:
         """The mean of the inertia over the travel."""
-        return float(self.inertia.whole) / self.span
+        return float(self.inertia.total_integral) / self.span
 
     def work(self, name: str) -> float:
         """The work of a load over the cycle, in J."""
-        return float(self.loads[name].whole)
+        return float(self.loads[name].total_integral)
 
 
-def steady(reduction: Reduction, speed: float, closes: str = DRIVE, changing: Collection[str] = (),
+def steady_cycle(reduction: Reduction, speed: float, closes: str = DRIVE, changing: Collection[str] = (),
            what: str = "flywheel") -> SteadyCycle:
     """The steady cycle of a machine at a mean speed, in rad/s.
 
@@ -99,13 +99,13 @@ def steady(reduction: Reduction, speed: float, closes: str = DRIVE, changing: Co
         low, high = (math.degrees(end) for end in reduction.ends)
         raise Refused(what, f"the cycle does not close: its first drive goes from {low:.4g}° to {high:.4g}°",
                       "a first drive that makes full turns")
-    inertia, slope, loads = _reduced(reduction, speed)
-    works = {name: float(moment.whole) for name, moment in loads.items()}
+    inertia, slope, loads = reduced_curves(reduction, speed)
+    works = {name: float(moment.total_integral) for name, moment in loads.items()}
     closing, factor, span = 0.0, 1.0, float(inertia.edges[-1] - inertia.edges[0])
-    size = max(sum(map(_to_and_fro, loads.values())), reduction.size.moment * span)
-    _weights(works, size, what)
+    size = max(sum(map(work_to_and_fro, loads.values())), reduction.machine_size.moment * span)
+    require_idle_weights(works, size, what)
     if closes == LOAD:
-        factor = _factor(loads, works, changing, size, what)
+        factor = closing_factor(loads, works, changing, size, what)
         loads = {name: moment * factor if name in changing else moment for name, moment in loads.items()}
     else:
         done = sum(works.values())
@@ -115,27 +115,27 @@ def steady(reduction: Reduction, speed: float, closes: str = DRIVE, changing: Co
     return SteadyCycle(speed, inertia, slope, loads, closing, factor, tuple(changing), corners)
 
 
-def _reduced(reduction: Reduction, speed: float) -> tuple[Piecewise, Piecewise, dict[str, Piecewise]]:
+def reduced_curves(reduction: Reduction, speed: float) -> tuple[Piecewise, Piecewise, dict[str, Piecewise]]:
     """Inertia, its slope and the moments of the loads by name, all of the same panels."""
     first, last = reduction.ends
-    inside = first + (last - first) * (np.arange(SAMPLES) + 0.5) / SAMPLES
+    inside = first + (last - first) * (np.arange(SIZE_SAMPLES) + 0.5) / SIZE_SAMPLES
     names, rows = reduced_rows(reduction, inside, speed)
     sizes = np.abs(rows).max(axis=1)
     sizes[1] = max(sizes[1], sizes[0])
-    sizes[2:] = max(np.abs(rows[2:]).sum(axis=0).max(initial=0.0), MACHINE_SHARE * reduction.size.moment)
+    sizes[2:] = max(np.abs(rows[2:]).sum(axis=0).max(initial=0.0), MACHINE_SHARE * reduction.machine_size.moment)
     edges = [first, *(at for at in reduction.breaks if first < at < last), last]
-    inertia, slope, *moments = settled(lambda travel: reduced_rows(reduction, travel, speed)[1], edges, sizes)
+    inertia, slope, *moments = fit_piecewise(lambda travel: reduced_rows(reduction, travel, speed)[1], edges, sizes)
     return inertia, slope, dict(zip(names, moments, strict=True))
 
 
 def reduced_rows(reduction: Reduction, travel: Reals, speed: float) -> tuple[list[str], Reals]:
     """The names of the loads; and inertia, slope and the moments of the loads at a mean speed, as rows."""
-    reduced = reduction.at(travel)
+    reduced = reduction.reduce_at(travel)
     loads = {**reduced.by, **{load.name: load.moment(speed) for load in reduced.speed_loads}}
     return [*loads], np.array([reduced.inertia, reduced.slope, *loads.values()])
 
 
-def _weights(works: Mapping[str, float], size: float, what: str) -> None:
+def require_idle_weights(works: Mapping[str, float], size: float, what: str) -> None:
     """Refuse weights that do work over a cycle, beside the size of all work."""
     for name, work in works.items():
         if name.startswith(WEIGHT) and abs(work) > WORK_TOL * size:
@@ -143,12 +143,12 @@ def _weights(works: Mapping[str, float], size: float, what: str) -> None:
                           "does not come back to where it began", "a drive of which one turn is a whole cycle")
 
 
-def _to_and_fro(moment: Piecewise) -> float:
+def work_to_and_fro(moment: Piecewise) -> float:
     """The work that a moment does, whichever way, as its panels tell."""
     return float(np.abs(moment.terms[..., 0]) @ np.diff(moment.edges))
 
 
-def _factor(loads: Mapping[str, Piecewise], works: Mapping[str, float], changing: Collection[str], size: float,
+def closing_factor(loads: Mapping[str, Piecewise], works: Mapping[str, float], changing: Collection[str], size: float,
             what: str) -> float:
     """By what the loads that change are multiplied so that the cycle closes; `size` is that of all work."""
     if not [name for name in loads if name in changing]:
@@ -162,7 +162,7 @@ def _factor(loads: Mapping[str, Piecewise], works: Mapping[str, float], changing
     return -rest / done
 
 
-def _sum(functions: Collection[Piecewise], like: Piecewise) -> Piecewise:
+def sum_of_functions(functions: Collection[Piecewise], like: Piecewise) -> Piecewise:
     """The sum of functions of the same panels as another."""
     found = like * 0.0
     for function in functions:
@@ -173,10 +173,10 @@ def _sum(functions: Collection[Piecewise], like: Piecewise) -> Piecewise:
 # ---- Wittenbauer's diagram ------------------------------------------------------------------------------------------
 
 
-MOST = 200  # steps towards the origin's energy
+MAX_ORIGIN_ROUNDS = 200  # steps towards the origin's energy
 
 
-class Touch(NamedTuple):
+class Tangency(NamedTuple):
     """A tangent of the energy-mass curve: its slope in J/(kg m^2), where it cuts the axis I = 0 in J, the travel at
     which it touches, and inertia and energy there."""
 
@@ -188,15 +188,15 @@ class Touch(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Flywheel:
+class FlywheelSpeeds:
     """A flywheel on the first drive, and the speeds with it: the `upper` and the `lower` tangent meet in the origin.
 
     `inertia` is beside that of the machine, in kg m^2; `origin` is the energy there, in J.
     """
 
     inertia: float
-    upper: Touch
-    lower: Touch
+    upper: Tangency
+    lower: Tangency
     origin: float
 
     @property
@@ -217,53 +217,53 @@ class Flywheel:
         return (self.upper.cut - self.lower.cut) + (self.upper.slope - self.lower.slope) * at
 
 
-def touch(cycle: SteadyCycle, slope: float, above: bool) -> Touch:
+def tangent(cycle: SteadyCycle, slope: float, above: bool) -> Tangency:
     """The tangent of a slope to the energy-mass curve, from above or from below."""
     over = cycle.energy + cycle.inertia * -slope
-    rate = cycle.whole + cycle.slope * -slope
+    rate = cycle.closed_moment + cycle.slope * -slope
     travel, cut = over.extremes(rate)[above]
-    return Touch(slope, cut, travel, float(cycle.inertia.at(travel)), float(cycle.energy.at(travel)))
+    return Tangency(slope, cut, travel, float(cycle.inertia.at(travel)), float(cycle.energy.at(travel)))
 
 
-def sized(cycle: SteadyCycle, unevenness: float, what: str = "flywheel") -> Flywheel:
+def size_flywheel(cycle: SteadyCycle, unevenness: float, what: str = "flywheel") -> FlywheelSpeeds:
     """The flywheel with which the speed varies as little as is asked for.
 
     Fails with `Refused` where the machine needs none.
     """
     upper, lower = _tangents(cycle, unevenness)
-    inertia = needed(cycle, unevenness)
+    inertia = needed_inertia(cycle, unevenness)
     if not inertia:
-        own = turning(cycle, 0.0).unevenness
+        own = turn_with(cycle, 0.0).unevenness
         if own <= EVENNESS_TOL:
             raise Refused(f"{what}: unevenness {unevenness:g}", "the machine needs no flywheel: it runs evenly",
                           "masses or loads that change its speed")
         raise Refused(f"{what}: unevenness {unevenness:g}", "the machine needs no flywheel for it: its own unevenness "
                       f"is {own:.4g}", f"an unevenness below {own:.4g}")
-    return Flywheel(inertia, upper, lower, upper.cut - upper.slope * inertia)
+    return FlywheelSpeeds(inertia, upper, lower, upper.cut - upper.slope * inertia)
 
 
-def needed(cycle: SteadyCycle, unevenness: float) -> float:
+def needed_inertia(cycle: SteadyCycle, unevenness: float) -> float:
     """The flywheel's inertia with which the speed varies so little at most; 0 where the machine needs none."""
     upper, lower = _tangents(cycle, unevenness)
     inertia = (upper.cut - lower.cut) / (upper.slope - lower.slope)
     return inertia if inertia > EVENNESS_TOL * cycle.mean_inertia else 0.0
 
 
-def _tangents(cycle: SteadyCycle, unevenness: float) -> tuple[Touch, Touch]:
+def _tangents(cycle: SteadyCycle, unevenness: float) -> tuple[Tangency, Tangency]:
     """The tangents of the largest and the least speed of an unevenness."""
-    upper, lower = (touch(cycle, ((1 + way * unevenness / 2) * cycle.speed) ** 2 / 2, way > 0) for way in (1, -1))
+    upper, lower = (tangent(cycle, ((1 + way * unevenness / 2) * cycle.speed) ** 2 / 2, way > 0) for way in (1, -1))
     return upper, lower
 
 
-def turning(cycle: SteadyCycle, inertia: float, what: str = "flywheel") -> Flywheel:
+def turn_with(cycle: SteadyCycle, inertia: float, what: str = "flywheel") -> FlywheelSpeeds:
     """The speeds with a given flywheel, whose mean (omega_max + omega_min)/2 is that of the cycle.
 
     Fails with `Refused` where the machine would stand still before the cycle is over.
     """
-    upper = lower = touch(cycle, cycle.speed**2 / 2, above=True)
-    for _ in range(MOST):
+    upper = lower = tangent(cycle, cycle.speed**2 / 2, above=True)
+    for _ in range(MAX_ORIGIN_ROUNDS):
         before = upper.slope
-        upper, lower = touch(cycle, upper.slope, above=True), touch(cycle, lower.slope, above=False)
+        upper, lower = tangent(cycle, upper.slope, above=True), tangent(cycle, lower.slope, above=False)
         fast, slow = _speeds(cycle.speed, upper, lower, inertia)
         if not 0 < slow <= fast * (1 + EVENNESS_TOL):
             raise Refused(f"{what}: inertia {inertia:g}", f"the machine makes no full turn at a mean speed of "
@@ -271,11 +271,11 @@ def turning(cycle: SteadyCycle, inertia: float, what: str = "flywheel") -> Flywh
         upper, lower = upper._replace(slope=fast**2 / 2), lower._replace(slope=slow**2 / 2)
         if abs(upper.slope - before) <= SPEED_TOL * before:
             break
-    upper, lower = _through(upper), _through(lower)
-    return Flywheel(inertia, upper, lower, upper.cut - upper.slope * inertia)
+    upper, lower = through_touch(upper), through_touch(lower)
+    return FlywheelSpeeds(inertia, upper, lower, upper.cut - upper.slope * inertia)
 
 
-def _speeds(mean: float, upper: Touch, lower: Touch, flywheel: float) -> tuple[float, float]:
+def _speeds(mean: float, upper: Tangency, lower: Tangency, flywheel: float) -> tuple[float, float]:
     """The speeds of this mean at two points of the cycle, their kinetic energies as far apart as the curve has them."""
     one, two = upper.inertia + flywheel, lower.inertia + flywheel
     apart = 4 * mean**2 * two + 2 * (upper.energy - lower.energy)
@@ -285,31 +285,31 @@ def _speeds(mean: float, upper: Touch, lower: Touch, flywheel: float) -> tuple[f
     return fast, 2 * mean - fast
 
 
-def by_mean_energy(cycle: SteadyCycle, inertia: float, what: str = "flywheel") -> Flywheel:
+def by_mean_energy(cycle: SteadyCycle, inertia: float, what: str = "flywheel") -> FlywheelSpeeds:
     """The speeds with a given flywheel, the middle of the energies being that of the mean inertia at the mean speed.
 
     So (15.7) finds the origin; the mean of the two speeds is then not quite that of the cycle.
     """
-    (_, least), (_, most) = cycle.energy.extremes(cycle.whole)
+    (_, least), (_, most) = cycle.energy.extremes(cycle.closed_moment)
     origin = (least + most) / 2 - (cycle.mean_inertia + inertia) * cycle.speed**2 / 2
     if least <= origin:
         raise Refused(f"{what}: inertia {inertia:g}", "the energy at the mean speed is less than its change",
                       "a heavier flywheel, or a higher speed")
-    upper, lower = (_from_origin(cycle, inertia, origin, above) for above in (True, False))
-    return Flywheel(inertia, upper, lower, origin)
+    upper, lower = (tangent_from_origin(cycle, inertia, origin, above) for above in (True, False))
+    return FlywheelSpeeds(inertia, upper, lower, origin)
 
 
-def _from_origin(cycle: SteadyCycle, inertia: float, origin: float, above: bool) -> Touch:
+def tangent_from_origin(cycle: SteadyCycle, inertia: float, origin: float, above: bool) -> Tangency:
     """The tangent from the origin: the slope is drawn, and drawn again to where that tangent touched."""
     slope = cycle.speed**2 / 2
-    for _ in range(MOST):
-        found = touch(cycle, slope, above)
+    for _ in range(MAX_ORIGIN_ROUNDS):
+        found = tangent(cycle, slope, above)
         before, slope = slope, (found.energy - origin) / (found.inertia + inertia)
         if abs(slope - before) <= SPEED_TOL * slope:
             break
-    return _through(found._replace(slope=slope))
+    return through_touch(found._replace(slope=slope))
 
 
-def _through(one: Touch) -> Touch:
+def through_touch(one: Tangency) -> Tangency:
     """The same tangent, cutting the axis where its slope has it."""
     return one._replace(cut=one.energy - one.slope * one.inertia)

@@ -67,7 +67,7 @@ class _Dyads:
         bars, end = [vector.link for vector in chain], joints[0]
         for k, vector in enumerate(chain[:-1]):
             end = self._point(f"H_{vector.link}" if k == 0 else f"S_{vector.link}", end, vector, bars[k])
-            if self._near(end, joints[k + 1]):
+            if self.coincide(end, joints[k + 1]):
                 end = joints[k + 1]
                 continue
             joints, bars = self._row(chain, joints, bars, k, end)
@@ -86,7 +86,8 @@ class _Dyads:
             if j == k + 1 == len(chain) - 1:
                 foot = self._point(f"H_{chain[j].link}" if k == 0 else f"F_{chain[j].link}", joints[j], chain[j],
                                    bars[j])
-            head = self._new("S" if j == k + 1 == len(chain) - 1 else f"L_{k + 1}{j + 1}", self.places[foot] + step)
+            head = self.add_point("S" if j == k + 1 == len(chain) - 1 else f"L_{k + 1}{j + 1}",
+                                  self.places[foot] + step)
             new[j] = self._bar(chain[j].link, moved[j], head)
             self._bar(chain[k].link, foot, head)
             moved[j + 1], self.count = head, self.count + 1
@@ -99,22 +100,22 @@ class _Dyads:
         for point in self.links[bar]:
             if abs(self.places[point] - place) < COINCIDENCE_TOL * self.scene.extent:
                 return point
-        point = self._new(name, place)
+        point = self.add_point(name, place)
         self.links[bar].append(point)
         return point
 
-    def _near(self, one: str, other: str) -> bool:
+    def coincide(self, one: str, other: str) -> bool:
         return abs(self.places[one] - self.places[other]) < COINCIDENCE_TOL * self.scene.extent
 
-    def _new(self, name: str, place: complex) -> str:
+    def add_point(self, name: str, place: complex) -> str:
         """A new point of this name, with primes where it is taken."""
-        name = _free(name, self.places)
+        name = free_name(name, self.places)
         self.places[name] = place
         return name
 
     def _bar(self, link: str, start: str, end: str) -> str:
         """A bar that is parallel to a link."""
-        name = _free(link, self.links)
+        name = free_name(link, self.links)
         self.links[name] = [start, end]
         return name
 
@@ -132,7 +133,7 @@ class _Dyads:
                                          **({"reactions": "[]"} if scene.loads else {})})
 
 
-def _free(name: str, taken: Mapping[str, object]) -> str:
+def free_name(name: str, taken: Mapping[str, object]) -> str:
     while name in taken:
         name += "'"
     return name

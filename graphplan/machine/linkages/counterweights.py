@@ -29,8 +29,8 @@ from graphplan.mechanism.model import FRAME, Mass, Placement, Scene, Slide
 from graphplan.mechanism.units import METRES
 from graphplan.phrases import said
 
-ROUNDS = 100  # in which the masses of counterweights must settle that load each other's links
-LONGER = (1, 2, 4, 8)  # times the length of the link: radii that are tried where none is given
+MAX_MASS_ROUNDS = 100  # in which the masses of counterweights must settle that load each other's links
+RADIUS_FACTORS = (1, 2, 4, 8)  # times the length of the link: radii that are tried where none is given
 
 Form = dict[str, complex]
 """A sum of vectors: of each link that tells how others turn, or of each free sliding, the factor; lengths complex."""
@@ -53,27 +53,27 @@ class Counterweight:
 
     def place(self, scene: Scene) -> complex:
         """Where it is in the scene's pose."""
-        return _at(scene, self.pivot) + self.radius * self.moment / abs(self.moment)
+        return point_of(scene, self.pivot) + self.radius * self.moment / abs(self.moment)
 
 
-def full(scene: Scene, keep: Collection[str] = (), radii: Mapping[str, float] | None = None,
+def balance_fully(scene: Scene, keep: Collection[str] = (), radii: Mapping[str, float] | None = None,
          ) -> tuple[Counterweight, ...]:
     """The counterweights with which the mass centre stands still in every pose, as few as will do.
 
     Reads the links that `keep` their masses, and the radii, in scene lengths, of counterweights; without one it is the
     length of the link. Fails with `Refused` where no counterweights can do it.
     """
-    return _Balancing(scene, None).solved(keep, radii or {})
+    return _Balancing(scene, None).solve(keep, radii or {})
 
 
-def along_guide(scene: Scene, keep: Collection[str] = (), radii: Mapping[str, float] | None = None,
+def balance_along_guide(scene: Scene, keep: Collection[str] = (), radii: Mapping[str, float] | None = None,
                 ) -> tuple[Counterweight, ...]:
     """The same so that the mass centre moves parallel to the first guide on the frame alone."""
     guide = next((slide for slide in scene.slides if FRAME in slide.links), None)
     if guide is None:
         raise Refused(f"{scene.name}: counterweights", said("no slide is guided on the frame, so there is no direction "
                       "in which the mass centre may move"), "--counterweights full")
-    return _Balancing(scene, guide).solved(keep, radii or {})
+    return _Balancing(scene, guide).solve(keep, radii or {})
 
 
 class _Balancing:
@@ -88,53 +88,54 @@ class _Balancing:
 
     # ---- sums of vectors ---------------------------------------------------------------------------------------------
 
-    def form(self, link: str, point: str) -> Form:
+    def position_form(self, link: str, point: str) -> Form:
         """Where a point of a link is, but for what is constant."""
         if link == FRAME:
             return {}
         hanging = self.tree.entry[link]
-        found = {f"sliding of {link}": 1 + 0j} if not hanging.on else self.form(hanging.on, hanging.at)
-        arm = _at(self.scene, point) - _at(self.scene, hanging.at)
-        return _sum([(1, found), (1, {self.turning[link]: arm})])
+        found = {f"sliding of {link}": 1 + 0j} if not hanging.on else self.position_form(hanging.on, hanging.at)
+        arm = point_of(self.scene, point) - point_of(self.scene, hanging.at)
+        return sum_of_forms([(1, found), (1, {self.turning[link]: arm})])
 
     @cached_property
     def chains(self) -> list[Form]:
         """The sums that are constant as chains close: of each joint as a point of one link less as one of another."""
-        closed = [_sum([(1, self.form(joint.links[0], joint.at)), (-1, self.form(link, joint.at))])
+        closed = [sum_of_forms([(1, self.position_form(joint.links[0], joint.at)), (-1, self.position_form(link,
+                                                                                                           joint.at))])
                   for joint in self.scene.revolutes for link in joint.links[1:]]
         return [chain for chain in closed if any(abs(factor) > FACTOR_TOL * self.reach for factor in chain.values())]
 
     @cached_property
-    def guided(self) -> list[Form]:
+    def guided_forms(self) -> list[Form]:
         """The sums of which the real multiples do not move across the guide."""
         if self.guide is None:
             return []
-        ahead, found = _way(self.guide), list[Form]()
+        ahead, found = guide_unit(self.guide), list[Form]()
         for slide in self.scene.slides:
             if FRAME in slide.links and slide.link != FRAME:
-                turn = (_way(slide) / ahead).conjugate()
-                found.append(_sum([(turn, self.form(slide.link, slide.at))]))
+                turn = (guide_unit(slide) / ahead).conjugate()
+                found.append(sum_of_forms([(turn, self.position_form(slide.link, slide.at))]))
         return found
 
-    def moving(self, weights: Mapping[str, float]) -> Form:
+    def first_moment(self, weights: Mapping[str, float]) -> Form:
         """The first moment of all masses, and of counterweights with these masses as if in their pivots."""
-        terms = [(float(mass.mass), self.form(link, mass.centre)) for link, mass in self.masses.items()]
-        terms += [(mass, self.form(link, self.pivot(link))) for link, mass in weights.items()
-                  if not self.grounded(link)]
-        return _sum(terms)
+        terms = [(float(mass.mass), self.position_form(link, mass.centre)) for link, mass in self.masses.items()]
+        terms += [(mass, self.position_form(link, self.pivot(link))) for link, mass in weights.items()
+                  if not self.is_grounded(link)]
+        return sum_of_forms(terms)
 
     def pivot(self, link: str) -> str:
         """The point of a link about which its counterweight is laid off: on the frame where it is hinged there."""
         hinges = (p for p in self.scene.links[link] if p in self.scene.links.get(FRAME, ()))
         return next(hinges, self.tree.entry[link].at)
 
-    def grounded(self, link: str) -> bool:
+    def is_grounded(self, link: str) -> bool:
         """Whether a link is hinged on the frame."""
         return self.pivot(link) in self.scene.links.get(FRAME, ())
 
     # ---- the conditions ----------------------------------------------------------------------------------------------
 
-    def solved(self, keep: Collection[str], radii: Mapping[str, float]) -> tuple[Counterweight, ...]:
+    def solve(self, keep: Collection[str], radii: Mapping[str, float]) -> tuple[Counterweight, ...]:
         """The counterweights on as few links as will do."""
         able = [link for link in self.scene.moving if self.turning[link] != FRAME]
         where, moving = f"{self.scene.name}: counterweights", self.scene.moving
@@ -143,45 +144,45 @@ class _Balancing:
         if unable := next((link for link in radii if link not in able), ""):
             raise Refused(where, said("link {0} does not turn", unable), f"one of {', '.join(able)}")
         able = [link for link in able if link not in keep]
-        grounded = [link for link in able if self.grounded(link)]
+        grounded = [link for link in able if self.is_grounded(link)]
         chosen = [*grounded]
         for link in (*(link for link in able if link not in grounded), ""):
-            if not self.left_over(chosen, {}):
+            if not self.unbalanced_keys(chosen, {}):
                 break
             chosen += [link] if link else []
-        if left := self.left_over(chosen, {}):
-            raise self.refused(chosen, left)
+        if left := self.unbalanced_keys(chosen, {}):
+            raise self.refusal(chosen, left)
         for link in chosen[::-1]:
             fewer = [one for one in chosen if one != link]
-            if not self.left_over(fewer, {}):
+            if not self.unbalanced_keys(fewer, {}):
                 chosen = fewer
-        return self.settled(chosen, radii)
+        return self.settle_masses(chosen, radii)
 
-    def settled(self, links: Sequence[str], radii: Mapping[str, float]) -> tuple[Counterweight, ...]:
+    def settle_masses(self, links: Sequence[str], radii: Mapping[str, float]) -> tuple[Counterweight, ...]:
         """The counterweights on these links, whose own masses load the links that bear them.
 
         A link may bear them in vain at its own length: a mass in its next joint loads that. Then the radius is longer.
         """
-        for longer in LONGER:
-            own = {link: radii.get(link) or self.length(link) * (1 if self.grounded(link) else longer)
+        for longer in RADIUS_FACTORS:
+            own = {link: radii.get(link) or self.length(link) * (1 if self.is_grounded(link) else longer)
                    for link in links}
             weights = dict.fromkeys(links, 0.0)
-            for _ in range(ROUNDS):
+            for _ in range(MAX_MASS_ROUNDS):
                 moments = self.moments(links, weights)[0]
                 found = [Counterweight(link, self.pivot(link), moment, own[link]) for link, moment in moments.items()]
                 before, weights = weights, {one.link: one.mass for one in found}
                 if all(abs(mass - before[link]) <= WEIGHT_TOL * mass for link, mass in weights.items()):
-                    return tuple(one for one in found if abs(one.moment) > BALANCED_TOL * self.size)
+                    return tuple(one for one in found if abs(one.moment) > BALANCED_TOL * self.moment_scale)
         raise Refused(f"{self.scene.name}: counterweights",
                       said("their own masses would need ever larger counterweights"), said("a larger radius"))
 
-    def left_over(self, links: Sequence[str], weights: Mapping[str, float]) -> list[str]:
+    def unbalanced_keys(self, links: Sequence[str], weights: Mapping[str, float]) -> list[str]:
         """What of the first moment counterweights on these links cannot balance, by turnings and slidings."""
         _, left = self.moments(links, weights)
-        return [key for key, factor in left.items() if abs(factor) > BALANCED_TOL * self.size]
+        return [key for key, factor in left.items() if abs(factor) > BALANCED_TOL * self.moment_scale]
 
     @cached_property
-    def size(self) -> float:
+    def moment_scale(self) -> float:
         """The size of what is to be balanced."""
         return max((float(mass.mass) for mass in self.masses.values()), default=0.0) * self.reach
 
@@ -189,37 +190,37 @@ class _Balancing:
         """The moments of counterweights on these links that leave the least over, and what that is."""
         import numpy as np
 
-        first = self.moving(weights)
+        first = self.first_moment(weights)
         keys = [key for key in dict.fromkeys((*first, *(key for chain in self.chains for key in chain),
-                                              *(self.turning[link] for link in links))) if not self.free(key)]
+                                              *(self.turning[link] for link in links))) if not self.is_free(key)]
         freely = [{self.turning[link]: complex(self.reach)} for link in links] + self.chains
         columns = [[sense * form.get(key, 0j) for key in keys] for form in freely for sense in (1, 1j)]
-        columns += [[form.get(key, 0j) for key in keys] for form in self.guided]
+        columns += [[form.get(key, 0j) for key in keys] for form in self.guided_forms]
         right = -np.array([first.get(key, 0j) for key in keys])
         matrix = np.array(columns, dtype=complex).reshape(len(columns), len(keys)).T
-        found = np.linalg.lstsq(_real(matrix), _real(right), rcond=FACTOR_TOL)[0]
+        found = np.linalg.lstsq(real_equations(matrix), real_equations(right), rcond=FACTOR_TOL)[0]
         left = matrix @ found - right
         moments = {link: self.reach * complex(found[2 * k], found[2 * k + 1]) for k, link in enumerate(links)}
         return moments, dict(zip(keys, left.tolist(), strict=True))
 
-    def free(self, key: str) -> bool:
+    def is_free(self, key: str) -> bool:
         """Whether what goes with it does not count: what is constant, and a sliding along the guide."""
         if key == FRAME:
             return True
         if self.guide is None or not key.startswith("sliding of "):
             return False
-        ways = [_way(slide) / _way(self.guide) for slide in self.scene.slides if FRAME in slide.links
+        ways = [guide_unit(slide) / guide_unit(self.guide) for slide in self.scene.slides if FRAME in slide.links
                 and key == f"sliding of {slide.link}" and self.turning[slide.link] == FRAME]
         return any(abs(way.imag) < FACTOR_TOL for way in ways)
 
     def length(self, link: str) -> float:
         """The length of a link: how far its farthest joint is from the pivot, or its farthest point."""
-        here = _at(self.scene, self.pivot(link))
+        here = point_of(self.scene, self.pivot(link))
         points = [p for p in self.scene.links[link] if p in self.scene.joints] or self.scene.links[link]
-        far = max(abs(_at(self.scene, point) - here) for point in points)
-        return far or max(abs(_at(self.scene, point) - here) for point in self.scene.links[link]) or self.reach
+        far = max(abs(point_of(self.scene, point) - here) for point in points)
+        return far or max(abs(point_of(self.scene, point) - here) for point in self.scene.links[link]) or self.reach
 
-    def refused(self, links: Sequence[str], left: Sequence[str]) -> Refused:
+    def refusal(self, links: Sequence[str], left: Sequence[str]) -> Refused:
         """Why it cannot be done: what stays unbalanced."""
         slides = [key.removeprefix("sliding of ") for key in left if key.startswith("sliding of ")]
         where = f"{self.scene.name}: counterweights"
@@ -232,7 +233,7 @@ class _Balancing:
                                    ", ".join(turning), on), "fewer links in --keep, or --counterweights partial")
 
 
-def _sum(terms: Sequence[tuple[complex, Form]]) -> Form:
+def sum_of_forms(terms: Sequence[tuple[complex, Form]]) -> Form:
     """The sum of so many times these sums."""
     total: Form = {}
     for times, form in terms:
@@ -241,18 +242,18 @@ def _sum(terms: Sequence[tuple[complex, Form]]) -> Form:
     return total
 
 
-def _real(numbers: Any) -> Any:
+def real_equations(numbers: Any) -> Any:
     """Complex equations as twice as many real ones."""
     import numpy as np
 
     return np.concatenate([numbers.real, numbers.imag])
 
 
-def _at(scene: Scene, point: str) -> complex:
+def point_of(scene: Scene, point: str) -> complex:
     return complex(*map(float, scene.points[point]))
 
 
-def _way(slide: Slide) -> complex:
+def guide_unit(slide: Slide) -> complex:
     way = complex(*map(float, slide.direction))
     return way / abs(way)
 
@@ -260,20 +261,20 @@ def _way(slide: Slide) -> complex:
 # ---- the linkage with its counterweights -----------------------------------------------------------------------------
 
 
-def balanced(scene: Scene, weights: Sequence[Counterweight]) -> Scene:
+def add_counterweights(scene: Scene, weights: Sequence[Counterweight]) -> Scene:
     """The scene with these counterweights on its links: their masses, mass centres and moments of inertia changed."""
     for weight in weights:
-        scene = _with(scene, weight)
+        scene = add_counterweight(scene, weight)
     return scene
 
 
-def _with(scene: Scene, weight: Counterweight) -> Scene:
+def add_counterweight(scene: Scene, weight: Counterweight) -> Scene:
     """The scene with one counterweight."""
     assert scene.loads is not None
     own, there = scene.loads.masses.get(weight.link), weight.place(scene)
     centre, mass, inertia = there, weight.mass, 0.0
     if own is not None:
-        here = _at(scene, own.centre)
+        here = point_of(scene, own.centre)
         mass += float(own.mass)
         centre = (float(own.mass) * here + weight.mass * there) / mass
         metre = float(METRES[scene.units.length])

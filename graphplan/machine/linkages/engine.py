@@ -22,7 +22,7 @@ from graphplan.machine.tolerances import ON_LINE_TOL, ORDER_TOL, TERM_TOL
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
 from graphplan.mechanism.units import KILOGRAMS, METRES
 
-POINTS = 1024  # of a turn of the crank from which the series is found: its terms are exact to rounding
+SERIES_SAMPLES = 1024  # of a turn of the crank from which the series is found: its terms are exact to rounding
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class Engine:
         return next(p for p in scene.links[self.crank] if self.rod in scene.links_of[p])
 
 
-def path_series(ratio: float, offset: float = 0.0, points: int = POINTS) -> Any:
+def path_series(ratio: float, offset: float = 0.0, points: int = SERIES_SAMPLES) -> Any:
     """The factors c_k of a piston's path in lengths of the rod, by the crank's angle phi: the path is the sum of the
     real parts of c_k exp(-i k phi), k from 0; complex array.
 
@@ -124,7 +124,7 @@ def engine(scene: Scene) -> Engine | None:
     for slide in (slide for slide in scene.slides if slide.along == FRAME):
         for hinge, pin, wrist, crank, rod in _cranks(scene, slide.link):
             places = (complex(*map(float, scene.points[name])) for name in (hinge, pin, wrist))
-            found = _reduced(scene, (crank, rod, slide.link), hinge, [*places], slide)
+            found = reduce_masses(scene, (crank, rod, slide.link), hinge, [*places], slide)
             if found is not None and set(masses) <= {crank, rod, slide.link}:
                 return found
     return None
@@ -142,7 +142,7 @@ def _cranks(scene: Scene, slider: str) -> list[tuple[str, str, str, str, str]]:
     return found  # type: ignore[return-value]
 
 
-def _reduced(scene: Scene, links: tuple[str, str, str], hinge: str, joints: Sequence[complex],
+def reduce_masses(scene: Scene, links: tuple[str, str, str], hinge: str, joints: Sequence[complex],
              slide: Slide) -> Engine | None:
     """The engine of these links, and joints O, A and B, if its masses may be reduced."""
     (crank, rod, piston), (O, A, B) = links, joints

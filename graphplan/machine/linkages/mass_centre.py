@@ -77,7 +77,7 @@ class MassCentre:
         """The value of each step in the scene's pose."""
         return evaluate(self.program, Floats())
 
-    def at(self, places: Mapping[str, Any]) -> Any:
+    def position_from(self, places: Mapping[str, Any]) -> Any:
         """The mass centre where the points are so: complex arrays of shape (n,) by name.
 
         Of the velocities of the points it is the velocity of the mass centre, of their accelerations its acceleration.
@@ -102,7 +102,7 @@ def mass_centre(scene: Scene) -> MassCentre:
         raise Refused(f"{scene.name}: masses", "no moving link has a mass, so there is no mass centre",
                       "[masses.2] with mass and centre")
     tree = spanning_tree(scene)
-    mass = sum(tree.beyond(root.link) for root in tree.roots)
+    mass = sum(tree.mass_beyond(root.link) for root in tree.roots)
     vectors = tuple(_vectors(tree, mass))
     return MassCentre(scene, tree, mass, tree.base, vectors, _program(scene, tree.base, vectors))
 
@@ -111,14 +111,14 @@ def _vectors(tree: SpanningTree, mass: Number) -> Iterator[PrincipalVector]:
     """The vectors in the order in which they are laid off: to further hinges first, then from link to link."""
     scene = tree.scene
     for root in tree.roots[1:]:
-        yield PrincipalVector("", tree.base, root.at, tree.beyond(root.link) / mass, Fraction(0))
+        yield PrincipalVector("", tree.base, root.at, tree.mass_beyond(root.link) / mass, Fraction(0))
     for hanging in tree.hangings:
         start, end = tree.line(hanging.link)
         line = minus(scene.points[end], scene.points[start])
         if start == end:
             continue
         found = as_multiple(moments_of_mass(tree, hanging.link), line)
-        least = VECTOR_TOL * float(tree.beyond(hanging.link))
+        least = VECTOR_TOL * float(tree.mass_beyond(hanging.link))
         along, across = (part / mass if abs(float(part)) > least else Fraction(0) for part in found)
         if along or across:
             yield PrincipalVector(hanging.link, start, end, along, across)
@@ -134,7 +134,7 @@ def _program(scene: Scene, base: str, vectors: tuple[PrincipalVector, ...]) -> P
     for vector in vectors:
         with board.on(panel=MECHANISM, links=(vector.link,) if vector.link else (), stage=_stage(vector)):
             heads.append(_head(board, vector, points))
-            ends.append(board.transfer(points[vector.start], heads[-1], ends[-1], why=_laid(vector)))
+            ends.append(board.transfer(points[vector.start], heads[-1], ends[-1], why=laying_reason(vector)))
     board.give_name(ends[-1], "S")
     for vector, head, end in zip(vectors, heads, ends[1:], strict=True):
         board.give_name(head, f"H_{vector.link}" if vector.link else f"H_{vector.end}")
@@ -155,7 +155,7 @@ def _head(board: Board, vector: PrincipalVector, points: Mapping[str, Mark]) -> 
     return head
 
 
-def _laid(vector: PrincipalVector) -> Said:
+def laying_reason(vector: PrincipalVector) -> Said:
     if not vector.link:
         return said("the mass that hangs on {0}, by their part of the whole", vector.end)
     return said("head to tail, as link {0} is directed", vector.link)

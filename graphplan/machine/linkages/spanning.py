@@ -38,7 +38,7 @@ class SpanningTree:
     def roots(self) -> tuple[Hanging, ...]:
         """What hangs on the frame, or loose, and bears a mass; the first of all where nothing does."""
         found = [hanging for hanging in self.hangings if hanging.on in ("", FRAME)]
-        return tuple(hanging for hanging in found if self.beyond(hanging.link)) or (found[0],)
+        return tuple(hanging for hanging in found if self.mass_beyond(hanging.link)) or (found[0],)
 
     @property
     def base(self) -> str:
@@ -48,7 +48,7 @@ class SpanningTree:
     @property
     def count(self) -> int:
         """How many vectors lead to all masses."""
-        return len(self.roots) + sum(1 for hanging in self.hangings if self.beyond(hanging.link))
+        return len(self.roots) + sum(1 for hanging in self.hangings if self.mass_beyond(hanging.link))
 
     @cached_property
     def entry(self) -> dict[str, Hanging]:
@@ -59,11 +59,11 @@ class SpanningTree:
         """What hangs on a link."""
         return [hanging for hanging in self.hangings if hanging.on == link]
 
-    def beyond(self, link: str) -> Number:
+    def mass_beyond(self, link: str) -> Number:
         """The mass of a link and of all that hangs on it, in the scene's unit."""
         masses = self.scene.loads.masses if self.scene.loads else {}
         own: Number = masses[link].mass if link in masses else 0
-        return own + sum(self.beyond(hanging.link) for hanging in self.hung_on(link))
+        return own + sum(self.mass_beyond(hanging.link) for hanging in self.hung_on(link))
 
     def line(self, link: str) -> tuple[str, str]:
         """The two points that a link's vectors are multiples of: where it hangs, and the next joint, or a point apart.
@@ -96,10 +96,10 @@ def _hangings(scene: Scene, chained: bool) -> Iterator[Hanging]:
     loose += [Hanging(slide.link, slide.at, "") for slide in scene.slides if slide.link != FRAME]
     loose += [Hanging(link, scene.links[link][0], "") for link in order]
     for first in ([one] for one in (*fixed, *loose)) if chained else (fixed, *([one] for one in loose)):
-        yield from _reached(scene, first, found, chained)
+        yield from hang_from(scene, first, found, chained)
 
 
-def _reached(scene: Scene, first: list[Hanging], found: set[str], chained: bool) -> Iterator[Hanging]:
+def hang_from(scene: Scene, first: list[Hanging], found: set[str], chained: bool) -> Iterator[Hanging]:
     """These links and all that joints lead to from them: `chained` depth first, else the nearest first."""
     left = first[::-1]
     while left:
@@ -128,6 +128,6 @@ def moments_of_mass(tree: SpanningTree, link: str) -> Pair:
     masses = scene.loads.masses if scene.loads else {}
     total: Pair = (0, 0)
     for point, mass in (*((masses[link].centre, masses[link].mass) for _ in (0,) if link in masses),
-                        *((hanging.at, tree.beyond(hanging.link)) for hanging in tree.hung_on(link))):
+                        *((hanging.at, tree.mass_beyond(hanging.link)) for hanging in tree.hung_on(link))):
         total = plus(total, times(mass, minus(scene.points[point], scene.points[start])))
     return total

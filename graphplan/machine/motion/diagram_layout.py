@@ -22,17 +22,19 @@ from graphplan.machine.integrals import Reals
 from graphplan.machine.motion.strips import times
 from graphplan.machine.tolerances import MIN_RANGE, SCALE_TOL
 
-POLE, BESIDE, BETWEEN = 34.0, 22.0, 12.0  # mm: for poles, between the two columns of diagrams, and between their rows
-NEAREST, FARTHEST = 4.5, 30.0  # mm: poles from their axes
+# mm: for poles, between the two columns of diagrams, and between their rows
+POLE_ROOM_MM, COLUMN_GAP_MM, ROW_GAP_MM = 34.0, 22.0, 12.0
+MIN_POLE_MM, MAX_POLE_MM = 4.5, 30.0  # mm: poles from their axes
 SHARES = {"moment": 0.17, "energy": 0.28, "omega": 0.19, "slowness": 0.16, "time": 0.2}  # of what is free: heights
-LENGTH, WIDE, CUT = 0.66, 0.22, 0.6  # of what is free: the axis of travel, the largest inertia; of that, c at most
-SLOWEST = 8.0  # times the least 1/omega: what is larger goes off the paper
-FAR = 0.5  # of the largest energy: where the least is more the origin is off the paper
+# of what is free: the axis of travel, the largest inertia; of that, c at most
+TRAVEL_SHARE, INERTIA_SHARE, RAY_CUT_SHARE = 0.66, 0.22, 0.6
+MAX_SLOWNESS_RATIO = 8.0  # times the least 1/omega: what is larger goes off the paper
+MIN_ENERGY_SHARE = 0.5  # of the largest energy: where the least is more the origin is off the paper
 MARGIN = 0.08  # of a range, beyond it
-STEPS = 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0  # of the scale of travel, which fills its room
+SCALE_STEPS = 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0  # of the scale of travel, which fills its room
 
 
-class Room(NamedTuple):
+class PanelSize(NamedTuple):
     """How large all diagrams together may be, in mm."""
 
     width: float = 280.0
@@ -41,17 +43,17 @@ class Room(NamedTuple):
     @property
     def free(self) -> float:
         """What poles and gaps leave of the width."""
-        return self.width - POLE - BESIDE
+        return self.width - POLE_ROOM_MM - COLUMN_GAP_MM
 
     @property
     def heights(self) -> dict[str, float]:
         """The heights of the diagrams under each other."""
-        free = self.height - (len(SHARES) - 1) * BETWEEN
+        free = self.height - (len(SHARES) - 1) * ROW_GAP_MM
         return {name: share * free for name, share in SHARES.items()}
 
 
 @dataclass(frozen=True, eq=False)
-class Layout:
+class MotionLayout:
     """The diagrams of what is drawn: moments of the strips, and at the divisions travel (from the beginning), energies,
     inertias and speeds, in SI; `first` is the division from which the time is integrated, `degree` the unit of travel.
 
@@ -66,30 +68,30 @@ class Layout:
     first: int
     whole: float
     degree: float
-    room: Room
+    room: PanelSize
 
     @cached_property
-    def far(self) -> bool:
+    def origin_off_paper(self) -> bool:
         """Whether the origin of the energy-mass diagram is off the paper."""
-        return bool(self.energies.min() > FAR * self.energies.max())
+        return bool(self.energies.min() > MIN_ENERGY_SHARE * self.energies.max())
 
     @cached_property
     def k(self) -> dict[str, float]:
         """What one mm stands for, round."""
         high, span = self.room.heights, (1 + 2 * MARGIN) * float(np.ptp([*self.moments, 0.0]))
         slowness = 1 / self.omegas[max(1, self.first):]
-        least = self.whole / self.degree / (LENGTH * self.room.free)
+        least = self.whole / self.degree / (TRAVEL_SHARE * self.room.free)
         power = 10.0 ** math.floor(math.log10(least))
-        phi = self.degree * power * next(step for step in STEPS if step * power >= least * (1 - SCALE_TOL))
+        phi = self.degree * power * next(step for step in SCALE_STEPS if step * power >= least * (1 - SCALE_TOL))
         energy = _scale(self._span(self.energies) / high["energy"])
-        moment = _scale(max(span / high["moment"], energy / phi / FARTHEST))
-        slow = min(slowness.max(), SLOWEST * slowness.min()) / high["slowness"]
+        moment = _scale(max(span / high["moment"], energy / phi / MAX_POLE_MM))
+        slow = min(slowness.max(), MAX_SLOWNESS_RATIO * slowness.min()) / high["slowness"]
         time = _scale(float(np.nanmax(times(self.travel, self.omegas))) / high["time"])
-        slow = _scale(max(slow, time / phi / FARTHEST))
-        return {"travel": phi, "moment": moment, "energy": max(energy, _scale(NEAREST * moment * phi)),
-                "inertia": _scale(self._span(self.inertias) / (WIDE * self.room.free)),
+        slow = _scale(max(slow, time / phi / MAX_POLE_MM))
+        return {"travel": phi, "moment": moment, "energy": max(energy, _scale(MIN_POLE_MM * moment * phi)),
+                "inertia": _scale(self._span(self.inertias) / (INERTIA_SHARE * self.room.free)),
                 "omega": _scale(self._span(self.omegas) / high["omega"]), "slowness": slow,
-                "time": max(time, _scale(NEAREST * slow * phi))}
+                "time": max(time, _scale(MIN_POLE_MM * slow * phi))}
 
     def _span(self, values: Reals) -> float:
         """What of some values is shown: from nothing on, or their range alone."""
@@ -99,7 +101,7 @@ class Layout:
     def _low(self, values: Reals) -> float:
         """The least value that is shown."""
         low, high = float(values.min()), float(values.max())
-        return low - MARGIN * (high - low) if self.far else 0.0
+        return low - MARGIN * (high - low) if self.origin_off_paper else 0.0
 
     @cached_property
     def poles(self) -> tuple[float, float]:
@@ -111,7 +113,7 @@ class Layout:
     def c(self) -> float:
         """Where rays of the energy-mass diagram are cut, in mm from its origin."""
         steepest = float((self.energies / self.inertias).max()) * self.k["inertia"] / self.k["energy"]
-        return min(WIDE * self.room.free * CUT, self.room.heights["energy"] / steepest)
+        return min(INERTIA_SHARE * self.room.free * RAY_CUT_SHARE, self.room.heights["energy"] / steepest)
 
     @cached_property
     def d(self) -> float:
@@ -133,8 +135,8 @@ class Layout:
         for name, height in self.room.heights.items():
             upright = AxisScale(k[name], lowest.get(name, 0.0))
             found[name] = Frame((0.0, top - height), travel, upright, level, (0.0, height))
-            top -= height + BETWEEN
-        right, wide = level[1] + BESIDE, (0.0, WIDE * self.room.free)
+            top -= height + ROW_GAP_MM
+        right, wide = level[1] + COLUMN_GAP_MM, (0.0, INERTIA_SHARE * self.room.free)
         inertia, energy, omega = AxisScale(k["inertia"], self._low(self.inertias)), found["energy"], found["omega"]
         low, high = found["moment"].upright
         down = AxisScale(-self.whole / (high - low))

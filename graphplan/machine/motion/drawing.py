@@ -26,15 +26,15 @@ from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage
 from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Reals
-from graphplan.machine.motion.diagram_layout import Layout, Room
-from graphplan.machine.motion.driven import Driven
+from graphplan.machine.motion.diagram_layout import MotionLayout, PanelSize
+from graphplan.machine.motion.driven import DrivenMachine
 from graphplan.machine.motion.strips import parabola
 from graphplan.machine.motion.true_motion import TrueMotion
 from graphplan.phrases import Said, digits, said
 
 MOTION = Panel("motion", said("motion"), said("True motion: energy, speed and time over the travel"))
-STRIPS = 24
-CORRECTED = 3  # times that a load over a speed is taken anew, at the speed in the middle of a strip
+DEFAULT_STRIPS = 24
+CORRECTIONS_PER_STRIP = 3  # times that a load over a speed is taken anew, at the speed in the middle of a strip
 ORIGINS = {"moment": "M", "energy-mass": "I", "slowness": "u", "reciprocal": "r", "time": "t"}
 
 
@@ -67,32 +67,34 @@ class MotionDrawing:
     @cached_property
     def errors(self) -> dict[str, float]:
         """How far the drawing is from the true motion at most, as parts of the largest energy, speed and time."""
-        true = self.motion.at(self.travel)
+        true = self.motion.state_at(self.travel)
         pairs = {name: (self.read(name), getattr(true, name)) for name in ("energy", "omega", "time")}
         return {name: float(np.nanmax(abs(drawn - exact)) / np.nanmax(abs(exact)))
                 for name, (drawn, exact) in pairs.items()}
 
 
-def drawn(motion: TrueMotion, strips: int = STRIPS, room: Room | None = None) -> MotionDrawing | None:
+def draw_motion(motion: TrueMotion, strips: int = DEFAULT_STRIPS,
+                room: PanelSize | None = None) -> MotionDrawing | None:
     """The construction of a motion in so many strips; none where it stops within the first three.
 
     Each strip has the moment of its middle, that of loads over a speed at the speed there.
     """
     machine = motion.machine
-    travel = np.linspace(motion.start, motion.last, strips + 1)
-    moments, energies = _chords(machine, travel, float(motion.at([motion.start]).energy[0]))
+    travel = np.linspace(motion.start, motion.last_travel, strips + 1)
+    moments, energies = strip_moments(machine, travel, float(motion.state_at([motion.start]).energy[0]))
     if len(moments) < 3:
         return None
-    return _Drawing(motion, travel[:len(energies)], np.array(moments), np.array(energies), room or Room()).made
+    return _MotionRecorder(motion, travel[:len(energies)], np.array(moments), np.array(energies),
+                           room or PanelSize()).draw
 
 
-def _chords(machine: Driven, travel: Reals, energy: float) -> tuple[list[float], list[float]]:
+def strip_moments(machine: DrivenMachine, travel: Reals, energy: float) -> tuple[list[float], list[float]]:
     """The moment of each strip, and the energies at the divisions, as far as there is some."""
     moments, energies = list[float](), [energy]
     for here, there in pairwise(travel):
         middle = np.array([(here + there) / 2])
         inertia, half = float(machine.inertia(middle)[0]), energy
-        for _ in range(CORRECTED if machine.laws else 1):
+        for _ in range(CORRECTIONS_PER_STRIP if machine.laws else 1):
             rate = np.sqrt(2 * max(half, 0.0) / inertia)
             moment = float(machine.moment(middle, np.array([rate]))[0])
             half = energy + moment * (there - here) / 2
@@ -104,14 +106,14 @@ def _chords(machine: Driven, travel: Reals, energy: float) -> tuple[list[float],
     return moments, energies
 
 
-class _Drawing:
+class _MotionRecorder:
     """Draws one motion on the board."""
 
-    def __init__(self, motion: TrueMotion, travel: Reals, moments: Reals, energies: Reals, room: Room):
+    def __init__(self, motion: TrueMotion, travel: Reals, moments: Reals, energies: Reals, room: PanelSize):
         self.motion, self.travel, self.x = motion, travel, travel - motion.start
         inertias, first = motion.machine.inertia(travel), 0 if energies[0] > 0 else 2
         omegas = np.sqrt(2 * energies / inertias)
-        self.lay = Layout(self.x, moments, energies, inertias, omegas, first, motion.last - motion.start,
+        self.lay = MotionLayout(self.x, moments, energies, inertias, omegas, first, motion.last_travel - motion.start,
                           motion.machine.degree, room)
         self.first, self.frames = first, self.lay.frames
         self.board, self.found = Board(), dict[str, list[Mark]]()
@@ -119,19 +121,20 @@ class _Drawing:
     # ---- drawing ---------------------------------------------------------------------------------------------------
 
     @property
-    def made(self) -> MotionDrawing:
+    def draw(self) -> MotionDrawing:
         """The finished program."""
         stages: list[tuple[Said, Said, Callable[[], None]]] = [
             (said("Energy"), said("its chords have the slope of the moment in the middle of each strip"), self._energy),
             (said("Energy-mass diagram"), said("energies are projected across, inertias down"), self._mass),
-            *([(said("Speed"), said("omega² = 2 E/I"), self._computed)] if self.lay.far else [
+            *([(said("Speed"), said("omega² = 2 E/I"), self.lay_off_computed)] if self.lay.origin_off_paper else [
                 (said("Speed"), said("omega² = 2 k_E/k_I tan psi: the root is a mean proportional"), self._speed),
                 (said("Slowness"), said("1/omega by similar triangles"), self._slowness)]),
-            *([(said("First strips"), said("from rest 1/omega has no end"), self._begun)] if self.first else []),
+            *([(said("First strips"), said("from rest 1/omega has no end"), self.draw_first_strips)] if self.first
+              else []),
             (said("Mean slowness"), said("of each strip"), self._means),
             (said("Time"), said("its chords have the slope of the mean 1/omega of each strip"), self._time)]
         with self.board.on(MOTION):
-            self._ruled()
+            self.draw_given()
         for title, law, draw in stages:
             with self.board.on(MOTION, stage=Stage(title, law)):
                 draw()
@@ -143,23 +146,23 @@ class _Drawing:
         return MotionDrawing(self.motion, program, evaluate(program, Floats()), self.frames, found, self.travel,
                              self.first)
 
-    def _given(self, frame: str, x: float, y: float, name: str = "") -> Mark:
+    def mark_value(self, frame: str, x: float, y: float, name: str = "") -> Mark:
         """A mark at values of a diagram."""
-        at = self.frames[frame].at(x, y)
+        at = self.frames[frame].position(x, y)
         return self.board.given(x=float(at[0]), y=float(at[1]), name=name)
 
-    def _ruled(self) -> None:
+    def draw_given(self) -> None:
         """What is given: origins, divisions, moments, inertias, and the energy at the beginning."""
         x, lay, count = self.x, self.lay, len(self.x)
-        self.origins = {name: self._given(name, 0.0, 0.0, f"O_{letter}") for name, letter in ORIGINS.items()}
+        self.origins = {name: self.mark_value(name, 0.0, 0.0, f"O_{letter}") for name, letter in ORIGINS.items()}
         low = self.frames["omega"]
         self.base = self.board.given(x=low.origin[0], y=low.origin[1], name="O_ω")
-        self.start = self._given("energy", 0.0, float(lay.energies[0]), "E_0")
-        self.divisions = [self._given("moment", float(x[k]), 0.0, f"D_{k}") for k in range(count)]
+        self.start = self.mark_value("energy", 0.0, float(lay.energies[0]), "E_0")
+        self.divisions = [self.mark_value("moment", float(x[k]), 0.0, f"D_{k}") for k in range(count)]
         middles = (x[1:] + x[:-1]) / 2
-        self.found["moment"] = [self._given("moment", float(at), float(moment), f"M_{k}")
+        self.found["moment"] = [self.mark_value("moment", float(at), float(moment), f"M_{k}")
                                 for k, (at, moment) in enumerate(zip(middles, lay.moments, strict=True), 1)]
-        self.found["inertia"] = [self._given("inertia", float(lay.inertias[k]), float(x[k]), f"I_{k}")
+        self.found["inertia"] = [self.mark_value("inertia", float(lay.inertias[k]), float(x[k]), f"I_{k}")
                                  for k in range(count)]
 
     def _axes(self, frame: str, letter: str, pole: float) -> Axes:
@@ -186,7 +189,7 @@ class _Drawing:
             upright = board.parallel(self.rate.ordinates, inertia, why=said("carry the inertia down"))
             self.found["energy-mass"].append(board.meet(level, upright, name=f"W_{k}"))
 
-    def _computed(self) -> None:
+    def lay_off_computed(self) -> None:
         """Speeds and their reciprocals laid off as they are computed: the rays' origin is off the paper."""
         low, omegas = self.frames["omega"], self.lay.omegas
         base = self.board.parallel(self.rate.abscissas, self.base, why=said("the axis of travel"))
@@ -221,11 +224,11 @@ class _Drawing:
             middle = board.midpoint(P, T)
             half = board.circle(middle, board.opening(middle, T), why=said("the half circle over d and c tan psi"))
             R = board.line_meets_circle(axis, half, way="on", name=f"R_{k}", why=said("the mean proportional"))
-            self._carried(k, base, C, R, "omega", f"omega_{k}")
+            self.carry_length(k, base, C, R, "omega", f"omega_{k}")
             self.found["rays"].append(T)
             self.found["roots"].append(R)
 
-    def _carried(self, k: int, base: Mark, one: Mark, other: Mark, what: str, name: str) -> None:
+    def carry_length(self, k: int, base: Mark, one: Mark, other: Mark, what: str, name: str) -> None:
         """A length laid off upwards at a division of an axis."""
         board = self.board
         foot = self._foot(k, base)
@@ -246,7 +249,7 @@ class _Drawing:
             level = board.parallel(self.rate.abscissas, omega, why=said("carry the speed across"))
             ray = board.line(corner, board.meet(level, wall), why=said("the ray of this speed"))
             cut = board.meet(ray, ceiling, name=f"U_{k}")
-            self._carried(k, self.under.abscissas, above, cut, "slowness", f"u_{k}")
+            self.carry_length(k, self.under.abscissas, above, cut, "slowness", f"u_{k}")
             self.found["reciprocals"].append(cut)
 
     def _from_first(self) -> list[tuple[int, Mark]]:
@@ -265,7 +268,7 @@ class _Drawing:
         self.found["time"] = [*starts, *(ray.end for ray in rays)]
         self.found["time rays"] = [ray.cut for ray in rays]
 
-    def _begun(self) -> None:
+    def draw_first_strips(self) -> None:
         """The first points of the diagram of time, from rest: those of the parabola."""
         curve, x, board = parabola(self.x, self.lay.omegas), self.x, self.board
         axis = board.parallel(self.rate.abscissas, self.origins["time"], why=said("the axis of travel"))

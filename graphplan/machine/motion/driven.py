@@ -15,13 +15,13 @@ from typing import NamedTuple
 import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.machine.integrals import Piecewise, Reals, settled
+from graphplan.machine.integrals import Piecewise, Reals, fit_piecewise
 from graphplan.machine.reduced.reduction import Reduction
 from graphplan.machine.tolerances import INERTIA_TOL, MACHINE_SHARE
 from graphplan.mechanism.loads import LoadTable
 from graphplan.mechanism.travel import travel_text, travel_unit
 
-SAMPLES = 48  # places of the cycle that show how large moments and inertias are
+SIZE_SAMPLES = 48  # places of the cycle that show how large moments and inertias are
 
 
 class SpeedLaw(NamedTuple):
@@ -43,7 +43,7 @@ class SpeedLaw(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Driven:
+class DrivenMachine:
     """A machine of one degree of freedom as its first drive feels it, in SI units.
 
     `reduced` are inertia, its slope and the moment of all loads that hang on the travel alone, positive where they
@@ -61,7 +61,7 @@ class Driven:
     pace: float = 1.0
     measure: str = "degrees"
 
-    def told(self, travel: float) -> str:
+    def travel_text(self, travel: float) -> str:
         """A travel in words."""
         return f"{travel / self.degree:.6g} {self.measure}"
 
@@ -94,7 +94,7 @@ class Driven:
     def curve(self, curve: Piecewise, travel: Reals, side: int = 1) -> Reals:
         """A curve of the machine at any travels."""
         if self.closed:
-            turns = np.floor if side > 0 else _below
+            turns = np.floor if side > 0 else turns_below
             travel = travel - self.period * turns((travel - self.begin) / self.period)
         return curve.at(travel, side)
 
@@ -106,41 +106,43 @@ class Driven:
         return [start, *(float(x) for x in found if start < x < end), end]
 
 
-def _below(turns: Reals) -> Reals:
+def turns_below(turns: Reals) -> Reals:
     return np.ceil(turns) - 1
 
 
-def driven(reduction: Reduction, wheel: float = 0.0, closing: float = 0.0) -> Driven:
+def driven_machine(reduction: Reduction, wheel: float = 0.0, closing: float = 0.0) -> DrivenMachine:
     """The machine of a reduction, with a flywheel and a moment on the drive; a sliding drive's travel in metres.
 
     Fails with `Refused` where a pose is not reached or has no velocities.
     """
     def rows(travel: Reals) -> Reals:
-        found = reduction.at(travel)
+        found = reduction.reduce_at(travel)
         speeds = [curve for load in found.speed_loads for curve in (load.arm, load.rate)]
         return np.array([found.inertia, found.slope, found.moment, *speeds])
 
     unit, name = travel_unit(reduction.scene)
     first, last = reduction.ends
-    sample = reduction.at(np.linspace(first, last, SAMPLES + 2)[1:-1])
+    sample = reduction.reduce_at(np.linspace(first, last, SIZE_SAMPLES + 2)[1:-1])
     sizes = np.zeros(3 + 2 * len(sample.speed_loads))
     sizes[1] = abs(sample.inertia).max()
-    sizes[2] = max(sum(abs(moment).max() for moment in sample.by.values()), MACHINE_SHARE * reduction.size.moment)
+    sizes[2] = max(sum(abs(moment).max() for moment in sample.by.values()),
+                   MACHINE_SHARE * reduction.machine_size.moment)
     edges = [first, *(float(x) for x in reduction.breaks if first < x < last), last]
-    curves = [replace(curve, edges=curve.edges * reduction.unit) for curve in settled(rows, edges, sizes)]
-    _heavy(curves[0], reduction)
+    curves = [replace(curve, edges=curve.edges * reduction.unit) for curve in fit_piecewise(rows, edges, sizes)]
+    require_inertia(curves[0], reduction)
     arms = zip(sample.speed_loads, curves[3::2], curves[4::2], strict=True)
-    laws = tuple(SpeedLaw(load.name, arm, rate, load.law, _ends(load.table)) for load, arm, rate in arms)
-    return Driven((curves[0], curves[1], curves[2]), reduction.closed, laws, wheel, closing, reduction.unit * unit,
+    laws = tuple(SpeedLaw(load.name, arm, rate, load.law, speed_ends(load.table)) for load, arm, rate in arms)
+    return DrivenMachine((curves[0], curves[1], curves[2]), reduction.closed, laws, wheel, closing,
+                         reduction.unit * unit,
                   reduction.unit, name)
 
 
-def _ends(table: LoadTable) -> tuple[float, float]:
+def speed_ends(table: LoadTable) -> tuple[float, float]:
     """The speeds between which a table knows the load."""
     return (-math.inf, math.inf) if table.powers else (float(min(table.corners)), float(max(table.corners)))
 
 
-def _heavy(inertia: Piecewise, reduction: Reduction) -> None:
+def require_inertia(inertia: Piecewise, reduction: Reduction) -> None:
     """Refuse a machine that has no inertia somewhere: its speed there would have no end."""
     low, high = inertia.edges[:-1, None], inertia.edges[1:, None]
     travel = (low + (high - low) * np.linspace(0, 1, 9)).ravel()

@@ -18,11 +18,10 @@ from functools import partial
 import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.machine.flywheel.steady_cycle import needed, turning
-from graphplan.machine.flywheel.steady_cycle import steady as steady_cycle
+from graphplan.machine.flywheel.steady_cycle import needed_inertia, steady_cycle, turn_with
 from graphplan.machine.integrals import Reals, bisect
-from graphplan.machine.motion.driven import Driven, driven
-from graphplan.machine.motion.true_motion import Place, TrueMotion, moved
+from graphplan.machine.motion.driven import DrivenMachine, driven_machine
+from graphplan.machine.motion.true_motion import Place, TrueMotion, move
 from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.machine.tolerances import CYCLE_TOL
 from graphplan.mechanism.model import Scene
@@ -31,10 +30,11 @@ from graphplan.mechanism.travel import TURN
 # ---- steady motion and run-up ---------------------------------------------------------------------------------------
 
 
-NEAR = 0.01  # of the steady speed: a machine so near to it has run up
-TURNS = 100  # that a run-up may take
-OCTAVES, GRID = 12, 8  # how far from a speed the nominal one is looked for, and in how many steps each
-ROUNDS = 60  # of the search for the cycle that repeats itself: it takes three to six
+RUN_UP_SHARE = 0.01  # of the steady speed: a machine so near to it has run up
+MAX_RUN_UP_TURNS = 100  # that a run-up may take
+# how far from a speed the nominal one is looked for, and in how many steps each
+SPEED_OCTAVES, SPEEDS_PER_OCTAVE = 12, 8
+MAX_CYCLE_ROUNDS = 60  # of the search for the cycle that repeats itself: it takes three to six
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class RunUp:
     turns: float
 
 
-def work(machine: Driven, omega: Reals) -> tuple[Reals, Reals]:
+def work_over_cycle(machine: DrivenMachine, omega: Reals) -> tuple[Reals, Reals]:
     """The work of all loads over a cycle at constant speeds, shape (k,), and that of their sizes; the moment that
     closes the cycle counts by itself."""
     nodes, weights = np.polynomial.legendre.leggauss(24)
@@ -57,23 +57,24 @@ def work(machine: Driven, omega: Reals) -> tuple[Reals, Reals]:
     return moment @ each, (abs(moment - machine.closing) + abs(machine.closing)) @ each
 
 
-def nominal(machine: Driven, near: float) -> float:
+def nominal_speed(machine: DrivenMachine, near: float) -> float:
     """The speed nearest to another at which the loads do no work over a cycle, and are stable; to rounding.
 
     Fails with `Refused` where the characteristics do not intersect so.
     """
-    speeds = near * 2.0 ** (np.arange(-OCTAVES * GRID, OCTAVES * GRID + 1) / GRID)
-    works = work(machine, speeds)[0]
+    speeds = near * 2.0 ** (np.arange(-SPEED_OCTAVES * SPEEDS_PER_OCTAVE,
+                                      SPEED_OCTAVES * SPEEDS_PER_OCTAVE + 1) / SPEEDS_PER_OCTAVE)
+    works = work_over_cycle(machine, speeds)[0]
     falling = np.flatnonzero((works[:-1] > 0) & (works[1:] <= 0))
     if not len(falling):
         raise Refused("the steady motion", "the characteristics of the loads do not intersect: at no speed is their "
                       "work over a cycle zero", "a driver whose moment falls with the speed")
     k = min(falling, key=lambda k: abs(math.log(speeds[k] * speeds[k + 1] / near**2)))
-    low, high = bisect(lambda omega: work(machine, omega)[0] > 0, speeds[k:k + 1], speeds[k + 1:k + 2])
+    low, high = bisect(lambda omega: work_over_cycle(machine, omega)[0] > 0, speeds[k:k + 1], speeds[k + 1:k + 2])
     return float((low + high)[0] / 2)
 
 
-def steady(machine: Driven, speed: float) -> TrueMotion:
+def steady_motion(machine: DrivenMachine, speed: float) -> TrueMotion:
     """The cycle that repeats itself; of a machine whose loads know no speed the one with this mean (max + min)/2.
 
     Fails with `Refused` where the machine does not turn, or its cycle does not close at any speed.
@@ -84,32 +85,32 @@ def steady(machine: Driven, speed: float) -> TrueMotion:
     if not speed > 0:
         raise Refused("the steady motion", "the speed is missing", "--speed, or the omega of the first [[drive]]")
     if machine.laws:
-        return limit_cycle(machine, nominal(machine, speed))
-    over, size = (float(one[0]) for one in work(machine, np.array([speed])))
+        return limit_cycle(machine, nominal_speed(machine, speed))
+    over, size = (float(one[0]) for one in work_over_cycle(machine, np.array([speed])))
     if abs(over) > CYCLE_TOL * 1e3 * size:
         raise Refused("the steady motion", f"the loads give {over:.6g} J over a cycle, which does not close",
                       "[flywheel], whose closing moment closes it, or a driver's characteristic over the speed")
-    return _with_mean(machine, speed)
+    return cycle_with_mean(machine, speed)
 
 
-def _cycle(machine: Driven, energy: float) -> TrueMotion:
+def motion_over_turn(machine: DrivenMachine, energy: float) -> TrueMotion:
     """One turn from its beginning with this energy there."""
     begin = machine.begin
     omega = math.sqrt(2 * energy / float(machine.inertia(np.array([begin]))[0]))
-    motion = moved(machine, omega, begin, begin + machine.period)
+    motion = move(machine, omega, begin, begin + machine.period)
     if motion.stop is not None:
-        raise Refused("the steady motion", f"the machine comes to rest at {machine.told(motion.stop.travel)}",
+        raise Refused("the steady motion", f"the machine comes to rest at {machine.travel_text(motion.stop.travel)}",
                       "a larger speed, or a flywheel")
     return motion
 
 
-def limit_cycle(machine: Driven, omega: float) -> TrueMotion:
+def limit_cycle(machine: DrivenMachine, omega: float) -> TrueMotion:
     """The cycle at whose end the energy is that of its beginning: by secants, from the nominal speed."""
     energy = float(machine.inertia(np.array([machine.begin]))[0]) * omega**2 / 2
     before = miss = 0.0
-    for round_ in range(ROUNDS):
-        motion = _cycle(machine, energy)
-        last, miss = miss, float(motion.at([motion.end]).energy[0]) - energy
+    for round_ in range(MAX_CYCLE_ROUNDS):
+        motion = motion_over_turn(machine, energy)
+        last, miss = miss, float(motion.state_at([motion.end]).energy[0]) - energy
         if abs(miss) <= CYCLE_TOL * energy:
             return motion
         steeper = (miss - last) / (energy - before) if round_ else -1.0
@@ -117,11 +118,11 @@ def limit_cycle(machine: Driven, omega: float) -> TrueMotion:
     raise Refused("the steady motion", "no periodic motion was found", "a driver whose moment falls with the speed")
 
 
-def _with_mean(machine: Driven, speed: float) -> TrueMotion:
+def cycle_with_mean(machine: DrivenMachine, speed: float) -> TrueMotion:
     """The cycle whose mean speed is this: the square of the speed at its beginning grows with that of the mean."""
     energy = float(machine.inertia(np.array([machine.begin]))[0]) * speed**2 / 2
-    for _ in range(ROUNDS):
-        motion = _cycle(machine, energy)
+    for _ in range(MAX_CYCLE_ROUNDS):
+        motion = motion_over_turn(machine, energy)
         mean = motion.means.arithmetic
         if abs(mean - speed) <= CYCLE_TOL * speed:
             return motion
@@ -129,49 +130,50 @@ def _with_mean(machine: Driven, speed: float) -> TrueMotion:
     raise Refused("the steady motion", f"no cycle has the mean speed {speed:g}", "a larger speed, or a flywheel")
 
 
-def _apart(motion: TrueMotion, cycle: TrueMotion, travel: Reals) -> Reals:
+def speed_gap(motion: TrueMotion, cycle: TrueMotion, travel: Reals) -> Reals:
     """How much farther from the steady motion than `NEAR` another is."""
-    return abs(motion.at(travel).omega / cycle.at(travel).omega - 1) - NEAR
+    return abs(motion.state_at(travel).omega / cycle.state_at(travel).omega - 1) - RUN_UP_SHARE
 
 
-def run_up(machine: Driven, cycle: TrueMotion, omega: float = 0.0) -> RunUp:
+def run_up(machine: DrivenMachine, cycle: TrueMotion, omega: float = 0.0) -> RunUp:
     """How a machine comes near its steady cycle, from rest or from another speed.
 
     Fails with `Refused` where it cannot start, stops, or takes more than `TURNS` turns.
     """
     elapsed, begin, period = 0.0, machine.begin, machine.period
-    for turn in range(TURNS):
-        motion = moved(machine, omega, begin, begin + period)
-        apart = partial(_apart, motion, cycle)
+    for turn in range(MAX_RUN_UP_TURNS):
+        motion = move(machine, omega, begin, begin + period)
+        apart = partial(speed_gap, motion, cycle)
         if motion.stop is not None:
             raise Refused("the run-up", f"the machine stops again in turn {turn + 1}", "more drive, or less load")
-        near = motion.seen[apart(motion.seen) <= 0]
+        near = motion.sample_travels[apart(motion.sample_travels) <= 0]
         if len(near):
             there = min(near[0], *motion.roots(apart), near[0])
-            at = motion.at([there])
+            at = motion.state_at([there])
             place = Place(there + turn * period, float(at.omega[0]), elapsed + float(at.time[0]))
             return RunUp(place, (place.travel - begin) / period)
-        last = motion.at([begin + period])
+        last = motion.state_at([begin + period])
         omega, elapsed = float(last.omega[0]), elapsed + float(last.time[0])
-    raise Refused("the run-up", f"after {TURNS} turns it is not within {NEAR:.0%} of the steady motion",
+    raise Refused("the run-up",
+                  f"after {MAX_RUN_UP_TURNS} turns it is not within {RUN_UP_SHARE:.0%} of the steady motion",
                   "a smaller flywheel, or more drive")
 
 
 # ---- what a scene asks for ------------------------------------------------------------------------------------------
 
 
-TURN_TOLD = 360.0  # degrees
-FARTHEST = 1000  # turns that a motion is followed
+TURN_DEGREES = 360.0  # degrees
+MAX_TURNS = 1000  # turns that a motion is followed
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
+class MachineMotion:
     """A motion of a scene's machine. `steady` is its steady cycle, if it has loads over a speed or is asked for it;
     `nominal` the speed of its characteristics, in SI, and `run_up` how the motion comes near the steady cycle.
     """
 
     reduction: Reduction
-    machine: Driven
+    machine: DrivenMachine
     motion: TrueMotion
     steady: TrueMotion | None = None
     nominal: float | None = None
@@ -182,90 +184,94 @@ class Run:
         return self.reduction.scene
 
 
-def run(scene: Scene, speed: float | None = None, travel: float | None = None, in_cycle: bool = False) -> Run:
+def motion_of_scene(scene: Scene, speed: float | None = None, travel: float | None = None,
+                    in_cycle: bool = False) -> MachineMotion:
     """The motion of a scene: from a speed (rad/s or lengths/s) over a travel (degrees or lengths), or the steady cycle.
 
     Fails with `Refused` where the machine does not start or get so far, its cycle does not close, or it is to stop and
     does not.
     """
     asked = scene.run
-    speed = _told(speed, None if asked is None else asked.speed)
-    travel = _told(travel, None if asked is None else asked.travel)
-    found = _reduced(scene, travel)
+    speed = first_number(speed, None if asked is None else asked.speed)
+    travel = first_number(travel, None if asked is None else asked.travel)
+    found = reduction_of_motion(scene, travel)
     in_cycle = in_cycle or (scene.flywheel is not None and asked is None and speed is None and travel is None)
-    found, machine = _with_wheel(scene, found)
+    found, machine = with_flywheel(scene, found)
     own = abs(float(scene.drives[0].rate))
     if in_cycle:
         mean = speed if speed is not None else own if scene.flywheel is None else float(scene.flywheel.speed)
-        motion = steady(machine, abs(mean) * machine.pace)
-        return Run(found, machine, motion, motion, nominal(machine, motion.means.planimetric) if machine.laws else None)
+        motion = steady_motion(machine, abs(mean) * machine.pace)
+        return MachineMotion(found, machine, motion, motion,
+                             nominal_speed(machine, motion.means.planimetric) if machine.laws else None)
     first = own if speed is None else speed
     if first < 0:
         raise Refused("--speed", f"{first:g} is below 0", "a speed in the sense in which the drive moves, or 0")
     stops = asked is not None and asked.stops
-    end = _end(machine, travel, stops)
-    motion = moved(machine, first * machine.pace, machine.begin, end)
+    end = end_of_travel(machine, travel, stops)
+    motion = move(machine, first * machine.pace, machine.begin, end)
     if stops:
         if motion.stop is None:
-            raise Refused("run: stops", f"the machine still moves after {machine.told(end)}", "a travel, or more load")
+            raise Refused("run: stops", f"the machine still moves after {machine.travel_text(end)}",
+                          "a travel, or more load")
         motion = replace(motion, end=motion.stop.travel)
-    return _compared(Run(found, machine, motion), first)
+    return with_steady_cycle(MachineMotion(found, machine, motion), first)
 
 
-def _told(*values: object) -> float | None:
+def first_number(*values: object) -> float | None:
     """The first number that is said."""
     return next((float(value) for value in values if value is not None), None)  # type: ignore[arg-type]
 
 
-def _reduced(scene: Scene, travel: float | None) -> Reduction:
+def reduction_of_motion(scene: Scene, travel: float | None) -> Reduction:
     """The masses and loads of the scene: over a whole cycle where there is one and the travel is a turn or more, or not
     said, or where a flywheel is asked for; else over the travel."""
     if travel is not None and travel <= 0:
         raise Refused("--travel", f"{travel:g} is not greater than 0", "give degrees (lengths of a sliding drive)")
-    if travel is not None and travel > FARTHEST * TURN_TOLD and not (scene.drives and scene.drives[0].slides):
-        raise Refused("--travel", f"{travel:g} degrees are more than {FARTHEST} turns", "a shorter travel, or --steady")
+    if travel is not None and travel > MAX_TURNS * TURN_DEGREES and not (scene.drives and scene.drives[0].slides):
+        raise Refused("--travel", f"{travel:g} degrees are more than {MAX_TURNS} turns",
+                      "a shorter travel, or --steady")
     if scene.drives and scene.drives[0].slides and travel is None:
         raise Refused("the motion", "the first drive slides, and the travel is missing", "--travel, or travel in [run]")
-    whole = scene.flywheel is not None or travel is None or travel >= TURN_TOLD
+    whole = scene.flywheel is not None or travel is None or travel >= TURN_DEGREES
     if scene.drives and not scene.drives[0].slides and whole:
         try:
             return reduction(scene)
         except Refused:
             if scene.flywheel is not None:
                 raise
-    return reduction(scene, (0.0, travel or TURN_TOLD))
+    return reduction(scene, (0.0, travel or TURN_DEGREES))
 
 
-def _end(machine: Driven, travel: float | None, stops: bool) -> float:
+def end_of_travel(machine: DrivenMachine, travel: float | None, stops: bool) -> float:
     """The travel at the end, in SI."""
     if travel is not None:
         return machine.begin + travel * machine.degree
     if not machine.closed:
         return machine.begin + machine.period
-    return machine.begin + (TURN * TURNS if stops else TURN)
+    return machine.begin + (TURN * MAX_RUN_UP_TURNS if stops else TURN)
 
 
-def _with_wheel(scene: Scene, found: Reduction) -> tuple[Reduction, Driven]:
+def with_flywheel(scene: Scene, found: Reduction) -> tuple[Reduction, DrivenMachine]:
     """The machine with the flywheel that is asked for, if it needs one, and what closes its cycle: a moment, or its
     loads scaled."""
     wanted = scene.flywheel
     if wanted is None:
-        return found, driven(found)
+        return found, driven_machine(found)
     speed = abs(float(wanted.speed)) * found.unit
     cycle = steady_cycle(found, speed, wanted.closes, found.changing)
-    wheel = (turning(cycle, float(wanted.inertia or 0)).inertia if wanted.unevenness is None
-             else needed(cycle, float(wanted.unevenness)))
-    found = found.scaled(cycle.factor)
-    return found, driven(found, wheel, cycle.closing)
+    wheel = (turn_with(cycle, float(wanted.inertia or 0)).inertia if wanted.unevenness is None
+             else needed_inertia(cycle, float(wanted.unevenness)))
+    found = found.scale_loads(cycle.factor)
+    return found, driven_machine(found, wheel, cycle.closing)
 
 
-def _compared(found: Run, speed: float) -> Run:
+def with_steady_cycle(found: MachineMotion, speed: float) -> MachineMotion:
     """The run with the steady cycle that its machine comes to, if characteristics lead to one."""
     machine = found.machine
     if not (machine.laws and machine.closed) or found.motion.stop is not None:
         return found
     try:
-        omega = nominal(machine, found.motion.extremes[1].omega)
+        omega = nominal_speed(machine, found.motion.extremes[1].omega)
         found = replace(found, nominal=omega, steady=(cycle := limit_cycle(machine, omega)))
         return replace(found, run_up=run_up(machine, cycle, speed * machine.pace))
     except Refused:

@@ -14,7 +14,7 @@ import numpy as np
 
 from graphplan.errors import Refused
 from graphplan.machine.integrals import Reals
-from graphplan.machine.motion.driven import Driven
+from graphplan.machine.motion.driven import DrivenMachine
 
 
 class Parabola(NamedTuple):
@@ -55,7 +55,7 @@ def times(travel: Reals, omega: Reals) -> Reals:
     return found
 
 
-def by_energy(machine: Driven, travel: Reals, omega: float) -> Reals:
+def by_energy(machine: DrivenMachine, travel: Reals, omega: float) -> Reals:
     """The speeds with each strip's moment taken at its beginning: Euler's step for omega^2, of the first order.
 
     d(omega^2) = 2/I M dphi where the inertia does not change; nan from where nothing is left.
@@ -69,7 +69,7 @@ def by_energy(machine: Driven, travel: Reals, omega: float) -> Reals:
     return np.array(found)
 
 
-def baranov(machine: Driven, travel: Reals, omega: float) -> Reals:
+def baranov(machine: DrivenMachine, travel: Reals, omega: float) -> Reals:
     """The speeds by Baranov's step (13.31), of the first order; from rest the first strip is one of `by_energy`."""
     found = [omega]
     if omega == 0:

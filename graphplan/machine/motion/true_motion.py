@@ -28,7 +28,7 @@ from numpy.polynomial.legendre import legval
 
 from graphplan.errors import Refused
 from graphplan.machine.integrals import Reals, bisect
-from graphplan.machine.motion.driven import Driven
+from graphplan.machine.motion.driven import DrivenMachine
 from graphplan.machine.tolerances import (
     ENERGY_TOL,
     MIN_STRETCH,
@@ -44,11 +44,11 @@ from graphplan.machine.tolerances import (
 
 
 NODES = 16
-ROUNDS = 30  # of Newton's method: it takes three to six
-TAIL = 3  # terms at the end of a series that tell how far it is from settled
+MAX_NEWTON_ROUNDS = 30  # of Newton's method: it takes three to six
+TAIL_TERMS = 3  # terms at the end of a series that tell how far it is from settled
 
 
-class Machine(Protocol):
+class MovingMachine(Protocol):
     """What moves: its inertia over the travel, and at travels its moments as a function of the rates there."""
 
     def inertia(self, travel: Reals) -> Reals: ...
@@ -57,7 +57,7 @@ class Machine(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Stretch:
+class MotionStretch:
     """Energy and time as Legendre series in s from 0 to 1, where the travel is `start` + `way` s^`power`."""
 
     start: float
@@ -72,8 +72,8 @@ class Stretch:
         return 2 * (np.sqrt(s) if self.power == 2 else s) - 1
 
 
-def stretch(machine: Machine, start: float, way: float, energy: float, elapsed: float,
-            at_rest: bool = False) -> Stretch | None:
+def move_stretch(machine: MovingMachine, start: float, way: float, energy: float, elapsed: float,
+            at_rest: bool = False) -> MotionStretch | None:
     """The motion from a travel on; None where no polynomial follows it to rounding, or it comes to rest.
 
     Reads the energy and the time elapsed at the start. With `at_rest` there is no energy, and `way` may lead back.
@@ -82,7 +82,7 @@ def stretch(machine: Machine, start: float, way: float, energy: float, elapsed: 
     travel, pace = start + way * rule.nodes**power, way * power * rule.nodes**(power - 1)
     inertia, moments, still = machine.inertia(travel), machine.moments(travel), np.zeros(NODES)
     energies = moments(still) * (travel - start) if at_rest else np.full(NODES, energy)
-    for _ in range(ROUNDS):
+    for _ in range(MAX_NEWTON_ROUNDS):
         if not (energies > 0).all():
             return None
         rate = np.sqrt(2 * energies / inertia)
@@ -101,14 +101,14 @@ def stretch(machine: Machine, start: float, way: float, energy: float, elapsed: 
     if not (energies > 0).all():
         return None
     grown, hurried = pace * moment, pace / np.sqrt(2 * energies / inertia)
-    if not (_fine(grown, max(energies.max(), energy)) and _fine(hurried, elapsed + abs(hurried).mean())):
+    if not (is_settled(grown, max(energies.max(), energy)) and is_settled(hurried, elapsed + abs(hurried).mean())):
         return None
-    return Stretch(start, way, power, rule.summed(grown, energy), rule.summed(hurried, elapsed))
+    return MotionStretch(start, way, power, rule.integral_terms(grown, energy), rule.integral_terms(hurried, elapsed))
 
 
-def _fine(values: Reals, size: float) -> bool:
+def is_settled(values: Reals, size: float) -> bool:
     """Whether the last terms of the series are rounding beside a size, or beside the values."""
-    tail = abs(values @ _rule().series[:, -TAIL:]).max()
+    tail = abs(values @ _rule().series[:, -TAIL_TERMS:]).max()
     return bool(tail <= SERIES_TOL * max(size, abs(values).max()))
 
 
@@ -121,7 +121,7 @@ class _Rule(NamedTuple):
     terms: Reals
     integral: Reals
 
-    def summed(self, values: Reals, first: float) -> Reals:
+    def integral_terms(self, values: Reals, first: float) -> Reals:
         """The terms of the integral, which begins at `first`."""
         found: Reals = values @ self.terms
         found[0] += first
@@ -141,10 +141,10 @@ def _rule() -> _Rule:
 # ---- the whole motion -----------------------------------------------------------------------------------------------
 
 
-SEEN = 24  # places in a stretch between which a sign is seen to change
+STRETCH_SAMPLES = 24  # places in a stretch between which a sign is seen to change
 
 
-class State(NamedTuple):
+class MotionState(NamedTuple):
     """How the machine moves at travels: arrays of shape (n,), nan where it does not get."""
 
     energy: Reals
@@ -174,10 +174,10 @@ class Means(NamedTuple):
 class TrueMotion:
     """The motion of a machine from one travel to another; `stop` is where it comes to rest before, if it does."""
 
-    machine: Driven
+    machine: DrivenMachine
     start: float
     end: float
-    stretches: tuple[Stretch, ...]
+    stretches: tuple[MotionStretch, ...]
     stop: Place | None
 
     @cached_property
@@ -185,15 +185,15 @@ class TrueMotion:
         return [min(one.start, one.start + one.way) for one in self.stretches]
 
     @property
-    def last(self) -> float:
+    def last_travel(self) -> float:
         """The last travel that is reached."""
         return self.end if self.stop is None else self.stop.travel
 
-    def at(self, travel: Sequence[float] | Reals, side: int = 1) -> State:
+    def state_at(self, travel: Sequence[float] | Reals, side: int = 1) -> MotionState:
         """Energy, speed, time and acceleration; where loads jump, the acceleration right of it, or left with -1."""
         x = np.asarray(travel, dtype=float)
         energy, time = np.full(x.shape, np.nan), np.full(x.shape, np.nan)
-        inside = (x >= self.start) & (x <= self.last)
+        inside = (x >= self.start) & (x <= self.last_travel)
         held = np.array([max(0, bisect_right(self._starts, value) - 1) for value in x], dtype=int)
         for k in np.unique(held[inside]):
             here, one = inside & (held == k), self.stretches[k]
@@ -205,63 +205,63 @@ class TrueMotion:
         inertia = self.machine.inertia(x)
         omega = np.sqrt(2 * energy / inertia)
         moment = self.machine.moment(x, omega, side)
-        return State(energy, omega, time, (moment - self.machine.slope(x, side) * omega**2 / 2) / inertia)
+        return MotionState(energy, omega, time, (moment - self.machine.slope(x, side) * omega**2 / 2) / inertia)
 
     @cached_property
-    def seen(self) -> Reals:
+    def sample_travels(self) -> Reals:
         """Travels that show the motion: the ends of all stretches, and places between."""
-        ends = [*self._starts, self.last]
-        parts = [np.linspace(a, b, SEEN, endpoint=False) for a, b in pairwise(ends)]
-        return np.concatenate([*parts, [self.last]])
+        ends = [*self._starts, self.last_travel]
+        parts = [np.linspace(a, b, STRETCH_SAMPLES, endpoint=False) for a, b in pairwise(ends)]
+        return np.concatenate([*parts, [self.last_travel]])
 
     @cached_property
     def extremes(self) -> tuple[Place, Place]:
         """The least and the largest speed: at an end, where a load jumps, or where nothing accelerates."""
-        places = np.union1d(self.seen, self.roots(lambda x: self.at(x).acceleration))
-        state = self.at(places)
+        places = np.union1d(self.sample_travels, self.roots(lambda x: self.state_at(x).acceleration))
+        state = self.state_at(places)
         least, most = int(np.argmin(state.omega)), int(np.argmax(state.omega))
         return (Place(*(float(one[least]) for one in (places, state.omega, state.time))),
                 Place(*(float(one[most]) for one in (places, state.omega, state.time))))
 
     def roots(self, function: Callable[[Reals], Reals]) -> Reals:
         """The travels at which a function of the travel changes its sign."""
-        signs = np.sign(function(self.seen))
+        signs = np.sign(function(self.sample_travels))
         changed = np.flatnonzero(signs[:-1] * signs[1:] < 0)
-        low, high = bisect(lambda travel: np.sign(function(travel)) == signs[changed], self.seen[changed],
-                           self.seen[changed + 1])
-        return np.sort(np.concatenate([(low + high) / 2, self.seen[signs == 0]]))
+        low, high = bisect(lambda travel: np.sign(function(travel)) == signs[changed], self.sample_travels[changed],
+                           self.sample_travels[changed + 1])
+        return np.sort(np.concatenate([(low + high) / 2, self.sample_travels[signs == 0]]))
 
     @cached_property
     def means(self) -> Means:
         """The means of the speed over the whole motion (Ozols (15.1), (15.2), (15.4))."""
         least, most = (place.omega for place in self.extremes)
-        nodes, weights = np.polynomial.legendre.leggauss(SEEN)
+        nodes, weights = np.polynomial.legendre.leggauss(STRETCH_SAMPLES)
         area = 0.0
-        for a, b in pairwise([*self._starts, self.last]):
-            area += (b - a) / 2 * float(weights @ self.at((a + b) / 2 + (b - a) / 2 * nodes).omega)
-        way, half = self.last - self.start, (least + most) / 2
-        elapsed = float(self.at([self.last]).time[0])
+        for a, b in pairwise([*self._starts, self.last_travel]):
+            area += (b - a) / 2 * float(weights @ self.state_at((a + b) / 2 + (b - a) / 2 * nodes).omega)
+        way, half = self.last_travel - self.start, (least + most) / 2
+        elapsed = float(self.state_at([self.last_travel]).time[0])
         return Means(half, area / way, way / elapsed, (most - least) / half)
 
 
-def moved(machine: Driven, omega: float, start: float, end: float) -> TrueMotion:
+def move(machine: DrivenMachine, omega: float, start: float, end: float) -> TrueMotion:
     """The motion from a travel, with a speed there (0: from rest), to another travel or until the machine stops.
 
     Fails with `Refused` where it cannot start, or a span that does not close is left.
     """
-    _inside(machine, start, end)
+    require_within_span(machine, start, end)
     energy = float(machine.inertia(np.array([start]))[0]) * omega**2 / 2
     if omega == 0:
-        _starts(machine, start)
-    waiting, found = machine.edges(start, end)[::-1], list[Stretch]()
+        require_start(machine, start)
+    waiting, found = machine.edges(start, end)[::-1], list[MotionStretch]()
     here, elapsed = waiting.pop(), 0.0
     while waiting:
         way = waiting[-1] - here
-        one = stretch(machine, here, way, energy, elapsed, at_rest=energy == 0)
-        if one is None and (halt := _halted(machine, here, waiting[-1], energy, elapsed)) is not None:
-            return TrueMotion(machine, start, end, (*found, halt), Place(halt.start, 0.0, _first(halt.time)))
+        one = move_stretch(machine, here, way, energy, elapsed, at_rest=energy == 0)
+        if one is None and (halt := stretch_to_rest(machine, here, waiting[-1], energy, elapsed)) is not None:
+            return TrueMotion(machine, start, end, (*found, halt), Place(halt.start, 0.0, start_value(halt.time)))
         if one is None and way <= MIN_STRETCH * (end - start):
-            _covered(machine, here, energy)
+            require_tables_cover(machine, here, energy)
             return TrueMotion(machine, start, end, tuple(found), Place(here, 0.0, math.inf))
         if one is None:
             waiting.append(here + way / 2)
@@ -271,15 +271,17 @@ def moved(machine: Driven, omega: float, start: float, end: float) -> TrueMotion
     return TrueMotion(machine, start, end, tuple(found), None)
 
 
-def _inside(machine: Driven, start: float, end: float) -> None:
+def require_within_span(machine: DrivenMachine, start: float, end: float) -> None:
     """Refuse a travel that leaves the span of a machine that does not turn."""
     last = machine.begin + machine.period
     if not machine.closed and not machine.begin <= start < end <= last + TRAVEL_TOL * machine.period:
-        raise Refused("the motion", f"it would go from {machine.told(start)} to {machine.told(end)}, and is known from "
-                      f"{machine.told(machine.begin)} to {machine.told(last)}", "a travel within (--travel)")
+        raise Refused("the motion",
+                      f"it would go from {machine.travel_text(start)} to {machine.travel_text(end)}, and is known from "
+                      f"{machine.travel_text(machine.begin)} to {machine.travel_text(last)}",
+                      "a travel within (--travel)")
 
 
-def _starts(machine: Driven, start: float) -> None:
+def require_start(machine: DrivenMachine, start: float) -> None:
     """Refuse to start where nothing drives the machine from rest."""
     at, still = np.array([start]), np.zeros(1)
     moment, size = float(machine.moment(at, still)[0]), float(abs(machine.reduced[2].terms[..., 0]).max())
@@ -289,7 +291,7 @@ def _starts(machine: Driven, start: float) -> None:
                       "a speed at the beginning (--speed), or loads that drive it there")
 
 
-def _covered(machine: Driven, travel: float, energy: float) -> None:
+def require_tables_cover(machine: DrivenMachine, travel: float, energy: float) -> None:
     """Let the tables over a speed refuse a motion that leaves what they cover."""
     at = np.array([travel])
     rate = np.sqrt(2 * energy / machine.inertia(at))
@@ -298,12 +300,13 @@ def _covered(machine: Driven, travel: float, energy: float) -> None:
             law.law(machine.curve(law.rate, at) * rate * beyond)
 
 
-def _first(terms: Reals) -> float:
+def start_value(terms: Reals) -> float:
     """The value of a series at its beginning."""
     return float(terms @ (-1.0) ** np.arange(len(terms)))
 
 
-def _halted(machine: Driven, here: float, end: float, energy: float, elapsed: float) -> Stretch | None:
+def stretch_to_rest(machine: DrivenMachine, here: float, end: float, energy: float,
+                    elapsed: float) -> MotionStretch | None:
     """The stretch on which the machine comes to rest before the end, from where it does back to here, if it does so.
 
     The farther it goes the more energy it has had here: the travel is found by the rule of false position.
@@ -311,8 +314,8 @@ def _halted(machine: Driven, here: float, end: float, energy: float, elapsed: fl
     if energy == 0:
         return None
 
-    def back(far: float) -> Stretch | None:
-        return stretch(machine, far, here - far, 0.0, 0.0, at_rest=True)
+    def back(far: float) -> MotionStretch | None:
+        return move_stretch(machine, far, here - far, 0.0, 0.0, at_rest=True)
 
     one = back(end)
     if one is None or (over := float(one.energy.sum()) - energy) < 0:
@@ -334,4 +337,4 @@ def _halted(machine: Driven, here: float, end: float, energy: float, elapsed: fl
     whole = float(one.time.sum())  # below zero: it was passed backwards
     time = one.time.copy()
     time[0] += elapsed - whole
-    return Stretch(one.start, one.way, one.power, one.energy, time)
+    return MotionStretch(one.start, one.way, one.power, one.energy, time)

@@ -14,7 +14,7 @@ import numpy as np
 
 from graphplan.cycle.linkage import Array
 from graphplan.kernel.program import Mark
-from graphplan.machine.reduced.unit_motion import Rates, UnitMotion, moving_points
+from graphplan.machine.reduced.unit_motion import UnitMotion, UnitRates, moving_points
 from graphplan.machine.tolerances import DEAD_POINT_TOL
 from graphplan.mechanism.model import FRAME, Balance, Find, Loads, Scene
 from graphplan.methods import kinds
@@ -42,12 +42,12 @@ class LeverDraughtsman(Draughtsman):
         loading = Loading(self.board, self.net, self.pose, phi, self.tempo.unit, None)
         (name, balance), = loading.loads.named_balances.items()
         lever = Lever(velocity, loading, LeverPlan.of_part(), {}, balance_letter(balance))
-        marks = self._balanced(lever)
+        marks = self.balancing_marks(lever)
         self.read(kinds.balance_kind(kinds.BY_LEVER, balance), name, *marks)
         shown = force_arrows(self.board, self.marks, [*lever.shown, Shown("balance", lever.letter, *marks[-2:])])
         return replace(super().finish(velocity, plan), phi=phi, shown=shown)
 
-    def _balanced(self, lever: Lever) -> tuple[Mark, ...]:
+    def balancing_marks(self, lever: Lever) -> tuple[Mark, ...]:
         """The moment on the link that turns, or the force on the one that slides, which balances all loads."""
         drive = self.scene.drives[0]
         if not drive.slides:
@@ -90,12 +90,12 @@ def with_resting_pairs(scene: Scene, motion: UnitMotion, travel: Array) -> Scene
     return replace(scene, loads=replace(scene.loads, resting=frozenset(_resting(scene, motion, rates))))
 
 
-def _resting(scene: Scene, motion: UnitMotion, rates: Rates) -> Iterator[str]:
+def _resting(scene: Scene, motion: UnitMotion, rates: UnitRates) -> Iterator[str]:
     for point, link, pin in pairs(scene):
-        one, other = (0.0 if name == FRAME else rates.of(kinds.OMEGA, name) for name in (link, pin))
+        one, other = (0.0 if name == FRAME else rates.rate(kinds.OMEGA, name) for name in (link, pin))
         if np.max(np.abs(one - other), initial=0.0) <= DEAD_POINT_TOL:
             yield JointForce(point, link).name
     reach = scene.extent * motion.metres if motion.turns else 1.0
     for slide in scene.slides:
-        if np.max(np.abs(rates.of(kinds.SLIDE_VELOCITY, slide.name)), initial=0.0) <= DEAD_POINT_TOL * reach:
+        if np.max(np.abs(rates.rate(kinds.SLIDE_VELOCITY, slide.name)), initial=0.0) <= DEAD_POINT_TOL * reach:
             yield slide.name

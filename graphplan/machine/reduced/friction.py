@@ -33,10 +33,10 @@ import numpy as np
 from graphplan.cycle.linkage import Array
 from graphplan.cycle.turn import Turn
 from graphplan.errors import Refused
-from graphplan.machine.integrals import settled
+from graphplan.machine.integrals import fit_piecewise
 from graphplan.machine.reduced.force_drawings import rubbed_drawing, with_resting_pairs
-from graphplan.machine.reduced.reduced_loads import LoadValues, acting, refined, samples
-from graphplan.machine.reduced.unit_motion import Rates, Recordings, Results, UnitMotion, at_unit_rate
+from graphplan.machine.reduced.reduced_loads import LoadValues, loads_on_links, refine_zeros, sample_travels
+from graphplan.machine.reduced.unit_motion import Recordings, Results, UnitMotion, UnitRates, at_unit_rate
 from graphplan.machine.tolerances import BALANCE_TOL, BREAK_OFFSET, SIGNLESS_TOL
 from graphplan.mechanism.model import FRAME, Find, Force, Friction, Loads, Scene, Slide
 from graphplan.mechanism.numbers import times
@@ -49,7 +49,8 @@ from graphplan.phrases import said
 Vanishing = Callable[[Results, Turn], tuple[Array, Array]]
 M_F = "M_F"
 JOINT_FORCE, SLIDE_FORCE = (kinds.WITH_FRICTION[kind] for kind in (kinds.REACTION, kinds.SLIDE_REACTION))
-ROUNDS = 6  # of friction: after four the forces of every pose stand, unless the mechanism is near to locking itself
+# of friction: after four the forces of every pose stand, unless the mechanism is near to locking itself
+FRICTION_ROUNDS = 6
 
 
 class Bracket(NamedTuple):
@@ -61,7 +62,7 @@ class Bracket(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Rubbed:
+class FrictionMoments:
     """Friction in n poses: arrays of shape (n,), in N m of the first drive (in N of one that slides).
 
     `balance` is what the drive must give without friction at its mean speed, positive in the sense of motion, `moment`
@@ -92,14 +93,14 @@ class FrictionOverCycle:
     def __init__(self, scene: Scene, motion: UnitMotion, ends: tuple[float, float]):
         assert scene.loads is not None
         self.motion, self.speed, self.ends = motion, mean_speed(scene), ends
-        self.scene = held = with_resting_pairs(kinetostatic(scene, self.speed), motion, samples(motion, ends))
+        self.scene = held = with_resting_pairs(kinetostatic(scene, self.speed), motion, sample_travels(motion, ends))
         assert held.loads is not None
-        self.values = LoadValues(held, [*acting(held, held.loads)])
+        self.values = LoadValues(held, [*loads_on_links(held, held.loads)])
         self.frictions = [one for one in held.loads.frictions if one.coefficient and (one.radius or not one.at)]
         self._rate = abs(float(held.drives[0].rate))
         self.power = float(NEWTONS[scene.units.force]) * motion.metres / motion.unit / self._rate
-        self.recordings, self._further = (Recordings(rounds_of(held, rounds), motion.motion, rubbed_drawing)
-                                          for rounds in (ROUNDS, ROUNDS + 1))
+        self.recordings, self._further = (Recordings(with_rounds(held, rounds), motion.motion, rubbed_drawing)
+                                          for rounds in (FRICTION_ROUNDS, FRICTION_ROUNDS + 1))
         self.edges = np.array(self._breaks())
 
     @property
@@ -109,23 +110,23 @@ class FrictionOverCycle:
             *(journal_name(one, *journal) for journal in self._journals(one)),
             *(slide.name for slide in self._slides(one))))
 
-    def at(self, travel: Array, side: int = 1) -> Rubbed:
+    def friction_at(self, travel: Array, side: int = 1) -> FrictionMoments:
         """The friction at some travels; at a break that which it has on one side, -1 or 1. Fails with `Refused` where
         the mechanism locks itself: where one round of friction more changes the forces, as none is in equilibrium."""
-        travel = self.beside(travel, side)
+        travel = self.off_breaks(travel, side)
         found, turn = self._forces(self.recordings, travel, side, gaps=True)
-        if (torn := ~np.isfinite(self._delivered(found, turn, kinds.RUBBED))).any():
+        if (torn := ~np.isfinite(self.drive_moment(found, turn, kinds.RUBBED))).any():
             travel = np.where(torn, travel + side * BREAK_OFFSET * (self.ends[1] - self.ends[0]), travel)
             found, turn = self._forces(self.recordings, travel, side)
-        plain, rubbed = (self._delivered(found, turn, way) for way in (kinds.BY_PLANS, kinds.RUBBED))
-        further = self._delivered(*self._forces(self._further, travel, side), kinds.RUBBED)
+        plain, rubbed = (self.drive_moment(found, turn, way) for way in (kinds.BY_PLANS, kinds.RUBBED))
+        further = self.drive_moment(*self._forces(self._further, travel, side), kinds.RUBBED)
         size = np.maximum(np.abs(plain), np.abs(rubbed))
         if locked := np.flatnonzero(~(np.abs(further - rubbed) <= BALANCE_TOL * size)).tolist():
             at = travel_text(self.scene, float(travel[locked[0]]))
             raise Refused("friction", said("the mechanism locks itself at a travel of {0}", at), "less friction")
-        return Rubbed(plain, plain - rubbed, dict(self._losses(found)))
+        return FrictionMoments(plain, plain - rubbed, dict(self._losses(found)))
 
-    def beside(self, travel: Array, side: int = 1) -> Array:
+    def off_breaks(self, travel: Array, side: int = 1) -> Array:
         """The travels, but those at breaks a hair beside them: there the senses are known."""
         if not self.edges.size:
             return travel
@@ -142,14 +143,14 @@ class FrictionOverCycle:
         acting = self.loads(travel, turn, self.motion.velocities(turn), side)
         return recordings.evaluate(turn, gaps=gaps, loads=acting), turn
 
-    def loads(self, travel: Array, turn: Turn, rates: Rates, side: int = 1) -> dict[str, Array]:
+    def loads(self, travel: Array, turn: Turn, rates: UnitRates, side: int = 1) -> dict[str, Array]:
         """The loads that change, at the mean speed, by their letters and in the scene's units."""
         values = self.values.values(self.motion, turn, rates, travel, side)
         values |= {load.name: load.law(load.rate * self.speed * self.motion.unit)
                    for load in self.values.over_speed(self.motion, turn, rates)}
         return self.values.in_units(values, turn)
 
-    def _delivered(self, found: Results, turn: Turn, way: str) -> Array:
+    def drive_moment(self, found: Results, turn: Turn, way: str) -> Array:
         """What the drives give together for a unit of travel, in SI."""
         loads, total = self.scene.loads, np.zeros(())
         assert loads is not None
@@ -162,7 +163,7 @@ class FrictionOverCycle:
             if balance.direction is None:
                 total = total + value * float(drive.rate) / self.motion.metres
             else:
-                along = self.values.along(self.scene.driven_slide(drive), turn)
+                along = self.values.guide_direction(self.scene.driven_slide(drive), turn)
                 sense = 1 if drive.link == balance.link else -1
                 total = total + sense * (value * np.conj(along)).real * float(drive.rate)
         return np.asarray(self.power * total)
@@ -174,7 +175,7 @@ class FrictionOverCycle:
             for journal in self._journals(one):
                 circle = float(one.radius * one.coefficient)
                 force = found[JOINT_FORCE][JointForce(one.at, journal[0]).name]
-                turning = self._turning(found, journal)
+                turning = self.relative_rate(found, journal)
                 yield journal_name(one, *journal), -self.power * circle * np.abs(force) * np.abs(turning)
             for slide in self._slides(one):
                 slip, force = found[kinds.SLIDE_VELOCITY][slide.name], found[SLIDE_FORCE][slide.name]
@@ -189,7 +190,7 @@ class FrictionOverCycle:
         """The slide that rubs, if it is one."""
         return [slide for slide in self.scene.slides if {*slide.links} == {*one.links}]
 
-    def _turning(self, found: Results, journal: tuple[str, str], kind: str = kinds.OMEGA) -> Any:
+    def relative_rate(self, found: Results, journal: tuple[str, str], kind: str = kinds.OMEGA) -> Any:
         """How a link turns on that with the pin."""
         one, other = (0.0 if link == FRAME else found[kind][link] for link in journal)
         return one - other
@@ -198,7 +199,7 @@ class FrictionOverCycle:
 
     def _breaks(self) -> list[float]:
         """The travels at which a journal or a slide that rubs stands still, or its reaction passes through nothing."""
-        travel = samples(self.motion, self.ends)
+        travel = sample_travels(self.motion, self.ends)
         found, turn = self._forces(self.recordings, travel, gaps=True)
         brackets = [*self._brackets(found, turn)]
 
@@ -210,7 +211,7 @@ class FrictionOverCycle:
         low, high = (np.array([getattr(one, end) for one in brackets], dtype=int) for end in ("low", "high"))
         before, after = (np.array([one.of(found, turn)[0][k] for one, k in zip(brackets, places, strict=True)])
                          for places in (low, high))
-        places = np.array(refined(values, travel[low], travel[high], before, after))
+        places = np.array(refine_zeros(values, travel[low], travel[high], before, after))
         first, last = self.ends
         return list(first + np.mod(places - first, last - first) if self.motion.period else places)
 
@@ -218,7 +219,7 @@ class FrictionOverCycle:
         """Between which of the samples something vanishes; what is next to nothing at a sample is passed over."""
         every = [np.abs(force) for kind in (JOINT_FORCE, SLIDE_FORCE) for force in found.get(kind, {}).values()]
         largest = max((float(np.nanmax(sizes)) for sizes in every), default=0.0)
-        for of, size in [of for one in self.frictions for of in self._vanishing(one, largest)]:
+        for of, size in [of for one in self.frictions for of in self.vanishing_quantities(one, largest)]:
             values, _ = of(found, turn)
             for i, j in pairwise(np.flatnonzero(np.abs(values) > SIGNLESS_TOL * size).tolist()):
                 if values[i] * values[j] < 0 and j - i <= 2:
@@ -227,32 +228,32 @@ class FrictionOverCycle:
             force = found[JOINT_FORCE][name]
             for i, j in pairwise(np.flatnonzero(np.abs(force) > SIGNLESS_TOL * largest).tolist()):
                 if (force[i] * force[j].conj()).real < 0 and j - i <= 2:
-                    yield Bracket(partial(self._turns_round, name, force[i].conj()), i, j)
+                    yield Bracket(partial(self.force_along, name, force[i].conj()), i, j)
 
-    def _vanishing(self, one: Friction, force: float) -> Iterator[tuple[Vanishing, float]]:
+    def vanishing_quantities(self, one: Friction, force: float) -> Iterator[tuple[Vanishing, float]]:
         """What is zero where a pair stands still, or a slide is not pressed, the value and how it changes in time; and
         beside what it is nothing."""
         for journal in self._journals(one):
-            yield partial(self._stands, journal), self._rate / self.motion.unit
+            yield partial(self.joint_rate, journal), self._rate / self.motion.unit
         for slide in self._slides(one):
-            yield partial(self._slips, slide), self._rate * (self.scene.extent if self.motion.turns else 1.0)
-            yield partial(self._presses, slide), force
+            yield partial(self.slip_speed, slide), self._rate * (self.scene.extent if self.motion.turns else 1.0)
+            yield partial(self.pressing_force, slide), force
 
-    def _stands(self, journal: tuple[str, str], found: Results, turn: Turn) -> tuple[Array, Array]:
+    def joint_rate(self, journal: tuple[str, str], found: Results, turn: Turn) -> tuple[Array, Array]:
         zero = np.zeros(turn.travel.shape)
-        return self._turning(found, journal) + zero, self._turning(found, journal, kinds.ALPHA) + zero
+        return self.relative_rate(found, journal) + zero, self.relative_rate(found, journal, kinds.ALPHA) + zero
 
-    def _slips(self, slide: Slide, found: Results, turn: Turn) -> tuple[Array, Array]:
-        back = np.conj(self.values.along(slide, turn))
+    def slip_speed(self, slide: Slide, found: Results, turn: Turn) -> tuple[Array, Array]:
+        back = np.conj(self.values.guide_direction(slide, turn))
         rates = (found[kind][slide.name] for kind in (kinds.SLIDE_VELOCITY, kinds.SLIDE_ACCELERATION))
         speed, change = ((back * rate).real for rate in rates)
         return speed, change
 
-    def _presses(self, slide: Slide, found: Results, turn: Turn) -> tuple[Array, Array]:
-        back = np.conj(self.values.along(slide, turn))
+    def pressing_force(self, slide: Slide, found: Results, turn: Turn) -> tuple[Array, Array]:
+        back = np.conj(self.values.guide_direction(slide, turn))
         return (back * found[SLIDE_FORCE][slide.name]).imag, np.full(turn.travel.shape, np.nan)
 
-    def _turns_round(self, name: str, back: complex, found: Results, turn: Turn) -> tuple[Array, Array]:
+    def force_along(self, name: str, back: complex, found: Results, turn: Turn) -> tuple[Array, Array]:
         return (found[JOINT_FORCE][name] * back).real, np.full(turn.travel.shape, np.nan)
 
 
@@ -272,7 +273,7 @@ class CycleLosses:
         return share if abs(share) > BALANCE_TOL else 0.0
 
     @property
-    def apart(self) -> float:
+    def relative_gap(self) -> float:
         """How far the pairs' shares are from all that is lost, beside that; contacts have what is left over."""
         return abs(sum(self.pairs.values()) - self.lost) / self.lost if self.lost else 0.0
 
@@ -283,13 +284,13 @@ def cycle_losses(friction: FrictionOverCycle, moments: Callable[[Array], Mapping
     motion, ends, names = friction.motion, friction.ends, list[str]()
 
     def rows(travel: Array) -> Array:
-        found = friction.at(travel)
+        found = friction.friction_at(travel)
         named = {"": found.balance - found.moment, M_F: found.moment, **moments(travel)}
         names[:] = [*named, *found.losses]
         return np.array([*named.values(), *found.losses.values()])
 
-    sizes = np.abs(rows(samples(motion, ends))).max(axis=1)
-    works = settled(rows, [ends[0], *breaks, ends[1]], np.maximum(sizes, sizes[0])).whole * motion.unit
+    sizes = np.abs(rows(sample_travels(motion, ends))).max(axis=1)
+    works = fit_piecewise(rows, [ends[0], *breaks, ends[1]], np.maximum(sizes, sizes[0])).total_integral * motion.unit
     done = dict(zip(names, map(float, works), strict=True))
     pairs = {name: -done.pop(name) for name in friction.pairs}
     lost = -done.pop(M_F)
@@ -322,7 +323,7 @@ def kinetostatic(scene: Scene, speed: float) -> Scene:
     return replace(moved, loads=replace(loads, balances=balances), find=Find((), (), None, scene.moving, slides))
 
 
-def rounds_of(scene: Scene, rounds: int) -> Scene:
+def with_rounds(scene: Scene, rounds: int) -> Scene:
     """The scene with so many rounds of friction."""
     assert scene.loads is not None
     return replace(scene, loads=replace(scene.loads, rounds=rounds))

@@ -23,7 +23,7 @@ import numpy as np
 from graphplan.cycle.linkage import Array
 from graphplan.cycle.loads import guide_direction, slide_position
 from graphplan.cycle.turn import Turn
-from graphplan.machine.reduced.unit_motion import Rates, UnitMotion
+from graphplan.machine.reduced.unit_motion import UnitMotion, UnitRates
 from graphplan.machine.tolerances import BREAK_DISTANCE, BREAK_TOL, DEAD_POINT_TOL, TABLE_TOL
 from graphplan.mechanism.loads import SPEED, TRAVEL, LoadTable
 from graphplan.mechanism.model import FRAME, Force, Loads, Moment, Scene, Slide
@@ -57,7 +57,7 @@ class SpeedLoad:
 
 
 @dataclass(frozen=True)
-class Acting:
+class LoadOnLink:
     """A load on a link, in SI: a force at a point, else a moment; `table` has the values of one that changes.
 
     `value` is that of a constant load, and of a table the SI value of one of its units: of a force along its direction,
@@ -71,12 +71,12 @@ class Acting:
     table: LoadTable | None = None
     through: tuple[str, str] | None = None
 
-    def arm(self, rates: Rates, turn: Turn) -> Any:
+    def arm(self, rates: UnitRates, turn: Turn) -> Any:
         """Its power for a unit of travel and a unit of its value: of a force the moment about the pole of the lever
         that it has at the end of the orthogonal velocity of its point, which is turned clockwise."""
         if not self.at:
-            return self.value.real * rates.of(kinds.OMEGA, self.link)
-        orthogonal = -1j * rates.of(kinds.VELOCITY, self.at)
+            return self.value.real * rates.rate(kinds.OMEGA, self.link)
+        orthogonal = -1j * rates.rate(kinds.VELOCITY, self.at)
         return (np.conj(orthogonal) * self.unit(turn)).imag
 
     def unit(self, turn: Turn) -> Any:
@@ -89,27 +89,27 @@ class Acting:
         return self.value * line / np.abs(line)
 
 
-def acting(scene: Scene, loads: Loads) -> Iterator[Acting]:
+def loads_on_links(scene: Scene, loads: Loads) -> Iterator[LoadOnLink]:
     """The loads on moving links, in newtons and metres, by their names."""
     newton, kilogram = float(NEWTONS[scene.units.force]), float(KILOGRAMS[scene.units.mass])
     for name, force in named_forces(loads).items():
         if force.on != FRAME:
             value = newton * complex(*map(float, force.value))
             if force.table is None:
-                yield Acting(name, force.on, force.at, value)
+                yield LoadOnLink(name, force.on, force.at, value)
             elif force.through:
-                yield Acting(name, force.on, force.at, complex(newton), force.table, force.through)
+                yield LoadOnLink(name, force.on, force.at, complex(newton), force.table, force.through)
             elif force.direction:
                 along = complex(*map(float, force.direction))
-                yield Acting(name, force.on, force.at, newton * along / abs(along), force.table)
+                yield LoadOnLink(name, force.on, force.at, newton * along / abs(along), force.table)
     for name, moment in named_moments(loads).items():
         if moment.on != FRAME:
             value = complex(newton * (1.0 if moment.table else float(moment.value)))
-            yield Acting(name, moment.on, "", value, moment.table)
+            yield LoadOnLink(name, moment.on, "", value, moment.table)
     gravity = complex(*map(float, loads.gravity))
     for link, mass in loads.masses.items():
         if mass.mass and gravity and link != FRAME:
-            yield Acting(f"G_{link}", link, mass.centre, kilogram * float(mass.mass) * gravity)
+            yield LoadOnLink(f"G_{link}", link, mass.centre, kilogram * float(mass.mass) * gravity)
 
 
 def loads_with(loads: Loads, values: Mapping[str, complex]) -> Loads:
@@ -134,12 +134,12 @@ class LoadValues:
     `slides` are those that tables are over, by name.
     """
 
-    def __init__(self, scene: Scene, loads: list[Acting]):
+    def __init__(self, scene: Scene, loads: list[LoadOnLink]):
         self.scene, self.tabled = scene, [load for load in loads if load.table]
         names = {load.table.slide for load in self.tabled if load.table}
         self.slides = {slide.name: slide for slide in scene.slides if slide.name in names}
 
-    def values(self, motion: UnitMotion, turn: Turn, rates: Rates, travel: Array, side: int) -> dict[str, Array]:
+    def values(self, motion: UnitMotion, turn: Turn, rates: UnitRates, travel: Array, side: int) -> dict[str, Array]:
         """The values of the loads by tables over travel or a position; at a jump the limits from one side, -1 or 1."""
         return {load.name: self._value(load.table, motion, turn, rates, travel, side)
                 for load in self.tabled if load.table and not load.table.over_speed}
@@ -149,14 +149,14 @@ class LoadValues:
         newton = float(NEWTONS[self.scene.units.force])
         return {load.name: values[load.name] * load.unit(turn) / newton for load in self.tabled if load.name in values}
 
-    def _value(self, table: LoadTable, motion: UnitMotion, turn: Turn, rates: Rates, travel: Array,
+    def _value(self, table: LoadTable, motion: UnitMotion, turn: Turn, rates: UnitRates, travel: Array,
                side: int) -> Array:
         if not table.slide:
-            return table.values_at(motion.told(travel), 1, side > 0)
+            return table.values_at(motion.in_scene_units(travel), 1, side > 0)
         slide = self.slides[table.slide]
         return table.values_at(self.place(slide, turn), self._sense(slide, motion, turn, rates, side), side > 0)
 
-    def over_speed(self, motion: UnitMotion, turn: Turn, rates: Rates) -> Iterator[SpeedLoad]:
+    def over_speed(self, motion: UnitMotion, turn: Turn, rates: UnitRates) -> Iterator[SpeedLoad]:
         """The loads over speeds."""
         zero = np.zeros(turn.travel.shape)
         for load in self.tabled:
@@ -168,17 +168,18 @@ class LoadValues:
 
     def place(self, slide: Slide, turn: Turn) -> Array:
         """Where a slide stands along its guide, in scene lengths."""
-        return slide_position(self.scene, slide, turn.points, self.along(slide, turn))
+        return slide_position(self.scene, slide, turn.points, self.guide_direction(slide, turn))
 
-    def speed(self, slide: Slide, turn: Turn, rates: Rates, kind: str = kinds.SLIDE_VELOCITY) -> Array:
+    def speed(self, slide: Slide, turn: Turn, rates: UnitRates, kind: str = kinds.SLIDE_VELOCITY) -> Array:
         """How fast a slide moves along its guide, in metres for a unit of travel; or how that changes."""
-        return (np.conj(self.along(slide, turn)) * rates.of(kind, slide.name)).real + np.zeros(turn.travel.shape)
+        return (np.conj(self.guide_direction(slide, turn)) * rates.rate(kind,
+                                                                        slide.name)).real + np.zeros(turn.travel.shape)
 
-    def along(self, slide: Slide, turn: Turn) -> Any:
+    def guide_direction(self, slide: Slide, turn: Turn) -> Any:
         """The direction of a guide, a unit vector."""
         return guide_direction(slide, turn.points, turn.guides)
 
-    def _sense(self, slide: Slide, motion: UnitMotion, turn: Turn, rates: Rates, side: int) -> Array:
+    def _sense(self, slide: Slide, motion: UnitMotion, turn: Turn, rates: UnitRates, side: int) -> Array:
         """The stroke: the sense in which a slide moves, at a dead point that on one side of it."""
         speed = self.speed(slide, turn, rates)
         dead = np.abs(speed) <= DEAD_POINT_TOL * (motion.metres * self.scene.extent if motion.turns else 1.0)
@@ -191,24 +192,24 @@ class LoadValues:
 # ---- where loads break ----------------------------------------------------------------------------------------------
 
 
-SAMPLES = 360  # of the motion in each turn, between which a slide changes its sense once at most
-ASIDE = 0.38  # of the way between two samples
-ROUNDS = 60
+SAMPLES_PER_TURN = 360  # of the motion in each turn, between which a slide changes its sense once at most
+SAMPLE_SHIFT = 0.38  # of the way between two samples
+MAX_NEWTON_ROUNDS = 60
 
 Function = Callable[[Array], tuple[Array, Array]]
 
 
-def breaks(loads: LoadValues, motion: UnitMotion, ends: tuple[float, float]) -> tuple[float, ...]:
+def load_breaks(loads: LoadValues, motion: UnitMotion, ends: tuple[float, float]) -> tuple[float, ...]:
     """The travels between two ends at which the tables of loads have corners, jump or change strokes, in order."""
     tables = [load.table for load in loads.tabled if load.table]
-    found = [travel for table in tables if table.over == TRAVEL for travel in _written(table, motion, ends)]
+    found = [travel for table in tables if table.over == TRAVEL for travel in travel_breaks(table, motion, ends)]
     for name, slide in loads.slides.items():
         over = [table for table in tables if table.slide == name]
-        found += _passed(loads, motion, slide, over, ends)
-    return in_order(found, ends)
+        found += slide_breaks(loads, motion, slide, over, ends)
+    return sort_breaks(found, ends)
 
 
-def in_order(found: Iterable[float], ends: tuple[float, float]) -> tuple[float, ...]:
+def sort_breaks(found: Iterable[float], ends: tuple[float, float]) -> tuple[float, ...]:
     """Travels between two ends in order, those that are next to each other once; those beyond the end are those of the
     next round."""
     low, high = ends
@@ -220,7 +221,7 @@ def in_order(found: Iterable[float], ends: tuple[float, float]) -> tuple[float, 
     return tuple(kept[1:])
 
 
-def _written(table: LoadTable, motion: UnitMotion, ends: tuple[float, float]) -> Iterator[float]:
+def travel_breaks(table: LoadTable, motion: UnitMotion, ends: tuple[float, float]) -> Iterator[float]:
     """The places of a table over travel, and as it repeats."""
     unit = math.radians(1.0) if motion.turns else 1.0
     for place in table.corners:
@@ -232,18 +233,18 @@ def _written(table: LoadTable, motion: UnitMotion, ends: tuple[float, float]) ->
             yield first + turn * period
 
 
-def samples(motion: UnitMotion, ends: tuple[float, float]) -> Array:
+def sample_travels(motion: UnitMotion, ends: tuple[float, float]) -> Array:
     """Travels between which a pair changes its sense once at most: of a closed cycle all round, the last that of the
     first again, and none of them at a round place, where a pair may stand still."""
     turns = (ends[1] - ends[0]) / TURN if motion.turns else 1.0
-    count = max(2, math.ceil(SAMPLES * turns))
-    return np.linspace(*ends, count + 1) + (ASIDE * (ends[1] - ends[0]) / count if motion.period else 0.0)
+    count = max(2, math.ceil(SAMPLES_PER_TURN * turns))
+    return np.linspace(*ends, count + 1) + (SAMPLE_SHIFT * (ends[1] - ends[0]) / count if motion.period else 0.0)
 
 
-def _passed(loads: LoadValues, motion: UnitMotion, slide: Slide, tables: list[LoadTable],
+def slide_breaks(loads: LoadValues, motion: UnitMotion, slide: Slide, tables: list[LoadTable],
             ends: tuple[float, float]) -> list[float]:
     """Where a slide is at a dead point, or passes a place of tables over its position."""
-    travel = samples(motion, ends)
+    travel = sample_travels(motion, ends)
 
     def place(travel: Array) -> tuple[Array, Array]:
         turn = motion.turn(travel)
@@ -254,39 +255,39 @@ def _passed(loads: LoadValues, motion: UnitMotion, slide: Slide, tables: list[Lo
         change = loads.speed(slide, turn, motion.accelerations(turn), kinds.SLIDE_ACCELERATION)
         return loads.speed(slide, turn, motion.velocities(turn)), change * motion.unit
 
-    dead = zeros(speed, travel, speed(travel)[0])
+    dead = find_zeros(speed, travel, speed(travel)[0])
     strokes = np.unique(np.concatenate([travel, dead]))
     places, turned = place(strokes)[0], place(np.array(dead))[0] if dead else np.zeros(0)
     found = list(dead)
     for table in tables:
         for corner in table.corners if table.over_position else ():
             if not np.any(np.abs(turned - float(corner)) <= TABLE_TOL * float(table.length)):
-                found += zeros(partial(_beyond, place, float(corner)), strokes, places - float(corner))
+                found += find_zeros(partial(distance_beyond, place, float(corner)), strokes, places - float(corner))
     return found
 
 
-def _beyond(place: Function, corner: float, travel: Array) -> tuple[Array, Array]:
+def distance_beyond(place: Function, corner: float, travel: Array) -> tuple[Array, Array]:
     """How far a slide is beyond a place, and how that changes."""
     value, slope = place(travel)
     return value - corner, slope
 
 
-def zeros(function: Function, travel: Array, values: Array) -> list[float]:
+def find_zeros(function: Function, travel: Array, values: Array) -> list[float]:
     """Where a function, which gives values and slopes, is zero: once between samples of different signs, and at samples
     that are zero."""
     exact, crossed = travel[:-1][values[:-1] == 0], np.flatnonzero(values[:-1] * values[1:] < 0)
-    return [*map(float, exact), *refined(function, travel[crossed], travel[crossed + 1], values[crossed],
+    return [*map(float, exact), *refine_zeros(function, travel[crossed], travel[crossed + 1], values[crossed],
                                          values[crossed + 1])]
 
 
-def refined(function: Function, low: Array, high: Array, before: Array, after: Array) -> list[float]:
+def refine_zeros(function: Function, low: Array, high: Array, before: Array, after: Array) -> list[float]:
     """Where a function is zero, once between each `low` and `high`, where it has values of different signs.
 
     By Newton's method, or with slopes that are nan by secants; a step that leaves the bracket is one to its middle.
     """
     rising, last, left = after > 0, low, before
     at = low + (high - low) * (before / (before - after))
-    for _ in range(ROUNDS if low.size else 0):
+    for _ in range(MAX_NEWTON_ROUNDS if low.size else 0):
         value, slope = function(at)
         below = (value < 0) == rising
         low, high = np.where(below, at, low), np.where(below, high, at)

@@ -34,13 +34,13 @@ from graphplan.machine.reduced.friction import M_F, CycleLosses, FrictionOverCyc
 from graphplan.machine.reduced.reduced_loads import (
     LoadValues,
     SpeedLoad,
-    acting,
-    breaks,
     common_period,
-    in_order,
+    load_breaks,
+    loads_on_links,
     loads_with,
+    sort_breaks,
 )
-from graphplan.machine.reduced.unit_motion import ACCELERATIONS, VELOCITIES, Rates, UnitMotion, moving_points
+from graphplan.machine.reduced.unit_motion import ACCELERATIONS, VELOCITIES, UnitMotion, UnitRates, moving_points
 from graphplan.mechanism.model import FRAME, Find, Force, Mass, Moment, Scene
 from graphplan.mechanism.travel import TURN, travel_text
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
@@ -82,11 +82,11 @@ class Reduction:
     def __init__(self, scene: Scene, motion: RangeOfMotion, ends: tuple[float, float], compiled: bool = False):
         assert scene.loads is not None
         self.scene, self.loads = scene, scene.loads
-        self.acting = [*acting(scene, scene.loads)]
+        self.acting = [*loads_on_links(scene, scene.loads)]
         self.values = LoadValues(scene, self.acting)
         self.masses = {link: mass for link, mass in self.loads.masses.items()
                        if link != FRAME and (mass.mass or mass.inertia)}
-        self.motion = UnitMotion(scene, motion, self._asked(), compiled)
+        self.motion = UnitMotion(scene, motion, self.quantities_needed(), compiled)
         self.sense, self.unit = self.motion.sense, self.motion.unit
         self.closed = bool(self.motion.period)
         if self.closed:
@@ -94,11 +94,11 @@ class Reduction:
         self.ends = ends
         rubs = any(one.coefficient for one in scene.loads.frictions)
         self.friction = FrictionOverCycle(scene, self.motion, ends) if rubs else None
-        found = breaks(self.values, self.motion, ends)
-        self.breaks = in_order([*found, *self.friction.edges.tolist()], ends) if self.friction else found
+        found = load_breaks(self.values, self.motion, ends)
+        self.breaks = sort_breaks([*found, *self.friction.edges.tolist()], ends) if self.friction else found
 
     @cached_property
-    def size(self) -> MachineSize:
+    def machine_size(self) -> MachineSize:
         """How large inertia and moment are, beside which a number is zero."""
         return machine_size(self.scene)
 
@@ -107,7 +107,7 @@ class Reduction:
         """The names of the loads that change over the cycle."""
         return tuple(load.name for load in self.acting if load.table)
 
-    def _asked(self) -> Find:
+    def quantities_needed(self) -> Find:
         """What is asked of the motion: the points of forces and masses, and the links of moments and inertias."""
         points = moving_points(self.scene, (load.at for load in self.acting if load.at))
         centres = moving_points(self.scene, (mass.centre for mass in self.masses.values() if mass.mass))
@@ -116,7 +116,7 @@ class Reduction:
         links = tuple(link for link in self.scene.moving if link in turning)
         return Find(tuple(dict.fromkeys((*points, *centres))), centres, (), links, tuple(self.values.slides))
 
-    def at(self, travel: Any, side: int = 1) -> Reduced:
+    def reduce_at(self, travel: Any, side: int = 1) -> Reduced:
         """Inertia and moment at some travels, real numbers of shape (n,); of a closed cycle at any.
 
         At a break it is the limit from one `side`, -1 or 1. Fails with `Refused` where a pose is not reached, or a
@@ -129,23 +129,23 @@ class Reduction:
         by = {load.name: load.arm(rates, turn) * values.get(load.name, 1.0) + zero for load in self.acting
               if not (load.table and load.table.over_speed)}
         if self.friction:
-            by[M_F] = self.friction.at(travel, side).moment
-        return Reduced(travel, self._summed(rates, rates, VELOCITIES) + zero, sum(by.values(), zero), by,
+            by[M_F] = self.friction.friction_at(travel, side).moment
+        return Reduced(travel, self.power_sum(rates, rates, VELOCITIES) + zero, sum(by.values(), zero), by,
                        tuple(self.values.over_speed(self.motion, turn, rates)),
                        lambda: self._slope(rates, self.motion.accelerations(turn)) + zero)
 
-    def _slope(self, velocities: Rates, accelerations: Rates) -> Any:
-        return 2 * self._summed(velocities, accelerations, ACCELERATIONS)
+    def _slope(self, velocities: UnitRates, accelerations: UnitRates) -> Any:
+        return 2 * self.power_sum(velocities, accelerations, ACCELERATIONS)
 
-    def _summed(self, velocities: Rates, others: Rates, of: tuple[kinds.ResultKind, ...]) -> Any:
+    def power_sum(self, velocities: UnitRates, others: UnitRates, of: tuple[kinds.ResultKind, ...]) -> Any:
         """Over all masses m v.w + I omega epsilon, of velocities and other vectors and rates."""
         total: Any = 0.0
         unit = float(KILOGRAMS[self.scene.units.mass])
         for link, mass in self.masses.items():
-            v, w = velocities.of(kinds.VELOCITY, mass.centre), others.of(of[0], mass.centre)
+            v, w = velocities.rate(kinds.VELOCITY, mass.centre), others.rate(of[0], mass.centre)
             total = total + unit * float(mass.mass) * (np.conj(v) * w).real
             if mass.inertia:
-                turning = velocities.of(kinds.OMEGA, link) * others.of(of[1], link)
+                turning = velocities.rate(kinds.OMEGA, link) * others.rate(of[1], link)
                 total = total + unit * float(mass.inertia) * turning
         return total
 
@@ -156,7 +156,7 @@ class Reduction:
             raise Refused("friction", said("the scene has no friction"), "[[friction]] in a joint or a slide")
 
         def moments(travel: Array) -> dict[str, Array]:
-            return {name: moment for name, moment in self.at(travel).by.items() if name != M_F}
+            return {name: moment for name, moment in self.reduce_at(travel).by.items() if name != M_F}
 
         return cycle_losses(self.friction, moments, self.breaks)
 
@@ -169,7 +169,7 @@ class Reduction:
         given = {name: complex(value[0]) for name, value in self.values.in_units(values, turn).items()}
         return lever_drawing(in_pose(self.motion.scene, turn, 0), loads_with(self.loads, given))
 
-    def scaled(self, factor: float) -> Reduction:
+    def scale_loads(self, factor: float) -> Reduction:
         """The same machine, its loads that change so many times as large."""
         if factor == 1:
             return self
@@ -187,11 +187,11 @@ class Reduction:
         across = 1j * gravity / abs(gravity) if gravity else 0j
         unit = float(KILOGRAMS[self.scene.units.mass]) * abs(gravity)
 
-        def weighed(mass: Mass) -> Array:
-            orthogonal = 1j * rates.of(kinds.VELOCITY, mass.centre)
+        def weight_moment(mass: Mass) -> Array:
+            orthogonal = 1j * rates.rate(kinds.VELOCITY, mass.centre)
             return unit * float(mass.mass) * (np.conj(across) * orthogonal).real + np.zeros(travel.shape)
 
-        return {f"G_{link}": weighed(mass) for link, mass in self.masses.items() if mass.mass and gravity}
+        return {f"G_{link}": weight_moment(mass) for link, mass in self.masses.items() if mass.mass and gravity}
 
 
 def reduction(scene: Scene, span: tuple[float, float] | None = None, *, compiled: bool = False) -> Reduction:
@@ -208,30 +208,30 @@ def reduction(scene: Scene, span: tuple[float, float] | None = None, *, compiled
         raise Refused("reduction", said("the scene has neither masses nor loads"),
                       "give it [masses], [[forces]] or [[moments]]")
     if span is None:
-        motion = _whole(scene)
+        motion = motion_all_round(scene)
         return Reduction(scene, motion, (0.0, float(motion.path.travel[-1])), compiled)
     low, high = sorted(float(end) for end in travels(scene, 2, span))
     if low == high:
         raise Refused("the cycle", said("the span has no length"), "two different travels")
     motion = RangeOfMotion(scene, min(0.0, low), max(0.0, high), closed=False)
-    _reached(scene, motion, low, high)
+    require_reached(scene, motion, low, high)
     return Reduction(scene, motion, (low, high), compiled)
 
 
-def _whole(scene: Scene) -> RangeOfMotion:
+def motion_all_round(scene: Scene) -> RangeOfMotion:
     """The motion all the way round; fails with `Refused` where there is no such."""
     if scene.drives[0].slides:
         raise Refused("the cycle", said("the first drive slides, and no turn closes its travel"), "a span of lengths")
     motion = whole_motion(scene)
     if not motion.goes_round:
-        _reached(scene, motion, 0.0, math.inf)
+        require_reached(scene, motion, 0.0, math.inf)
         turns = f"{motion.path.travel[-1] / TURN:.0f}"
         raise Refused("the cycle", said("links are not back after turns of the drive: {0}", turns),
                       "a span of degrees")
     return motion
 
 
-def _reached(scene: Scene, motion: RangeOfMotion, low: float, high: float) -> None:
+def require_reached(scene: Scene, motion: RangeOfMotion, low: float, high: float) -> None:
     """Fail with `Refused` where a limit lies between the given pose and one of these travels, and say where it is."""
     for limit, beyond in ((motion.path.lower, -low), (motion.path.upper, high)):
         if limit and beyond >= abs(limit.travel):

@@ -33,7 +33,7 @@ from graphplan.methods.styles import METHODS
 # ---- recordings -----------------------------------------------------------------------------------------------------
 
 
-ELSEWHERE = (0.11, 0.43, 0.79)  # of the range: poses in which constructions are recorded where no other serves
+OTHER_POSES = (0.11, 0.43, 0.79)  # of the range: poses in which constructions are recorded where no other serves
 
 Draw = Callable[[Scene, str], Construction]
 Results = dict[str, dict[str, Array]]
@@ -47,7 +47,7 @@ class Recordings:
         self._drawn: dict[object, Construction | None] = {}
 
     @property
-    def first(self) -> Construction:
+    def first_construction(self) -> Construction:
         """The construction of the given pose."""
         return next(self._constructions())
 
@@ -91,14 +91,14 @@ class Recordings:
     def _constructions(self) -> Iterator[Construction]:
         """The construction in the given pose; then by other forms, and as it is recorded in other poses."""
         for method in ("", *METHODS):
-            yield from self._once(method, partial(self.draw, self.scene, method))
+            yield from self.draw_once(method, partial(self.draw, self.scene, method))
         low, high = (float(self.motion.path.travel[end]) for end in (0, -1))
-        for part in ELSEWHERE:
+        for part in OTHER_POSES:
             turn = self.motion.turn(np.array([low + part * (high - low)]))
             if not turn.faults:
-                yield from self._once(part, partial(self.draw, in_pose(self.scene, turn, 0), ""))
+                yield from self.draw_once(part, partial(self.draw, in_pose(self.scene, turn, 0), ""))
 
-    def _once(self, key: object, draw: Callable[[], Construction]) -> Iterator[Construction]:
+    def draw_once(self, key: object, draw: Callable[[], Construction]) -> Iterator[Construction]:
         """A construction, unless there is none; what keeps the given pose from having one is told."""
         if key not in self._drawn:
             try:
@@ -119,13 +119,13 @@ ACCELERATIONS = kinds.ACCELERATION, kinds.ALPHA, kinds.SLIDE_ACCELERATION
 
 
 @dataclass(frozen=True, eq=False)
-class Rates:
+class UnitRates:
     """Rates over n poses, by kind and name, in metres and radians for a unit of travel (a radian, or a metre of a
     sliding drive): complex arrays of shape (n,) for points and slides, real ones for links. What is fixed has 0."""
 
     found: Mapping[str, Mapping[str, Array]]
 
-    def of(self, kind: str, name: str) -> Any:
+    def rate(self, kind: str, name: str) -> Any:
         """The rates of one thing."""
         return self.found.get(kind, {}).get(name, 0.0)
 
@@ -147,7 +147,7 @@ class UnitMotion:
         self.turns = not first.slides
         self.unit = 1.0 if self.turns else self.metres
         self.scene = replace(at_unit_rate(scene), loads=None, find=find)
-        self.recordings = Recordings(self.scene, motion, _constructed, compiled)
+        self.recordings = Recordings(self.scene, motion, construct_by, compiled)
 
     def turn(self, travel: Array) -> Turn:
         """Where everything is at these travels, of a closed motion at any; fails with `Refused` where a pose is not
@@ -160,22 +160,22 @@ class UnitMotion:
             raise Refused("the cycle", why, "a span of travels that the mechanism reaches")
         return found
 
-    def told(self, travel: Array) -> Array:
+    def in_scene_units(self, travel: Array) -> Array:
         """Travels as scenes tell them: in degrees, or in lengths."""
         return np.degrees(travel) if self.turns else travel
 
-    def velocities(self, turn: Turn) -> Rates:
+    def velocities(self, turn: Turn) -> UnitRates:
         """The velocities in the poses of a turn."""
         return self._rates(turn, VELOCITIES)
 
-    def accelerations(self, turn: Turn) -> Rates:
+    def accelerations(self, turn: Turn) -> UnitRates:
         """The accelerations in the poses of a turn, at a constant rate of the drive."""
         return self._rates(turn, ACCELERATIONS)
 
-    def _rates(self, turn: Turn, wanted: tuple[kinds.ResultKind, ...]) -> Rates:
+    def _rates(self, turn: Turn, wanted: tuple[kinds.ResultKind, ...]) -> UnitRates:
         """The rates of some kinds in the poses of a turn."""
         found = self.recordings.evaluate(turn, wanted)
-        return Rates({kind: {name: z * self._scale(kind) for name, z in named.items()}
+        return UnitRates({kind: {name: z * self._scale(kind) for name, z in named.items()}
                       for kind, named in found.items()})
 
     def _scale(self, kind: str) -> float:
@@ -184,7 +184,7 @@ class UnitMotion:
         return self.metres**dimension.length * self.unit**dimension.time
 
 
-def _constructed(scene: Scene, method: str) -> Construction:
+def construct_by(scene: Scene, method: str) -> Construction:
     return construct(scene, method=method)
 
 

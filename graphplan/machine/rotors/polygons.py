@@ -38,7 +38,7 @@ Pair = tuple[Any, Any]  # a vector by its components, in any numbers
 MOMENT, FORCE = "moment", "force"  # kinds of what is laid off
 
 
-class State(Enum):
+class UnbalanceState(Enum):
     """What a rotor's unbalance is: none, a force alone or one that a single mass elsewhere would balance, a moment
     alone, or both."""
 
@@ -71,10 +71,10 @@ class Sums:
         return math.hypot(*self.moment)
 
     @property
-    def state(self) -> State:
+    def state(self) -> UnbalanceState:
         if not any(self.force):
-            return State.DYNAMIC if any(self.moment) else State.BALANCED
-        return State.BOTH if self.single is None else State.STATIC
+            return UnbalanceState.DYNAMIC if any(self.moment) else UnbalanceState.BALANCED
+        return UnbalanceState.BOTH if self.single is None else UnbalanceState.STATIC
 
     @property
     def single(self) -> float | None:
@@ -92,7 +92,7 @@ def sums(rotor: Rotor, masses: tuple[Eccentric, ...]) -> Sums:
     force, moment = _sum([(Fraction(1), mass) for mass in masses]), _sum([*zip(arms, masses, strict=True)])
     if not rotor.dynamic:
         return Sums(force, moment, (force,))
-    parts = [arm / rotor.between for arm in arms]
+    parts = [arm / rotor.plane_distance for arm in arms]
     first = _sum([(1 - part, mass) for part, mass in zip(parts, masses, strict=True)])
     return Sums(force, moment, (first, _sum([*zip(parts, masses, strict=True)])))
 
@@ -100,7 +100,7 @@ def sums(rotor: Rotor, masses: tuple[Eccentric, ...]) -> Sums:
 def _sum(sides: list[tuple[Fraction, Eccentric]]) -> Vector:
     """The sum of multiples of unbalances; 0 where it is within rounding of that."""
     x, y = (sum((times * mass.unbalance[k] for times, mass in sides), Fraction(0)) for k in (0, 1))
-    least = CLOSING_TOL * sum(abs(float(times)) * mass.size for times, mass in sides)
+    least = CLOSING_TOL * sum(abs(float(times)) * mass.mass_radius for times, mass in sides)
     exact = all(mass.exact for _, mass in sides)
     return (Fraction(0), Fraction(0)) if not exact and math.hypot(x, y) <= least else (x, y)
 
@@ -131,7 +131,7 @@ class RotorDrawing:
         """The value of each step."""
         return evaluate(self.program, Floats())
 
-    def at(self, name: str) -> complex:
+    def position(self, name: str) -> complex:
         """Where a mark is, on its plan."""
         return complex(*self.values[self.marks[name]])
 
@@ -139,25 +139,25 @@ class RotorDrawing:
         """The marks of a polygon, in their order."""
         return [name for name in self.marks if name.startswith(f"{letter}_")]
 
-    def between(self, start: str, end: str, values: Sequence[Any]) -> Pair:
+    def vector(self, start: str, end: str, values: Sequence[Any]) -> Pair:
         """The vector from one mark to another, in any numbers that the program has been drawn with."""
         (x, y), (u, v) = values[self.marks[start]], values[self.marks[end]]
         return u - x, v - y
 
 
-def closing(drawing: RotorDrawing, rotor: Rotor, found: Sums, values: Sequence[Any]) -> list[Pair]:
+def closing_sides(drawing: RotorDrawing, rotor: Rotor, found: Sums, values: Sequence[Any]) -> list[Pair]:
     """What corrects each plane, mass times radius, as the sides that close the polygons: from the last mark to the
     first."""
-    force = drawing.between(drawing.corners("F")[-1], "F_0", values)
+    force = drawing.vector(drawing.corners("F")[-1], "F_0", values)
     sides = [force]
     if rotor.dynamic:
-        x, y = drawing.between(drawing.corners("M")[-1], "M_0", values)
-        second = x / float(rotor.between), y / float(rotor.between)
+        x, y = drawing.vector(drawing.corners("M")[-1], "M_0", values)
+        second = x / float(rotor.plane_distance), y / float(rotor.plane_distance)
         sides = [force if any(found.force) else (-second[0], -second[1]), second]
     return [side if any(unbalance) else (0.0, 0.0) for side, unbalance in zip(sides, found.planes, strict=True)]
 
 
-def corrected(rotor: Rotor, index: int, side: Pair) -> Correction:
+def correction_of(rotor: Rotor, index: int, side: Pair) -> Correction:
     """The correction in a plane that has this mass times radius vector."""
     return Correction(index, rotor.planes[index], math.hypot(*side), direction(*side))
 
@@ -177,12 +177,12 @@ class PolygonRecorder:
         self.marks: dict[str, Mark] = {}
         self.turned = [(k, mass) for k, mass in enumerate(masses, 1) if any(mass.unbalance)]  # those off the axis
 
-    def given(self) -> None:
+    def draw_end_view(self) -> None:
         """The end view: the axis and the places of the masses."""
         with self.board.on(END_VIEW):
             self._keep("O", self.board.given(x=0, y=0, name="O"))
             for k, mass in self.turned:
-                ratio = mass.mass or Fraction(mass.size) / self.free
+                ratio = mass.mass or Fraction(mass.mass_radius) / self.free
                 x, y = (part / ratio for part in mass.unbalance)
                 self._keep(f"P_{k}", self.board.given(x=x, y=y, name=f"P_{k}"))
 
@@ -196,10 +196,10 @@ class PolygonRecorder:
             "centrifugal forces are as m·r; the correction closes")
         with self.board.on(FORCES, stage=Stage(said("Force polygon"), law)):
             self._forces()
-        with self.placing(said("their radii run as the closing sides")):
+        with self.placing_stage(said("their radii run as the closing sides")):
             self._corrections()
 
-    def placing(self, law: Said) -> AbstractContextManager[None]:
+    def placing_stage(self, law: Said) -> AbstractContextManager[None]:
         """The stage in which correction masses are placed."""
         return self.board.on(END_VIEW, stage=Stage(said("Correction masses"), law))
 
@@ -215,7 +215,7 @@ class PolygonRecorder:
             name, length = f"{letter}_{k}", Quantity(written.format(k), kind)
             told = said("opposite to the radius: left of plane I") if arm < 0 else ""
             end = self._keep(name, self.board.lay_along(self.board.parallel(radius, end), end, name=name, why=told,
-                                                        length=mass.size * float(arm), quantity=length))
+                                                        length=mass.mass_radius * float(arm), quantity=length))
         return end
 
     def _moments(self) -> None:
@@ -230,7 +230,7 @@ class PolygonRecorder:
         end = self._sides("F", "m_{0}·r_{0}", FORCE, ((k, mass, Fraction(1)) for k, mass in self.turned))
         if self.rotor.dynamic and any(self.sums.moment) and any(self.sums.force):
             end = self._keep("F_II", self.board.step_off(
-                self.last, self.marks["M_0"], end, ratio=1 / self.rotor.between, name="F_II",
+                self.last, self.marks["M_0"], end, ratio=1 / self.rotor.plane_distance, name="F_II",
                 why=said("m_II·r_II: the side that closes the moment polygon, divided by a")))
         self.end = end
 
@@ -238,15 +238,15 @@ class PolygonRecorder:
         """Where the correction masses are put: on radii that run as the sides that close the polygons."""
         if self.rotor.dynamic and any(self.sums.moment):
             side = self.board.line(self.last, self.marks["M_0"], why=said("the closing side"))
-            self.placed(1, self.board.parallel(side, self.marks["O"]))
+            self.place_correction(1, self.board.parallel(side, self.marks["O"]))
             if not any(self.sums.force):
-                self.placed(0, self.board.parallel(side, self.marks["O"]), -1, said(
+                self.place_correction(0, self.board.parallel(side, self.marks["O"]), -1, said(
                     "forces close by themselves: m_I·r_I is opposite and as large"))
         if any(self.sums.force) and any(self.sums.planes[0]):
             side = self.board.line(self.end, self.marks["F_0"], why=said("the closing side"))
-            self.placed(0, self.board.parallel(side, self.marks["O"]))
+            self.place_correction(0, self.board.parallel(side, self.marks["O"]))
 
-    def placed(self, index: int, ray: Mark, way: int = 1, why: str = "", prime: str = "") -> None:
+    def place_correction(self, index: int, ray: Mark, way: int = 1, why: str = "", prime: str = "") -> None:
         """A correction mass on a radius, or opposite."""
         letter, given = PLANES[index], self.rotor.radii[index]
         name = f"P_{letter}{prime}"

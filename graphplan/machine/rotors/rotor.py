@@ -24,7 +24,7 @@ from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER
 # ---- trials ---------------------------------------------------------------------------------------------------------
 
 
-LEAST_PLACES, MOST_PLACES = 4, 36  # at which trial weights are found
+MIN_WEIGHTS, MAX_WEIGHTS = 4, 36  # at which trial weights are found
 
 
 class Vibration(NamedTuple):
@@ -54,7 +54,7 @@ class ThreeRuns(Trial):
 
 
 @dataclass(frozen=True)
-class Marked(Trial):
+class MarkedRuns(Trial):
     """Vibrations, with the angles of their marks, without the trial mass and with it."""
 
     first: Vibration
@@ -81,7 +81,7 @@ def _amounts(least: int, most: int, what: str, such: str) -> Kind:
                 {"type": "array", "items": AMOUNT.schema, "minItems": least, "maxItems": most})
 
 
-def _size(row: TableRow) -> Fraction:
+def trial_mass_radius(row: TableRow) -> Fraction:
     """Mass times radius of the trial mass."""
     values = row.values
     if ("mass_radius" in values) == ("mass" in values or "radius" in values):
@@ -94,15 +94,15 @@ def _size(row: TableRow) -> Fraction:
 
 def _trial_mass(row: TableRow) -> tuple[Fraction, Fraction, Fraction | None, Fraction | None]:
     """Mass times radius, angle, place and radius."""
-    return _size(row), row["angle"] % 360, row.values.get("at"), row.values.get("radius")
+    return trial_mass_radius(row), row["angle"] % 360, row.values.get("at"), row.values.get("radius")
 
 
 def _three_runs(row: TableRow) -> ThreeRuns:
     return ThreeRuns(*_trial_mass(row), row["amplitudes"], row.values.get("fourth"))
 
 
-def _marked(row: TableRow) -> Marked:
-    return Marked(*_trial_mass(row), row["first"], row["with_trial"])
+def marked_runs(row: TableRow) -> MarkedRuns:
+    return MarkedRuns(*_trial_mass(row), row["first"], row["with_trial"])
 
 
 _VIBRATION = Table("a vibration", (
@@ -130,12 +130,12 @@ TRIALS = Rows(Either((
         *_TRIAL_MASS,
         Field("first", "the vibration without the trial mass", _VIBRATION, "{ amplitude = 3, angle = 40 }"),
         Field("with_trial", "the vibration with it", _VIBRATION, "{ amplitude = 4, angle = 75 }"),
-    ), _marked),
+    ), marked_runs),
     Table("trial weights of static balancing", (
         Field("weights", "the masses that, hung at equal places in turn, just turn the rotor by a small angle",
-              _amounts(LEAST_PLACES, MOST_PLACES, f"{LEAST_PLACES} to {MOST_PLACES} weights",
+              _amounts(MIN_WEIGHTS, MAX_WEIGHTS, f"{MIN_WEIGHTS} to {MAX_WEIGHTS} weights",
                        "eight as a rule, such as weights = [40, 46, 55, 58, 56, 48, 41, 38]"),
-              f"{LEAST_PLACES} weights or more"),
+              f"{MIN_WEIGHTS} weights or more"),
         Field("radius", "at which distance from the axis they hang", DISTANCE, "such as radius = 150"),
         Field("angle", "where on the rotor the first hangs, in degrees; the others follow counter-clockwise", NUMBER,
               default=0),
@@ -147,7 +147,7 @@ TRIALS = Rows(Either((
 
 Vector = tuple[Fraction, Fraction]
 PLANES = "I", "II"
-LONGEST = 20  # letters of a mass's name
+MAX_NAME_LETTERS = 20  # letters of a mass's name
 
 
 @dataclass(frozen=True)
@@ -164,14 +164,14 @@ class Eccentric:
     exact: bool = True
 
     @property
-    def size(self) -> float:
+    def mass_radius(self) -> float:
         """Mass times radius."""
         return math.hypot(*self.unbalance)
 
     @property
     def radius(self) -> float | None:
         """How far from the axis the mass is, where that is known."""
-        return self.size / float(self.mass) if self.mass else None
+        return self.mass_radius / float(self.mass) if self.mass else None
 
     @property
     def angle(self) -> float:
@@ -201,7 +201,7 @@ class Rotor:
         return (at - self.planes[0]) * (-1 if self.planes[-1] < self.planes[0] else 1)
 
     @property
-    def between(self) -> Fraction:
+    def plane_distance(self) -> Fraction:
         """How far apart the planes are; 0 of one alone."""
         return self.arm(self.planes[-1])
 
@@ -239,12 +239,12 @@ def direction(x: Fraction | float, y: Fraction | float) -> float:
 
 def _name(item: Item, names: SceneNames) -> str | None:
     text = item.text("a name", 'a name in quotes, such as "fan"')
-    if text is not None and not (text.isprintable() and 0 < len(text.strip()) <= LONGEST):
-        return item.fault(f"{describe(text)} is not a name", f"a name of {LONGEST} letters or less")
+    if text is not None and not (text.isprintable() and 0 < len(text.strip()) <= MAX_NAME_LETTERS):
+        return item.fault(f"{describe(text)} is not a name", f"a name of {MAX_NAME_LETTERS} letters or less")
     return text
 
 
-def _polar(row: TableRow) -> Eccentric:
+def mass_by_angle(row: TableRow) -> Eccentric:
     """A mass by its distance from the axis and its angle, or mass times radius with an angle."""
     values = row.values
     c, s, exact = heading(values["angle"])
@@ -252,14 +252,14 @@ def _polar(row: TableRow) -> Eccentric:
     return Eccentric(values.get("name", ""), (size * c, size * s), values.get("at"), values.get("mass"), exact)
 
 
-def _placed(row: TableRow) -> Eccentric:
+def mass_by_coordinates(row: TableRow) -> Eccentric:
     """A mass by its coordinates."""
     mass, values = row["mass"], row.values
     return Eccentric(values.get("name", ""), (mass * values["x"], mass * values["y"]), values.get("at"), mass)
 
 
 _NAME = Field("name", "what it is called in tables; without it its number",
-              Kind("text", _name, {"type": "string", "minLength": 1, "maxLength": LONGEST}))
+              Kind("text", _name, {"type": "string", "minLength": 1, "maxLength": MAX_NAME_LETTERS}))
 _AT = Field("at", "where along the axis it is; of a rotor with one plane in that, unless it is said", NUMBER)
 _MASS = Field("mass", "its mass", AMOUNT, "such as mass = 0.5")
 ANGLE = Field("angle", "its direction in degrees, counter-clockwise from x", NUMBER, "degrees, such as angle = 120")
@@ -267,13 +267,13 @@ _ONCE: Callable[[Any], Any] = lambda mass: (mass.name or object(), f"mass {mass.
 MASSES = Rows(Either((
     Table("a mass by radius and angle", (
         _NAME, _MASS, Field("radius", "its distance from the axis of rotation", AMOUNT, "such as radius = 100"), ANGLE,
-        _AT), _polar),
+        _AT), mass_by_angle),
     Table("a mass by coordinates", (
         _NAME, _MASS, Field("x", "its place across the axis", NUMBER, "x and y, such as x = 60"),
-        Field("y", "the same", NUMBER, "x and y, such as y = -80"), _AT), _placed),
+        Field("y", "the same", NUMBER, "x and y, such as y = -80"), _AT), mass_by_coordinates),
     Table("an unbalance", (
         _NAME, Field("mass_radius", "mass times radius, in the task's units", AMOUNT, "such as mass_radius = 50"),
-        ANGLE, _AT), _polar),
+        ANGLE, _AT), mass_by_angle),
 )), once=_ONCE, remedy="another name")
 
 
@@ -311,7 +311,8 @@ def _rotor(row: TableRow) -> Rotor | None:
         row.item.fault("bearings and a speed belong together", "bearings = [-50, 650] with rpm = 1500, or neither")
     if bearings and bearings[0] == bearings[1]:
         row.items["bearings"].fault(f"both bearings stand at {number_text(bearings[0])}", "two places")
-    return Rotor(planes, _in_place(row, planes), _each(row, "radius", planes), _each(row, "mass", planes), bearings,
+    return Rotor(planes, _in_place(row, planes), per_plane(row, "radius", planes), per_plane(row, "mass", planes),
+                 bearings,
                  speed)
 
 
@@ -326,7 +327,7 @@ def _in_place(row: TableRow, planes: tuple[Fraction, ...]) -> tuple[Eccentric, .
     return tuple(found)
 
 
-def _each(row: TableRow, key: str, planes: tuple[Fraction, ...]) -> tuple[Fraction | None, ...]:
+def per_plane(row: TableRow, key: str, planes: tuple[Fraction, ...]) -> tuple[Fraction | None, ...]:
     """What is given of the correction in each plane, one number for both."""
     given = row.values.get(key, (None,))
     if len(given) > len(planes):

@@ -23,22 +23,22 @@ from graphplan.machine.rotors.polygons import (
     Pair,
     PolygonRecorder,
     RotorDrawing,
-    State,
     Sums,
-    closing,
-    corrected,
+    UnbalanceState,
+    closing_sides,
+    correction_of,
     sums,
 )
 from graphplan.machine.rotors.rotor import PLANES, Eccentric, Rotor, RotorTask, ThreeRuns, TrialWeights
-from graphplan.machine.rotors.trial_runs import Effect, draw, effect, read
+from graphplan.machine.rotors.trial_runs import Effect, draw_trial, effect, read_corrections
 from graphplan.phrases import Said, digits, said, unit
 
-DOUBTFUL = 0.25  # of the way from what one answer foretells to what the other does: a measurement is off both
+DOUBT_SHARE = 0.25  # of the way from what one answer foretells to what the other does: a measurement is off both
 Answer = tuple[Correction, ...]
 
 
 @dataclass(frozen=True)
-class Balanced:
+class BalancedRotor:
     """A rotor with its unbalances, given or measured, the drawing that balances it, and the corrections by answers.
 
     There are several answers where amplitudes alone leave the sense of an angle open, each with its unbalances.
@@ -68,10 +68,10 @@ class Balanced:
         """What the first answer is read from, mass times radius vectors, in any numbers that the drawing was made with.
         """
         if self.polygons:
-            return closing(self.drawing, self.task.rotor, self.sums, values)
-        return [read(self.drawing, one, index, values)[0] for index, one in enumerate(self.effects)]
+            return closing_sides(self.drawing, self.task.rotor, self.sums, values)
+        return [read_corrections(self.drawing, one, index, values)[0] for index, one in enumerate(self.effects)]
 
-    def chosen(self, one: Correction) -> tuple[float | None, float | None]:
+    def mass_and_radius(self, one: Correction) -> tuple[float | None, float | None]:
         """Mass and radius of a correction, in the task's units; nothing where neither is given."""
         radius, mass = self.task.rotor.radii[one.index], self.task.rotor.weights[one.index]
         if radius is not None:
@@ -87,12 +87,12 @@ class Balanced:
     def notes(self) -> Iterator[Said]:
         """What is worth knowing of the rotor."""
         rotor, found, units = self.task.rotor, self.sums, self.task.units
-        if found.state is State.BALANCED:
+        if found.state is UnbalanceState.BALANCED:
             yield said("the rotor is balanced as it is")
         elif not rotor.dynamic and any(found.moment):
             yield said("one plane balances forces alone: a moment of {0} {1} about it is left, which two balance",
                        digits(found.dynamic), unit(f"{units.mass}·{units.length}²"))
-        elif found.state is State.DYNAMIC:
+        elif found.state is UnbalanceState.DYNAMIC:
             yield said("the unbalance is dynamic only: the force polygon closes by itself")
         elif rotor.dynamic and found.single is not None and not self.effects:
             yield said("the unbalance is static only: one mass with m·r = {0} {1} at {2} {3} would balance it",
@@ -102,7 +102,7 @@ class Balanced:
         for one in self.effects:
             if one.fourth and isinstance(one.trial, ThreeRuns) and one.trial.fourth:
                 (near, far), measured = one.fourth, float(one.trial.fourth.amplitude)
-                if abs(measured - near) > DOUBTFUL * abs(far - near):
+                if abs(measured - near) > DOUBT_SHARE * abs(far - near):
                     yield said("the fourth run should have given {0} or {1} and gave {2}", digits(near), digits(far),
                                digits(measured))
         if len(self.answers) > 1:
@@ -110,7 +110,7 @@ class Balanced:
                        len(self.answers))
 
 
-def balanced(task: RotorTask) -> Balanced:
+def balance_rotor(task: RotorTask) -> BalancedRotor:
     """The corrections of a task; fails with `Refused` where what was measured cannot be."""
     if not task.trials:
         return _by_polygons(task, (), [task.rotor.masses])
@@ -128,41 +128,41 @@ def _unbalance(index: int, one: Effect, side: complex) -> Eccentric:
     return Eccentric(PLANES[index].lower(), (Fraction(-side.real), Fraction(-side.imag)), one.trial.at, None, False)
 
 
-def _by_polygons(task: RotorTask, effects: tuple[Effect, ...], masses: list[tuple[Eccentric, ...]]) -> Balanced:
+def _by_polygons(task: RotorTask, effects: tuple[Effect, ...], masses: list[tuple[Eccentric, ...]]) -> BalancedRotor:
     """By polygons of the first choice of masses; the others are reckoned."""
     board = Board()
     recorder = PolygonRecorder(board, task.rotor, masses[0])
-    recorder.given()
+    recorder.draw_end_view()
     marks: dict[str, Mark] = {}
     for index, one in enumerate(effects):
-        marks |= draw(board, one, index)
+        marks |= draw_trial(board, one, index)
     recorder.draw()
-    drawing = _frozen(board, marks | recorder.marks)
-    sides = closing(drawing, task.rotor, recorder.sums, drawing.values)
-    first = tuple(corrected(task.rotor, k, side) for k, side in enumerate(sides))
-    others = (reckoned(task.rotor, found) for found in masses[1:])
-    return Balanced(task, effects, tuple(masses), drawing, (first, *others))
+    drawing = rotor_drawing(board, marks | recorder.marks)
+    sides = closing_sides(drawing, task.rotor, recorder.sums, drawing.values)
+    first = tuple(correction_of(task.rotor, k, side) for k, side in enumerate(sides))
+    others = (compute_corrections(task.rotor, found) for found in masses[1:])
+    return BalancedRotor(task, effects, tuple(masses), drawing, (first, *others))
 
 
-def _by_trials(task: RotorTask, effects: tuple[Effect, ...], masses: list[tuple[Eccentric, ...]]) -> Balanced:
+def _by_trials(task: RotorTask, effects: tuple[Effect, ...], masses: list[tuple[Eccentric, ...]]) -> BalancedRotor:
     """By the plans of trials alone, each in a correction plane."""
     board = Board()
     recorder = PolygonRecorder(board, task.rotor, ())
-    recorder.given()
+    recorder.draw_end_view()
     marks: dict[str, Mark] = {}
     for index, one in enumerate(effects):
-        marks |= draw(board, one, index)
+        marks |= draw_trial(board, one, index)
     weighed = any(isinstance(one.trial, TrialWeights) for one in effects)
-    with recorder.placing(said("where the largest trial weight would hang") if weighed else
+    with recorder.placing_stage(said("where the largest trial weight would hang") if weighed else
                           said("turned by alpha from the trial mass, A_1/A times as large")):
         for index, one in enumerate(effects):
             for k, side in enumerate(one.balancing if one.ratio else ()):
-                recorder.placed(index, _ray(board, recorder.marks["O"], one, k, side), prime="'" * k)
-    drawing = _frozen(board, marks | recorder.marks)
-    found = [read(drawing, one, index, drawing.values) for index, one in enumerate(effects)]
-    answers = tuple(tuple(corrected(task.rotor, index, side) for index, side in enumerate(sides))
+                recorder.place_correction(index, _ray(board, recorder.marks["O"], one, k, side), prime="'" * k)
+    drawing = rotor_drawing(board, marks | recorder.marks)
+    found = [read_corrections(drawing, one, index, drawing.values) for index, one in enumerate(effects)]
+    answers = tuple(tuple(correction_of(task.rotor, index, side) for index, side in enumerate(sides))
                     for sides in product(*found))
-    return Balanced(task, effects, tuple(masses), drawing, answers)
+    return BalancedRotor(task, effects, tuple(masses), drawing, answers)
 
 
 def _ray(board: Board, O: Mark, one: Effect, k: int, side: complex) -> Mark:
@@ -172,12 +172,12 @@ def _ray(board: Board, O: Mark, one: Effect, k: int, side: complex) -> Mark:
     return board.inclined(O, angle=Angle(digits(angle), side.real, side.imag), why=told)
 
 
-def _frozen(board: Board, marks: dict[str, Mark]) -> RotorDrawing:
+def rotor_drawing(board: Board, marks: dict[str, Mark]) -> RotorDrawing:
     """The finished program."""
     program = freeze(board, marks.values())
     return RotorDrawing(program, dict(zip(marks, program.wanted, strict=True)))
 
 
-def reckoned(rotor: Rotor, masses: tuple[Eccentric, ...]) -> Answer:
+def compute_corrections(rotor: Rotor, masses: tuple[Eccentric, ...]) -> Answer:
     """The corrections by their equations: opposite to the two eccentric masses that a rotor is as."""
-    return tuple(corrected(rotor, k, (-float(x), -float(y))) for k, (x, y) in enumerate(sums(rotor, masses).planes))
+    return tuple(correction_of(rotor, k, (-float(x), -float(y))) for k, (x, y) in enumerate(sums(rotor, masses).planes))

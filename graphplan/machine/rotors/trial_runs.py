@@ -31,7 +31,7 @@ from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.machine.rotors.polygons import Pair, RotorDrawing
-from graphplan.machine.rotors.rotor import PLANES, Marked, ThreeRuns, Trial, TrialWeights, Vibration
+from graphplan.machine.rotors.rotor import PLANES, MarkedRuns, ThreeRuns, Trial, TrialWeights, Vibration
 from graphplan.machine.tolerances import HARMONIC_TOL, MIN_EFFECT, PREDICTION_TOL, VIBRATION_TOL
 from graphplan.phrases import said
 
@@ -67,15 +67,15 @@ def effect(trial: Trial, where: str) -> Effect:
     """What a trial tells; fails with `Refused` where no rotor behaves so."""
     match trial:
         case ThreeRuns():
-            return _three_runs(trial, where)
-        case Marked():
-            return _marked(trial, where)
+            return three_runs_effect(trial, where)
+        case MarkedRuns():
+            return marked_effect(trial, where)
         case TrialWeights():
-            return _weights(trial)
+            return weights_effect(trial)
     raise TypeError(f"{type(trial).__name__} is no trial")
 
 
-def _three_runs(trial: ThreeRuns, where: str) -> Effect:
+def three_runs_effect(trial: ThreeRuns, where: str) -> Effect:
     """The trial's effect by (16.29), alpha by (16.32)."""
     first, second, third = trial.amplitudes
     square = (second**2 + third**2) / 2 - first**2
@@ -93,7 +93,7 @@ def _three_runs(trial: ThreeRuns, where: str) -> Effect:
     ratio, turns = float(first) / A, (alpha,) if over**2 == under else (alpha, -alpha)
     if trial.fourth is None or len(turns) == 1:
         return Effect(trial, A, ratio, turns)
-    foretold = [_foretold(trial, trial.fourth, A, turn) for turn in turns]
+    foretold = [foretold_amplitude(trial, trial.fourth, A, turn) for turn in turns]
     if abs(foretold[0] - foretold[1]) <= PREDICTION_TOL * max(foretold):
         raise Refused(f"{where}.fourth", "both solutions predict the same amplitude there",
                       "a fourth run with the trial mass at another angle, not opposite to the second")
@@ -101,13 +101,13 @@ def _three_runs(trial: ThreeRuns, where: str) -> Effect:
     return Effect(trial, A, ratio, (turns[order[0]],), tuple(foretold[k] for k in order))
 
 
-def _foretold(trial: ThreeRuns, fourth: Vibration, A: float, turn: float) -> float:
+def foretold_amplitude(trial: ThreeRuns, fourth: Vibration, A: float, turn: float) -> float:
     """The amplitude with the trial mass elsewhere, if this answer is right."""
     own = -cmath.rect(float(trial.amplitudes[0]), math.radians(turn))
     return abs(own + cmath.rect(A, math.radians(float(fourth.angle - trial.angle))))
 
 
-def _marked(trial: Marked, where: str) -> Effect:
+def marked_effect(trial: MarkedRuns, where: str) -> Effect:
     """The trial's effect as a difference of vectors (16.26)."""
     first, second = (cmath.rect(float(one.amplitude), math.radians(float(one.angle)))
                      for one in (trial.first, trial.second))
@@ -120,7 +120,7 @@ def _marked(trial: Marked, where: str) -> Effect:
     return Effect(trial, abs(A), abs(first) / abs(A), (math.degrees(cmath.phase(-first / A)),))
 
 
-def _weights(trial: TrialWeights) -> Effect:
+def weights_effect(trial: TrialWeights) -> Effect:
     """The permanent weight in the place of the trial weights' radius, by their first harmonic."""
     first = harmonic(trial)
     mean = float(sum(trial.weights)) / len(trial.weights)
@@ -144,11 +144,11 @@ def angle_of(trial: TrialWeights, k: int) -> float:
 # ---- drawing --------------------------------------------------------------------------------------------------------
 
 
-def draw(board: Board, effect: Effect, index: int) -> dict[str, Mark]:
+def draw_trial(board: Board, effect: Effect, index: int) -> dict[str, Mark]:
     """The plan of one trial; its marks by the number of the plane and their names, such as 0:C."""
     if isinstance(effect.trial, TrialWeights):
         title, law = said("Trial weights"), said("each in the direction in which it hangs; 2/n times their sum is p")
-    elif isinstance(effect.trial, Marked):
+    elif isinstance(effect.trial, MarkedRuns):
         title, law = said("Vibrations"), said("A = A_2 − A_1 is the effect of the trial mass")
     else:
         title, law = said("Three runs"), said("A_2 = A_1 + A and A_3 = A_1 − A: a triangle with the median A")
@@ -185,15 +185,16 @@ def _drawn_runs(board: Board, effect: Effect, plan: Panel) -> dict[str, Mark]:
 def _drawn_marks(board: Board, effect: Effect, plan: Panel) -> dict[str, Mark]:
     """The vectors of both vibrations."""
     trial = effect.trial
-    assert isinstance(trial, Marked)
+    assert isinstance(trial, MarkedRuns)
     C = board.begin(plan=plan, name="C")
-    D = _laid(board, C, trial.first, "D", "A_1")
-    G = _laid(board, C, trial.second, "G", "A_2", said("DG is the effect A of the trial mass; the angle from DG to DC "
+    D = lay_off_vibration(board, C, trial.first, "D", "A_1")
+    G = lay_off_vibration(board, C, trial.second, "G", "A_2",
+                          said("DG is the effect A of the trial mass; the angle from DG to DC "
                                                        "is alpha"))
     return {"C": C, "D": D, "G": G}
 
 
-def _laid(board: Board, P: Mark, one: Vibration, name: str, letter: str, why: str = "") -> Mark:
+def lay_off_vibration(board: Board, P: Mark, one: Vibration, name: str, letter: str, why: str = "") -> Mark:
     """A vibration laid off; where it is nothing the mark itself."""
     if not one.amplitude:
         return P
@@ -209,7 +210,7 @@ def _drawn_weights(board: Board, effect: Effect, plan: Panel) -> dict[str, Mark]
     marks = {"W_0": W}
     for k, weight in enumerate(trial.weights, 1):
         one = Vibration(weight, Fraction(angle_of(trial, k - 1)))
-        end = marks[f"W_{k}"] = _laid(board, end, one, f"W_{k}", f"p_{k - 1}")
+        end = marks[f"W_{k}"] = lay_off_vibration(board, end, one, f"W_{k}", f"p_{k - 1}")
     if effect.ratio:
         marks["p"] = board.step_off(W, end, W, ratio=Fraction(2, len(trial.weights)), name="p", why=said(
             "the permanent weight, where the largest trial weight would hang"))
@@ -217,20 +218,20 @@ def _drawn_weights(board: Board, effect: Effect, plan: Panel) -> dict[str, Mark]
 
 
 DRAWN: dict[type[Trial], Callable[[Board, Effect, Panel], dict[str, Mark]]] = {
-    ThreeRuns: _drawn_runs, Marked: _drawn_marks, TrialWeights: _drawn_weights}
+    ThreeRuns: _drawn_runs, MarkedRuns: _drawn_marks, TrialWeights: _drawn_weights}
 
 
-def read(drawing: RotorDrawing, effect: Effect, index: int, values: Sequence[Any]) -> list[Pair]:
+def read_corrections(drawing: RotorDrawing, effect: Effect, index: int, values: Sequence[Any]) -> list[Pair]:
     """The corrections as they are measured on the plan of a trial, mass times radius, one for each answer."""
     size, at = float(effect.trial.mass_radius), cmath.rect(1.0, math.radians(float(effect.trial.angle)))
     if not effect.ratio:
         return [(0.0, 0.0)]
     if isinstance(effect.trial, TrialWeights):
-        x, y = drawing.between(f"{index}:W_0", f"{index}:p", values)
+        x, y = drawing.vector(f"{index}:W_0", f"{index}:p", values)
         return [(size * x, size * y)]
-    (u, v), found = drawing.between(f"{index}:D", f"{index}:C", values), []
+    (u, v), found = drawing.vector(f"{index}:D", f"{index}:C", values), []
     for end in "GH"[:len(effect.turns)]:  # the trial mass's vector, turned and grown as DG is to DC
-        x, y = drawing.between(f"{index}:D", f"{index}:{end}", values)
+        x, y = drawing.vector(f"{index}:D", f"{index}:{end}", values)
         square = (x * x + y * y) / size
         along, across = (u * x + v * y) / square, (v * x - u * y) / square
         found.append((along * at.real - across * at.imag, along * at.imag + across * at.real))

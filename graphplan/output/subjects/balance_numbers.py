@@ -39,7 +39,7 @@ def numbers(found: Balancing) -> dict[str, Any]:
         "mass": mass, **over_cycle(motion),
         "moment_about": [about.real, about.imag],
         "principal_vectors": principal_vectors(motion), "links": links(motion),
-        "balancing": found.method, "counterweights": [weight_told(scene, weight) for weight in found.weights],
+        "balancing": found.method, "counterweights": [weight_numbers(scene, weight) for weight in found.weights],
     }
     if found.note:
         told["note"] = str(found.note)
@@ -47,7 +47,7 @@ def numbers(found: Balancing) -> dict[str, Any]:
         told["balanced"] = {**over_cycle(found.after), "principal_vectors": principal_vectors(found.after),
                             "links": links(found.after), "variant": variant(found.after)}
     if found.engine is not None:
-        told["engine"] = engine_told(found.engine)
+        told["engine"] = engine_numbers(found.engine)
     told["faults"] = {str(pose): str(why) for pose, why in motion.faults.items()}
     told["check"] = {what: float(gap) for what, gap in found.check.items()}
     return told
@@ -56,11 +56,11 @@ def numbers(found: Balancing) -> dict[str, Any]:
 def over_cycle(motion: MassMotion) -> dict[str, Any]:
     """What changes over the cycle."""
     return {
-        "mass_centre": {"path": rows(motion, motion.path), "velocity": rows(motion, motion.velocity),
-                        "acceleration": rows(motion, motion.acceleration)},
-        "shaking_force": rows(motion, motion.shaking.force),
-        "shaking_forces": {link: rows(motion, part) for link, part in motion.shaking.parts.items()},
-        "shaking_moment": rows(motion, motion.shaking.moment)}
+        "mass_centre": {"path": pose_rows(motion, motion.path), "velocity": pose_rows(motion, motion.velocity),
+                        "acceleration": pose_rows(motion, motion.acceleration)},
+        "shaking_force": pose_rows(motion, motion.shaking.force),
+        "shaking_forces": {link: pose_rows(motion, part) for link, part in motion.shaking.parts.items()},
+        "shaking_moment": pose_rows(motion, motion.shaking.moment)}
 
 
 def links(motion: MassMotion) -> dict[str, Any]:
@@ -88,7 +88,7 @@ def variant(motion: MassMotion) -> str:
                  if all(low < part < high for part, (low, high) in zip(parts, spans, strict=True))), "")
 
 
-def weight_told(scene: Scene, weight: Counterweight) -> dict[str, Any]:
+def weight_numbers(scene: Scene, weight: Counterweight) -> dict[str, Any]:
     """A counterweight: its moment of mass in kg m, which way it stands in the given pose, in degrees, radius and mass.
     """
     there = weight.place(scene)
@@ -98,7 +98,7 @@ def weight_told(scene: Scene, weight: Counterweight) -> dict[str, Any]:
             "mass": weight.mass * float(KILOGRAMS[scene.units.mass]), "at": [there.real, there.imag]}
 
 
-def engine_told(engine: Engine) -> dict[str, Any]:
+def engine_numbers(engine: Engine) -> dict[str, Any]:
     """The masses and orders of an engine, and what would balance them."""
     first, second = engine.counter_rotating
     phases = {k: engine.order(k) for k in engine.orders if k <= 4}
@@ -128,7 +128,7 @@ def principal_vectors(motion: MassMotion) -> dict[str, Any]:
     return found
 
 
-def rows(motion: MassMotion, values: Any) -> list[list[float | None]]:
+def pose_rows(motion: MassMotion, values: Any) -> list[list[float | None]]:
     """The travel of each pose with a number or the two components of a vector."""
     columns = [_travel(motion), *((values.real, values.imag) if np.iscomplexobj(values) else (values,))]
     return [[None if math.isnan(number) else number + 0.0 for number in row] for row in np.stack(columns, 1).tolist()]

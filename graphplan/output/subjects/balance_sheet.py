@@ -24,7 +24,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.graphs import CURVES, Figures, Graph, Polar, Span, scale_words, smoothed, stacked, through
 from graphplan.output.panelled import Panelled, Words, divide_across, divide_down
-from graphplan.output.subjects.balance_words import BalanceWords, cleaned
+from graphplan.output.subjects.balance_words import BalanceWords, clear_rounding
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish
@@ -44,12 +44,13 @@ CYCLE = Panel("cycle", said("cycle"), said("Shaking force and moment over the tr
 VECTOR, PATH = Pen(0.5, pens.BLUE, fill=pens.BLUE), Pen(0.35)
 BEFORE, AFTER, FIRST, SECOND = CURVES[0], CURVES[2], CURVES[1], CURVES[4]
 WEIGHT, ARM = Pen(0.35, pens.RED, fill="#e8c4c6"), Pen(0.35, pens.RED, (2.4, 1.0))
-OUTSIDE = 6.0  # mm about the mechanism
+MECHANISM_MARGIN_MM = 6.0  # mm about the mechanism
 HEAD_MM = 3.0  # of a principal vector
-MANY_TIMES = 8.0  # the middle size of a force: between limits what is larger may lie off its diagram
-APART = 1.5  # mm: positions that lie nearer to each other have one number
+MAX_FORCE_RATIO = 8.0  # the middle size of a force: between limits what is larger may lie off its diagram
+MIN_NUMBER_GAP_MM = 1.5  # mm: positions that lie nearer to each other have one number
 SHARES = 0.7, 0.85, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4  # of the height that forces may have, moments having 1
-MOST, LEAST = 12, 5  # numbered positions at most; mm that the radius of a drawn counterweight is at most
+# numbered positions at most; mm that the radius of a drawn counterweight is at most
+MAX_NUMBERED, MAX_WEIGHT_RADIUS_MM = 12, 5
 
 
 @dataclass(frozen=True)
@@ -61,23 +62,23 @@ class BalanceSheet(Panelled):
     told_scales = True
 
     @property
-    def before(self) -> MassMotion:
+    def given_motion(self) -> MassMotion:
         """The linkage as it is given."""
         return self.balancing.before
 
     @property
     def scene(self) -> Scene:
-        return self.before.centre.scene
+        return self.given_motion.centre.scene
 
     @property
     def description(self) -> Said:
-        program = self.before.centre.program
+        program = self.given_motion.centre.program
         return said("Mass centre by principal vectors in {0} steps, and the shaking force over the cycle.",
                     len(program) - program.givens)
 
     @property
     def values(self) -> Values:
-        return Values(Drawing(self.before.centre.program), self.before.centre.values)
+        return Values(Drawing(self.given_motion.centre.program), self.given_motion.centre.values)
 
     @property
     def scales(self) -> Scales:
@@ -122,7 +123,7 @@ class BalanceSheet(Panelled):
     def motions(self) -> list[tuple[MassMotion, Pen]]:
         """The linkage before and after it is balanced, each with its pen."""
         after = self.balancing.after
-        return [(self.before, BEFORE), *([(after, AFTER)] if after else [])]
+        return [(self.given_motion, BEFORE), *([(after, AFTER)] if after else [])]
 
     # ---- the mechanism ---------------------------------------------------------------------------------------------
 
@@ -131,15 +132,15 @@ class BalanceSheet(Panelled):
         """What the plan of the mechanism must hold: its points, the paths of the mass centre, and counterweights."""
         paths = [complex(z) for motion, _ in self.motions for z in motion.path[np.isfinite(motion.path)]]
         weights = [weight.place(self.scene) for weight in self.balancing.weights if weight.radius <= self.scene.extent]
-        program = self.before.centre.program
-        ends = [self.before.centre.values[index][:2] for index in program.wanted]
+        program = self.given_motion.centre.program
+        ends = [self.given_motion.centre.values[index][:2] for index in program.wanted]
         places = [*((z.real, z.imag) for z in (*paths, *weights)), *ends]
         return bounding_box([*places, *((float(x), float(y)) for x, y in self.scene.points.values())])
 
     @cached_property
     def k_s(self) -> float:
         """Lengths for a mm of the mechanism, in a round scale."""
-        return float(round_up(fit_scale(self._box, self.room(MECHANISM).inset(*(OUTSIDE,) * 4))))
+        return float(round_up(fit_scale(self._box, self.room(MECHANISM).inset(*(MECHANISM_MARGIN_MM,) * 4))))
 
     def _mechanism(self, rect: Rect) -> Iterator[Item]:
         """The links with their counterweights, the paths of the mass centre, and the steps."""
@@ -147,13 +148,13 @@ class BalanceSheet(Panelled):
         drawn = DrawnMechanism(self.scene, window)
         ink = plate_of_values(self.values, MECHANISM, window, self.scene, self.letters)
         others = [*self._weights(window), *self._paths(window), *drawn.items(), *self._vectors(ink)]
-        path = [window((float(z.real), float(z.imag))) for z in self.before.path[self.places]]
+        path = [window((float(z.real), float(z.imag))) for z in self.given_motion.path[self.places]]
         wishes = [*mechanism_wishes(drawn), *self._numbers(path, window.rect)]
         yield from items_with_names(ink, others, wishes, lambda mark: bool(mark.number))
 
     def _vectors(self, ink: Plate) -> Iterator[Item]:
         """The principal vectors head to tail."""
-        program, base = self.values.drawing.program, self.before.centre.base
+        program, base = self.values.drawing.program, self.given_motion.centre.base
         first = next(step.index for step in program.steps if step.name == base)
         for start, end in pairwise([first, *program.wanted[2::2]]):
             tail, tip = (ink.plates.steps[mark].spot for mark in (start, end))
@@ -174,13 +175,14 @@ class BalanceSheet(Panelled):
             spot, root = (window((z.real, z.imag)) for z in (at, pivot))
             yield from clip_item(Polyline(ARM, "links", None, (root, spot)), window.rect)
             if window.rect.holds(spot):
-                yield Circle(WEIGHT, "links", None, spot, max(1.0, LEAST * (weight.mass / heaviest) ** 0.5))
+                yield Circle(WEIGHT, "links", None, spot,
+                             max(1.0, MAX_WEIGHT_RADIUS_MM * (weight.mass / heaviest) ** 0.5))
 
     def _numbers(self, spots: Sequence[Spot], rect: Rect) -> Iterator[Wish]:
         """The numbers of positions at their spots; of such as lie on each other the first alone."""
         shown = list[Spot]()
         for number, spot in enumerate(spots):
-            if rect.holds(spot) and all(math.dist(spot, other) > APART for other in shown):
+            if rect.holds(spot) and all(math.dist(spot, other) > MIN_NUMBER_GAP_MM for other in shown):
                 shown.append(spot)
                 yield Wish(self._runs(str(number)), (spot,), 0.8, True, pens.FAINT)
 
@@ -190,9 +192,9 @@ class BalanceSheet(Panelled):
     @cached_property
     def places(self) -> list[int]:
         """The positions that are numbered, by their places among all."""
-        count = len(self.before.travel)
-        each = next(step for step in range(1, count + 1) if count % step == 0 and count / step <= MOST)
-        return [k for k in range(0, count, each) if np.isfinite(self.before.path[k])]
+        count = len(self.given_motion.travel)
+        each = next(step for step in range(1, count + 1) if count % step == 0 and count / step <= MAX_NUMBERED)
+        return [k for k in range(0, count, each) if np.isfinite(self.given_motion.path[k])]
 
     def _smooth(self, motion: MassMotion, spots: list[Spot]) -> list[Spot]:
         """A smooth line through spots, back to its beginning where the motion closes."""
@@ -208,7 +210,7 @@ class BalanceSheet(Panelled):
 
     def polar(self, rect: Rect) -> Polar:
         """The polar diagram of the shaking force, before and after."""
-        forces = np.concatenate([self._usual(self._force(motion)) for motion, _ in self.motions])
+        forces = np.concatenate([self.usual_values(self._force(motion)) for motion, _ in self.motions])
         return Polar.fitted(rect.inset(4.0, 4.0, 4.0, 8.0), forces.real.tolist(), forces.imag.tolist())
 
     def _polar(self, rect: Rect) -> Iterator[Item]:
@@ -222,19 +224,19 @@ class BalanceSheet(Panelled):
             shown = [spots[k] for k in self.places if polar.rect.holds(spots[k])]
             ink += [Circle(pen.with_fill(pen.colour), "links", None, spot, 0.5) for spot in shown]
             ends += shown
-        spots = [polar.at(float(z.real), float(z.imag)) for z in self._force(self.before)[self.places]]
+        spots = [polar.at(float(z.real), float(z.imag)) for z in self._force(self.given_motion)[self.places]]
         yield from (*ink, *place_letters([*self._numbers(spots, polar.rect)], ink, ends, polar.rect, self.letters))
 
     def _force(self, motion: MassMotion) -> Any:
         """The shaking force, zero where it is rounding alone."""
-        return cleaned(motion.shaking.force, self.words.sizes[0])
+        return clear_rounding(motion.shaking.force, self.words.sizes[0])
 
-    def _usual(self, values: Any) -> Any:
+    def usual_values(self, values: Any) -> Any:
         """The values for which a diagram must have room: all of a motion that closes; between limits, where forces grow
         beyond all bounds, those that are not many times as large as most."""
         known = values[np.isfinite(values)]
-        most = MANY_TIMES * np.median(np.abs(known))
-        return known if self.before.closes or not most else known[np.abs(known) <= most]
+        most = MAX_FORCE_RATIO * np.median(np.abs(known))
+        return known if self.given_motion.closes or not most else known[np.abs(known) <= most]
 
     def _legend(self, rect: Rect, curves: list[tuple[str, Pen]]) -> Iterator[Item]:
         """Which curve is which, in the upper left corner."""
@@ -249,13 +251,13 @@ class BalanceSheet(Panelled):
     def _cycle(self, rect: Rect) -> Iterator[Item]:
         """The size of the shaking force, of an engine its parts along the guide, and the moment, over the travel."""
         force, moment = self.words.sizes
-        forces = [(cleaned(values, force), pen) for values, pen in self._forces]
-        moments = [(cleaned(motion.shaking.moment, moment), pen) for motion, pen in self.motions]
+        forces = [(clear_rounding(values, force), pen) for values, pen in self._forces]
+        moments = [(clear_rounding(motion.shaking.moment, moment), pen) for motion, pen in self.motions]
         slides = self.scene.drives[0].slides
-        travel = self.before.travel if slides else np.degrees(self.before.travel)
-        ends = (0.0, 360.0 * max(1, round(travel[-1] / 360))) if self._whole else (travel[0], travel[-1])
-        spans = [_span([self._usual(values) for values, _ in curves]) for curves in (forces, moments)]
-        upper, lower = _stacked(rect.inset(2.0, 2.0, 4.0, 5.0), ends, spans)
+        travel = self.given_motion.travel if slides else np.degrees(self.given_motion.travel)
+        ends = (0.0, 360.0 * max(1, round(travel[-1] / 360))) if self.is_whole_turns else (travel[0], travel[-1])
+        spans = [_span([self.usual_values(values) for values, _ in curves]) for curves in (forces, moments)]
+        upper, lower = stack_diagrams(rect.inset(2.0, 2.0, 4.0, 5.0), ends, spans)
         unit_x = self.scene.units.length if slides else "°"
         yield from through([upper, lower], self._uprights(travel))
         words = "s" if slides else "φ"
@@ -270,9 +272,9 @@ class BalanceSheet(Panelled):
         yield from self._legend(rect, [*named, *([("J_1", FIRST), ("J_2", SECOND)] if self.balancing.engine else [])])
 
     @cached_property
-    def _whole(self) -> bool:
+    def is_whole_turns(self) -> bool:
         """Whether the travel is that of whole turns."""
-        return self.before.closes and not self.scene.drives[0].slides
+        return self.given_motion.closes and not self.scene.drives[0].slides
 
     def _uprights(self, travel: Any) -> list[float]:
         """The travels of the numbered positions."""
@@ -280,7 +282,7 @@ class BalanceSheet(Panelled):
 
     def _curve(self, graph: Graph, travel: Any, values: Any, pen: Pen) -> Iterator[Item]:
         """A smooth curve over the travel, to the end of its period."""
-        if self._whole:
+        if self.is_whole_turns:
             travel, values = np.append(travel, graph.x[1]), np.append(values, values[0])
         yield from graph.smooth(travel, values, pen)
 
@@ -290,7 +292,7 @@ class BalanceSheet(Panelled):
         engine = self.balancing.engine
         if engine is None:
             return [(np.abs(motion.shaking.force), pen) for motion, pen in self.motions]
-        crank = self.before.points[engine.pin(self.scene)] - self.before.points[engine.hinge]
+        crank = self.given_motion.points[engine.pin(self.scene)] - self.given_motion.points[engine.hinge]
         angle = np.angle(crank / engine.ahead)
         parts = [(np.real(motion.shaking.force / engine.ahead), pen) for motion, pen in self.motions]
         first = np.real(engine.force(angle, (1,)))
@@ -304,13 +306,13 @@ class BalanceSheet(Panelled):
         return BalanceWords(self.balancing)
 
     def given_words(self) -> Iterator[Words]:
-        return self.words.given()
+        return self.words.given_data()
 
     def result_words(self) -> Iterator[Words]:
-        return self.words.found()
+        return self.words.results()
 
 
-def _stacked(room: Rect, x: Span, spans: Sequence[Span]) -> list[Graph]:
+def stack_diagrams(room: Rect, x: Span, spans: Sequence[Span]) -> list[Graph]:
     """Two diagrams, each as high as its ordinates are at its round scale, in the shares in which they take most room.
     """
     tried = [stacked(room, x, spans, (share, 1.0)) for share in SHARES]

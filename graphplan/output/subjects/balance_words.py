@@ -15,7 +15,7 @@ from graphplan.machine.linkages.engine import Engine
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.units import KILOGRAMS, METRES
 from graphplan.output.panelled import Words
-from graphplan.output.subjects.balance_numbers import links, principal_vectors, variant, weight_told
+from graphplan.output.subjects.balance_numbers import links, principal_vectors, variant, weight_numbers
 from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 
@@ -34,22 +34,23 @@ class BalanceWords:
     balancing: Balancing
 
     @property
-    def before(self) -> MassMotion:
+    def given_motion(self) -> MassMotion:
         """The linkage as it is given."""
         return self.balancing.before
 
     @property
     def scene(self) -> Scene:
-        return self.before.centre.scene
+        return self.given_motion.centre.scene
 
-    def given(self) -> Iterator[Words]:
+    def given_data(self) -> Iterator[Words]:
         """The masses, and where their centres are."""
         length = self.scene.units.length
-        told = links(self.before)
+        told = links(self.given_motion)
         rows: list[list[Said | str]] = [[said("link"), arrange("m, {0}", unit("kg")), arrange("s, {0}", unit(length)),
                                          arrange("k, {0}", unit(length))]]
         for name, link in told.items():
-            rows.append([name, digits(link["mass"]), *(digits(clean(link.get(key, 0.0), link.get("length", 1.0)))
+            rows.append([name, digits(link["mass"]),
+                         *(digits(clear_rounding_of(link.get(key, 0.0), link.get("length", 1.0)))
                                                        for key in ("s", "offset"))])
         yield said("Masses of the links, and their centres: s along the link from its first joint, k to its left:")
         yield rows
@@ -57,27 +58,27 @@ class BalanceWords:
             rate = arrange("{0} {1}", digits(float(drive.rate)), unit(f"{length}/s" if drive.slides else "rad/s"))
             yield said("Drive of link {0}: {1}", drive.link, rate)
 
-    def found(self) -> Iterator[Words]:
+    def results(self) -> Iterator[Words]:
         """Principal vectors, counterweights, the largest forces before and after, and the checks."""
         scene, length = self.scene, unit(self.scene.units.length)
-        mass = digits(float(KILOGRAMS[scene.units.mass] * self.before.centre.mass))
+        mass = digits(float(KILOGRAMS[scene.units.mass] * self.given_motion.centre.mass))
         yield said("Mass of the moving links: {0} {1}", mass, unit("kg"))
-        for letter, z, per in (("v", self.before.velocity, "/s"), ("a", self.before.acceleration, "/s²")):
-            if self._posed is not None:
-                x, y = (digits(float(part), 5) for part in (z[self._posed].real, z[self._posed].imag))
+        for letter, z, per in (("v", self.given_motion.velocity, "/s"), ("a", self.given_motion.acceleration, "/s²")):
+            if self.given_pose is not None:
+                x, y = (digits(float(part), 5) for part in (z[self.given_pose].real, z[self.given_pose].imag))
                 yield arrange("{0}_S = ({1}, {2}) {3}", letter, x, y, unit(f"{scene.units.length}{per}"))
         heads: list[Said | str] = [said("link"), arrange("h, {0}", length), arrange("ξ, {0}", length)]
-        rows = [[name, digits(one["h"], 5), digits(clean(one["offset"], one["length"]), 4)]
-                for name, one in principal_vectors(self.before).items()]
+        rows = [[name, digits(one["h"], 5), digits(clear_rounding_of(one["offset"], one["length"]), 4)]
+                for name, one in principal_vectors(self.given_motion).items()]
         yield said("Principal vectors, along the links and square to them:")
         yield [heads, *rows]
         yield arrange("{0}: {1}", said("Balanced"), WAYS[self.balancing.method])
         if self.balancing.note:
             yield self.balancing.note
-        yield from self._weights_told()
-        yield from self._largest()
+        yield from self.counterweight_table()
+        yield from self.largest_forces()
         if self.balancing.engine:
-            yield from _engine_told(self.balancing.engine)
+            yield from engine_text(self.balancing.engine)
         parts = [join((OPINIONS[name], digits(size, 2)), " ") for name, size in self.balancing.check.items()]
         yield said("Second opinions differ by: {0}", join(parts))
 
@@ -85,45 +86,45 @@ class BalanceWords:
     def sizes(self) -> tuple[float, float]:
         """The size of the links' own forces, and of their moments: what is nothing beside them is rounding."""
         metre, scene = float(METRES[self.scene.units.length]), self.scene
-        least = ZERO_TOL * float(KILOGRAMS[scene.units.mass] * self.before.centre.mass) * scene.extent * metre
-        force = max(least, *(float(np.nanmax(np.abs(part))) for part in self.before.shaking.parts.values()))
+        least = ZERO_TOL * float(KILOGRAMS[scene.units.mass] * self.given_motion.centre.mass) * scene.extent * metre
+        force = max(least, *(float(np.nanmax(np.abs(part))) for part in self.given_motion.shaking.parts.values()))
         return force, force * scene.extent * metre
 
     @property
-    def _posed(self) -> int | None:
+    def given_pose(self) -> int | None:
         """The place of the given pose among the positions."""
-        there = np.flatnonzero(self.before.travel == 0)
-        return int(there[0]) if there.size and np.isfinite(self.before.path[there[0]]) else None
+        there = np.flatnonzero(self.given_motion.travel == 0)
+        return int(there[0]) if there.size and np.isfinite(self.given_motion.path[there[0]]) else None
 
-    def _weights_told(self) -> Iterator[Words]:
+    def counterweight_table(self) -> Iterator[Words]:
         """The counterweights in a table, and which variant they make."""
         if not self.balancing.weights:
             return
         rows: list[list[Said | str]] = [[said("link"), arrange("m r, {0}", unit("kg m")), "°", arrange(
             "r, {0}", unit(self.scene.units.length)), arrange("m, {0}", unit("kg"))]]
         for weight in self.balancing.weights:
-            one = weight_told(self.scene, weight)
+            one = weight_numbers(self.scene, weight)
             rows.append([one["link"], *(digits(one[key], 5) for key in ("mass_radius", "angle", "radius", "mass"))])
         yield said("Counterweights, where they stand in this pose:")
         yield rows
         if self.balancing.after is not None and (name := variant(self.balancing.after)):
             yield said("Variant {0} of table 16-1", name)
 
-    def _largest(self) -> Iterator[Words]:
+    def largest_forces(self) -> Iterator[Words]:
         """The largest shaking force and moment."""
         rows: list[list[Said | str]] = [["", arrange("J, {0}", unit("N")), arrange("M, {0}", unit("N m"))]]
-        for words, motion in ((said("before"), self.before), (said("balanced"), self.balancing.after)):
+        for words, motion in ((said("before"), self.given_motion), (said("balanced"), self.balancing.after)):
             if motion is not None:
                 found = zip((motion.shaking.force, motion.shaking.moment), self.sizes, strict=True)
-                largest = (clean(float(np.nanmax(np.abs(values))), size) for values, size in found)
+                largest = (clear_rounding_of(float(np.nanmax(np.abs(values))), size) for values, size in found)
                 rows.append([words, *(digits(one, 5) for one in largest)])
-        base = self.before.centre.base
+        base = self.given_motion.centre.base
         about = base if FRAME in self.scene.links_of[base] else "(0, 0)"
         yield said("Largest shaking force, and moment about {0}:", about)
         yield rows
 
 
-def _engine_told(engine: Engine) -> Iterator[Words]:
+def engine_text(engine: Engine) -> Iterator[Words]:
     """The reduced masses and the forces of an engine."""
     kg, newtons = unit("kg"), unit("N")
     yield said("Engine: rotating mass {0} {2}, reciprocating mass {1} {2}", digits(engine.rotating),
@@ -133,11 +134,11 @@ def _engine_told(engine: Engine) -> Iterator[Words]:
                newtons)
 
 
-def clean(value: float, size: float) -> float:
+def clear_rounding_of(value: float, size: float) -> float:
     """A value, or zero where it is nothing beside a size."""
-    return float(cleaned(np.asarray(value), size))
+    return float(clear_rounding(np.asarray(value), size))
 
 
-def cleaned(values: Any, size: float) -> Any:
+def clear_rounding(values: Any, size: float) -> Any:
     """Values, zero where they are nothing beside a size."""
     return np.where(np.abs(values) < ZERO_TOL * size, 0.0, values)

@@ -15,7 +15,7 @@ import numpy as np
 
 from graphplan.cams.base import lifts_of, region
 from graphplan.cams.follower import Rolled, Translating
-from graphplan.cams.law import HARD, SOFT, Stretch
+from graphplan.cams.law import HARD, SOFT, LawPiece
 from graphplan.cams.profile import Cam
 from graphplan.kernel.program import Panel
 from graphplan.output.graphs import AXIS, CURVES, DIVISION, Figures, Graph, scale_words
@@ -38,25 +38,25 @@ JUMP = Pen(0.18, pens.GREY, (1.2, 0.8))
 RISE, BACK, TANGENT = Pen(0.35), Pen(0.35, pens.INK, (2.0, 1.0)), Pen(0.25, pens.GREEN, (5.0, 1.0))
 BETWEEN, LEFT, RIGHT, FOOT = 5.5, 5.0, 16.0, 7.0  # mm: over a diagram, beside it, and under the last
 SAMPLES = 60  # of a curve on a piece of the law
-RADII = 5.0  # base circles: what is less curved is cut off its diagram
-OVER = 12.0  # mm that a line goes on beyond what it joins
-SHARE = 0.09  # of the curve's size, left free about it
+MAX_RADIUS_RATIO = 5.0  # base circles: what is less curved is cut off its diagram
+LINE_BEYOND_MM = 12.0  # mm that a line goes on beyond what it joins
+MARGIN_SHARE = 0.09  # of the curve's size, left free about it
 
 
 @dataclass(frozen=True)
-class Diagram:
+class TurnDiagram:
     """A quantity over the turn: its letter, unit and pen, its values at angles on a piece of the law, and of which size
     these are."""
 
     letter: str
     measure: str
     pen: Pen
-    values: Callable[[Any, Stretch], Any]
+    values: Callable[[Any, LawPiece], Any]
     size: float
     order: int = 0
 
 
-def diagrams(cam: Cam) -> list[Diagram]:
+def diagrams(cam: Cam) -> list[TurnDiagram]:
     """The law's four diagrams, and that of the pressure angle, or of the radius of curvature under a flat face."""
     omega, length = cam.task.cam.omega, cam.task.units.length
     turns = cam.task.follower.oscillates
@@ -64,19 +64,20 @@ def diagrams(cam: Cam) -> list[Diagram]:
     units = "°" if turns else length, *(f"{whole}/s{power}" for power in ("", "²", "³"))
     letters = ("psi", "omega", "epsilon", "j") if turns else ("s", "v", "a", "j")
 
-    def rate(order: int) -> Diagram:
+    def rate(order: int) -> TurnDiagram:
         factor = 1.0 if order == 0 else cam.law.times * omega**order
-        return Diagram(letters[order], units[order], CURVES[order], lambda angles, one: factor * one.at(angles, order),
+        return TurnDiagram(letters[order], units[order], CURVES[order], lambda angles,
+                           one: factor * one.value_at(angles, order),
                        abs(factor) * lift(cam), order)
 
     found = [rate(order) for order in range(4)]
     if isinstance(cam.pair, Rolled):
-        found.append(Diagram("theta", "°", CURVES[4],
-                             lambda angles, one: np.degrees(cam.touched(one, angles).pressure), 1.0))
+        found.append(TurnDiagram("theta", "°", CURVES[4],
+                             lambda angles, one: np.degrees(cam.contact_on(one, angles).pressure), 1.0))
     else:
-        most = RADII * cam.pair.base
-        found.append(Diagram("rho", length, CURVES[4],
-                             lambda angles, one: np.minimum(cam.touched(one, angles).radius, most), cam.pair.base))
+        most = MAX_RADIUS_RATIO * cam.pair.base
+        found.append(TurnDiagram("rho", length, CURVES[4],
+                             lambda angles, one: np.minimum(cam.contact_on(one, angles).radius, most), cam.pair.base))
     return found
 
 
@@ -86,7 +87,7 @@ def lift(cam: Cam) -> float:
 
 
 @dataclass(frozen=True)
-class Paper(Figures):
+class CamFigures(Figures):
     """The figures of a cam."""
 
     cam: Cam
@@ -107,11 +108,11 @@ class Paper(Figures):
             yield self.text((x, room.bottom - 3.0), digits(float(bound)), "middle")
         yield self.text((room.right + 4.0, room.bottom - 3.0), "φ, °")
 
-    def _diagram(self, one: Diagram, rect: Rect) -> Iterator[Item]:
+    def _diagram(self, one: TurnDiagram, rect: Rect) -> Iterator[Item]:
         """One quantity: axes, its curve piece by piece, its extremes beside it."""
         law = self.cam.law
         parts = [(angles, np.asarray(one.values(angles, piece), float)) for piece in law.stretches
-                 for angles in [piece.divided(SAMPLES)]]
+                 for angles in [piece.divide(SAMPLES)]]
         (top, most), (foot, depth) = law.extremum(one.values), law.extremum(lambda a, piece: -one.values(a, piece))
         low, high = min(0.0, -depth), max(0.0, most)
         still = high - low <= RANGE_TOL * one.size
@@ -130,7 +131,7 @@ class Paper(Figures):
                 x = float(angles[-1])
                 yield Polyline(JUMP, "ruling", None, (at(x, float(before[-1])), at(x, float(after[0]))))
         if hard:
-            yield from self._infinite(at, high)
+            yield from self.shock_arrows(at, high)
         told = "{0} = 0" if still else "{0}, {1}   ({2})"
         scale = scale_words(one.letter, graph.k_y, one.measure)
         yield self.headed(graph, arrange(told, one.letter, unit(one.measure), scale), (one.letter, f"k_{one.letter}"))
@@ -140,7 +141,7 @@ class Paper(Figures):
                 yield Polyline(DIVISION, "ruling", None, ((x, y), (rect.right + 0.8, y)))
                 yield self.text((rect.right + 1.2, y - CAPS * self.letters.text / 2), digits(value))
 
-    def _infinite(self, at: Callable[[float, float], Spot], high: float) -> Iterator[Item]:
+    def shock_arrows(self, at: Callable[[float, float], Spot], high: float) -> Iterator[Item]:
         """Hard shocks: the acceleration is infinite there."""
         for jump in self.cam.law.jumps:
             if jump.order == HARD:
@@ -156,34 +157,34 @@ class Paper(Figures):
         yield from self._curve_x(rect) if isinstance(self.cam.pair, Rolled) else self._curve_z(rect)
 
     @cached_property
-    def _ends(self) -> list[tuple[Stretch, Any, Any]]:
+    def laid_off_ends(self) -> list[tuple[LawPiece, Any, Any]]:
         """Of each piece of the law the follower's points A, and the ends of x laid off from them."""
         found = []
         for one in self.cam.law.stretches:
             pair: Any = self.cam.pair
-            A, A1, *_ = pair.path(lifts_of(self.cam.law, one, one.divided(SAMPLES)))
+            A, A1, *_ = pair.path(lifts_of(self.cam.law, one, one.divide(SAMPLES)))
             found.append((one, A, A + 1j * pair.sense * A1))
         return found
 
     def _window(self, spots: Sequence[complex], rect: Rect) -> View:
         """A view that holds these places, at a round scale."""
         box = bounding_box([(z.real, z.imag) for z in spots])
-        room = rect.inset(*(SHARE * min(rect.width, rect.height),) * 4)
+        room = rect.inset(*(MARGIN_SHARE * min(rect.width, rect.height),) * 4)
         return view(box, room, float(round_up(fit_scale(box, room))))
 
     def _curve_x(self, rect: Rect) -> Iterator[Item]:
         """The follower's path with x laid off, the curve of its ends, the tangents, and the centre."""
-        pieces = self._ends
+        pieces = self.laid_off_ends
         spots = [complex(z) for _, A, E in pieces for z in (*A, *E)] + [0j]
         window = self._window(spots, rect)
-        yield self._scaled(window, rect)
+        yield self._scale_label(window, rect)
 
         def at(z: complex) -> Spot:
             return window((z.real, z.imag))
 
         yield Polyline(AXIS, "ruling", None, tuple(at(complex(z)) for _, A, _ in pieces for z in A))
         for one, A, E in pieces:
-            moving = one.at((float(one.start) + float(one.end)) / 2, 1)
+            moving = one.value_at((float(one.start) + float(one.end)) / 2, 1)
             if abs(moving) <= STILL_RATE * lift(self.cam):
                 continue
             pen = RISE if moving > 0 else BACK
@@ -192,16 +193,16 @@ class Paper(Figures):
             yield Polyline(pen, "links", None, tuple(at(complex(z)) for z in E))
         A0 = at(complex(pieces[0][1][0]))
         yield Polyline(pens.THIN, "plates", None, (at(0j), A0))
-        yield from self._limits(at, rect) if self._limited else self._touching(at, rect)
+        yield from self.limit_tangents(at, rect) if self.has_limits else self.touching_lines(at, rect)
         yield from self.marked(A0, "A_0", (1.4, -3.0))
         yield from self.marked(at(0j), "O", (-1.4, -3.0))
 
     @property
-    def _limited(self) -> bool:
+    def has_limits(self) -> bool:
         """Whether there are tangents at angles that are given."""
         return isinstance(self.cam.pair, Translating) and self.cam.task.cam.limits is not None
 
-    def _limits(self, at: Callable[[complex], Spot], rect: Rect) -> Iterator[Item]:
+    def limit_tangents(self, at: Callable[[complex], Spot], rect: Rect) -> Iterator[Item]:
         """The tangents at the largest pressure angles, behind which the centre lies, and where both meet."""
         pair, limits = self.cam.pair, self.cam.task.cam.limits
         assert isinstance(pair, Translating)
@@ -217,45 +218,46 @@ class Paper(Figures):
                 top, foot = (spot(way * (one.intercept + one.slope * s), s) for s in (
                     float(max(self.cam.law.lifts)), -1.3 * pair.depth))
                 yield from clip_item(Polyline(TANGENT, "plates", None, (top, foot)), rect)
-                high = float(self.cam.law.at([one.angle])[0])
+                high = float(self.cam.law.value_at([one.angle])[0])
                 tip = spot(way * (one.intercept + one.slope * high), high)
-                yield from self._touched(tip, words(digits(math.degrees(math.atan(one.slope)))), spot(0.0, high)[0])
+                yield from self.touch_label(tip, words(digits(math.degrees(math.atan(one.slope)))), spot(0.0, high)[0])
         if where.back is not None and abs(where.corner[0] - pair.offset) > OFFSET_TOL * pair.base:
             yield from self.marked(spot(where.corner[0], -where.corner[1]), "O_m", (1.6, 0.6))
 
-    def _touched(self, tip: Spot, words: Said, axis: float) -> Iterator[Item]:
+    def touch_label(self, tip: Spot, words: Said, axis: float) -> Iterator[Item]:
         """Where a tangent touches the curve, with its angle, away from the path."""
         side = 1 if tip[0] >= axis else -1
         yield Circle(pens.ORIGIN, "plates", None, tip, 0.5)
         yield self.text((tip[0] + 1.8 * side, tip[1] - 3.2), words, "start" if side > 0 else "end")
 
-    def _touching(self, at: Callable[[complex], Spot], rect: Rect) -> Iterator[Item]:
+    def touching_lines(self, at: Callable[[complex], Spot], rect: Rect) -> Iterator[Item]:
         """The lines from the centre that touch the curve, where the pressure angle is largest."""
         pair: Any = self.cam.pair
         for way, words in ((1, RISING), (-1, RETURNING)):
             angle, size = self.cam.steepest[way]
-            piece = next((one for one in self.cam.law.stretches if way * one.at(angle, 1) > 0
+            piece = next((one for one in self.cam.law.stretches if way * one.value_at(angle, 1) > 0
                           and one.start <= angle <= one.end), None)
             if piece is None or size <= 0:
                 continue
             A, A1, *_ = pair.path(lifts_of(self.cam.law, piece, angle))
             start, tip = at(0j), at(complex(A + 1j * pair.sense * A1))
-            long = math.dist(start, tip) or 1.0
-            far = tip[0] + OVER * (tip[0] - start[0]) / long, tip[1] + OVER * (tip[1] - start[1]) / long
+            length = math.dist(start, tip) or 1.0
+            dx, dy = (LINE_BEYOND_MM * (there - here) / length for here, there in zip(start, tip, strict=True))
+            far = tip[0] + dx, tip[1] + dy
             yield from clip_item(Polyline(TANGENT, "plates", None, (start, far)), rect)
-            yield from self._touched(tip, words(digits(size)), at(complex(A))[0])
+            yield from self.touch_label(tip, words(digits(size)), at(complex(A))[0])
 
     def _curve_z(self, rect: Rect) -> Iterator[Item]:
         """The curve of s over z = s'', and its tangent of 45 degrees, which cuts the path in the least centre."""
-        pieces = [(one, one.at(angles), one.at(angles, 2)) for one in self.cam.law.stretches
-                  for angles in [one.divided(SAMPLES)]]
+        pieces = [(one, one.value_at(angles), one.value_at(angles, 2)) for one in self.cam.law.stretches
+                  for angles in [one.divide(SAMPLES)]]
         base = self.cam.pair.base
         lowest = max(float((-(s + z)).max()) for _, s, z in pieces)
         spots = [complex(x, y) for _, s, z in pieces for x, y in zip(z, s, strict=True)] + [complex(0, -base), 0j]
         window = self._window(spots, rect)
-        yield self._scaled(window, rect)
+        yield self._scale_label(window, rect)
         for one, s, z in pieces:
-            pen = BACK if one.at((float(one.start) + float(one.end)) / 2, 1) < 0 else RISE
+            pen = BACK if one.value_at((float(one.start) + float(one.end)) / 2, 1) < 0 else RISE
             pairs = zip(map(float, z), map(float, s), strict=True)
             yield Polyline(pen, "links", None, tuple(map(window, pairs)))
         O, A0, limit = window((0.0, -base)), window((0.0, 0.0)), window((0.0, -lowest))
@@ -269,7 +271,7 @@ class Paper(Figures):
         if abs(base - lowest) > BASE_TOL * base:
             yield from self.marked(limit, "O'", (1.4, -1.0))
 
-    def _scaled(self, window: View, rect: Rect) -> Item:
+    def _scale_label(self, window: View, rect: Rect) -> Item:
         """The scale of a figure, in its corner."""
         told = scale_words("s", 1 / window.scale, self.cam.task.units.length)
         return self.text((rect.left + 2.0, rect.bottom + 2.0), told)

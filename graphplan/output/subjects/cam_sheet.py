@@ -21,7 +21,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 from graphplan.output.graphs import Figures
 from graphplan.output.panelled import Panelled, divide_across, divide_down
-from graphplan.output.subjects.cam_diagrams import CENTRE_PLAN, CURVATURE_PLAN, LAW_PLAN, Paper
+from graphplan.output.subjects.cam_diagrams import CENTRE_PLAN, CURVATURE_PLAN, LAW_PLAN, CamFigures
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.lettering import LetterSizes
@@ -38,9 +38,9 @@ from graphplan.words.tongue import ENGLISH
 
 
 PIN = 1.3  # mm: radius of fixed pins
-NEAR = 12.0  # mm from the cam's centre: a letter there would be on others
-FACE = 7.0  # mm of a flat face beyond its marks
-NUMBERED = 4.0  # mm from the follower to the number of its division
+MIN_LETTER_MM = 12.0  # mm from the cam's centre: a letter there would be on others
+FACE_BEYOND_MM = 7.0  # mm of a flat face beyond its marks
+NUMBER_GAP_MM = 4.0  # mm from the follower to the number of its division
 STEM, HALF, TEETH = 14.0, 2.2, 6  # mm: of the follower beyond what touches, of its guide; strokes of hatching
 PROFILE, PITCH, ROLLER = Pen(0.7), pens.PATH, Pen(0.13, pens.GREY)
 FIRST, BASE = Pen(0.5), Pen(0.25, pens.INK, (5.0, 1.0))
@@ -60,23 +60,23 @@ class CamPlan:
         """What the steps draw: the circles that are rolled on are drawn whole, faces go beyond their marks."""
         rollers = [one.marks["roller"] for one in self.drawing.divisions if "roller" in one.marks]
         whole = {**dict.fromkeys(self.drawing.common.values(), BASE), **dict.fromkeys(rollers, ROLLER)}
-        faces = {one.marks["face"]: FACE for one in self.drawing.divisions if "face" in one.marks}
+        faces = {one.marks["face"]: FACE_BEYOND_MM for one in self.drawing.divisions if "face" in one.marks}
         values = Values(Drawing(self.drawing.program), self.drawing.values)
         return plate_of_values(values, CAM_PLAN, self.view, self.scene, self.letters, whole=whole, beyond=faces)
 
     def items(self) -> Iterator[Item]:
         """All of it."""
         yield from self.ink.items()
-        yield from self._finished()
+        yield from self.cam_items()
         yield from self._follower()
-        yield from self._names()
+        yield from self.letter_items()
 
     # ---- what is made ----------------------------------------------------------------------------------------------
 
     def _spot(self, z: complex) -> Spot:
         return self.view((z.real, z.imag))
 
-    def _finished(self) -> Iterator[Item]:
+    def cam_items(self) -> Iterator[Item]:
         """The path of the roller's centre, the profile, the cam's pin, and the way that it turns."""
         cam = self.drawing.cam
         if cam.roller:
@@ -84,7 +84,7 @@ class CamPlan:
         yield Polygon(PROFILE, "links", None, tuple(map(self._spot, cam.outline)))
         O = self._spot(0j)
         yield Circle(pens.PAIR, "pairs", None, O, PIN)
-        yield from self._hatched(O, (0.0, -1.0), PIN)
+        yield from self.frame_hatching(O, (0.0, -1.0), PIN)
         radius, sense = 8.0, cam.pair.sense
         low, high = (200.0, 320.0) if sense > 0 else (220.0, 340.0)
         turn = Arc(pens.DRIVE, "drive", None, O, radius, low, high)
@@ -93,7 +93,7 @@ class CamPlan:
                                                                                      turn.spot_at(low + 20))
         yield Arrow(pens.DRIVE, "drive", None, back, tip, 3.0)
 
-    def _hatched(self, at: Spot, down: Spot, off: float) -> Iterator[Item]:
+    def frame_hatching(self, at: Spot, down: Spot, off: float) -> Iterator[Item]:
         """The frame at a spot: a line with strokes behind it, so far off."""
         ux, uy = -down[1], down[0]
         x, y = at[0] + down[0] * (off + 1.2), at[1] + down[1] * (off + 1.2)
@@ -108,20 +108,20 @@ class CamPlan:
     def _follower(self) -> Iterator[Item]:
         """The follower where it is lowest, and what holds it."""
         drawing, cam = self.drawing, self.drawing.cam
-        A = self._spot(drawing.at("A")[0])
-        K = self._spot(drawing.at("K")[0])
+        A = self._spot(drawing.positions("A")[0])
+        K = self._spot(drawing.positions("K")[0])
         if cam.roller:
             yield Circle(FIRST, "blocks", None, A, cam.roller * self.view.scale)
         if cam.task.follower.oscillates:
-            B = self._spot(drawing.at("B")[0])
+            B = self._spot(drawing.positions("B")[0])
             tip = K if cam.task.follower.flat else A
             beyond = 1.25 if cam.task.follower.flat else 1.0
             end = B[0] + beyond * (tip[0] - B[0]), B[1] + beyond * (tip[1] - B[1])
             yield Polyline(FIRST, "blocks", None, (B, end))
             yield Circle(pens.PAIR, "pairs", None, B, PIN)
-            yield from self._hatched(B, (0.0, -1.0), PIN)
+            yield from self.frame_hatching(B, (0.0, -1.0), PIN)
             return
-        highest = max(float(cam.law.at(one.angle)) for one in drawing.divisions) + cam.roller
+        highest = max(float(cam.law.value_at(one.angle)) for one in drawing.divisions) + cam.roller
         top = A[0], A[1] + STEM + highest * self.view.scale
         yield Polyline(FIRST, "blocks", None, (A, top))
         if cam.task.follower.flat:
@@ -129,39 +129,39 @@ class CamPlan:
             yield Polyline(FIRST, "blocks", None, ((A[0] - high - 2, A[1]), (A[0] - low + 2, A[1])))
         middle = top[0], top[1] - STEM / 3
         for side in (-1.0, 1.0):
-            yield from self._hatched(middle, (side, 0.0), -0.4)
+            yield from self.frame_hatching(middle, (side, 0.0), -0.4)
         if not cam.task.follower.flat:
             yield Circle(pens.PAIR, "pairs", None, A, 0.7)
 
     # ---- names -----------------------------------------------------------------------------------------------------
 
-    def _names(self) -> Iterator[Item]:
+    def letter_items(self) -> Iterator[Item]:
         """The numbers of the divisions outside, and the letters of one division and of what is drawn once."""
         drawing, cam, O = self.drawing, self.drawing.cam, self._spot(0j)
         paper = Figures(self.letters, ENGLISH)  # letters and numbers are the same in all tongues
-        spots = [self._spot(z) for z in drawing.at("A")]
+        spots = [self._spot(z) for z in drawing.positions("A")]
         far = drawing.cam.roller * self.view.scale
         for k, (x, y) in enumerate(spots):
             if not k and not cam.task.follower.oscillates:
                 continue  # there the follower stands
             long = math.dist((x, y), O) or 1.0
-            part = 1 + (far + NUMBERED) / long
+            part = 1 + (far + NUMBER_GAP_MM) / long
             yield from paper.backed((O[0] + part * (x - O[0]), O[1] + part * (y - O[1])), str(k), middle=True)
         yield from paper.backed((O[0] - 5.5, O[1] + 1.4), "O", self.letters.mark)
-        shown = self._shown
+        shown = self.lettered_division
         for name, (dx, dy) in {"A": (1.2, 1.0), "K": (1.0, -3.4), "P": (0.8, 1.0), "T": (0.8, 1.0),
                                "B": (2.0, 1.4), "S": (2.0, 0.0)}.items():
             step = next((step for step in drawing.program.steps if step.name == f"{name}_{shown}"), None)
             if step is not None:
                 x, y = self.ink.plates.steps[step.index].spot
-                if math.dist((x, y), O) > NEAR:
+                if math.dist((x, y), O) > MIN_LETTER_MM:
                     yield from paper.backed((x + dx, y + dy), step.name, self.letters.mark)
 
     @property
-    def _shown(self) -> int:
+    def lettered_division(self) -> int:
         """The division of which the letters stand: where the follower rises fastest."""
         cam, divisions = self.drawing.cam, self.drawing.divisions
-        rates = cam.law.at([one.angle for one in divisions], 1)
+        rates = cam.law.value_at([one.angle for one in divisions], 1)
         return max(range(len(divisions)), key=lambda k: float(rates[k]))
 
 
@@ -188,7 +188,7 @@ MOVED = {"uniform": said("uniform"), "parabolic": said("parabolic"), "harmonic":
 MOVES = {"translating": said("translating"), "oscillating": said("oscillating")}
 CONTACTS = {"point": said("point"), "roller": said("roller"), "flat": said("flat face")}
 OPINIONS = {"points": said("points"), "motion": said("motion"), "curvature": said("curvature"), "law": said("law")}
-OUTSIDE = 9.0  # mm about the plan
+PLAN_MARGIN_MM = 9.0  # mm about the plan
 PLAN_WIDE, PLAN_HIGH = 0.6, 0.64  # of the room beside the words: the plan; above the curve x(s)
 
 
@@ -227,7 +227,7 @@ class CamSheet(Panelled):
     @cached_property
     def k_s(self) -> float:
         """Lengths for a mm of the plan, in a round scale."""
-        return float(round_up(fit_scale(extent(self.drawing), self.room(CAM_PLAN).inset(*(OUTSIDE,) * 4))))
+        return float(round_up(fit_scale(extent(self.drawing), self.room(CAM_PLAN).inset(*(PLAN_MARGIN_MM,) * 4))))
 
     def panels_in(self, room: Rect) -> dict[Panel, Rect]:
         """The plan, under it the curve x(s) if there is one, and beside them the diagrams."""
@@ -242,7 +242,7 @@ class CamSheet(Panelled):
         """The plan, the diagrams over the turn, or the curve."""
         if panel == CAM_PLAN:
             return CamPlan(self.drawing, view(extent(self.drawing), rect, self.k_s), self.scene, self.letters).items()
-        figures = Paper(self.letters, self.tongue, self.drawing.cam)
+        figures = CamFigures(self.letters, self.tongue, self.drawing.cam)
         return figures.law(rect) if panel == LAW_PLAN else figures.centre(rect)
 
     def given_words(self) -> Iterator[Said]:

@@ -17,7 +17,7 @@ import numpy as np
 
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import LINE
-from graphplan.machine.flywheel.diagram_layout import HEAD, Room, laid_out, plans_of
+from graphplan.machine.flywheel.diagram_layout import ROW_GAP_MM, DiagramSizes, lay_out, plans_of
 from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing
 from graphplan.machine.flywheel.result import FlywheelResult
 from graphplan.machine.frames import Frame
@@ -46,21 +46,21 @@ NUMBERED, SAMPLES = 36, 360  # plans that have numbers; places of a curve
 PIECES, BEYOND, FREE = 6, 10.0, 4.0  # strokes of a piece of a curve; mm by which tangents go on; under curves
 
 
-def room_in(rect: Rect, result: FlywheelResult, figures: Figures) -> Room:
+def sizes_in(rect: Rect, result: FlywheelResult, figures: Figures) -> DiagramSizes:
     """The room at which the diagrams, in round scales, are as large as they can be in a panel."""
     plans, true, margin = plans_of(result.cycle, result.positions), spans(result), _margin(figures)
     wide, high = rect.width - SIDE - RIGHT, rect.height - 2 * margin
 
-    def size(room: Room) -> float:
+    def size(room: DiagramSizes) -> float:
         """How large the diagrams are; nothing where they have no room."""
-        layout = laid_out(result.cycle, result.wheel, plans, room)
+        layout = lay_out(result.cycle, result.wheel, plans, room)
         box = extent(layout.frames, layout.pole, true)
         if box.width > wide or box.height > high:
             return 0.0
         return math.prod(end - start for frame in (layout.frames[name] for name in ("moment", "energy-mass"))
                          for start, end in (frame.level, frame.upright))
 
-    found = Room(0.5 * wide, 0.2 * high, 0.4 * high, 0.2 * wide, 0.25 * high)
+    found = DiagramSizes(0.5 * wide, 0.2 * high, 0.4 * high, 0.2 * wide, 0.25 * high)
     across = [replace(found, travel=x * wide, inertia=(1 - x) * y * wide) for x in PARTS for y in PARTS]
     found = max((found, *across), key=size)
     return max((found, *(replace(found, moment=x * high, turned=x * high, energy=(1 - x) * y * high)
@@ -74,7 +74,7 @@ def spans(result: FlywheelResult) -> dict[str, tuple[Span, Span]]:
     """How far the true curves go along both axes of each diagram: between plans farther than at these."""
     cycle, travel = result.cycle, np.linspace(*result.cycle.ends, SAMPLES + 1)
     told, I, M, E = ((float(values.min()), float(values.max())) for values in (
-        result.told(travel), cycle.inertia.at(travel), cycle.moment.at(travel), cycle.energy.at(travel)))
+        result.in_degrees(travel), cycle.inertia.at(travel), cycle.moment.at(travel), cycle.energy.at(travel)))
     return {"moment": (told, M), "energy": (told, E), "inertia": (I, told), "energy-mass": (I, E)}
 
 
@@ -83,7 +83,7 @@ def extent(frames: Mapping[str, Frame], pole: float, true: Mapping[str, tuple[Sp
     spots = [(-pole, 0.0)]
     for name, (xs, ys) in true.items():
         frame = frames[name]
-        (left, right), (low, top) = frame.at(np.array(xs), np.array(ys))
+        (left, right), (low, top) = frame.position(np.array(xs), np.array(ys))
         x, y = frame.origin
         spots += [(left, low), (right, top), (x + frame.level[0], y + frame.upright[0]),
                   (x + frame.level[1], y + frame.upright[1])]
@@ -121,14 +121,14 @@ class FlywheelFigure:
         low = self.window(min(spots, key=lambda spot: spot[1]))[1] - FREE  # m and n may lie far below
         return found | {"energy": replace(energy, rect=replace(energy.rect, bottom=max(low, energy.rect.bottom)))}
 
-    def begun(self) -> list[Item]:
+    def given_items(self) -> list[Item]:
         """What is given of it: the axes with their scales."""
         return list(self._axes())
 
     def items(self) -> list[Item]:
         """All of it, its letters off its lines."""
         drawn = [*self._areas(), *self._curves(), *self._level(), *self._tangents(), *self._origin(), *self._axes()]
-        return items_with_names(self.ink, drawn, self._wishes(), self._is_named)
+        return items_with_names(self.ink, drawn, self._wishes(), self.has_letter)
 
     # ---- steps -----------------------------------------------------------------------------------------------------
 
@@ -161,7 +161,7 @@ class FlywheelFigure:
             slope, far = touch.slope * graph.k_x / graph.k_y, graph.rect.right + BEYOND - cut[0]
             line = Polyline(pen, "plates", place, (cut, (cut[0] + far, cut[1] + far * slope)))
             rect = self.rect
-            yield from clip_item(line, Rect(rect.left, rect.bottom, rect.right, graph.rect.top + HEAD / 4))
+            yield from clip_item(line, Rect(rect.left, rect.bottom, rect.right, graph.rect.top + ROW_GAP_MM / 4))
 
     def _origin(self) -> Iterator[Item]:
         """The origin in which the tangents meet, if it lies on the panel: so far left of the axis is the flywheel."""
@@ -175,17 +175,17 @@ class FlywheelFigure:
 
     # ---- curves ----------------------------------------------------------------------------------------------------
 
-    def _sampled(self, curve: Piecewise) -> Iterator[tuple[Any, Any]]:
+    def sample_curve(self, curve: Piecewise) -> Iterator[tuple[Any, Any]]:
         """Travels as they are told, and values, stretch by stretch between jumps."""
         for low, high in pairwise(map(float, curve.edges)):
             travel = np.linspace(low, high, PIECES + 1)
-            yield self.result.told(travel), np.append(curve.at(travel[:-1]), curve.at(high, -1))
+            yield self.result.in_degrees(travel), np.append(curve.at(travel[:-1]), curve.at(high, -1))
 
     def _areas(self) -> Iterator[Item]:
         """What lies between the moment and its mean."""
         graph = self.graphs["moment"]
         level = graph.at(0.0, self.drawing.mean)[1]
-        parts = [graph.spots(*part) for part in self._sampled(self.result.cycle.moment)]
+        parts = [graph.spots(*part) for part in self.sample_curve(self.result.cycle.moment)]
         spots = [spot for part in parts for spot in part]
         corners = ((spots[0][0], level), *spots, (spots[-1][0], level))
         yield Polygon(Pen(0.0, fill=pens.TINT), "paper", None, corners)
@@ -194,10 +194,10 @@ class FlywheelFigure:
         """The true curves of moment, energy, inertia, and of energy by inertia."""
         cycle, curve = self.result.cycle, partial(Polyline, layer="links", step=None)
         for name, values, pen in (("moment", cycle.moment, MOMENT), ("energy", cycle.energy, ENERGY)):
-            spots = [spot for part in self._sampled(values) for spot in self.graphs[name].spots(*part)]
+            spots = [spot for part in self.sample_curve(values) for spot in self.graphs[name].spots(*part)]
             yield curve(pen, spots=tuple(spots))
         inertia = self.graphs["inertia"]
-        turned = [spot for travel, I in self._sampled(cycle.inertia) for spot in inertia.spots(I, travel)]
+        turned = [spot for travel, I in self.sample_curve(cycle.inertia) for spot in inertia.spots(I, travel)]
         yield curve(INERTIA, spots=tuple(turned))
         travel = np.linspace(*cycle.ends, SAMPLES + 1)
         spots = self.graphs["energy-mass"].spots(cycle.inertia.at(travel), cycle.energy.at(travel))
@@ -205,7 +205,7 @@ class FlywheelFigure:
 
     # ---- axes and letters ------------------------------------------------------------------------------------------
 
-    def _told(self, what: str, k: float, at: Spot, anchor: str = "start") -> Item:
+    def scale_label(self, what: str, k: float, at: Spot, anchor: str = "start") -> Item:
         """Letter, unit and scale of a quantity."""
         convention = self.result.scene.sheet.convention
         return self.paper.quantity(at, what, UNITS[what], k, convention, anchor)
@@ -222,23 +222,23 @@ class FlywheelFigure:
         yield from paper.abscissa(inertia, level=inertia.y[0])
         yield from paper.abscissa(mass)
         for graph, what in ((moment, "M"), (energy, "E")):
-            yield self._told(what, graph.k_y, (graph.rect.left, graph.rect.top + HEADED / 2))
+            yield self.scale_label(what, graph.k_y, (graph.rect.left, graph.rect.top + HEADED / 2))
             yield from paper.numbered_y(graph, right=True)
-        yield self._told("I", inertia.k_x, (inertia.rect.left, inertia.rect.bottom - HEADED))
+        yield self.scale_label("I", inertia.k_x, (inertia.rect.left, inertia.rect.bottom - HEADED))
         yield from paper.numbered_x(energy, turns=True)
         yield from paper.numbered_x(mass)
         yield from paper.numbered_y(inertia, right=True, turns=True, level=inertia.y[0])
-        yield self._told("phi", inertia.k_y, (inertia.rect.right + RIGHT, inertia.rect.top + HEADED / 2), "end")
+        yield self.scale_label("phi", inertia.k_y, (inertia.rect.right + RIGHT, inertia.rect.top + HEADED / 2), "end")
         low = energy.rect.bottom - (2.4 + CAPS) * paper.letters.text
-        yield self._told("phi", energy.k_x, (energy.rect.right, low), "end")
+        yield self.scale_label("phi", energy.k_x, (energy.rect.right, low), "end")
 
-    def _is_named(self, mark: DrawnStep) -> bool:
+    def has_letter(self, mark: DrawnStep) -> bool:
         """Whether the name of a mark stands on the sheet: divisions have their numbers at the curve alone."""
         return not mark.name.rpartition("_")[2].isdigit()
 
     def _wishes(self) -> Iterator[Wish]:
         """The numbers of the plans along the energy-mass curve and over the abscissa, and the letters of angles."""
-        told = self.result.told_travels
+        told = self.result.travels_in_degrees
         every = 1 + self.result.positions // NUMBERED
         for spot, travel in zip(self.drawing.spots("points"), self.drawing.travels, strict=False):
             k = int(np.argmin(abs(told - travel)))

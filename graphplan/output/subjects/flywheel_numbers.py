@@ -9,7 +9,7 @@ import numpy as np
 
 from graphplan.machine.flywheel.other_methods import NEGLECTS_NOTHING
 from graphplan.machine.flywheel.result import FlywheelResult
-from graphplan.machine.flywheel.steady_cycle import Flywheel, Touch
+from graphplan.machine.flywheel.steady_cycle import FlywheelSpeeds, Tangency
 from graphplan.machine.reduced.friction import M_F
 
 HEADINGS = ("travel [deg]", "I [kg*m^2]", "M_r [N*m]", "M [N*m]", "E [J]", "omega [rad/s]")
@@ -21,8 +21,8 @@ def numbers(result: FlywheelResult, pencil_error: float) -> dict[str, Any]:
     `pencil_error` is the standard deviation of the drawn flywheel, or of the drawn unevenness with one that is given.
     """
     cycle = result.cycle
-    (least_at, least), (most_at, most) = cycle.energy.extremes(cycle.whole)
-    pairs = {name: np.stack([result.told_travels, row + 0.0], 1).tolist() for name, row in result.plans.items()}
+    (least_at, least), (most_at, most) = cycle.energy.extremes(cycle.closed_moment)
+    pairs = {name: np.stack([result.travels_in_degrees, row + 0.0], 1).tolist() for name, row in result.plans.items()}
     found: dict[str, Any] = {
         "title": result.scene.title,
         "units": {"travel": "deg", "inertia": "kg m2", "moment": "N m", "energy": "J", "speed": "rad/s"},
@@ -31,74 +31,75 @@ def numbers(result: FlywheelResult, pencil_error: float) -> dict[str, Any]:
         "closing_moment": cycle.closing, "load_factor": cycle.factor,
         "work": {name: cycle.work(name) for name in cycle.loads} | {"closing": cycle.closing * cycle.span},
         "energy": pairs["energy"], "omega": pairs["omega"],
-        "energy_extremes": {"least_at": _told(result, least_at), "most_at": _told(result, most_at),
+        "energy_extremes": {"least_at": in_degrees(result, least_at), "most_at": in_degrees(result, most_at),
                             "range": most - least},
-        "flywheel": _wheel(result, pencil_error),
-        "without_flywheel": {"exact": _speeds(result, result.own),
-                             "by_mean_energy": _speeds(result, result.by_mean_energy)},
-        "methods": methods(result),
-        "drawing": _drawing(result),
+        "flywheel": wheel_numbers(result, pencil_error),
+        "without_flywheel": {"exact": speed_numbers(result, result.without_flywheel),
+                             "by_mean_energy": speed_numbers(result, result.by_mean_energy)},
+        "methods": method_numbers(result),
+        "drawing": drawing_numbers(result),
         "check": dict(result.check),
     }
     if result.reduction.friction:
-        found["friction"] = _friction(result)
+        found["friction"] = friction_numbers(result)
     return found
 
 
-def _friction(result: FlywheelResult) -> dict[str, Any]:
+def friction_numbers(result: FlywheelResult) -> dict[str, Any]:
     """What friction takes: its moment by travel, the work lost over the cycle, all of it and pair by pair, of the work
     that is given, and so the mean efficiency."""
-    losses, moment = result.reduction.losses, result.reduction.at(result.travels).by[M_F]
-    return {"moment": np.stack([result.told_travels, moment + 0.0], 1).tolist(), "lost": losses.lost,
+    losses, moment = result.reduction.losses, result.reduction.reduce_at(result.travels).by[M_F]
+    return {"moment": np.stack([result.travels_in_degrees, moment + 0.0], 1).tolist(), "lost": losses.lost,
             "given": losses.given, "efficiency": losses.efficiency, "pairs": losses.pairs}
 
 
 def table(result: FlywheelResult) -> str:
     """Comma-separated text: a heading, then a line for each plan."""
     lines = [",".join(HEADINGS)]
-    columns = np.stack([result.told_travels, *result.plans.values()], 1) + 0.0
+    columns = np.stack([result.travels_in_degrees, *result.plans.values()], 1) + 0.0
     return "\n".join([*lines, *(",".join(map(repr, row)) for row in columns.tolist()), ""])
 
 
-def methods(result: FlywheelResult) -> dict[str, Any]:
+def method_numbers(result: FlywheelResult) -> dict[str, Any]:
     """What each method finds, by its name: Wittenbauer's first."""
     found: dict[str, Any] = {"wittenbauer": {"inertia": result.wheel.inertia, "stored": result.wheel.intercept(),
                                              "neglects": str(NEGLECTS_NOTHING)}}
     for method in result.methods:
-        figures = {key: _plain(result, key, value) for key, value in method.figures.items()}
+        figures = {key: plain_figure(result, key, value) for key, value in method.figures.items()}
         found[method.name] = {"inertia": method.inertia, "stored": method.stored, "neglects": str(method.neglects),
                               **figures}
     return found
 
 
-def _wheel(result: FlywheelResult, pencil_error: float) -> dict[str, Any]:
+def wheel_numbers(result: FlywheelResult, pencil_error: float) -> dict[str, Any]:
     """The wheel, the tangents of the energy-mass diagram, and what the drawing gives."""
     wheel = result.wheel
     return {
-        "inertia": wheel.inertia, **(_speeds(result, wheel) or {}),
+        "inertia": wheel.inertia, **(speed_numbers(result, wheel) or {}),
         "intercept": wheel.intercept(), "cuts": [wheel.upper.cut, wheel.lower.cut],
         "slopes": [wheel.upper.slope, wheel.lower.slope],
         "touching": [_touch(wheel.upper), _touch(wheel.lower)],
         "origin": {"inertia": -wheel.inertia, "energy": wheel.origin},
-        "drawn": result.measured, "drawn_of": "unevenness" if result.given else "inertia",
+        "drawn": result.drawn_result, "drawn_of": "unevenness" if result.given else "inertia",
         "drawn_error": result.strip_error + 2 * pencil_error,
     }
 
 
-def _touch(touch: Touch) -> list[float]:
+def _touch(touch: Tangency) -> list[float]:
     return [touch.inertia, touch.energy]
 
 
-def _speeds(result: FlywheelResult, wheel: Flywheel | None) -> dict[str, float] | None:
+def speed_numbers(result: FlywheelResult, wheel: FlywheelSpeeds | None) -> dict[str, float] | None:
     """The speeds with a wheel; none where the machine does not come round."""
     if wheel is None:
         return None
     return {"omega_max": wheel.omega_max, "omega_min": wheel.omega_min,
-            "omega_max_at": _told(result, wheel.upper.travel), "omega_min_at": _told(result, wheel.lower.travel),
+            "omega_max_at": in_degrees(result, wheel.upper.travel),
+            "omega_min_at": in_degrees(result, wheel.lower.travel),
             "unevenness": wheel.unevenness}
 
 
-def _drawing(result: FlywheelResult) -> dict[str, Any]:
+def drawing_numbers(result: FlywheelResult) -> dict[str, Any]:
     """How it is drawn: scales for one mm, the pole in mm, the axis on which the tangents are cut, and the steps."""
     drawing = result.drawing
     moment, energy, inertia = (drawing.frames[name] for name in ("moment", "energy", "inertia"))
@@ -109,15 +110,15 @@ def _drawing(result: FlywheelResult) -> dict[str, Any]:
             "positions": result.positions, "steps": len(drawing.program) - drawing.program.givens}
 
 
-def _told(result: FlywheelResult, travel: float) -> float:
-    return float(result.told(travel)) + 0.0
+def in_degrees(result: FlywheelResult, travel: float) -> float:
+    return float(result.in_degrees(travel)) + 0.0
 
 
-def _plain(result: FlywheelResult, key: str, value: Any) -> Any:
+def plain_figure(result: FlywheelResult, key: str, value: Any) -> Any:
     """A figure of a method, its travels as they are told."""
     if key == "areas":
-        return [[_told(result, area.start), _told(result, area.end), area.work] for area in value]
+        return [[in_degrees(result, area.start), in_degrees(result, area.end), area.work] for area in value]
     if key.endswith("_at"):
         first, last = result.cycle.ends
-        return _told(result, first + (value - first) % (last - first))
-    return [_told(result, at) for at in value] if isinstance(value, tuple) else value
+        return in_degrees(result, first + (value - first) % (last - first))
+    return [in_degrees(result, at) for at in value] if isinstance(value, tuple) else value

@@ -17,13 +17,13 @@ from functools import cached_property
 from graphplan.kernel.drawing import Drawing, PlanScale, Values
 from graphplan.kernel.passes import put_together
 from graphplan.kernel.program import Panel
-from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing, drawn
+from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing, draw_flywheel
 from graphplan.machine.flywheel.other_methods import NEGLECTS_NOTHING
 from graphplan.machine.flywheel.result import FlywheelResult
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import Figures
 from graphplan.output.panelled import Blank, Panelled, Words, divide_across, divide_down
-from graphplan.output.subjects.flywheel_figure import FlywheelFigure, room_in
+from graphplan.output.subjects.flywheel_figure import FlywheelFigure, sizes_in
 from graphplan.output.subjects.given_facts import masses_and_loads
 from graphplan.output.subjects.lever_figures import LEVERS, LeverFigures
 from graphplan.output.tolerances import RANGE_TOL
@@ -94,11 +94,11 @@ class FlywheelSheet(Panelled):
     @cached_property
     def drawing(self) -> FlywheelDrawing:
         """The diagrams, as large as they have room."""
-        room = room_in(self.room(FLYWHEEL), self.result, self._figures)
-        return drawn(self.result.cycle, self.result.wheel, self.result.positions, room)
+        room = sizes_in(self.room(FLYWHEEL), self.result, self._figures)
+        return draw_flywheel(self.result.cycle, self.result.wheel, self.result.positions, room)
 
     @cached_property
-    def _joined(self) -> tuple[Values, list[list[int]]]:
+    def combined_drawing(self) -> tuple[Values, list[list[int]]]:
         """The lever and the diagrams as one construction, and where the steps of both are in it."""
         lever, diagrams = self.levers.drawing, self.drawing
         program, places = put_together([lever.drawn, diagrams.program])
@@ -108,7 +108,7 @@ class FlywheelSheet(Panelled):
 
     @property
     def values(self) -> Values:
-        return self._joined[0]
+        return self.combined_drawing[0]
 
     @cached_property
     def scales(self) -> Scales:
@@ -132,15 +132,15 @@ class FlywheelSheet(Panelled):
         if panel == LEVERS:
             return self.levers.small(rect, drawn=not self.task)
         if panel == FLYWHEEL:
-            values, places = self._joined
+            values, places = self.combined_drawing
             figure = FlywheelFigure(self.result, self.drawing, values, places[1], self._figures, rect)
-            return figure.begun() if self.task else figure.items()
-        drawn = self.levers.begun if self.task else self.levers.picture
-        return [self._placed(item) for item in drawn(self._windows[1], panel)]
+            return figure.given_items() if self.task else figure.items()
+        drawn = self.levers.given_items if self.task else self.levers.picture
+        return [self.with_sheet_step(item) for item in drawn(self._windows[1], panel)]
 
-    def _placed(self, item: Item) -> Item:
+    def with_sheet_step(self, item: Item) -> Item:
         """An item of the lever, its step that of the sheet."""
-        return item if item.step is None else replace(item, step=self._joined[1][0][item.step])
+        return item if item.step is None else replace(item, step=self.combined_drawing[1][0][item.step])
 
     # ---- words -----------------------------------------------------------------------------------------------------
 
@@ -177,7 +177,7 @@ class FlywheelSheet(Panelled):
                       digits(wheel.intercept(self.drawing.axis)), unit("J"))
         for name, speed, touch in (("omega_max", wheel.omega_max, wheel.upper), ("omega_min", wheel.omega_min,
                                                                                 wheel.lower)):
-            at = join((digits(float(result.told(touch.travel))), unit("°")), "")
+            at = join((digits(float(result.in_degrees(touch.travel))), unit("°")), "")
             yield said("{0} = {1} {2} at {3}", name, digits(speed), unit(RATE), at)
         for note in result.notes:
             yield arrange("{0:capital}", note)
@@ -204,7 +204,8 @@ class FlywheelSheet(Panelled):
     def tables(self) -> Iterator[Words]:
         """A row for each plan."""
         result = self.result
-        columns = [result.told_travels, *(result.plans[name] for name in ("inertia", "moment", "energy", "omega"))]
+        columns = [result.travels_in_degrees,
+                   *(result.plans[name] for name in ("inertia", "moment", "energy", "omega"))]
         letters, units = ("phi", "I", "M", "E", "omega"), ("°", INERTIA, MOMENT, "J", RATE)
         size = [float(abs(column).max()) or 1.0 for column in columns]
         head = ["", *(arrange("{0}, {1}", letter, unit(one)) for letter, one in zip(letters, units, strict=True))]

@@ -11,7 +11,7 @@ from graphplan.mechanism.order import named_forces, named_moments
 from graphplan.output.panelled import Words
 from graphplan.phrases import arrange, digits, join, said, unit
 
-ROWS = 40  # of a table at most that are told: more are a curve
+MAX_TABLE_ROWS = 40  # of a table at most that are told: more are a curve
 
 
 def masses_and_loads(scene: Scene) -> Iterator[Words]:
@@ -29,15 +29,15 @@ def masses_and_loads(scene: Scene) -> Iterator[Words]:
         yield arrange("g = ({0}, {1}) {2}", *(digits(float(part)) for part in loads.gravity), unit("m/s²"))
     for name, force in named_forces(loads).items():
         value = (digits(float(part)) for part in force.value)
-        yield _changing(name, force.table, names.force) or arrange("{0} = ({1}, {2}) {3}", name, *value,
+        yield load_by_table(name, force.table, names.force) or arrange("{0} = ({1}, {2}) {3}", name, *value,
                                                                    unit(names.force))
     measure = f"{names.force} m"
     for name, moment in named_moments(loads).items():
-        yield _changing(name, moment.table, measure) or arrange("{0} = {1} {2}", name, digits(float(moment.value)),
+        yield load_by_table(name, moment.table, measure) or arrange("{0} = {1} {2}", name, digits(float(moment.value)),
                                                                 unit(measure))
 
 
-def _changing(name: str, table: Any, measure: str) -> Words | None:
+def load_by_table(name: str, table: Any, measure: str) -> Words | None:
     """A load by its table, if it has one."""
     if table is None:
         return None
@@ -45,7 +45,7 @@ def _changing(name: str, table: Any, measure: str) -> Words | None:
         c = [digits(float(power)) for power in (*table.powers, 0, 0)][:3]
         return arrange("{0} = {1} + {2} v + {3} v |v| {4}; v: {5}", name, *c, unit(measure), table.over)
     told = arrange("{0}: {1}", name, said("A load over {0}, in {1} rows", table.over, len(table.rows)))
-    if len(table.rows) > ROWS:
+    if len(table.rows) > MAX_TABLE_ROWS:
         return told
     rows = join([arrange("({0}; {1})", *(digits(float(number)) for number in row)) for row in table.rows])
     return arrange("{0}: {1} {2}", told, rows, unit(measure))

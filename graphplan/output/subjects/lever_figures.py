@@ -36,8 +36,9 @@ from graphplan.words.tongue import Tongue
 
 LEVERS = Panel("levers", said("levers"), said("Orthogonal velocities in the other positions"))
 RAY, IMAGE = Pen(0.18, pens.BLUE), Pen(0.25)
-FREE, NUMBER = 1.0, 1.4  # mm about a small figure; of the height of letters, for its number
-POLE, MOST = 0.4, 36  # mm: the radius of a pole; small figures, and faint positions of the mechanism
+FIGURE_MARGIN_MM, NUMBER = 1.0, 1.4  # mm about a small figure; of the height of letters, for its number
+# mm: the radius of a pole; small figures, and faint positions of the mechanism
+POLE_RADIUS_MM, MAX_SMALL_FIGURES = 0.4, 36
 
 
 @dataclass(frozen=True)
@@ -71,7 +72,7 @@ class LeverFigures:
         places = {name: [(float(z.real), float(z.imag)) for z in np.atleast_1d(zs) + 0j]
                   for name, zs in self.turn.points.items()}
         positions = tuple({name: spots[k % len(spots)] for name, spots in places.items()}
-                          for k in range(0, self.count, 1 + self.count // MOST))
+                          for k in range(0, self.count, 1 + self.count // MAX_SMALL_FIGURES))
         moving = [name for name in self.reduction.motion.scene.find.velocity if name in places]
         paths = tuple(PointPath(name, (*places[name], places[name][0]), (False, False)) for name in moving)
         return Plans(self.drawing, self.tongue, motion=TracedMotion(paths, positions))
@@ -90,7 +91,7 @@ class LeverFigures:
         """A plan of the given pose with its letters."""
         return letter_plate(plates[panel]).items
 
-    def begun(self, plates: Plates, panel: Panel) -> list[Item]:
+    def given_items(self, plates: Plates, panel: Panel) -> list[Item]:
         """What of a plan is given: the mechanism with its loads in its positions, or where it begins."""
         given = list(starting_items(plates[panel]))
         return [*given, *plates[panel].positions(given)]
@@ -109,7 +110,7 @@ class LeverFigures:
         own = self.reduction.motion
         motion = UnitMotion(self.reduction.scene, own.motion, replace(own.scene.find, velocity=self._points))
         rates = motion.velocities(self.turn)
-        return {name: 1j * own.sense * (rates.of(kinds.VELOCITY, name) + np.zeros(self.count))
+        return {name: 1j * own.sense * (rates.rate(kinds.VELOCITY, name) + np.zeros(self.count))
                 for name in self._points}
 
     @cached_property
@@ -122,17 +123,18 @@ class LeverFigures:
     def small(self, rect: Rect, drawn: bool = True) -> Iterator[Item]:
         """The orthogonal velocities of the other positions, or some of them, each beside its number, at one scale; or
         where these are not `drawn` their poles alone."""
-        shown = range(1, self.count, 1 + self.count // MOST)
+        shown = range(1, self.count, 1 + self.count // MAX_SMALL_FIGURES)
         cells, number = _grid(rect, len(shown)), NUMBER * self.letters.text
-        rooms = [cell.inset(FREE, FREE, FREE, FREE + number) for cell in cells]
+        rooms = [cell.inset(FIGURE_MARGIN_MM, FIGURE_MARGIN_MM, FIGURE_MARGIN_MM, FIGURE_MARGIN_MM + number)
+                 for cell in cells]
         boxes = [bounding_box([(0.0, 0.0), *self._spots(k)]) for k in shown]
         scale = max(map(fit_scale, boxes, rooms)) or 1.0
         paper = Figures(self.letters, self.tongue)
         for k, cell, room, box in zip(shown, cells, rooms, boxes, strict=True):
-            yield paper.text((cell.left + FREE, cell.top - number), str(k))
+            yield paper.text((cell.left + FIGURE_MARGIN_MM, cell.top - number), str(k))
             window = view(box, room, scale)
             yield from self._plan(k, window) if drawn else ()
-            yield Circle(pens.ORIGIN, "links", None, window((0.0, 0.0)), POLE)
+            yield Circle(pens.ORIGIN, "links", None, window((0.0, 0.0)), POLE_RADIUS_MM)
 
     def _spots(self, k: int) -> list[Spot]:
         """The ends of the velocities of a position."""
@@ -143,7 +145,7 @@ class LeverFigures:
         ends = dict(zip(self._ends, map(window, self._spots(k)), strict=True))
         pole = window((0.0, 0.0))
         for end in ends.values():
-            if math.dist(pole, end) > FREE / 4:
+            if math.dist(pole, end) > FIGURE_MARGIN_MM / 4:
                 yield Polyline(RAY, "links", None, (pole, end))
         for names in self._images:
             yield Polyline(IMAGE, "links", None, tuple(ends[name] for name in names))

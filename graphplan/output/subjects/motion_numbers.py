@@ -9,19 +9,20 @@ from typing import Any
 import numpy as np
 
 from graphplan.machine.motion.drawing import MotionDrawing
-from graphplan.machine.motion.runs import Run
+from graphplan.machine.motion.runs import MachineMotion
 from graphplan.machine.motion.strips import baranov, by_energy, times
 from graphplan.machine.motion.true_motion import Place
 
 
-def numbers(found: Run, drawing: MotionDrawing | None, check: dict[str, float], positions: int) -> dict[str, Any]:
+def numbers(found: MachineMotion, drawing: MotionDrawing | None, check: dict[str, float], positions: int) -> dict[str,
+                                                                                                                  Any]:
     """All of it, plain data for JSON: travel in degrees and rates in rad/s, of a drive that slides in scene lengths;
     moments in N m (forces in N), energies in J; null where the machine does not get."""
     motion, machine = found.motion, found.machine
     rows = columns(found, positions)
     data: dict[str, Any] = {"title": found.scene.title, "units": units(found)}
-    data |= {name: _listed(values) for name, values in rows.items()}
-    data |= {"stop": None if motion.stop is None else _place(found, motion.stop), "speeds": _speeds(found)}
+    data |= {name: json_numbers(values) for name, values in rows.items()}
+    data |= {"stop": None if motion.stop is None else place_numbers(found, motion.stop), "speeds": speed_numbers(found)}
     data["steady"] = found.steady is motion
     if machine.wheel:
         data["flywheel"] = {"inertia": machine.wheel}
@@ -30,13 +31,13 @@ def numbers(found: Run, drawing: MotionDrawing | None, check: dict[str, float], 
     if found.nominal is not None:
         data["nominal_omega"] = found.nominal / machine.pace
     if found.run_up is not None:
-        data["run_up"] = {**_place(found, found.run_up.place), "turns": found.run_up.turns}
-    data["drawn"] = None if drawing is None else drawn(found, drawing)
-    data["strips"] = by_strips(found, positions)
+        data["run_up"] = {**place_numbers(found, found.run_up.place), "turns": found.run_up.turns}
+    data["drawn"] = None if drawing is None else drawn_numbers(found, drawing)
+    data["strips"] = strip_numbers(found, positions)
     return data | {"check": check}
 
 
-def units(found: Run) -> dict[str, str]:
+def units(found: MachineMotion) -> dict[str, str]:
     """What the numbers are in."""
     length, slides = found.scene.units.length, found.scene.drives[0].slides
     return {"travel": length, "omega": f"{length}/s", "time": "s", "acceleration": f"{length}/s^2", "energy": "J",
@@ -45,18 +46,18 @@ def units(found: Run) -> dict[str, str]:
             "moment": "N*m", "inertia": "kg*m^2"}
 
 
-def columns(found: Run, positions: int) -> dict[str, Any]:
+def columns(found: MachineMotion, positions: int) -> dict[str, Any]:
     """Travel, speed, time, acceleration, energy, moment of all loads and inertia at the ends of so many parts."""
     motion, machine = found.motion, found.machine
     travel = np.linspace(motion.start, motion.end, positions + 1)
-    state = motion.at(travel)
+    state = motion.state_at(travel)
     lost = np.where(np.isnan(state.omega), np.nan, 0.0)
     return {"travel": travel / machine.degree, "omega": state.omega / machine.pace, "time": state.time,
             "acceleration": state.acceleration / machine.pace, "energy": state.energy,
             "moment": machine.moment(travel, state.omega) + lost, "inertia": machine.inertia(travel) + lost}
 
 
-def table(found: Run, positions: int) -> str:
+def table(found: MachineMotion, positions: int) -> str:
     """The same as comma-separated text: a heading, then a line for each position."""
     rows, measures = columns(found, positions), units(found)
     lines = [",".join(f"{name} [{measures[name]}]" for name in rows)]
@@ -65,48 +66,49 @@ def table(found: Run, positions: int) -> str:
     return "\n".join([*lines, ""])
 
 
-def drawn(found: Run, drawing: MotionDrawing) -> dict[str, Any]:
+def drawn_numbers(found: MachineMotion, drawing: MotionDrawing) -> dict[str, Any]:
     """What the drawing says at its divisions, and how far it is off at most, as parts of the largest value."""
     machine = found.machine
-    return {"travel": _listed(drawing.travel / machine.degree), "energy": _listed(drawing.read("energy")),
-            "omega": _listed(drawing.read("omega") / machine.pace), "time": _listed(drawing.read("time")),
+    return {"travel": json_numbers(drawing.travel / machine.degree), "energy": json_numbers(drawing.read("energy")),
+            "omega": json_numbers(drawing.read("omega") / machine.pace), "time": json_numbers(drawing.read("time")),
             "error": drawing.errors}
 
 
-def by_strips(found: Run, positions: int) -> dict[str, Any]:
+def strip_numbers(found: MachineMotion, positions: int) -> dict[str, Any]:
     """What other forms come to at the end of as many strips, beside the true motion there."""
     motion, machine = found.motion, found.machine
-    travel = np.linspace(motion.start, motion.last, positions + 1)[:None if motion.stop is None else -1]
-    exact = motion.at(travel)
+    travel = np.linspace(motion.start, motion.last_travel, positions + 1)[:None if motion.stop is None else -1]
+    exact = motion.state_at(travel)
     forms = {"true": exact.omega}
     if len(travel) > 3:
         forms |= {"euler": by_energy(machine, travel, float(exact.omega[0])),
                   "baranov": baranov(machine, travel, float(exact.omega[0]))}
-    data = {name: {"omega": _number(omega[-1] / machine.pace), "time": _number(times(travel, omega)[-1])}
+    data = {name: {"omega": json_number(omega[-1] / machine.pace), "time": json_number(times(travel, omega)[-1])}
             for name, omega in forms.items() if name != "true"}
     return {"travel": float(travel[-1] / machine.degree),
-            "true": {"omega": _number(exact.omega[-1] / machine.pace), "time": _number(exact.time[-1])}, **data}
+            "true": {"omega": json_number(exact.omega[-1] / machine.pace), "time": json_number(exact.time[-1])}, **data}
 
 
-def _speeds(found: Run) -> dict[str, Any]:
+def speed_numbers(found: MachineMotion) -> dict[str, Any]:
     """The largest and the least speed, where they are, and the means."""
     motion, pace = found.motion, found.machine.pace
     least, most = motion.extremes
     means = motion.means
-    return {"max": _place(found, most), "min": _place(found, least), "arithmetic_mean": means.arithmetic / pace,
-            "mean_over_travel": means.planimetric / pace, "mean_over_time": _number(means.true / pace),
+    return {"max": place_numbers(found, most), "min": place_numbers(found, least),
+            "arithmetic_mean": means.arithmetic / pace,
+            "mean_over_travel": means.planimetric / pace, "mean_over_time": json_number(means.true / pace),
             "unevenness": means.unevenness}
 
 
-def _place(found: Run, place: Place) -> dict[str, float | None]:
+def place_numbers(found: MachineMotion, place: Place) -> dict[str, float | None]:
     """A travel with the speed and the time there."""
     return {"travel": float(place.travel / found.machine.degree), "omega": float(place.omega / found.machine.pace),
-            "time": _number(place.time)}
+            "time": json_number(place.time)}
 
 
-def _listed(values: Any) -> list[float | None]:
-    return [_number(value) for value in values]
+def json_numbers(values: Any) -> list[float | None]:
+    return [json_number(value) for value in values]
 
 
-def _number(value: float) -> float | None:
+def json_number(value: float) -> float | None:
     return float(value) + 0.0 if math.isfinite(value) else None

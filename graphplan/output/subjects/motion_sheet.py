@@ -21,9 +21,9 @@ from graphplan.errors import Refused
 from graphplan.kernel.drawing import Drawing, PlanScale, Values
 from graphplan.kernel.kinds import CIRCLE, LINE
 from graphplan.kernel.program import Panel
-from graphplan.machine.motion.diagram_layout import POLE, Room
-from graphplan.machine.motion.drawing import MOTION, MotionDrawing, drawn
-from graphplan.machine.motion.runs import Run
+from graphplan.machine.motion.diagram_layout import POLE_ROOM_MM, PanelSize
+from graphplan.machine.motion.drawing import MOTION, MotionDrawing, draw_motion
+from graphplan.machine.motion.runs import MachineMotion
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import AXIS, FOOT, HEADED, Figures, Graph
 from graphplan.output.panelled import Panelled, Words
@@ -48,21 +48,21 @@ FINE, CHORD = Pen(0.13, "#a8a8a8"), Pen(0.25, pens.VIOLET)
 CURVES = {"moment": Pen(0.5), "energy": Pen(0.5, pens.BLUE), "inertia": Pen(0.5, pens.RED),
           "energy-mass": Pen(0.5, pens.VIOLET), "omega": Pen(0.5, pens.GREEN), "slowness": Pen(0.35, pens.GREEN),
           "time": Pen(0.5, pens.RED)}
-PLACES = 240  # at which a curve is known
-TOLD = 10  # divisions at most whose numbers stand at a curve
+CURVE_SAMPLES = 240  # at which a curve is known
+MAX_NUMBERED = 10  # divisions at most whose numbers stand at a curve
 OVER, RIGHT = 7.0, 4.0  # mm over the diagrams for a scale, and right of them
 
 
-def room_in(rect: Rect) -> Room:
+def room_in(rect: Rect) -> PanelSize:
     """How large the diagrams may be in a panel."""
-    return Room(rect.width - RIGHT, rect.height - OVER - FOOT - HEADED)
+    return PanelSize(rect.width - RIGHT, rect.height - OVER - FOOT - HEADED)
 
 
 @dataclass(frozen=True)
 class MotionFigure:
     """The diagrams of a run in their panel."""
 
-    found: Run
+    found: MachineMotion
     drawing: MotionDrawing
     paper: Figures
     rect: Rect
@@ -70,7 +70,7 @@ class MotionFigure:
     @cached_property
     def window(self) -> View:
         """From the drawing's mm to those of the sheet, as large, the pole at the left and the moments at the top."""
-        return View(self.rect, 1.0, (self.rect.left + POLE, self.rect.top - OVER))
+        return View(self.rect, 1.0, (self.rect.left + POLE_ROOM_MM, self.rect.top - OVER))
 
     @cached_property
     def graphs(self) -> dict[str, Graph]:
@@ -85,7 +85,7 @@ class MotionFigure:
 
     def items(self) -> list[Item]:
         """All of it, its letters off its lines."""
-        return items_with_names(self.ink, [*self._curves(), *self._axes()], self._wishes(), self._is_named)
+        return items_with_names(self.ink, [*self._curves(), *self._axes()], self._wishes(), self.has_letter)
 
     @cached_property
     def ink(self) -> Plate:
@@ -100,8 +100,8 @@ class MotionFigure:
     def _curves(self) -> Iterator[Item]:
         """The true curves."""
         motion, machine = self.found.motion, self.found.machine
-        travel = np.linspace(motion.start, motion.last, PLACES + 1)
-        state, told = motion.at(travel), (travel - motion.start) / machine.degree
+        travel = np.linspace(motion.start, motion.last_travel, CURVE_SAMPLES + 1)
+        state, told = motion.state_at(travel), (travel - motion.start) / machine.degree
         with np.errstate(divide="ignore"):
             slowness = machine.pace / state.omega
         rows = {"energy": state.energy, "omega": state.omega / machine.pace, "slowness": slowness, "time": state.time,
@@ -130,7 +130,7 @@ class MotionFigure:
         return {"moment": ("F", "N"), "energy": ("E", "J"), "inertia": ("m", "kg"), "omega": ("v", f"{length}/s"),
                 "slowness": ("1/v", f"s/{length}"), "time": ("t", "s"), "travel": ("s", length)}
 
-    def _told(self, what: str, k: float, at: Spot, anchor: str = "start") -> Item:
+    def scale_label(self, what: str, k: float, at: Spot, anchor: str = "start") -> Item:
         """Letter, unit and scale of a quantity."""
         letter, measure = self._measures[what]
         scale, convention = {"1/omega": "u", "1/v": "u"}.get(letter, letter), self.found.scene.sheet.convention
@@ -144,10 +144,10 @@ class MotionFigure:
             yield from paper.ordinate(graph, head=True)
             yield from paper.abscissa(graph)
             yield from paper.numbered_y(graph)
-            yield self._told(name, graph.k_y, (graph.rect.left + 2.0, graph.rect.top + HEADED / 2))
+            yield self.scale_label(name, graph.k_y, (graph.rect.left + 2.0, graph.rect.top + HEADED / 2))
         low = graphs["time"]
         yield from paper.numbered_x(low, turns=turns)
-        yield self._told("travel", low.k_x, (low.rect.right, low.rect.bottom - FOOT - 1.0), "end")
+        yield self.scale_label("travel", low.k_x, (low.rect.right, low.rect.bottom - FOOT - 1.0), "end")
         mass, inertia = graphs["energy-mass"], graphs["inertia"]
         yield from paper.ordinate(mass, head=True)
         yield from paper.abscissa(mass)
@@ -155,9 +155,9 @@ class MotionFigure:
         corner = inertia.rect.left, inertia.rect.top
         for end in ((inertia.rect.right, corner[1]), (corner[0], inertia.rect.bottom)):
             yield Polyline(AXIS, "ruling", None, (corner, end))
-        yield self._told("inertia", inertia.k_x, (inertia.rect.left, inertia.rect.top + HEADED / 2))
+        yield self.scale_label("inertia", inertia.k_x, (inertia.rect.left, inertia.rect.top + HEADED / 2))
 
-    def _is_named(self, mark: DrawnStep) -> bool:
+    def has_letter(self, mark: DrawnStep) -> bool:
         """Whether the name of a mark stands on the sheet: divisions have their numbers at the curve alone."""
         return "_" not in mark.name
 
@@ -165,7 +165,7 @@ class MotionFigure:
         """The numbers of some divisions along the energy-mass curve and the curve of speeds."""
         marks, count = self.drawing.marks, len(self.drawing.travel)
         for what in ("energy-mass", "omega"):
-            first, every = count - len(marks[what]), -(-count // TOLD)
+            first, every = count - len(marks[what]), -(-count // MAX_NUMBERED)
             for k, step in enumerate(marks[what], first):
                 if k % every:
                     continue
@@ -182,7 +182,7 @@ class MotionFigure:
 class MotionSheet(Panelled):
     """One motion on one paper."""
 
-    found_run: Run
+    found_run: MachineMotion
     strips: int
     letters_of = "phi", "omega", "epsilon", "psi", "k_E", "k_I", "k_ω"
 
@@ -209,7 +209,7 @@ class MotionSheet(Panelled):
     @cached_property
     def drawing(self) -> MotionDrawing:
         """The diagrams, as large as they have room."""
-        found = drawn(self.found_run.motion, self.strips, room_in(self.room(MOTION)))
+        found = draw_motion(self.found_run.motion, self.strips, room_in(self.room(MOTION)))
         if found is None:
             raise Refused("the sheet", "the machine stops within the first strips",
                           "a shorter travel (--travel), or more strips (--positions)")
@@ -228,7 +228,7 @@ class MotionSheet(Panelled):
     def given_words(self) -> Iterator[Words]:
         """The speed at the beginning, the flywheel and what closes the cycle, masses and loads."""
         run, measures = self.found_run, units(self.found_run)
-        first = float(run.motion.at([run.motion.start]).omega[0]) / run.machine.pace
+        first = float(run.motion.state_at([run.motion.start]).omega[0]) / run.machine.pace
         yield said("At the beginning: {0} {1}", digits(first), unit(measures["omega"]))
         if run.machine.wheel:
             yield said("Flywheel: {0} {1}", digits(run.machine.wheel), self._unit("inertia"))
@@ -263,7 +263,7 @@ class MotionSheet(Panelled):
     def _table(self) -> list[list[Said | str]]:
         """A row for each division: true values, and what is drawn."""
         drawing, machine, motion = self.drawing, self.found_run.machine, self.found_run.motion
-        true = motion.at(drawing.travel)
+        true = motion.state_at(drawing.travel)
         columns = (drawing.travel / machine.degree, true.omega / machine.pace, drawing.read("omega") / machine.pace,
                    true.time, drawing.read("time"), true.acceleration / machine.pace)
         slides = self.scene.drives[0].slides

@@ -9,7 +9,7 @@ from typing import Any
 from graphplan.check.rotors import bearing_reactions
 from graphplan.machine.rotors.polygons import Correction
 from graphplan.machine.rotors.rotor import direction
-from graphplan.machine.rotors.rotor_balance import Answer, Balanced
+from graphplan.machine.rotors.rotor_balance import Answer, BalancedRotor
 from graphplan.mechanism.units import KILOGRAMS
 from graphplan.output.subjects.rotor_sheet import RotorSheet
 
@@ -27,21 +27,21 @@ def numbers(sheet: RotorSheet) -> dict[str, Any]:
     data: dict[str, Any] = {
         "title": task.title, "units": {"length": task.units.length, "mass_radius": "kg m", "moment": "kg m2"},
         "corrections": [one | {"drawn_error": error}
-                        for one, error in zip(_answer(found, found.corrections), drawn, strict=True)],
+                        for one, error in zip(answer_numbers(found, found.corrections), drawn, strict=True)],
         "state": sums.state.value,
         "static_unbalance": sums.static * kg_m, "static_angle": direction(*sums.force),
         "moment": sums.dynamic * kg_m * metres, "moment_angle": direction(*sums.moment),
     }
     if len(found.answers) > 1:
-        data["answers"] = [_answer(found, answer) for answer in found.answers]
+        data["answers"] = [answer_numbers(found, answer) for answer in found.answers]
     if found.effects:
         data["trials"] = [{"amplitude": one.amplitude, "ratio": one.ratio, "turned": list(one.turns)}
                           | ({"fourth": list(one.fourth)} if one.fourth else {}) for one in found.effects]
     if task.rotor.bearings:
         data["reactions"] = {
             "omega": task.rotor.omega, "bearings": [float(at) for at in task.rotor.bearings],
-            "before": [_borne(one) for one in bearing_reactions(found)],
-            "after": [_borne(one) for one in bearing_reactions(found, found.corrections)]}
+            "before": [reaction_numbers(one) for one in bearing_reactions(found)],
+            "after": [reaction_numbers(one) for one in bearing_reactions(found, found.corrections)]}
     return data | {
         "notes": [str(note) for note in found.notes],
         "steps": [{"step": program.number(step.index), "stage": str(stage.title),
@@ -50,39 +50,40 @@ def numbers(sheet: RotorSheet) -> dict[str, Any]:
         "check": dict(sheet.check)}
 
 
-def _answer(found: Balanced, answer: Answer) -> list[dict[str, Any]]:
+def answer_numbers(found: BalancedRotor, answer: Answer) -> list[dict[str, Any]]:
     """The corrections of one answer, with the masses or radii that follow."""
-    return [{"plane": _plain(one.at), "index": one.index, "mass_radius": one.mass_radius * float(found.task.kg_m),
-             "angle": one.angle, **_chosen(found, one)} for one in answer]
+    return [{"plane": plain_number(one.at), "index": one.index, "mass_radius": one.mass_radius * float(found.task.kg_m),
+             "angle": one.angle, **mass_and_radius_numbers(found, one)} for one in answer]
 
 
-def _plain(number: Any) -> float | int:
+def plain_number(number: Any) -> float | int:
     """A number as it is written, without a decimal point where it has none."""
     return int(number) if number == int(number) else float(number)
 
 
-def _chosen(found: Balanced, one: Correction) -> dict[str, float]:
+def mass_and_radius_numbers(found: BalancedRotor, one: Correction) -> dict[str, float]:
     """Mass in kg and radius in m of a correction, where one of them is given."""
-    mass, radius = found.chosen(one)
+    mass, radius = found.mass_and_radius(one)
     units = {"mass": float(KILOGRAMS[found.task.units.mass]), "radius": float(found.task.metres)}
     return {key: value * units[key] for key, value in (("mass", mass), ("radius", radius)) if value is not None}
 
 
-def _borne(reaction: complex) -> dict[str, float]:
+def reaction_numbers(reaction: complex) -> dict[str, float]:
     """A reaction that turns with the rotor, and its angle on it."""
     return {"force": abs(reaction), "angle": math.degrees(math.atan2(reaction.imag, reaction.real)) % 360}
 
 
-def table(found: Balanced) -> str:
+def table(found: BalancedRotor) -> str:
     """Comma-separated text: a heading, then a line for each unbalance and each correction."""
     kg_m = float(found.task.kg_m)
-    rows = [(f"unbalance {mass.name}", float(mass.at or 0), mass.size * kg_m, mass.angle) for mass in found.masses]
+    rows = [(f"unbalance {mass.name}", float(mass.at or 0), mass.mass_radius * kg_m, mass.angle)
+            for mass in found.masses]
     rows += [(f"correction {one.letter}", float(one.at), one.mass_radius * kg_m, one.angle)
              for one in found.corrections]
-    lines = [",".join((_quoted(name), *(f"{number:.12g}" for number in rest))) for name, *rest in rows]
+    lines = [",".join((csv_text(name), *(f"{number:.12g}" for number in rest))) for name, *rest in rows]
     return "\n".join([",".join(HEADINGS), *lines, ""])
 
 
-def _quoted(name: str) -> str:
+def csv_text(name: str) -> str:
     """A name as CSV wants it."""
     return '"' + name.replace('"', '""') + '"' if {*name} & {*',"'} else name

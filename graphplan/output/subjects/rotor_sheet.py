@@ -16,13 +16,13 @@ from graphplan.kernel.drawing import Drawing, Values
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Panel
 from graphplan.machine.rotors.polygons import END_VIEW, FORCES, MOMENTS, Correction
-from graphplan.machine.rotors.rotor import PLANES, Marked, ThreeRuns, TrialWeights, direction
-from graphplan.machine.rotors.rotor_balance import Answer, Balanced
+from graphplan.machine.rotors.rotor import PLANES, MarkedRuns, ThreeRuns, TrialWeights, direction
+from graphplan.machine.rotors.rotor_balance import Answer, BalancedRotor
 from graphplan.machine.rotors.trial_runs import AMPLITUDE, TRIAL_PLANS, Effect
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.units import NEWTONS
 from graphplan.output.panelled import Panelled, Words, divide_across, divide_down
-from graphplan.output.subjects.rotor_figures import AROUND, MANY, RotorFigures
+from graphplan.output.subjects.rotor_figures import MARGIN_MM, MAX_LETTERED_CORNERS, RotorFigures
 from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
@@ -34,10 +34,10 @@ CURVE = Panel("trial weights", said("trial weights"), said("Trial weights over t
 PAPERS = "A3", "A2"
 OPINIONS = {"corrections": said("corrections"), "residual_force": said("force left"),
             "residual_moment": said("moment left"), "trials": said("trials")}
-LESS = 1.3  # times as coarse as the scale along the axis may be to be that across it
+MAX_COARSER = 1.3  # times as coarse as the scale along the axis may be to be that across it
 
 
-def one_sheet(found: Balanced, check: Mapping[str, float], pencil: Pencil) -> RotorSheet:
+def rotor_sheet(found: BalancedRotor, check: Mapping[str, float], pencil: Pencil) -> RotorSheet:
     """The sheet on the task's paper, or on A3, whether its words have room or not."""
     return RotorSheet(found.task.sheet.paper or PAPERS[0], found, check, pencil)
 
@@ -70,7 +70,7 @@ class RotorLengths(Lengths):
 class RotorSheet(Panelled):
     """One rotor on one paper."""
 
-    balanced: Balanced
+    balanced: BalancedRotor
     check: Mapping[str, float]
     pencil: Pencil
     document = said("Balancing of a rotor")
@@ -98,15 +98,15 @@ class RotorSheet(Panelled):
     @cached_property
     def scales(self) -> Scales:
         task, k = self.balanced.task, self.k_r
-        multiples = {str(panel): round_up(k) / round_up(self._per_mm(panel)) for panel in self.panels
+        multiples = {str(panel): round_up(k) / round_up(self.plan_scale(panel)) for panel in self.panels
                      if panel not in (SIDE_VIEW, END_VIEW, CURVE)}
         return Scales(k, 1.0, task.units.length, multiples, unit=task.units.mass, convention=task.sheet.convention)
 
     def measure(self, panel: Panel) -> Lengths:
-        return self._measured
+        return self.paper_lengths
 
     @cached_property
-    def _measured(self) -> Lengths:
+    def paper_lengths(self) -> Lengths:
         program = self.values.drawing.program
         return RotorLengths(program, self.values.numbers, lambda index: program.steps[index].panel, self.scales)
 
@@ -116,7 +116,7 @@ class RotorSheet(Panelled):
 
     def repeats(self, panel: Panel) -> bool:
         """Whether the steps of a plan are told once for all masses: of so many it is enough."""
-        return len(self.balanced.masses) > MANY
+        return len(self.balanced.masses) > MAX_LETTERED_CORNERS
 
     @cached_property
     def errors(self) -> list[PencilError]:
@@ -127,11 +127,11 @@ class RotorSheet(Panelled):
         found = []
         for k, one in enumerate(self.balanced.corrections):
             ways = math.radians(one.angle), math.radians(one.angle + 90)
-            along, across = (deviation(hand, partial(self._part, k, way)) for way in ways)
+            along, across = (deviation(hand, partial(self.component, k, way)) for way in ways)
             found.append(PencilError(along, math.degrees(across / one.mass_radius) if one.mass_radius else 0.0))
         return found
 
-    def _part(self, k: int, way: float, values: Sequence[Any]) -> Any:
+    def component(self, k: int, way: float, values: Sequence[Any]) -> Any:
         """The part in a direction of a correction, in numbers that were drawn."""
         x, y = self.balanced.sides(values)[k]
         return x * math.cos(way) + y * math.sin(way)
@@ -153,32 +153,33 @@ class RotorSheet(Panelled):
     @cached_property
     def k_r(self) -> float:
         """Lengths for a mm across the axis: round, for both views."""
-        return max(self._across, self._along) if self._along <= LESS * self._across else self._across
+        across, along = self.lengths_across, self.lengths_along
+        return max(across, along) if along <= MAX_COARSER * across else across
 
     @property
     def k_z(self) -> float:
         """Lengths for a mm along the axis: those across it, unless the rotor is too long for them."""
-        return self.k_r if self._along <= LESS * self._across else self._along
+        return self.k_r if self.lengths_along <= MAX_COARSER * self.lengths_across else self.lengths_along
 
     @cached_property
-    def _across(self) -> float:
+    def lengths_across(self) -> float:
         """The lengths for a mm that the height of the views asks for, and the width of the end view."""
         side, end = (self.room(panel) for panel in (SIDE_VIEW, END_VIEW))
-        high = side.height - 2 * AROUND - self.figures.foot
-        return float(round_up(2 * self.figures.reach / min(high, end.width - 2 * AROUND)))
+        high = side.height - 2 * MARGIN_MM - self.figures.foot
+        return float(round_up(2 * self.figures.reach / min(high, end.width - 2 * MARGIN_MM)))
 
     @cached_property
-    def _along(self) -> float:
+    def lengths_along(self) -> float:
         """The lengths for a mm that the width of the side view asks for."""
         low, high = self.figures.places
-        return float(round_up((high - low) / (self.room(SIDE_VIEW).width - 4 * AROUND)))
+        return float(round_up((high - low) / (self.room(SIDE_VIEW).width - 4 * MARGIN_MM)))
 
-    def _per_mm(self, panel: Panel) -> float:
+    def plan_scale(self, panel: Panel) -> float:
         """What a mm stands for on the plan of a polygon or a trial."""
         drawing = self.balanced.drawing
         index = next((k for k, plan in enumerate(TRIAL_PLANS) if plan == panel), None)
         if index is None:
-            points = [drawing.at(name) for name in drawing.corners("M" if panel == MOMENTS else "F")]
+            points = [drawing.position(name) for name in drawing.corners("M" if panel == MOMENTS else "F")]
         else:
             points = [complex(*drawing.values[step]) for step in self.figures.trial_marks(index).values()]
         return 1 / self.figures.window(self.room(panel), points).scale
@@ -191,7 +192,8 @@ class RotorSheet(Panelled):
         elif panel == SIDE_VIEW:
             yield from figures.side_view(rect, self.k_r, self.k_z, level)
             if self.k_z != self.k_r:
-                yield figures.scaled(rect, said("along the axis {0}", ratio(self.k_z, self.balanced.task.units.length)))
+                yield figures.scale_label(rect,
+                                          said("along the axis {0}", ratio(self.k_z, self.balanced.task.units.length)))
         elif panel == CURVE:
             trial = self.balanced.effects[0].trial
             assert isinstance(trial, TrialWeights)
@@ -206,7 +208,7 @@ class RotorSheet(Panelled):
         mass, length = self.balanced.task.units.mass, self.balanced.task.units.length
         letter, measure = {MOMENTS: ("mra", f"{mass}·{length}²"), FORCES: ("mr", f"{mass}·{length}")}.get(
             panel, ("p", mass) if CURVE in self.panels else ("A", ""))
-        per = self._per_mm(panel)
+        per = self.plan_scale(panel)
         if self.scene.sheet.convention == "drawn":
             return join((f"mu_{letter} =", digits(1 / per), unit(f"mm/({measure})" if measure else "mm")), " ")
         return join((f"k_{letter} =", digits(per), unit(f"{measure or 1}/mm")), " ")
@@ -238,8 +240,8 @@ class RotorSheet(Panelled):
             arm = rotor.arm(mass.at) if mass.at is not None else 0
             name = f"{number}" if mass.name == str(number) else f"{number} {mass.name}"
             row: list[Said | str] = [name, *("–" if value is None else digits(float(value)) for value in (
-                mass.mass, mass.radius, mass.angle, arm, mass.size))]
-            rows.append(row + ([digits(mass.size * float(arm))] if rotor.dynamic else []))
+                mass.mass, mass.radius, mass.angle, arm, mass.mass_radius))]
+            rows.append(row + ([digits(mass.mass_radius * float(arm))] if rotor.dynamic else []))
         return rows
 
     def _trial(self, effect: Effect, letter: str) -> Iterator[Said]:
@@ -258,7 +260,7 @@ class RotorSheet(Panelled):
             if trial.fourth:
                 yield said("fourth run with the trial mass at {0}°: {1}", digits(float(trial.fourth.angle)),
                            digits(float(trial.fourth.amplitude)))
-        elif isinstance(trial, Marked):
+        elif isinstance(trial, MarkedRuns):
             yield join(arrange("{0} = {1}, {2}°", name, digits(float(one.amplitude)), digits(float(one.angle)))
                        for name, one in (("A_1", trial.first), ("A_2", trial.second)))
 
@@ -273,7 +275,7 @@ class RotorSheet(Panelled):
         yield from self._disbalance()
         if any(one.mass_radius for one in self.balanced.corrections):
             yield said("±: the standard deviation of what the pencil draws")
-        yield from self._borne()
+        yield from self.reaction_text()
         for note in self.balanced.notes:
             yield arrange("{0:capital}", note)
         parts = [join((OPINIONS[name], digits(size, 2)), " ") for name, size in self.check.items()]
@@ -303,11 +305,11 @@ class RotorSheet(Panelled):
                 size = arrange("{0} ± {1}", size, digits(errors[one.index].mass_radius, 2))
                 angle = arrange("{0}° ± {1}", angle, digits(errors[one.index].angle, 2))
             yield said("m_{0}·r_{0} = {1} {2} at alpha_{0} = {3}°", one.letter, size, measure, angle)
-            yield from self._chosen(one)
+            yield from self.mass_and_radius_text(one)
 
-    def _chosen(self, one: Correction) -> Iterator[Said]:
+    def mass_and_radius_text(self, one: Correction) -> Iterator[Said]:
         """Mass and radius, where one of them is given."""
-        mass, radius = self.balanced.chosen(one)
+        mass, radius = self.balanced.mass_and_radius(one)
         if mass is not None and radius is not None:
             units = self.balanced.task.units
             yield arrange("m_{0} = {1} {2}, r_{0} = {3} {4}", one.letter, digits(mass), unit(units.mass),
@@ -322,7 +324,7 @@ class RotorSheet(Panelled):
         if self.balanced.task.rotor.dynamic:
             yield said("Moment about plane I: {0} {1}", digits(sums.dynamic, 5), unit(f"{units.mass}·{units.length}²"))
 
-    def _borne(self) -> Iterator[Said]:
+    def reaction_text(self) -> Iterator[Said]:
         """The bearings' turning reactions, before and after."""
         if self.balanced.task.rotor.bearings:
             force = self.balanced.task.units.force

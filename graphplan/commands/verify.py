@@ -310,7 +310,7 @@ def _true_numbers(sheet: RotorSheet, answer: Answer) -> list[TrueNumber]:
     for correction, off_by in zip(answer, sheet.errors, strict=True):
         numbers.append(TrueNumber("correction", correction.letter, correction.mass_radius * kg_m,
                                   2 * off_by.mass_radius * kg_m,
-                              f"{mass}·{length}", kg_m, unbalance))
+                                  f"{mass}·{length}", kg_m, unbalance))
         if correction.mass_radius:
             numbers.append(TrueNumber("angle", correction.letter, correction.angle, 2 * off_by.angle, "°"))
     off = 2 * kg_m * sheet.errors[0].mass_radius  # the sum of m·r is drawn as well as what balances it
@@ -318,7 +318,7 @@ def _true_numbers(sheet: RotorSheet, answer: Answer) -> list[TrueNumber]:
     if task.rotor.dynamic:
         off = 2 * kg_m * metres * sheet.errors[1].mass_radius * float(task.rotor.plane_distance)
         numbers.append(TrueNumber("moment", "", sums.dynamic * kg_m * metres, off, f"{mass}·{length}²", kg_m * metres,
-                              moment))
+                                  moment))
     return numbers
 
 

@@ -49,7 +49,7 @@ class Desk:
         composition = self.on_sheet.composition
         size = composition.arrangement.width, composition.arrangement.height
         return read_submission(path, self._plans, self.frames,  # task and guided version have the same plans
-                    lambda: task(composition)[0], code(composition), size)
+                               lambda: task(composition)[0], code(composition), size)
 
     @property
     def _plans(self) -> list[str]:
@@ -85,7 +85,7 @@ class Desk:
 
         work = self.on_sheet.drawing, self.on_sheet.composition, submission, self.on_sheet.pencil
         judgement_of_pose = (judge(*work) if self.options.method
-                 else judge_any_method(*work, self.options.plan, self.options.inertia, construct))
+                             else judge_any_method(*work, self.options.plan, self.options.inertia, construct))
         judgement = replace(with_cycle_numbers(judgement_of_pose, self._cycle.expected_result),
                             name=printable(submission.name))
         return MarkedDrawing(judgement, score(judgement, self.weights))

@@ -210,7 +210,7 @@ class StackDesk:
             return replace(about, status=found_results.FAILED, look=(*notes, data[FAULT]))
         judged_fields = {name: data[name]
                          for name in ("score", "groups", "first", "words", "faultless", "kind", "confidence",
-                                              "detail", "judgement")}
+                                      "detail", "judgement")}
         return replace(about, **judged_fields, look=(*notes, *data["look"]), corrected=data[FILES][0])
 
     def write(self, found: StackResults) -> None:

@@ -56,7 +56,7 @@ def print_exercise(exercise: Exercise, draw: Draw, further: Callable[[Scene], It
     drafted: Drafted = draw(replace(scene, sheet=sheet))
     composition = drafted.composition
     return PrintedExercise(code(composition), tuple(task(composition)), tuple(solution(composition)),
-                   (*key_rows(composition.plans.drawing), *further(scene)))
+                           (*key_rows(composition.plans.drawing), *further(scene)))
 
 
 # ---- the key --------------------------------------------------------------------------------------------------------

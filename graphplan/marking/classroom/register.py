@@ -43,10 +43,6 @@ class ClassRegister:
     options: Mapping[str, str]
     sheets: tuple[TaskSheet, ...]
 
-    def with_code(self, code: int) -> TaskSheet | None:
-        """The sheet that has these corner marks; None where none has."""
-        return next((sheet for sheet in self.sheets if corner_numbers(sheet.code) == corner_numbers(code)), None)
-
     def sheet_of(self, student: str) -> TaskSheet | None:
         """The sheet of a student; None where there is no such student."""
         return next((sheet for sheet in self.sheets if student and sheet.student == student), None)

@@ -10,6 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
+from itertools import islice
 from statistics import fmean
 from typing import Any
 
@@ -118,11 +119,7 @@ class Classroom:
         """What there is to say of the class."""
         faultless = sum(drawing.faultless for drawing in self.marked)
         yield said("Drawings: {0}, of which {1} have no wrong step.", len(self.marked), faultless)
-        if self.mean is not None:
-            yield said("Mean score: {0} of 100.", f"{self.mean:.0f}")
-        if self.mistakes:
-            kind, count = next(iter(self.mistakes.items()))
-            yield said("Most frequent mistake: {0} ({1}).", mistake_words(kind), count)
+        yield from _mean_and_mistake(self.mean, self.mistakes)
         if self.hardest is not None:
             yield said("Most frequent first wrong step: {0} ({1}).", self.hardest.words_with_mark,
                        self.histogram[self.hardest])
@@ -147,6 +144,15 @@ class Classroom:
             "first_wrong_steps": [{"step": step.number, "mark": step.mark, "drawings": count}
                                   for step, count in self.histogram.items()],
         }  # fmt: skip
+
+
+def _mean_and_mistake(mean: float | None, mistakes: Mapping[str, int]) -> Iterator[Said]:
+    """The mean score, and the first of the kinds of mistake with how often it was made; nothing of what there is none.
+    """
+    if mean is not None:
+        yield said("Mean score: {0} of 100.", f"{mean:.0f}")
+    for kind, count in islice(mistakes.items(), 1):
+        yield said("Most frequent mistake: {0} ({1}).", mistake_words(kind), count)
 
 
 def mistake_words(kind: str) -> Said:
@@ -256,11 +262,7 @@ class StackResults:
         """What there is to say of the class."""
         yield said("Sheets judged: {0}, of which {1} have no wrong step.", len(self.with_status(JUDGED)),
                    sum(sheet.faultless for sheet in self.with_status(JUDGED)))
-        if self.mean is not None:
-            yield said("Mean score: {0} of 100.", f"{self.mean:.0f}")
-        if self.mistakes:
-            kind, sheets = next(iter(self.mistakes.items()))
-            yield said("Most frequent mistake: {0} ({1}).", mistake_words(kind), len(sheets))
+        yield from _mean_and_mistake(self.mean, {kind: len(sheets) for kind, sheets in self.mistakes.items()})
         if absent := self.with_status(ABSENT):
             yield said("Not handed in: {0}.", ", ".join(sheet.student for sheet in absent))
         if twice := self.with_status(AGAIN):

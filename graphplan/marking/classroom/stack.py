@@ -180,7 +180,7 @@ def decode_page(sight: PageSight, register: ClassRegister) -> DecodedPage:
     if len(sight.marks) > ENOUGH:
         return DecodedPage(None, why=said("its code is that of no sheet of this class"))
     return DecodedPage(None, why=said("too few of its corner marks can be read") if sight.marks else
-                 said("no corner marks are seen on it"))
+                       said("no corner marks are seen on it"))
 
 
 def _fitting_sheets(marks: Sequence[int], sheets: Iterable[TaskSheet]) -> Iterator[tuple[TaskSheet, int]]:
@@ -270,7 +270,7 @@ def place_pages(stack: Iterable[SeenPage], register: ClassRegister,
     """
     placed_pages = [_place_page(seen_page, decode_page(seen_page.sight, register), register,
                                 assigned.get(seen_page.page.name))
-             for seen_page in stack]
+                    for seen_page in stack]
     return list(_choose_counting(placed_pages))
 
 
@@ -349,7 +349,7 @@ def replace_failed(found: Sequence[PlacedPage], failed: Collection[str]) -> Iter
     for page in found:
         if counts.get(_owner_key(page)) is page:
             yield replace(page, fate=COUNTS, notes=(*page.notes[:-1], said("page {0} cannot be judged",
-                                                                          gone[_owner_key(page)].seen.page.name)))
+                                                                           gone[_owner_key(page)].seen.page.name)))
         elif page.fate == COUNTS and _owner_key(page) in counts:
             yield replace(page, fate=AGAIN)
         else:

@@ -270,8 +270,33 @@ def same_paper(size: tuple[float, float], asked: tuple[float, float] | None) -> 
     return asked is None or all(math.isclose(*pair, rel_tol=SIZE_TOL) for pair in zip(size, asked, strict=True))
 
 
+class DrawingReader:
+    """What is gathered of one file of a drawing program: what is drawn and written in it, in mm; `own` says whether it
+    is one of graphplan's own sheets, `size` how large that is, `millimetres` how sure its unit is."""
+
+    own: bool
+    size: tuple[float, float]
+    millimetres: float
+
+    def __init__(self, path: Path):
+        self.path = path
+        self.traces: list[Trace] = []
+        self.leaders: list[Trace] = []  # of a sheet of graphplan's own
+        self.tips: list[Spot] = []
+        self.words: list[Lettering] = []
+
+    def submission(self, frames: Frames, size: tuple[float, float] | None) -> Submission:
+        """The drawing as it was handed in; on graphplan's own sheet of this size plans lie where its frames say.
+
+        Fails as `drawing_submission`.
+        """
+        known_frames = frames if self.own and same_paper(self.size, size) else {}
+        return drawing_submission(self.path, self.traces, self.words, known_frames, self.tips,
+                                  self.leaders if self.own else None, self.millimetres)
+
+
 def drawing_submission(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], frames: Frames,
-            tips: Sequence[Spot] = (), leaders: Sequence[Trace] | None = None, millimetres: float = 0.0
+                       tips: Sequence[Spot] = (), leaders: Sequence[Trace] | None = None, millimetres: float = 0.0
             ) -> Submission:
     """A drawing as it was handed in: what is drawn twice is one thing, and letters are tied to their leaders.
 

@@ -22,19 +22,18 @@ from graphplan.marking.files.drawing import (
     NO_DRAWING,
     SHORT,
     STATED,
+    DrawingReader,
     arc_spots,
     chain_traces,
     circle_trace,
     dot_or_circle,
-    drawing_submission,
     recognize_curve,
-    same_paper,
     sharp_corners,
     visible_stretch,
     word_at,
 )
 from graphplan.marking.files.safe import MB, TRACES, Budget, contents
-from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
+from graphplan.marking.traces import Frames, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import CAPS
 
 T = TypeVar("T")
@@ -61,10 +60,7 @@ def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None
         return reader
 
     reader = read_document(path, contents(path, LARGEST), read_model_space)
-    known_frames = frames if reader.own and same_paper(reader.size, size) else {}
-    return drawing_submission(path, reader.traces, reader.words, known_frames, reader.tips,
-                              reader.leaders if reader.own else None,
-                   reader.millimetres)
+    return reader.submission(frames, size)
 
 
 def read_document(path: Path, data: bytes, read_out: Callable[[Any], T]) -> T:
@@ -99,11 +95,12 @@ def _check_size(path: Path, data: bytes) -> bytes:
     return data
 
 
-class _DxfReader:
+class _DxfReader(DrawingReader):
     """Reads one document, block by block."""
 
     def __init__(self, path: Path, document: Any):
-        self.path, self.own = path, OWN in document.appids
+        super().__init__(path)
+        self.own = OWN in document.appids
         self.millimetres, self.short = (STATED, SHORT) if document.units else (0.0, 0.0)
         self.mm = conversion_factor(document.units, MM) if document.units else 1.0
         self.origin = (0.0, 0.0)  # in units of the drawing: the lower left corner of a sheet of graphplan's own
@@ -111,10 +108,6 @@ class _DxfReader:
         (left, bottom), (right, top) = map(self._spot, corners)
         self.size = right - left, top - bottom  # of the sheet in mm, which stays when something is drawn beyond it
         self.origin = corners[0][:2] if self.own else self.origin
-        self.traces: list[Trace] = []
-        self.leaders: list[Trace] = []  # of a sheet of graphplan's own
-        self.tips: list[Spot] = []
-        self.words: list[Lettering] = []
         self.lines: list[tuple[complex, complex]] = []
         self.budget = Budget(path, 2 * TRACES, "entities")
         self.hidden = {layer.dxf.name for layer in document.layers if layer.is_off() or layer.is_frozen()}

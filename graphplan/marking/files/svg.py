@@ -25,11 +25,10 @@ from graphplan.marking.files.drawing import (
     NO_DRAWING,
     SHORT,
     STATED,
+    DrawingReader,
     chain_traces,
     dot_or_circle,
-    drawing_submission,
     recognize_curve,
-    same_paper,
     sharp_corners,
     word_at,
 )
@@ -266,11 +265,7 @@ def read_svg(path: File, frames: Frames, size: tuple[float, float] | None = None
     root = tree(path, contents(path, LARGEST))
     if root.tag != "svg":
         raise Refused(f"{path}", f"this is XML of another kind ({root.tag[:20]})", "give an SVG drawing")
-    reader = _SvgReader(path, root)
-    known_frames = frames if reader.own and same_paper(reader.size, size) else {}
-    return drawing_submission(path, reader.traces, reader.words, known_frames, reader.tips,
-                              reader.leaders if reader.own else None,
-                   reader.millimetres)
+    return _SvgReader(path, root).submission(frames, size)
 
 
 @dataclass(frozen=True)
@@ -284,15 +279,11 @@ class _Place:
     drawn: bool = True
 
 
-class _SvgReader:
+class _SvgReader(DrawingReader):
     """Walks one document, and gathers what is drawn and written."""
 
     def __init__(self, path: File, root: Element):
-        self.path = path
-        self.traces: list[Trace] = []
-        self.leaders: list[Trace] = []  # of a sheet of graphplan's own
-        self.tips: list[Spot] = []
-        self.words: list[Lettering] = []
+        super().__init__(path)
         self.named = {name: element for element in root.iter() if (name := element.get("id"))}
         self.looks = Looks(root)
         self.budget, self.things = Budget(path, VISITS, "elements"), Budget(path, TRACES, "things drawn")

@@ -72,7 +72,7 @@ def _row_answers(where: str, row: Mapping[str, str]) -> Iterator[TableAnswer]:
             except ValueError as error:
                 raise Refused(f"{where}: {column}", str(error), "a decimal number such as 12.5") from None
             yield TableAnswer(" ".join(quantity.casefold().split()), " ".join(row["of"].split()), float(value), unit,
-                         last_digit_unit(value) / UNIFORM, where)
+                              last_digit_unit(value) / UNIFORM, where)
 
 
 def read_toml(path: Path, panels: Collection[str]) -> Submission:

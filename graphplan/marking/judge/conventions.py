@@ -49,7 +49,7 @@ def unmirror(drawing: Construction, composition: Composition, submission: Submis
     places."""
     submission, remarks = to_mm(drawing, composition, submission, pencil)
     given_pairs = [(complex(*map(float, drawing.scene.points[trace.label])), complex(*trace.spots[0]))
-             for trace in submission.traces if trace.kind == POINT and trace.label in drawing.scene.points]
+                   for trace in submission.traces if trace.kind == POINT and trace.label in drawing.scene.points]
     if len(given_pairs) > 2 and not submission.frames and not submission.page:
         upright_pairs, mirrored_pairs = (_marks_in_frame(pairs, best_fit(pairs, pencil.point), pencil) for pairs in (
             given_pairs, [(plan, sheet.conjugate()) for plan, sheet in given_pairs]))
@@ -58,7 +58,7 @@ def unmirror(drawing: Construction, composition: Composition, submission: Submis
             tips = tuple((x, -y) for x, y in submission.tips)
             submission = replace(submission, traces=traces, tips=tips)
             return SheetReading(drawing, composition, submission, (*remarks, said("a mirrored sheet")),
-                           prior=measures.MIRRORED_ODDS)
+                                prior=measures.MIRRORED_ODDS)
     return SheetReading(drawing, composition, submission, remarks)
 
 
@@ -115,7 +115,7 @@ class Proposer:
         plan = self.plan or ("orthogonal" if drawing.turned else "polar")
         for methods, construction in constructions(drawing.scene, plan=plan, strict=drawing.strict,
                                                    inertia=self.inertia,
-                                            construct=self.construct):
+                                                   construct=self.construct):
             if isinstance(construction, Construction) and _step_keys(construction) != _step_keys(drawing):
                 yield replace(reading, drawing=construction, prior=reading.prior + measures.OTHER_FORM_ODDS,
                               told=(*reading.told, said("drawn by the form {0}", form_name(methods))))
@@ -145,7 +145,7 @@ class Proposer:
                 sigma = math.hypot(2 * self.pencil.point, trace.blur) / abs(task_vector)
                 votes.append(((complex(*trace.spots[0]) - start) / task_vector, sigma))
         turned_readings = (self._turned_reading(ratio, sigma) for count, ratio, sigma in agreed_units(votes)
-                 if count > 1 or abs(_angle_error(ratio)) < measures.ROUND_SPEED_SIGMAS * sigma / abs(ratio))
+                           if count > 1 or abs(_angle_error(ratio)) < measures.ROUND_SPEED_SIGMAS * sigma / abs(ratio))
         return [reading for reading in turned_readings if reading]
 
     def _turned_reading(self, ratio: complex, sigma: float) -> SheetReading | None:
@@ -247,7 +247,7 @@ class Proposer:
                      and _bare_label(trace.label) in POLES and trace.label not in drawing.scene.points}
             marked_places = marks | {place: pole for place, pole in poles.items() if place not in marks}
             polar_plan = self._agreed_frame({place: (complex(*drawing.values[mark]), complex(*traces[place].spots[0]))
-                                  for place, mark in marked_places.items()} if marks else {})
+                                             for place, mark in marked_places.items()} if marks else {})
             if polar_plan:
                 names = {place: steps[mark].name
                          for place, mark in marked_places.items() if place in {*polar_plan.held, *marks}}

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 
 from shapely import Polygon, STRtree
@@ -161,28 +161,29 @@ def cheapest_columns(table: Sequence[Sequence[float]]) -> list[int]:
 # ---- crossings ------------------------------------------------------------------------------------------------------
 
 
-def stroke_meetings(box: Polygon, reach: float, traces: Sequence[Trace], figures: STRtree) -> tuple[list[Trace],
-                                                                                                    list[Trace]]:
+def stroke_meetings(box: Polygon, reach: float, traces: Sequence[Trace], figures: STRtree
+                    ) -> tuple[list[Trace], list[Trace]]:
     """Points where strokes cross about a box of letters, as sure as these are drawn; and where lines end."""
     strokes = [traces[place] for place in figures.query(box, "dwithin", reach)
                if traces[place].kind != POINT][:measures.STROKES_NEAR_LETTER]
     left, bottom, right, top = box.bounds
 
-    def near(z: complex) -> bool:
-        return math.hypot(max(left - z.real, 0.0, z.real - right), max(bottom - z.imag, 0.0, z.imag - top)) < reach
-
     spots_found: list[complex] = []
-    crossed, ends = list[Trace](), list[Trace]()
-    for first, second in combinations(strokes, 2):
-        for z, sine in _stroke_crossings(first, second):
-            if near(z) and all(abs(z - before) > measures.SAME_CROSSING_MM for before in spots_found):
+
+    def new_points(spots: Iterable[tuple[complex, float]]) -> list[Trace]:
+        """Those of some spots, each with its blur, that are about the box, and not yet found."""
+        points = []
+        for z, blur in spots:
+            gap = math.hypot(max(left - z.real, 0.0, z.real - right), max(bottom - z.imag, 0.0, z.imag - top))
+            if gap < reach and all(abs(z - before) > measures.SAME_CROSSING_MM for before in spots_found):
                 spots_found.append(z)
-                crossed.append(Trace(POINT, ((z.real, z.imag),), blur=measures.CROSSING_BLUR_MM / sine, crossed=True))
-    for z in (complex(*spot) for first in strokes if first.kind == LINE for spot in first.spots):
-        if near(z) and all(abs(z - before) > measures.SAME_CROSSING_MM for before in spots_found):
-            spots_found.append(z)
-            ends.append(Trace(POINT, ((z.real, z.imag),), crossed=True))
-    return crossed, ends
+                points.append(Trace(POINT, ((z.real, z.imag),), blur=blur, crossed=True))
+        return points
+
+    crossings = ((z, measures.CROSSING_BLUR_MM / sine) for first, second in combinations(strokes, 2)
+                 for z, sine in _stroke_crossings(first, second))
+    ends = ((complex(*spot), 0.0) for stroke in strokes if stroke.kind == LINE for spot in stroke.spots)
+    return new_points(crossings), new_points(ends)
 
 
 def _stroke_crossings(one: Trace, other: Trace) -> Iterator[tuple[complex, float]]:

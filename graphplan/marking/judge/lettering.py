@@ -174,7 +174,7 @@ class Letters:
     def named_submission(self) -> Submission:
         """The drawing with the names of its marks."""
         assignment = assign_labels([self._weigh(word) for word in self.words], measures.NAMELESS_COST,
-                              measures.SECOND_NAME_COST)
+                                   measures.SECOND_NAME_COST)
         names: dict[int, list[tuple[str, bool]]] = {}
         for word, place in zip(self.words, assignment, strict=True):
             if place is not None:

@@ -237,7 +237,7 @@ class Matching:
         """Take a trace, or none, for what the next step made, and judge it."""
         step = self.next_step
         candidates = (list(self._expected_values(step))
-                 or [(self.sheet.drawing.values[step.index], self.sheet.drawing.values)])
+                      or [(self.sheet.drawing.values[step.index], self.sheet.drawing.values)])
         own_value, mended_value = candidates[0][0], candidates[-1][0]
         if place is None:
             is_shown = step.op.gives in self.evidence.shows and not (step.op.free or step.index in self.sheet.hidden)
@@ -259,7 +259,7 @@ class Matching:
         if not (any(fits) or self.labels.get(step.index) == place or all(map(self._is_clear_mistake, residuals))):
             weight = -math.inf
         return self._append(Match(step, state, candidates[by][0], place, residuals[by], weight=weight),
-                           seen_value, seen_value if fits[-1] else mended_value)
+                            seen_value, seen_value if fits[-1] else mended_value)
 
     def _protocol_value(self, step: Step) -> tuple[Any, Sequence[Any]] | None:
         """Where the length leads that the protocol tells for a step, laid off from the student's own mark."""
@@ -276,7 +276,7 @@ class Matching:
         seen, but from which others follow."""
         step, candidates = self.next_step, self._expected_values(self.next_step)
         mistaken_value = self.sheet.hand.add_slips(step, mistake.value(self.sheet.domain, self.own),
-                                         self.sheet.errors(step.index))
+                                                   self.sheet.errors(step.index))
         mended_value = candidates[0][0] if candidates else mistaken_value
         place = self._find_drawn(step, mistaken_value, self.own)
         if place is None:
@@ -291,7 +291,7 @@ class Matching:
         off = self.sheet.residual(step, mended_value, spots, self.own)
         seen_value = self.sheet.value_of_trace(step, mistaken_value, spots, steady=not self.traces[place].blur)
         weight = self._weigh_trace(place, self.sheet.residual(step, mistaken_value, spots, self.own),
-                               seen_value) or measures.UNSEEN_MISTAKE_ODDS
+                                   seen_value) or measures.UNSEEN_MISTAKE_ODDS
         if not self._is_clear_mistake(off):
             weight = -math.inf
         return self._append(Match(step, WRONG, mended_value, place, off, mistake, weight), seen_value, mended_value)
@@ -304,7 +304,7 @@ class Matching:
         needs_share = self.evidence.picture and kind != POINT
         share = self.evidence.visible_share(self.next_step, seen, self._known_marks(self.own)) if needs_share else None
         return weigh_mark(self.evidence.weight(place), measures.ABSENT_ODDS[kind], residual,
-                       1.0 if share is None else share)
+                          1.0 if share is None else share)
 
     def _is_clear_mistake(self, residual: Residual) -> bool:
         """Whether a trace is so far off that it is a mistake: what is hardly off is hardly read."""

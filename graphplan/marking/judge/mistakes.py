@@ -152,7 +152,7 @@ class Occasion:
 
     def mistaken_step(self, told: Said, factor: complex = 1.0, mirror: tuple[int, int] | None = None,
                       start: int | None = None,
-             radii: tuple[int, int, int, int] | None = None, **changed: Any) -> Mistake:
+                      radii: tuple[int, int, int, int] | None = None, **changed: Any) -> Mistake:
         """The step as it is drawn by mistake, with something changed."""
         return Mistake(self.kind, told, self.step.but(**changed), factor, mirror, start, radii)
 
@@ -244,7 +244,7 @@ def _(at: Occasion) -> Iterable[Mistake]:
 
 
 @enter_mistake("mirrored figure", phrase("the figure is mirrored"),
-         for_movements(Movement.MET, Movement.PARALLEL, Movement.PERPENDICULAR))
+               for_movements(Movement.MET, Movement.PARALLEL, Movement.PERPENDICULAR))
 def _(at: Occasion) -> Iterable[Mistake]:
     """The third corner of a figure, or a side to it, on the other side of the line of the two others."""
     corners = [at.step] if at.step.op.gives == POINT else [
@@ -290,7 +290,7 @@ def _(at: Occasion) -> Iterable[Mistake]:
     assert at.vector is not None
     return [at.mistaken_step(said("{0} is {1} times as long as it should be", at.vector.text, digits(factor, 2)),
                              factor,
-                    start=at.vector.start) for factor in measures.SCALE_FACTORS]
+                             start=at.vector.start) for factor in measures.SCALE_FACTORS]
 
 
 @enter_mistake("wrong radius", phrase("a normal acceleration over the wrong radius"), lays_off_vector)
@@ -310,11 +310,11 @@ def _(at: Occasion) -> Iterable[Mistake]:
 @enter_mistake("wrong line", phrase("parallel or perpendicular to the wrong line"), ALIGNED)
 def _(at: Occasion) -> Iterable[Mistake]:
     return at.with_other_marks(phrase("parallel to {0} instead of {1}") if at.step.op.movement is Movement.PARALLEL
-                      else phrase("perpendicular to {0} instead of {1}"), 0)
+                               else phrase("perpendicular to {0} instead of {1}"), 0)
 
 
 @enter_mistake("wrong point", phrase("drawn through the wrong point"),
-         for_movements(Movement.PARALLEL, Movement.PERPENDICULAR, Movement.RULED, Movement.DROPPED))
+               for_movements(Movement.PARALLEL, Movement.PERPENDICULAR, Movement.RULED, Movement.DROPPED))
 def _(at: Occasion) -> Iterable[Mistake]:
     places = (place for place, kind in enumerate(at.step.op.reads) if kind == POINT)
     return at.with_other_marks(phrase("drawn through {0} instead of {1}"), *places)
@@ -331,7 +331,7 @@ def _(at: Occasion) -> Iterable[Mistake]:
 
 
 @enter_mistake("wrong vector", phrase("the wrong vector carried over"),
-         lambda op: op.movement is Movement.HALVED or (lays_off_vector(op) and op.instrument == DIVIDERS))
+               lambda op: op.movement is Movement.HALVED or (lays_off_vector(op) and op.instrument == DIVIDERS))
 def _(at: Occasion) -> Iterable[Mistake]:
     return at.with_other_marks(phrase("taken from {0} instead of {1}"), 0, 1)
 

@@ -84,8 +84,8 @@ def _expected_numbers(matching: Matching, values: Sequence[Any]) -> dict[Key, Ex
     for reading, marks, value in readings(drawing, values, matching.sheet.domain):
         components = value if isinstance(value, tuple) else (value,)
         numbers[reading.kind, reading.of] = ExpectedNumber(components,
-                                                         _reading_error(matching, reading,
-                                                                        [plain_value(mark) for mark in marks]))
+                                                           _reading_error(matching, reading,
+                                                                          [plain_value(mark) for mark in marks]))
     return numbers
 
 
@@ -114,7 +114,7 @@ def _reading_change(matching: Matching, reading: Reading, marks: Sequence[Any], 
 
 
 def judge_number(matching: Matching, number: StudentNumber, key: Key, own: Mapping[Key, ExpectedNumber],
-            true: Mapping[Key, tuple[float, ...]]) -> NumberVerdict:
+                 true: Mapping[Key, tuple[float, ...]]) -> NumberVerdict:
     """The verdict on one number: right by the student's own drawing, after a mistake if that is astray."""
     units, chance = matching.sheet.drawing.scene.units, matching.chance
     value, rounding = in_scene_units(number, units), number.rounding * scene_unit(number, units)

@@ -130,7 +130,7 @@ def callout(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[I
 
 
 def boxed_words(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[Item], rect: Rect,
-          pen: Pen, size: float = SIZE) -> tuple[Rect, list[Item]]:
+                pen: Pen, size: float = SIZE) -> tuple[Rect, list[Item]]:
     """A box near a spot, and the box with its words."""
     room = min(WIDEST, rect.width - 4 * PAD)
     lines = wrap(sentence_runs(sentence, names), size, room)

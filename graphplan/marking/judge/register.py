@@ -49,7 +49,7 @@ class FrameFinder:
         given_pairs = [pair for index, pair in self._labelled_pairs(MECHANISM) if index < self.drawing.drawn.givens]
         sigma = self._label_deviation
         fit = best_fit(given_pairs, sigma,
-                         self._task_scale) or best_fit([pair for _, pair in self._labelled_pairs(MECHANISM)], sigma)
+                       self._task_scale) or best_fit([pair for _, pair in self._labelled_pairs(MECHANISM)], sigma)
         fit = fit or self._search_mechanism([complex(*self.drawing.values[step.index]) for step in steps[:len(
             self.drawing.scene.points)] if step.op.movement is Movement.GIVEN])
         if fit is None:

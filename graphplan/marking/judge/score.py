@@ -28,8 +28,8 @@ GROUPS: Mapping[str, Phrase] = {
 }  # fmt: skip
 OTHER, ANOTHERS = "other", "another's number"
 KINDS: Mapping[str, Callable[[], Said]] = {**{kind: entry.words for kind, entry in MISTAKES.items()},
-                               EXCHANGED: WORDS, ANOTHERS: phrase("the number of another result"),
-                               OTHER: phrase("another mistake")}
+                                           EXCHANGED: WORDS, ANOTHERS: phrase("the number of another result"),
+                                           OTHER: phrase("another mistake")}
 SLIPS = frozenset({"wrong side", "wrong scale", "wrong crossing", "wrong opening", "wrong centre",
                    "exchanged coordinates", EXCHANGED, ANOTHERS, OTHER})
 

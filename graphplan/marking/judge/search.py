@@ -244,7 +244,7 @@ class QuickScore:
             return True
         else:
             off = math.dist(own_value[:2], made[:2]) + abs(math.sqrt(max(own_value[2], 0)) - math.sqrt(max(made[2], 0))
-                                                     if step.op.gives == CIRCLE else 0.0)
+                                                           if step.op.gives == CIRCLE else 0.0)
         return off * self.matching.sheet.mm(home) > measures.DIFFERENT_MM
 
     @cached_property

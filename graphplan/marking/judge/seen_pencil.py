@@ -56,7 +56,7 @@ def seen_pencil(matching: Matching, now: SeenPencil, submission: Submission) -> 
     weights = np.exp(odds - odds.max())
     weights /= weights.sum()
     scale, reading, share = (math.sqrt(float(np.sum(weights * tried_sizes**2)))
-                          for tried_sizes in (SCALES[:, None], read[None, :], stated_shares[None, :]))
+                             for tried_sizes in (SCALES[:, None], read[None, :], stated_shares[None, :]))
     return SeenPencil(now.stated, scale, reading, len(samples), share)
 
 

@@ -206,7 +206,7 @@ class StudentSheet:
         panel, panels = self.plan_of_step[index], list(self.fits)
         fit, first = self.fits[panel], self._starts[index] + len(self.hand.slips[index])
         lead, own_errors = (self._starts[-1] + measures.FRAME_ERRORS * panels.index(name)
-                     for name in (fit.tied or panel, panel))
+                            for name in (fit.tied or panel, panel))
         turn, mm = self.fits[fit.tied or panel].turn, self.mm(panel)
         shift, blur = fit.shift / mm, trace.blur / mm
         for k, spot in enumerate(measured_spots(trace)):

@@ -181,7 +181,7 @@ def exchanged_pairs(matching: Matching) -> Iterator[Pair]:
             continue
         for rival in labels:
             if paired.isdisjoint((step, rival)) and rival != step and _bears_letters_of(matching, step,
-                                                                                      rival) and _bears_letters_of(
+                                                                                        rival) and _bears_letters_of(
                     matching, rival, step):
                 paired |= {step, rival}
                 yield min(step, rival), max(step, rival)
@@ -278,7 +278,7 @@ def _unseen_steps(matching: Matching, step: Step) -> list[Step]:
 
 
 def _carry_mistake(matching: Matching, step: Step, values: Sequence[Any], suspect: Suspect, domain: Domain,
-             errors: Errors) -> Any:
+                   errors: Errors) -> Any:
     """What the step becomes where a slip was made, and all that is unseen follows from it; None where nothing does."""
     basis, source, hand = list(values), suspect.source.index, matching.sheet.hand
     try:
@@ -316,7 +316,7 @@ def _verdict_on(matching: Matching, match: Match, state: str) -> Verdict:
     if mistake and mistake.mirror and step.op.gives == POINT:  # wrong from the first of its lines on that is unseen
         guilty = next((line for line in sorted(mistake.step.args) if matching.matches[line].place is None), guilty)
     verdict = Verdict(step.index, state, own=plain_value(match.expected), mistake=mistake.told if mistake else turned,
-                    kind=mistake.kind if mistake else "", guilty=guilty)
+                      kind=mistake.kind if mistake else "", guilty=guilty)
     if not is_seen and (not mistake or step.op.gives != POINT):
         return replace(verdict, off=math.inf, tolerance=math.inf, astray=math.inf) if mistake else verdict
     trace, true = None if match.place is None else matching.traces[match.place], sheet.drawing.values

@@ -24,6 +24,9 @@ from graphplan.marking.scans import measures
 Grey = NDArray[np.uint8]
 Light = NDArray[np.float32]
 Spots = NDArray[np.float64]  # rows of x and y
+Sizes = NDArray[np.float64]  # a number each
+Flags = NDArray[np.bool_]  # which
+Places = NDArray[np.intp]  # where in an array
 STDERR = 2  # its number to the system
 PNG, JPEG, PDF = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"%PDF-"
 SIZED = re.compile(rb"[\xc0-\xc3\xc5-\xc7\xc9-\xcb\xcd-\xcf]")  # the segments of a JPEG that say its size

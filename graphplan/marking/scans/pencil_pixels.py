@@ -20,7 +20,7 @@ from shapely import LineString, STRtree, points
 
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.scans import measures
-from graphplan.marking.scans.image import Light, Spots, median_deviation
+from graphplan.marking.scans.image import Flags, Light, Places, Sizes, Spots, median_deviation
 from graphplan.marking.scans.printed_ink import print_words
 from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.marking.traces import Spot, Trace
@@ -33,8 +33,8 @@ from graphplan.sheet.plates.display import Sheet
 class PencilInk:
     """Darkness 0..1 of what was drawn, where it is `hidden` by print, `scale` pixels per mm, and the sheet's height."""
 
-    dark: NDArray[np.float32]
-    hidden: NDArray[np.bool_]
+    dark: Light
+    hidden: Flags
     scale: float
     height: float
 
@@ -47,16 +47,12 @@ class PencilInk:
         at = (pixels + 0.5) / self.scale
         return np.column_stack([at[:, 0], self.height - at[:, 1]])
 
-    def are_hidden(self, spots: Spots) -> NDArray[np.bool_]:
-        """Which spots are hidden by print; all beside the sheet are."""
-        return np.asarray(self.hidden[self.cells(spots)], bool)
-
-    def are_hidden_or_dark(self, spots: Spots) -> NDArray[np.bool_]:
+    def are_hidden_or_dark(self, spots: Spots) -> Flags:
         """Which spots are hidden or dark: a line may go on there, under print or another line."""
         cells = self.cells(spots)
         return np.asarray(self.hidden[cells] | (self.dark[cells] > measures.MIN_INK_DARKNESS), bool)
 
-    def cells(self, spots: Spots) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def cells(self, spots: Spots) -> tuple[Places, Places]:
         """The rows and columns of spots; beside the sheet, those of its edge."""
         high, wide = self.hidden.shape
         at = np.rint(self.pixels(spots)).astype(np.intp)
@@ -64,7 +60,7 @@ class PencilInk:
         return at[:, 1], at[:, 0]
 
 
-def pencil_ink(image: NDArray[np.float32], sheet: Sheet, light: Light, scale: float) -> PencilInk:
+def pencil_ink(image: Light, sheet: Sheet, light: Light, scale: float) -> PencilInk:
     """The pencil on the straightened picture of a sheet, whose print is `light` in the same pixels; beyond its plans
     nothing is looked for."""
     paper = np.asarray(image / np.maximum(light, measures.MAX_PRINT_LIGHTNESS), np.float32)
@@ -87,7 +83,7 @@ def _disc(radius: float) -> NDArray[np.uint8]:
     return np.asarray(cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (diameter, diameter)), np.uint8)
 
 
-def _paper_lightness(paper: NDArray[np.float32]) -> NDArray[np.float32]:
+def _paper_lightness(paper: Light) -> Light:
     """How light the paper would be with nothing on it: the lightest near by, smoothed."""
     high, wide = paper.shape
     small = cv2.resize(paper, (wide // measures.LIGHT_PX, high // measures.LIGHT_PX), interpolation=cv2.INTER_AREA)
@@ -104,12 +100,12 @@ class Ridges:
 
     spots: Spots
     normals: Spots
-    strength: NDArray[np.float64]
+    strength: Sizes
 
     def __len__(self) -> int:
         return len(self.spots)
 
-    def selected(self, which: NDArray[np.bool_] | NDArray[np.intp]) -> Ridges:
+    def selected(self, which: Flags | Places) -> Ridges:
         """Some of them."""
         return Ridges(self.spots[which], self.normals[which], self.strength[which])
 
@@ -127,7 +123,7 @@ def clear_ridges(found: Ridges, ink: PencilInk) -> Ridges:
 def find_ridges(ink: PencilInk) -> Ridges:
     """Every crest that may be part of a pencil line."""
     smooth = np.asarray(cv2.GaussianBlur(ink.dark, (0, 0), measures.HALF_LINE_MM * ink.scale), np.float32)
-    xx, yy, xy = (cv2.Sobel(smooth, cv2.CV_32F, i, j, ksize=3) / 4.0 for i, j in ((2, 0), (0, 2), (1, 1)))
+    xx, yy, xy = (derivative / 4.0 for derivative in _derivatives(smooth, (2, 0), (0, 2), (1, 1)))
     bend = np.sqrt(((xx - yy) / 2) ** 2 + xy**2)
     strength = bend - (xx + yy) / 2  # minus the lesser eigenvalue
     strength[ink.hidden] = 0.0
@@ -140,12 +136,17 @@ def find_ridges(ink: PencilInk) -> Ridges:
                       (strength[row, column].astype(float) - np.median(open_)) / grain)
 
 
-def _crests_at(ink: PencilInk, smooth: NDArray[np.float32], row: NDArray[np.intp], column: NDArray[np.intp],
-            second: list[NDArray[np.float64]], strength: NDArray[np.float64]) -> Ridges:
+def _derivatives(smooth: Light, *orders: tuple[int, int]) -> Iterator[Light]:
+    """The derivatives of a picture by columns and rows, of these orders, as OpenCV scales them."""
+    return (np.asarray(cv2.Sobel(smooth, cv2.CV_32F, i, j, ksize=3), np.float32) for i, j in orders)
+
+
+def _crests_at(ink: PencilInk, smooth: Light, row: Places, column: Places,
+               second: list[Sizes], strength: Sizes) -> Ridges:
     """Of these pixels, those that the middle of a line runs through."""
     xx, yy, xy = second
-    gx, gy = (cv2.Sobel(smooth, cv2.CV_32F, i, j, ksize=3)[row, column].astype(float) / measures.SOBEL_SUM
-              for i, j in ((1, 0), (0, 1)))
+    gx, gy = (derivative[row, column].astype(float) / measures.SOBEL_SUM
+              for derivative in _derivatives(smooth, (1, 0), (0, 1)))
     angle = 0.5 * np.arctan2(2 * xy, xx - yy) + np.pi / 2  # of the direction in which it falls off fastest
     nx, ny = np.cos(angle), np.sin(angle)
     across = xx * nx**2 + 2 * xy * nx * ny + yy * ny**2
@@ -159,12 +160,12 @@ def _crests_at(ink: PencilInk, smooth: NDArray[np.float32], row: NDArray[np.intp
 # ---- dots and rings -------------------------------------------------------------------------------------------------
 
 
-def find_dots(ink: PencilInk, smooth: NDArray[np.float32], usual: float) -> list[Trace]:
+def find_dots(ink: PencilInk, smooth: Light, usual: float) -> list[Trace]:
     """All dark spots of the blurred pencil, whose lines are usually so dark, at their centres of darkness."""
     window = 2 * round(2 * measures.HALF_DOT_MM * ink.scale) + 1
     top = (smooth >= cv2.dilate(smooth, np.ones((window, window), np.uint8))) & (smooth > measures.MIN_DOT_DARKNESS)
     row, column = np.nonzero(top)
-    xx, yy, xy = (cv2.Sobel(smooth, cv2.CV_32F, i, j, ksize=3)[row, column] for i, j in ((2, 0), (0, 2), (1, 1)))
+    xx, yy, xy = (derivative[row, column] for derivative in _derivatives(smooth, (2, 0), (0, 2), (1, 1)))
     middle, spread = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
     peaked = (middle + spread < 0) & (np.abs(middle + spread) > measures.MIN_DOT_ROUNDNESS * np.abs(middle - spread))
     peaked |= smooth[row, column] > measures.BLACK_DOT_RATIO * usual
@@ -172,7 +173,7 @@ def find_dots(ink: PencilInk, smooth: NDArray[np.float32], usual: float) -> list
 
 
 def dots_beyond_strokes(found: Sequence[Trace], drawn: Sequence[Trace], own: Sequence[float], usual: float,
-           darkness: Callable[[Spot], float], least: Sequence[float]) -> Iterator[Trace]:
+                        darkness: Callable[[Spot], float], least: Sequence[float]) -> Iterator[Trace]:
     """The dots that are more than the strokes on which they lie: by `darkness` at a spot they must be darker, `least`
     times for how many strokes, than the darkest of these is by its `own`, or than is `usual`."""
     lines = STRtree([LineString(trace.spots) for trace in drawn])
@@ -267,9 +268,9 @@ def _fit_ring(ink: PencilInk, middle: Spots, radius: float, usual: float) -> Rin
         return None
     rim = _darkness(ink,
                     middle + np.multiply.outer(radius + np.array([-measures.RING_OFF_MM, 0.0, measures.RING_OFF_MM]),
-                                                directions)).max(axis=0)
+                                               directions)).max(axis=0)
     beside = _darkness(ink, middle + np.multiply.outer(radius + np.array([-measures.RING_BESIDE_MM,
-                                                                      measures.RING_BESIDE_MM]),
+                                                                          measures.RING_BESIDE_MM]),
                                                        directions)).max(axis=0)
     is_open = rim >= 0
     is_drawn = is_open & (rim > measures.RING_PENCIL_SHARE * usual)
@@ -280,7 +281,7 @@ def _fit_ring(ink: PencilInk, middle: Spots, radius: float, usual: float) -> Rin
     return Ring(middle, radius, crest)
 
 
-def _darkness(ink: PencilInk, spots: Spots) -> NDArray[np.float32]:
+def _darkness(ink: PencilInk, spots: Spots) -> Light:
     """How dark it is at spots; less than nothing where print hides it."""
     cells = ink.cells(spots.reshape(-1, 2))
     return np.where(ink.hidden[cells], np.float32(-1.0), ink.dark[cells]).reshape(spots.shape[:-1])

@@ -15,7 +15,7 @@ from shapely import LinearRing, LineString
 
 from graphplan.errors import Refused
 from graphplan.marking.scans import measures
-from graphplan.marking.scans.image import Grey, Light, Spots
+from graphplan.marking.scans.image import Flags, Grey, Light, Sizes, Spots
 from graphplan.sheet.frames.frame import corner_numbers
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import Pen, rgb
@@ -28,12 +28,12 @@ class Pieces:
     """Straight pieces of print: where their middles are, their directions, and half their lengths, in mm; and which are
     the task's `own`, that lie on its plans."""
 
-    middles: NDArray[np.float64]
-    along: NDArray[np.float64]
-    halves: NDArray[np.float64]
-    own: NDArray[np.bool_]
+    middles: Sizes
+    along: Sizes
+    halves: Sizes
+    own: Flags
 
-    def selected(self, which: NDArray[np.bool_]) -> Pieces:
+    def selected(self, which: Flags) -> Pieces:
         """Some of them."""
         return Pieces(self.middles[which], self.along[which], self.halves[which], self.own[which])
 
@@ -48,7 +48,7 @@ def print_picture(sheet: Sheet, scale: float) -> Light:
     return np.asarray(small, np.float32) / np.float32(255)
 
 
-def print_words(sheet: Sheet, scale: float) -> NDArray[np.bool_]:
+def print_words(sheet: Sheet, scale: float) -> Flags:
     """Where words are printed."""
     mask = np.zeros((round(sheet.height * scale), round(sheet.width * scale)), bool)
     for box in (item.box for item in sheet.items if isinstance(item, Text)):
@@ -160,7 +160,7 @@ def _are_consistent(one: Mark, other: Mark) -> bool:
             and _faces_mark(far, rim, PLACES[first >> measures.CORNER_BITS] - PLACES[second >> measures.CORNER_BITS]))
 
 
-def _faces_mark(rim: Spots, far: Spots, way: NDArray[np.float64]) -> bool:
+def _faces_mark(rim: Spots, far: Spots, way: Sizes) -> bool:
     """Whether a mark has another that way, along its own sides to the right and up."""
     out = far.mean(axis=0) - rim.mean(axis=0)
     right, up = rim[1] - rim[0], rim[0] - rim[3]

@@ -22,7 +22,7 @@ from shapely import LineString, STRtree, points
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.scans import measures, strokes
-from graphplan.marking.scans.image import Grey, Light, read_pictures, require_contrast, shrink
+from graphplan.marking.scans.image import Grey, Light, Places, Sizes, read_pictures, require_contrast, shrink
 from graphplan.marking.scans.pencil_pixels import (
     PencilInk,
     Ridges,
@@ -101,7 +101,6 @@ def _straighten_either_way(image: Grey, printed: Sheet, light: Light, scale: flo
         raise refused
 
 
-Values = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -187,7 +186,7 @@ class PencilPage:
         return self._possible_dots[int(off.argmin())] if off.min(initial=math.inf) < within else None
 
     @cached_property
-    def _distances(self) -> list[NDArray[np.float32]]:
+    def _distances(self) -> list[Light]:
         """How far every pixel is from the next strong crest, and from the next dot, in mm; less than nothing where
         print hides it."""
         maps = []
@@ -205,7 +204,7 @@ class PencilPage:
         return strokes.find_strokes(self._clear_ridges, self.ink)
 
     @cached_property
-    def _smoothed(self) -> NDArray[np.float32]:
+    def _smoothed(self) -> Light:
         """The pencil blurred by half a dot."""
         return np.asarray(cv2.GaussianBlur(self.ink.dark, (0, 0), measures.HALF_DOT_MM * self.ink.scale), np.float32)
 
@@ -230,7 +229,7 @@ class PencilPage:
         return float(np.median(self._stroke_darkness)) if self._strokes else 1.0
 
     @cached_property
-    def _pieces_beside_strokes(self) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+    def _pieces_beside_strokes(self) -> tuple[NDArray[np.int32], Sizes]:
         """What is drawn beside all long strokes, piece by piece, and how large each is, in mm; letters, mostly."""
         dark = np.asarray(self._smoothed > self._usual_darkness / 2, np.uint8)
         for line in self._long_strokes.geometries:
@@ -323,8 +322,8 @@ class PencilPage:
         return replace(trace, blur=math.hypot(trace.blur, self.error))
 
 
-def _align(along: Values, off: Values, strength: Values, within: float,
-             steep: float) -> tuple[float, float, NDArray[np.intp]] | None:
+def _align(along: Sizes, off: Sizes, strength: Sizes, within: float,
+           steep: float) -> tuple[float, float, Places] | None:
     """The slope and the level, at most so steep and so far off, that most crests share, and which do."""
     if len(along) < measures.MIN_CRESTS:
         return None
@@ -352,15 +351,15 @@ def _align(along: Values, off: Values, strength: Values, within: float,
 def _whole_stretch(crests: strokes.CrestRow, ink: PencilInk, half: float) -> strokes.CrestStretch | None:
     """All the stretches of a row between the expected ends as one, where enough of it is seen."""
     parts_seen = [stretch for stretch in crests.drawn_stretches(ink)
-             if stretch.seen >= measures.MIN_FAINT_SHARE and stretch.long >= 1.0 and stretch.start < half
-             and stretch.end > -half]
+                  if stretch.seen >= measures.MIN_FAINT_SHARE and stretch.long >= 1.0 and stretch.start < half
+                  and stretch.end > -half]
     if sum(stretch.long for stretch in parts_seen) < measures.MIN_FAINT_MM:
         return None
     return strokes.CrestStretch(parts_seen[0].start, parts_seen[-1].end, measures.MIN_FAINT_SHARE)
 
 
-def _short_arc(page: PencilPage, centre: Values, radius: float, aim: float, along: Values, off: Values, slope: float,
-           level: float) -> strokes.Rim | None:
+def _short_arc(page: PencilPage, centre: Sizes, radius: float, aim: float, along: Sizes, off: Sizes, slope: float,
+               level: float) -> strokes.Rim | None:
     """A short arc: it is as far off the expected one, and as askew, as its crests are."""
     turned = math.atan(slope)
     side = np.array([math.cos(aim), math.sin(aim)])

@@ -13,12 +13,11 @@ from dataclasses import dataclass, field, replace
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 from shapely import LinearRing
 
 from graphplan.errors import Refused
 from graphplan.marking.scans import measures
-from graphplan.marking.scans.image import Grey, Light, Spots, encode_jpeg, median_deviation, shrink
+from graphplan.marking.scans.image import Flags, Grey, Light, Spots, encode_jpeg, median_deviation, shrink
 from graphplan.marking.scans.printed_ink import Pieces, find_marks, print_pieces, signed_area
 from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.sheet.frames.frame import WHITE, corner_rects
@@ -42,7 +41,7 @@ class Warp:
         """By how much paper and lens move spots of the sheet, in mm."""
         return polynomial_terms(spots, self.size, self.degree) @ self.bend
 
-    def maps(self, scale: float) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    def maps(self, scale: float) -> tuple[Light, Light]:
         """Columns and rows in the picture for every pixel of the sheet, at so many pixels per mm, the top first."""
         wide, high = round(self.size[0] * scale), round(self.size[1] * scale)
         columns, rows = np.meshgrid(np.arange(0, wide + measures.WARP_GRID_PX, measures.WARP_GRID_PX),
@@ -75,7 +74,7 @@ def term_powers(degree: int) -> list[tuple[int, int]]:
     return [(total - j, j) for total in range(degree + 1) for j in range(total + 1)]
 
 
-def _interpolate_grid(coarse: Spots, wide: int, high: int) -> NDArray[np.float32]:
+def _interpolate_grid(coarse: Spots, wide: int, high: int) -> Light:
     """Values at every pixel from those at every `GRID`th."""
     grow = np.array([[measures.WARP_GRID_PX, 0, 0], [0, measures.WARP_GRID_PX, 0]], float)
     return np.asarray(cv2.warpAffine(coarse.astype(np.float32), grow, (wide, high), flags=cv2.INTER_LINEAR,
@@ -155,11 +154,11 @@ def _side_line(rim: Spots, one: Spots, two: Spots) -> tuple[float, float, float]
     return float(normal[0]), float(normal[1]), float(normal @ at)
 
 
-def _correlation(image: Grey, warp: Warp, ideal: NDArray[np.float32]) -> float:
+def _correlation(image: Grey, warp: Warp, ideal: Light) -> float:
     """The correlation of a picture, straightened, with the print."""
     columns, rows = warp.maps(measures.PRINT_PX_PER_MM)
     picture = cv2.GaussianBlur(cv2.remap(image, columns, rows, cv2.INTER_LINEAR), (0, 0),
-                            measures.PRINT_PX_PER_MM).astype(np.float32)
+                               measures.PRINT_PX_PER_MM).astype(np.float32)
     picture -= cv2.GaussianBlur(picture, (0, 0), measures.SHADE_MM * measures.PRINT_PX_PER_MM)
     return float(np.corrcoef(picture.ravel(), ideal.ravel())[0, 1])
 
@@ -192,7 +191,7 @@ def register_warp(image: Grey, start: Warp, light: Light, scale: float, pieces: 
     return RegisteredWarp(warp, error, share, float(own_found.mean()) if len(own_found) else share)
 
 
-def _profiles(image: Grey | Light, warp: Callable[[Spots], Spots], pieces: Pieces, reach: float) -> NDArray[np.float32]:
+def _profiles(image: Grey | Light, warp: Callable[[Spots], Spots], pieces: Pieces, reach: float) -> Light:
     """The lightness across each piece, averaged along it; so near by, a warp is as good as straight."""
     count = round(reach / measures.PROFILE_STEP_MM)
     side = np.column_stack([-pieces.along[:, 1], pieces.along[:, 0]])
@@ -209,7 +208,7 @@ def _profiles(image: Grey | Light, warp: Callable[[Spots], Spots], pieces: Piece
     return np.asarray(values.mean(axis=1), np.float32)
 
 
-def _profile_shifts(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> tuple[Spots, Spots]:
+def _profile_shifts(ideal: Light, seen: Light) -> tuple[Spots, Spots]:
     """How far each profile is off, in mm, and how well it fits there: the peak of the correlation."""
     wide = ideal.shape[1]
     pattern = ideal - ideal.mean(axis=1, keepdims=True)
@@ -224,15 +223,15 @@ def _profile_shifts(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> tu
     return (best + np.clip(offset, -1, 1) - match.shape[1] // 2) * measures.PROFILE_STEP_MM, top
 
 
-def _are_overdrawn(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> NDArray[np.bool_]:
+def _are_overdrawn(ideal: Light, seen: Light) -> Flags:
     """Which profiles are as dark as print wherever print is: a pencil drawn along it hides its pattern, not its ink."""
     ink = ideal.max(axis=1, keepdims=True, initial=0.0) - ideal
     light = (ink * seen).sum(axis=1) / np.maximum(ink.sum(axis=1), MIN_DIVISOR)
     return np.asarray(light < measures.BLACK_SHARE * seen.max(axis=1, initial=0.0))
 
 
-def _fit_warp(warp: Warp, pieces: Pieces, shift: Spots, good: NDArray[np.bool_],
-            degree: int, allowed: float) -> tuple[Warp, float, NDArray[np.bool_]]:
+def _fit_warp(warp: Warp, pieces: Pieces, shift: Spots, good: Flags,
+              degree: int, allowed: float) -> tuple[Warp, float, Flags]:
     """The warp bent to what the pieces say; also what is left, and which pieces agree."""
     side = np.column_stack([-pieces.along[:, 1], pieces.along[:, 0]])
     target = shift + (warp.displacement(pieces.middles) * side).sum(axis=1)
@@ -253,7 +252,7 @@ def _fit_warp(warp: Warp, pieces: Pieces, shift: Spots, good: NDArray[np.bool_],
 
 
 def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int | None, name: str
-               ) -> tuple[NDArray[np.float32], RegisteredWarp]:
+               ) -> tuple[Light, RegisteredWarp]:
     """The picture laid over the printed sheet, of which `light` is the picture at `scale` pixels per mm: its lightness
     0..255, the top first, and the warp by which it shows the sheet.
 
@@ -313,7 +312,7 @@ def _require_whole(warp: Warp, image: Grey, sheet: Sheet, name: str) -> None:
     for panel, rect in sheet.panels.items():
         corners_seen = warp(np.array(rect.inset(measures.PANEL_MARGIN_MM, measures.PANEL_MARGIN_MM,
                                                 measures.PANEL_MARGIN_MM,
-                                        measures.PANEL_MARGIN_MM).corners))
+                                                measures.PANEL_MARGIN_MM).corners))
         if (corners_seen < 0).any() or (corners_seen > [wide - 1, high - 1]).any():
             raise Refused(name, f"the {panel} is cut off", "scan or photograph the whole sheet")
 

@@ -11,11 +11,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphplan.kernel.kinds import CIRCLE, LINE
 from graphplan.marking.scans import measures
-from graphplan.marking.scans.image import Spots
+from graphplan.marking.scans.image import Flags, Places, Sizes, Spots
 from graphplan.marking.scans.pencil_pixels import PencilInk, Ridges
 from graphplan.marking.traces import Trace
 
@@ -33,7 +32,7 @@ class CrestStretch:
         return self.end - self.start
 
 
-def crest_stretches(along: NDArray[np.float64], hidden: Callable[[NDArray[np.float64]], NDArray[np.bool_]]
+def crest_stretches(along: Sizes, hidden: Callable[[Sizes], Flags]
               ) -> Iterator[CrestStretch]:
     """The stretches that crests at these places make; where print hides a line, it may well go on."""
     low = float(along.min())
@@ -58,11 +57,11 @@ class CrestRow:
     at: Spots
     way: Spots
     normal: Spots
-    which: NDArray[np.intp]
-    along: NDArray[np.float64]
-    off: NDArray[np.float64]
+    which: Places
+    along: Sizes
+    off: Sizes
 
-    def spots(self, along: NDArray[np.float64], off: NDArray[np.float64] | float = 0.0) -> Spots:
+    def spots(self, along: Sizes, off: Sizes | float = 0.0) -> Spots:
         """Spots so far along the row and off it."""
         return np.asarray(self.at + np.multiply.outer(along, self.way)
                           + np.multiply.outer(off + np.zeros(len(along)), self.normal))
@@ -71,18 +70,18 @@ class CrestRow:
         """The stretches of it that were drawn."""
         return crest_stretches(self.along, lambda along: ink.are_hidden_or_dark(self.spots(along)))
 
-    def in_stretch(self, stretch: CrestStretch) -> NDArray[np.bool_]:
+    def in_stretch(self, stretch: CrestStretch) -> Flags:
         """Which of its crests a run has."""
         return (stretch.start <= self.along) & (self.along <= stretch.end)
 
 
-def crest_row(found: Ridges, at: Spots, normal: Spots, which: NDArray[np.intp]) -> CrestRow:
+def crest_row(found: Ridges, at: Spots, normal: Spots, which: Places) -> CrestRow:
     """Some crests beside a line through a spot, by its normal."""
     direction, out = np.array([normal[1], -normal[0]]), found.spots[which] - at
     return CrestRow(at, direction, normal, which, out @ direction, out @ normal)
 
 
-def crests_near_line(found: Ridges, left: NDArray[np.intp], angle: float, shift: float) -> CrestRow | None:
+def crests_near_line(found: Ridges, left: Places, angle: float, shift: float) -> CrestRow | None:
     """The crests, of those that are left, near the line whose normal has this angle, so many mm from the origin."""
     normal = np.array([math.cos(angle), math.sin(angle)])
     at, which = normal * shift, left
@@ -128,7 +127,7 @@ class Rim:
     radius: float
     zero: float
     stretch: CrestStretch
-    which: NDArray[np.intp]
+    which: Places
     rough: float
 
     def trace(self) -> Trace:
@@ -140,18 +139,18 @@ class Rim:
         return Trace(CIRCLE, tuple((float(x), float(y)) for x, y in spots), blur=blur)
 
 
-def rim_spots(centre: Spots, radius: float, zero: float, along: NDArray[np.float64]) -> Spots:
+def rim_spots(centre: Spots, radius: float, zero: float, along: Sizes) -> Spots:
     """Spots of a circle, so many mm along it from the side `zero`."""
     turns = zero + along / radius
     return np.asarray(centre + radius * np.column_stack([np.cos(turns), np.sin(turns)]))
 
 
-def angles_from(out: Spots, zero: float) -> NDArray[np.float64]:
+def angles_from(out: Spots, zero: float) -> Sizes:
     """Angles of spots about a centre, from the side `zero`."""
     return np.asarray((np.arctan2(out[:, 1], out[:, 0]) - zero + math.pi) % (2 * math.pi) - math.pi)
 
 
-def grow_rim(found: Ridges, left: NDArray[np.intp], seed: NDArray[np.intp], ink: PencilInk) -> Rim | None:
+def grow_rim(found: Ridges, left: Places, seed: Places, ink: PencilInk) -> Rim | None:
     """The circle that some crests begin and others, of those that are left, carry on; None where they make none."""
     rim, chosen = None, seed
     for _ in range(measures.RIM_ROUNDS):
@@ -175,7 +174,7 @@ def fit_circle(spots: Spots) -> tuple[Spots, float]:
     return middle + np.array([u, v]), math.sqrt(max(w + u**2 + v**2, 0.0))
 
 
-def _crests_on_circle(found: Ridges, left: NDArray[np.intp], centre: Spots, radius: float, zero: float,
+def _crests_on_circle(found: Ridges, left: Places, centre: Spots, radius: float, zero: float,
                       ink: PencilInk) -> Rim | None:
     """The run of crests on a circle that has this side of it."""
     out = found.spots[left] - centre
@@ -219,7 +218,7 @@ class Vote:
         turn, level = divmod(self.best, 2 * self.reach + 1)
         return turn * measures.VOTE_TURN_RAD, (level - self.reach) * measures.VOTE_SHIFT_MM
 
-    def remove(self, which: NDArray[np.intp]) -> None:
+    def remove(self, which: Places) -> None:
         """Take crests away."""
         self.votes -= self._count(which)
 
@@ -230,7 +229,7 @@ class Vote:
             cell = (turn + i) % self.count * (2 * self.reach + 1) + level
             self.votes[max(0, cell - 1) : cell + 2] = measures.SILENCED_VOTES
 
-    def _count(self, which: NDArray[np.intp]) -> NDArray[np.float64]:
+    def _count(self, which: Places) -> Sizes:
         cells = self.cells[which]
         weight = np.repeat(self.weight[which], cells.shape[1])
         votes = np.bincount(cells.ravel(), weight, self.count * (2 * self.reach + 1))

@@ -34,9 +34,10 @@ from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.view import View
 from graphplan.sheet.tolerances import MARK_TOL
 
-TRAVELS, DRAGS, FAR = 48, 4, 0.03  # poses around; drags of each pin, and how far, of the linkage's extent
-MOST = 12  # constructions that are drawn out at most
-ALONE = View(Rect(0.0, 0.0, 1.0, 1.0), 1.0, (0.0, 0.0))
+POSES_AROUND, DRAGS_PER_PIN = 48, 4
+DRAG_REACH = 0.03  # of the linkage's extent
+MAX_CONSTRUCTIONS = 12  # constructions that are drawn out at most
+UNIT_VIEW = View(Rect(0.0, 0.0, 1.0, 1.0), 1.0, (0.0, 0.0))
 Array = Any
 
 
@@ -57,7 +58,7 @@ class ReachablePoses(NamedTuple):
 
 def reachable_poses(drawing: Construction) -> ReachablePoses | None:
     """Poses around the cycle and with pins dragged a little; none where the scene cannot be followed."""
-    linkage = relations(drawing.scene, ALONE)
+    linkage = relations(drawing.scene, UNIT_VIEW)
     if linkage is None:
         return None
     poses = [pose for pins, travels in _drags(linkage) if (pose := linkage.pose(pins, travels)) is not None]
@@ -73,12 +74,12 @@ def _drags(found: Relations) -> list[tuple[dict[str, tuple[float, float]], list[
     scene, rng = found.scene, Random(1)
     rates = paces(scene) if scene.drives else ()
     low, high = found.limits if scene.drives else (0.0, 0.0)
-    fraction: Array = (1 - np.cos(np.linspace(0.0, np.pi, TRAVELS))) / 2 if scene.drives else []
+    fraction: Array = (1 - np.cos(np.linspace(0.0, np.pi, POSES_AROUND))) / 2 if scene.drives else []
     drags: list[tuple[dict[str, tuple[float, float]], list[float]]] = [({}, [0.0] * len(rates))]
     drags += [({}, [rate * (low + (high - low) * p) for rate in rates]) for p in fraction]
-    for name in found.free * DRAGS:
+    for name in found.free * DRAGS_PER_PIN:
         x, y = found.places[name].real, found.places[name].imag
-        dx, dy = (FAR * scene.extent * rng.uniform(-1, 1) for _ in range(2))
+        dx, dy = (DRAG_REACH * scene.extent * rng.uniform(-1, 1) for _ in range(2))
         drags.append(({name: (x + dx, y + dy)}, [rate * rng.uniform(low, high) for rate in rates]))
     return drags
 
@@ -96,7 +97,7 @@ def constructions(drawing: Construction) -> list[Construction]:
         return [drawing]
     drawings, served = [drawing], [poses_drawn_right(drawing, poses)]
     open = ~served[0] & _regular_poses(drawing, poses)
-    while open.any() and len(drawings) < MOST:
+    while open.any() and len(drawings) < MAX_CONSTRUCTIONS:
         places = np.flatnonzero(open)
         k = int(places[len(places) // 2])
         open[k] = False

@@ -60,7 +60,7 @@ class Certified(Report):
     def agrees(self) -> bool:
         """Whether the enclosures of construction and solver overlap everywhere."""
         same = all(gap.overlaps(Enclosure(0)) for kind in self._kinds_by_group for gap in self._gaps(kind))
-        return same and not self.drawing.broken
+        return same and not self.drawing.broken_claim
 
     @property
     def disagreement(self) -> Disagreement:
@@ -75,7 +75,7 @@ class Certified(Report):
                                                                             abs(float(theirs_number)))
                         return Disagreement(self.scene.name, f"{kind} of {name}", f"{float(ours_number)}",
                                             f"{float(theirs_number)}", gap)
-        return BrokenClaim(self.scene.name, self.drawing.broken)
+        return BrokenClaim(self.scene.name, self.drawing.broken_claim)
 
     @cached_property
     def errors(self) -> dict[str, Fraction]:

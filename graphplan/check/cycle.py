@@ -86,7 +86,7 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
                                        lambda part: report_progress("positions")(round(part * positions), positions))
     turn = motion.turn(travel, machine)
     remaining = PoseBatch.of_reached(scene, turn.points, turn.guides, turn.loads)
-    results_so_far = Cycle(scene, drawing, turn, drawing.blank(positions), dict(turn.faults),
+    results_so_far = Cycle(scene, drawing, turn, drawing.empty_arrays(positions), dict(turn.faults),
                            {kind: np.full(positions, np.nan) for kind in compared_groups(drawing)},
                            centrodes=sheet_centrodes(motion, travel))
 

@@ -229,7 +229,7 @@ class Report:
         missed = next((control for control in self.drawing.controls if self._fails(control)), None)
         control = missed and (f"link {missed.link}: the lines from {', '.join(missed.points)} to the ends of their "
                               "orthogonal velocities do not meet in its pole")
-        return self.drawing.broken or control or self._moving_links_without_pole
+        return self.drawing.broken_claim or control or self._moving_links_without_pole
 
     @property
     def _moving_links_without_pole(self) -> str:

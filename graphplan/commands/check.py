@@ -43,8 +43,8 @@ def run(options: argparse.Namespace) -> int:
         write(as_json(_data(report, groups, notes)))
     else:
         write("\n".join(_lines(report, groups, notes)) + "\n")
-    if report.drawing.broken:
-        error(f"check: {report.drawing.broken}")
+    if report.drawing.broken_claim:
+        error(f"check: {report.drawing.broken_claim}")
     if not report.numbers_agree:
         error(str(report.disagreement))
     return 0 if report.agrees else 1

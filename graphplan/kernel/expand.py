@@ -120,7 +120,7 @@ class Expander:
 
     def _directed_line(self, truth: Any, mark: Mark) -> Mark:
         """A line as it runs in truth. A locus has no way to run: drawn out, it may run against its rule."""
-        return mark.reversed if runs_against(truth, self.value(mark)) else mark
+        return mark.backwards if runs_against(truth, self.value(mark)) else mark
 
     def value(self, mark: Mark) -> Any:
         """The float value of a mark on the board."""

@@ -40,7 +40,7 @@ class Panel(str):
         """What stands over it; `kinds` are the kinds of vector drawn on it."""
         return self.heading
 
-    def part(self, number: int) -> Panel:
+    def numbered_part(self, number: int) -> Panel:
         """The part of it that is begun as this one."""
         if number == 1:
             return self

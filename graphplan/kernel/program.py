@@ -109,7 +109,7 @@ class Mark:
         self.total: Total = ((step.index, 1),)
 
     @property
-    def reversed(self) -> Mark:
+    def backwards(self) -> Mark:
         """The same line, run the other way."""
         return Mark(self.board, self.step, self.heading, not self.against, self.fallen)
 
@@ -223,7 +223,7 @@ class Board(Verbs):
 
     def oriented_mark(self, mark: Mark, against: int) -> Mark:
         """What is drawn by so many lines that are drawn the other way: a line then is, too."""
-        return mark.reversed if against % 2 and mark.kind == LINE else mark
+        return mark.backwards if against % 2 and mark.kind == LINE else mark
 
     def index_mark(self, mark: Mark, key: tuple[Any, ...], args: tuple[Mark, ...]) -> None:
         """Find a mark under its key, and a line by its heading and each point that lies on it by construction."""

@@ -90,7 +90,7 @@ class Construction(ReadableDrawing, NamedResults):
     prefer: str = ""
     strict: bool = False
     notes: list[str] = field(default_factory=list)
-    shown: tuple[ForceArrow, ...] = ()
+    force_arrows: tuple[ForceArrow, ...] = ()
     rounds: int = 0
     by_poles: tuple[Said, ...] = ()
     poles_by: tuple[Said, ...] = ()
@@ -170,7 +170,7 @@ class Construction(ReadableDrawing, NamedResults):
         return [compound(self.program.steps[index], steps) for index, steps in whole.items() if len(steps) > 1]
 
     @cached_property
-    def broken(self) -> str:
+    def broken_claim(self) -> str:
         """The first drawn step or compound that breaks a claim, in words; nothing where none does.
 
         What cannot be drawn in this pose claims nothing. Drawn steps lose digits where curves cross flat.
@@ -313,7 +313,7 @@ class Construction(ReadableDrawing, NamedResults):
                 panel = self.drawn.steps[end].panel
                 letter = f"{'v' if reading.kind == kinds.VELOCITY else 'j'}_{reading.of.lower()}"
                 vectors.append(DrawnVector(reading.kind, reading.of, letter, panel, start, end))
-        for force in self.shown:
+        for force in self.force_arrows:
             start, end = (self.drawn.wanted[position] for position in force.marks)
             vectors.append(DrawnVector(force.kind, force.letter, force.letter, self.drawn.steps[end].panel, start, end))
         return tuple(vectors)
@@ -350,7 +350,7 @@ class Construction(ReadableDrawing, NamedResults):
     @cached_property
     def computed(self) -> Mapping[str, Mapping[str, Any]]:
         """All readings in floats, right to the last digits near singular poses too, by kind and name."""
-        return self.posed.results if self.posed else self.read_off(self._faithful.values, Floats())
+        return self.posed.results if self.posed else self.results_about_origin(self._faithful.values, Floats())
 
     @cached_property
     def _results(self) -> dict[str, dict[str, Any]]:
@@ -358,7 +358,7 @@ class Construction(ReadableDrawing, NamedResults):
         return {kind: {name: complex(*value) if isinstance(value, tuple) else value for name, value in named.items()}
                 for kind, named in self.computed.items()}
 
-    def named(self, kind: str) -> dict[str, Any]:
+    def results_of_kind(self, kind: str) -> dict[str, Any]:
         return self._results.get(kind, {})
 
     def zero(self) -> complex:

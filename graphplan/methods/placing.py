@@ -162,7 +162,7 @@ class Placing:
         P = on[0][1] if on else self._mark_at(body, p)
         if body.heading and runs_along(body.heading[0], u):
             along, line = body.heading
-            return self.board.parallel(line if float(dot(along, u)) > 0 else line.reversed, P)
+            return self.board.parallel(line if float(dot(along, u)) > 0 else line.backwards, P)
         if body is self.ground:
             return self.board.guide(P, dx=u[0], dy=u[1])
         far = 2.0 ** round(math.log2(self.scene.extent / 4 / math.hypot(*map(float, u))))

@@ -22,7 +22,7 @@ from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.panels import pole_named, reactions_named
 
-ASIDE = 40  # numbers: some hundreds of bytes
+ROW_PADDING = 40  # numbers: some hundreds of bytes
 
 
 class Reading(NamedTuple):
@@ -56,7 +56,7 @@ class ReadableDrawing(Drawing):
     relied: tuple[tuple[str, str], ...] = ()
 
     @cached_property
-    def shared(self) -> dict[str, str]:
+    def coincident_points(self) -> dict[str, str]:
         """The points that lie where another one does, each with that one."""
         return Network(self.scene).shared_marks
 
@@ -67,24 +67,25 @@ class ReadableDrawing(Drawing):
         `given` overrides numbers of steps, by name or index: such as the coordinates of points; `after` is called
         after each step.
         """
-        return self.read_off(about_origin(self.program, domain, given, after), domain)
+        return self.results_about_origin(about_origin(self.program, domain, given, after), domain)
 
-    def read_off(self, values: Sequence[Any], domain: Domain) -> dict[str, dict[str, Any]]:
+    def results_about_origin(self, values: Sequence[Any], domain: Domain) -> dict[str, dict[str, Any]]:
         """All readings from the value of every step about the program's origin."""
-        origin, results = self.program.origin, self.told([values[index] for index in self.program.wanted], domain)
+        origin = self.program.origin
+        results = self.results_from_marks([values[index] for index in self.program.wanted], domain)
         return results if origin is None else {
             kind: {of: origin.point(domain, at) if kind_of(kind).dimension == units.PLACE else at
                    for of, at in named.items()} for kind, named in results.items()}
 
-    def told(self, wanted: Sequence[Any], domain: Domain) -> dict[str, dict[str, Any]]:
+    def results_from_marks(self, wanted: Sequence[Any], domain: Domain) -> dict[str, dict[str, Any]]:
         """All readings from the values of the wanted marks, by kind and name; what is prescribed as it is given."""
         def value(reading: Reading) -> Any:
             marks = [wanted[position] for position in reading.marks]
             return (self.value if reading.given is None else prescribed_value)(reading, marks, domain)
 
-        return self._named(value)
+        return self._by_kind_and_name(value)
 
-    def _named(self, value: Callable[[Reading], Any]) -> dict[str, dict[str, Any]]:
+    def _by_kind_and_name(self, value: Callable[[Reading], Any]) -> dict[str, dict[str, Any]]:
         """Something for each reading, by kind and name."""
         results: dict[str, dict[str, Any]] = {}
         for reading in self.readings:
@@ -107,7 +108,7 @@ class ReadableDrawing(Drawing):
         """The kinds of readings that there are."""
         return tuple(dict.fromkeys(reading.kind for reading in self.readings))
 
-    def blank(self, n: int, value: float | None = math.nan) -> dict[str, dict[str, Any]]:
+    def empty_arrays(self, n: int, value: float | None = math.nan) -> dict[str, dict[str, Any]]:
         """Arrays for the readings in n poses, by kind and name, complex ones for vectors; with None as they come.
 
         All are rows of one array: a large piece of memory is handed out faster than many small ones. Rows are a little
@@ -116,12 +117,12 @@ class ReadableDrawing(Drawing):
         import numpy as np
 
         single = sum(reading.kind.single for reading in self.readings)
-        numbers, vectors = (np.empty((rows, n + ASIDE), kind)[:, :n]
+        numbers, vectors = (np.empty((rows, n + ROW_PADDING), kind)[:, :n]
                             for rows, kind in ((single, float), (len(self.readings) - single, complex)))
         if value is not None:
             numbers[:] = vectors[:] = value
         rows = {True: iter(numbers), False: iter(vectors)}
-        return self._named(lambda reading: next(rows[bool(reading.kind.single)]))
+        return self._by_kind_and_name(lambda reading: next(rows[bool(reading.kind.single)]))
 
 
 def _difference(one: Any, two: Any) -> Any:
@@ -228,7 +229,7 @@ def prescribed_value(reading: Reading, marks: Sequence[Any], domain: Domain) -> 
 # ---- results as users ask for them -----------------------------------------------------------------------------------
 
 
-class Vectors(dict[str, Any]):
+class NamedVectors(dict[str, Any]):
     """Vectors by the points that they are asked of; those of the `fixed` points, which nobody needs to ask, are zero.
     """
 
@@ -248,7 +249,7 @@ class NamedResults(ABC):
     scene: Scene
 
     @abstractmethod
-    def named(self, kind: str) -> dict[str, Any]:
+    def results_of_kind(self, kind: str) -> dict[str, Any]:
         """The results of a kind."""
 
     @abstractmethod
@@ -256,46 +257,46 @@ class NamedResults(ABC):
         """The vector of a fixed point."""
 
     @property
-    def velocity(self) -> Vectors:
+    def velocity(self) -> NamedVectors:
         """The velocities of points, of a fixed point 0."""
         return self._vectors(kinds.VELOCITY)
 
     @property
-    def acceleration(self) -> Vectors:
+    def acceleration(self) -> NamedVectors:
         """The accelerations of points, of a fixed point 0."""
         return self._vectors(kinds.ACCELERATION)
 
-    def _vectors(self, kind: str) -> Vectors:
-        return Vectors(self.named(kind), self.scene.links.get(FRAME, ()), self.zero())
+    def _vectors(self, kind: str) -> NamedVectors:
+        return NamedVectors(self.results_of_kind(kind), self.scene.links.get(FRAME, ()), self.zero())
 
     @property
     def curvature(self) -> dict[str, Any]:
         """The centres of curvature of paths, such as that of `M on 2`, where they are not at infinity."""
-        return self.named(kinds.CENTRE)
+        return self.results_of_kind(kinds.CENTRE)
 
     @property
     def omega(self) -> dict[str, Any]:
         """The angular velocities of links."""
-        return self.named(kinds.OMEGA)
+        return self.results_of_kind(kinds.OMEGA)
 
     @property
     def alpha(self) -> dict[str, Any]:
         """The angular accelerations of links."""
-        return self.named(kinds.ALPHA)
+        return self.results_of_kind(kinds.ALPHA)
 
     @property
     def reactions(self) -> dict[str, Any]:
         """The reactions, on links at joints, such as `2 at B`, of slides, gears and contacts; with friction where they
         are drawn with it."""
-        return {name: force for kind in kinds.REACTIONS
-                for name, force in (self.named(kind) | self.named(kinds.WITH_FRICTION[kind])).items()}
+        with_friction = [also for kind in kinds.REACTIONS for also in (kind, kinds.WITH_FRICTION[kind])]
+        return {name: force for kind in with_friction for name, force in self.results_of_kind(kind).items()}
 
     @property
     def balances(self) -> list[Any]:
         """The balances in the scene's order, with friction where they are drawn with it, by force plans or else by the
         lever: moments in force * m, forces as complex numbers."""
-        found, ways = {kind: self.named(kind) for kind in kinds.KINDS}, (kinds.RUBBED, kinds.BY_PLANS, kinds.BY_LEVER)
-        return [*balances(self.scene, found, ways).values()]
+        results = {kind: self.results_of_kind(kind) for kind in kinds.KINDS}
+        return [*balances(self.scene, results, (kinds.RUBBED, kinds.BY_PLANS, kinds.BY_LEVER)).values()]
 
 
 def thing_named(scene: Scene, kind: kinds.ResultKind, of: str) -> str:

@@ -60,14 +60,14 @@ class Replay:
             symbols.setdefault(mark, {})[parameter] = self.tape.input(f"{mark}.{parameter}")
         self.inputs = [symbols[mark][parameter].place for mark, parameter in free]
         results = construction.read(domain, symbols)
-        self.told = {kind: {name: self._place(value) for name, value in values.items()}
+        self.places_of_results = {kind: {name: self._place(value) for name, value in values.items()}
                      for kind, values in results.items() if kind in kinds}
-        first = {name: min(places(numbers)) for values in reversed(self.told.values())
+        first = {name: min(places(numbers)) for values in reversed(self.places_of_results.values())
                  for name, numbers in values.items()}
-        self.rows = sorted(((kind, name) for kind, values in self.told.items() for name in values),
+        self.rows = sorted(((kind, name) for kind, values in self.places_of_results.items() for name in values),
                            key=lambda row: first[row[1]])
-        self.outputs = [place for kind, name in self.rows for place in places(self.told[kind][name])]
-        self.function = function(self.tape, self.inputs, self.told)
+        self.outputs = [place for kind, name in self.rows for place in places(self.places_of_results[kind][name])]
+        self.function = function(self.tape, self.inputs, self.places_of_results)
 
     def _place(self, value: Any) -> Any:
         return tuple(map(self._place, value)) if isinstance(value, tuple) else self.tape.place(value)
@@ -80,7 +80,8 @@ class Replay:
             results = None
         if results is not None:
             return results
-        return {kind: named for kind, named in self.construction.read(Floats(), given).items() if kind in self.told}
+        results = self.construction.read(Floats(), given)
+        return {kind: values for kind, values in results.items() if kind in self.places_of_results}
 
     def run(self, given: Given, found: Results, compiled: bool = False) -> Any:
         """Fill readings over n poses, vectors as complex numbers; the places of those that are left to the rules."""
@@ -96,7 +97,7 @@ class Replay:
         """The array of each output, in order."""
         for kind, name in self.rows:
             z = found[kind][name]
-            yield from (z.real, z.imag) if isinstance(self.told[kind][name], tuple) else (z,)
+            yield from (z.real, z.imag) if isinstance(self.places_of_results[kind][name], tuple) else (z,)
 
 
 REPLAYS: WeakKeyDictionary[ReadableDrawing, dict[Any, Replay | None]] = WeakKeyDictionary()  # kept with it
@@ -176,7 +177,7 @@ class Poses(NamedResults):
     results: Results
     faults: Faults
 
-    def named(self, kind: str) -> dict[str, Any]:
+    def results_of_kind(self, kind: str) -> dict[str, Any]:
         return self.results.get(kind, {})
 
     def zero(self) -> Any:
@@ -245,7 +246,7 @@ def _result_arrays(construction: ReadableDrawing, n: int, only: Collection[str] 
     for kind in only or ():
         if kind not in construction.kinds:
             raise Refused(f"results {kind}", "the scene does not ask for them", f"of {', '.join(construction.kinds)}")
-    return {kind: named for kind, named in construction.blank(n, None).items() if only is None or kind in only}
+    return {kind: named for kind, named in construction.empty_arrays(n, None).items() if only is None or kind in only}
 
 
 def _fill_stretches(construction: ReadableDrawing, given: Inputs, stretches: Iterable[slice], results: Results,
@@ -275,7 +276,7 @@ def _evaluate_stretch(construction: ReadableDrawing, given: Inputs, kinds: tuple
             compiled: bool) -> tuple[Results, Faults]:
     """The results and faults of one stretch of poses."""
     n = len(next(iter(next(iter(given.values())).values())))
-    results = {kind: named for kind, named in construction.blank(n, None).items() if kind in kinds}
+    results = {kind: named for kind, named in construction.empty_arrays(n, None).items() if kind in kinds}
     return results, _fill_stretch(construction, given, results, compiled)
 
 
@@ -346,7 +347,7 @@ def _poses_and_inputs(construction: ReadableDrawing, points: Mapping[str, Any], 
     shapes = {array.shape for array in (*arrays.values(), *directions.values(), *acting.values())} or {(1,)}
     if len(shapes) > 1 or len(next(iter(shapes))) != 1:
         raise Refused("poses", f"the arrays have the shapes {sorted(shapes)}", "one array of shape (n,) a point")
-    for name, at in construction.shared.items():  # one mark serves both
+    for name, at in construction.coincident_points.items():  # one mark serves both
         if name not in arrays:
             continue
         if np.any(np.abs(arrays.setdefault(at, arrays[name]) - arrays[name]) > _coincidence_distance(scene)):

@@ -40,10 +40,11 @@ from graphplan.sheet.words.rows import table_rows as table_rows
 from graphplan.words.tongue import Tongue, tongue
 
 PAPERS = ("A3", "A2", "A1")
-COLUMN, GAP, CAPTION, SCALES, AROUND, SIDE = 96.0, 4.0, 7.0, 3.5, 3.0, 2.5  # mm: of words, captions and panels
+COLUMN_MM, GAP_MM = 96.0, 4.0  # the width of the words, and what is free beside them
+CAPTION_MM, SCALES_MM = 7.0, 3.5  # the height of a caption, and of the scales under it
+PANEL_MARGIN_MM, CAPTION_INDENT_MM = 3.0, 2.5  # about what is drawn on a panel, and left of its caption
 MAX_STEPS_LEFT = 2  # steps that are told rather than counted
-INDENT, LEAD = 8.0, 3.0  # mm: of what hangs from a step's number, and over a heading
-
+INDENT_MM, HEADING_GAP_MM = 8.0, 3.0  # of what hangs from a step's number, and over a heading
 
 
 class Blank(list[Sequence[Said | str]]):
@@ -154,7 +155,7 @@ class Panelled(ABC):
     @property
     def _pitch(self) -> float:
         """How wide the column of words is with what is free beside it."""
-        return self.letters.times * COLUMN + 2 * GAP
+        return self.letters.times * COLUMN_MM + 2 * GAP_MM
 
     @cached_property
     def title(self) -> Rect:
@@ -170,15 +171,15 @@ class Panelled(ABC):
 
     def room(self, panel: Panel) -> Rect:
         """The room of a panel under its caption."""
-        caption = CAPTION + (SCALES if self.told_scales else 0.0)
-        return self.panels[panel].inset(AROUND, AROUND, AROUND, AROUND + self.letters.times * caption)
+        caption, margin = CAPTION_MM + (SCALES_MM if self.told_scales else 0.0), PANEL_MARGIN_MM
+        return self.panels[panel].inset(margin, margin, margin, margin + self.letters.times * caption)
 
     # ---- pages -----------------------------------------------------------------------------------------------------
 
     def place_words(self, rows: Sequence[TextRow]) -> list[Placed] | None:
         """Words in their column; nothing where they do not fit."""
-        right, times = self.space.right - GAP, self.letters.times
-        column = Rect(right - times * COLUMN, self.title.top + GAP, right, self.space.top - GAP)
+        right, times = self.space.right - GAP_MM, self.letters.times
+        column = Rect(right - times * COLUMN_MM, self.title.top + GAP_MM, right, self.space.top - GAP_MM)
         return fill([row.enlarge(times) for row in rows], [column])
 
     @cached_property
@@ -238,14 +239,14 @@ class Panelled(ABC):
     def _caption(self, panel: Panel, rect: Rect) -> Iterator[Item]:
         """What a panel is, in letters of marks where that has room on a line, else in small ones; under it its scales.
         """
-        large, small, room = self.letters.mark, self.letters.text, rect.width - 2 * SIDE
+        large, small, room = self.letters.mark, self.letters.text, rect.width - 2 * CAPTION_INDENT_MM
         heading, scales = self.heading(panel)
         runs, y = sentence_runs(self.tongue(heading)), rect.top - 1.6 * large
         letter_size = large if width(runs, large, bold=True) <= room else small
         lines = [(line, letter_size, True) for line in wrap(runs, letter_size, room, bold=True)[:2]]
         scale_runs = sentence_runs(self.tongue(scales)) if scales else ()
         for line, high, bold in [*lines, *((line, small, False) for line in wrap(scale_runs, small, room)[:1])]:
-            yield Text(pens.LETTERS, "text", None, (rect.left + SIDE, y), line, high, bold=bold)
+            yield Text(pens.LETTERS, "text", None, (rect.left + CAPTION_INDENT_MM, y), line, high, bold=bold)
             y -= 1.5 * small
 
     # ---- words -----------------------------------------------------------------------------------------------------
@@ -258,15 +259,17 @@ class Panelled(ABC):
             yield from rows
 
     def _heading(self, words: Said, size: float = HEADING) -> TextRow:
-        return TextRow((Cell(0.0, sentence_runs(self.tongue(words)), bold=True),), size=size, gap=LEAD, keep=2)
+        heading = Cell(0.0, sentence_runs(self.tongue(words)), bold=True)
+        return TextRow((heading,), size=size, gap=HEADING_GAP_MM, keep=2)
 
     def _words_rows(self, words: Words, number: str = "", step: int | None = None) -> Iterator[TextRow]:
         """A table, or words in lines that hang from a number."""
         if isinstance(words, str):
-            yield from paragraph_rows(sentence_runs(self.tongue(words), self._names), COLUMN, INDENT, number, step)
+            runs = sentence_runs(self.tongue(words), self._names)
+            yield from paragraph_rows(runs, COLUMN_MM, INDENT_MM, number, step)
         else:
             table = [[sentence_runs(self.tongue(cell), self._names) for cell in row] for row in words]
-            yield from answer_rows(table, COLUMN) if isinstance(words, Blank) else table_rows(table)
+            yield from answer_rows(table, COLUMN_MM) if isinstance(words, Blank) else table_rows(table)
 
     @cached_property
     def _names(self) -> tuple[str, ...]:
@@ -277,7 +280,7 @@ class Panelled(ABC):
         """Stage by stage what is done in it, each kind of step once, and which steps are the same elsewhere."""
         program = self.values.drawing.program
         for stage, steps in program.stages:
-            yield replace(self._heading(stage.title, SIZE), gap=LEAD / 2)
+            yield replace(self._heading(stage.title, SIZE), gap=HEADING_GAP_MM / 2)
             yield from self._words_rows(arrange("{0:capital}.", stage.law))
             runs = without_repetitions(steps) if self.repeats(steps[0].panel) else [(steps, ())]
             for spoken, repeated in runs:

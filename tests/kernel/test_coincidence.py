@@ -129,7 +129,7 @@ def test_plans_do_not_share_lines() -> None:
     A, B = points(board, A=(0, 0), B=(40, 10))
     AB, plan = board.line(A, B), Panel("N-plan")
     with board.on(plan):
-        one, two = board.begin(plan=plan), board.begin(plan=plan.part(2))
+        one, two = board.begin(plan=plan), board.begin(plan=plan.numbered_part(2))
     _, drawn = expanded(board, AB, board.parallel(AB, one), board.parallel(AB, two))
     assert lines(drawn) == 3
 

@@ -92,7 +92,7 @@ def test_vectors_openings_and_directions_go_over() -> None:
 def test_parts_of_a_plan_are_plans_of_their_own() -> None:
     """A plan that is begun at two places has two parts, and no line joins them."""
     board, _, (o, *_) = two_plans()
-    part = N_PLAN.part(2)
+    part = N_PLAN.numbered_part(2)
     with board.on(N_PLAN):
         o2 = board.begin(plan=part, name="o2")
     assert (o2.step.panel, o2.step.panel.whole) == ("N-plan, part 2", "N-plan")

@@ -57,7 +57,7 @@ def simple_balance(found: Reduction, travel: np.ndarray) -> np.ndarray:
     for one in rubbing.scene.loads.frictions:
         pin, *links = rubbing.scene.links_of[one.at]
         for link in links:
-            force = np.abs(poses.named("reaction")[f"{link} at {one.at}"])
+            force = np.abs(poses.results_of_kind("reaction")[f"{link} at {one.at}"])
             total += float(one.radius * one.coefficient) * force * np.abs(omega[link] - omega[pin]) / 10 / 1000
     return total
 

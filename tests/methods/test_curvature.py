@@ -196,7 +196,7 @@ def test_other_poses_by_the_same_steps() -> None:
     poses = gp.construct(scene).evaluate(turn.points)
     for k in np.flatnonzero(np.isfinite(turn.points["M"])):
         there = replace(scene, points={name: (z[k].real, z[k].imag) for name, z in turn.points.items()}, irrational=())
-        assert poses.named("centre of curvature")["M on 2"][k] == pytest.approx(
+        assert poses.results_of_kind("centre of curvature")["M on 2"][k] == pytest.approx(
             complex(*path_truth(solve(there), {"centre of curvature": ["M on 2"]})["centre of curvature"]["M on 2"]))
 
 

@@ -149,7 +149,7 @@ def test_velocity_triangles_end_on_straight_lines() -> None:
         assert not any(report(SCENES[name], exact=True, plan="triangles").check.values())
     drawing = gp.construct(SCENES["ring"], plan="triangles")
     assert drawing.method["velocity"] == ["velocity triangles"]
-    assert not drawing.broken
+    assert not drawing.broken_claim
     told = [step.sentence for step in drawing.compounds]
     assert any(line.startswith("At B erect the perpendicular on ") for line in told), told
     with pytest.raises(gp.Refused, match="triangles"):

@@ -100,7 +100,7 @@ def by_machine(case: Case, tmp_path: Path) -> Any:
 
 
 def outputs(code: Code) -> list[int]:
-    return list(places(code.replay.told))
+    return list(places(code.replay.places_of_results))
 
 
 def on_arrays(reading: Blocks | Machine, case: Case) -> Any:

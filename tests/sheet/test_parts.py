@@ -118,7 +118,8 @@ def test_a_caption_says_what_its_plan_is(panel: Panel, kinds: set[str], text: st
 
 
 @pytest.mark.parametrize(("panel", "name"), [
-    (MECHANISM, "mechanism"), (N_PLAN.part(2), "N-plan, part 2"), (ForcePlan.of_links(("2", "3")), "force plan 2, 3"),
+    (MECHANISM, "mechanism"), (N_PLAN.numbered_part(2), "N-plan, part 2"),
+    (ForcePlan.of_links(("2", "3")), "force plan 2, 3"),
     (ForcePlan.of_links(("2", "3"), 1), "force plan 2, 3 with friction"),
     (ForcePlan.of_links(("2", "3"), 2), "force plan 2, 3 with friction, round 2"), (LeverPlan.of_part(), "lever"),
     (LeverPlan.of_part(2), "lever 2"), (LeverPlan.of_part(JointForce("O", "frame"), "y"), "lever frame at O, y"),

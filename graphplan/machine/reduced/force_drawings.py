@@ -45,7 +45,7 @@ class LeverDraughtsman(Draughtsman):
         marks = self.balancing_marks(lever)
         self.read(kinds.balance_kind(kinds.BY_LEVER, balance), name, *marks)
         shown = force_arrows(self.board, self.marks, [*lever.shown, Shown("balance", lever.letter, *marks[-2:])])
-        return replace(super().finish(velocity, plan), phi=phi, shown=shown)
+        return replace(super().finish(velocity, plan), phi=phi, force_arrows=shown)
 
     def balancing_marks(self, lever: Lever) -> tuple[Mark, ...]:
         """The moment on the link that turns, or the force on the one that slides, which balances all loads."""

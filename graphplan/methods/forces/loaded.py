@@ -78,7 +78,7 @@ class Loaded(Draughtsman):
         self._forces(velocity, plan)
         shown = force_arrows(self.board, self.marks, self.shown)
         drawn = super().finish(velocity, plan)
-        return replace(drawn, phi=self.phi, shown=shown, rounds=self.rounds, notes=[*drawn.notes, *self.notes])
+        return replace(drawn, phi=self.phi, force_arrows=shown, rounds=self.rounds, notes=[*drawn.notes, *self.notes])
 
     def _forces(self, velocity: Velocity, plan: Normal | None) -> None:
         """Force plans and lever, as the style says."""

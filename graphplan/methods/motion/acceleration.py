@@ -190,7 +190,7 @@ class Normal(MotionPlan):
         if not anchor.link:
             name = self.figure_name(link, anchor.point)
             begins = [step for step in self.board.steps if step.op.movement is Movement.BEGUN]
-            plan = self.panel.part(1 + sum(step.panel.whole == self.panel for step in begins))
+            plan = self.panel.numbered_part(1 + sum(step.panel.whole == self.panel for step in begins))
             with self.board.on(self.panel, stage=beginning_stage(name, plan.words)):
                 return self.board.begin(plan=plan, name=name)
         if anchor.slide is None:

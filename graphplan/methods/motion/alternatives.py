@@ -162,7 +162,7 @@ def growth_of_rates(construction: Construction) -> float:
     beside its largest: the marks may lie far from the origin, and the vectors between them be short."""
     def read(kind: str, hand: Random | None) -> list[Any] | None:
         marks = _draw_shakily(construction.program, hand)
-        values = construction.told(marks, Floats()).get(kind, {}).values() if marks else ()
+        values = construction.results_from_marks(marks, Floats()).get(kind, {}).values() if marks else ()
         return [value if isinstance(value, tuple) else (value,) for value in values] if marks is not None else None
 
     told = {reading.kind for reading in construction.readings}

@@ -111,7 +111,7 @@ class Code:
         self.outputs = list(self._outputs())
 
     def _outputs(self) -> Iterator[Number]:
-        for kind, named in self.replay.told.items():
+        for kind, named in self.replay.places_of_results.items():
             unit = kind_of(kind).dimension.unit(self.scene.units)
             for name, told in named.items():
                 parts = zip((" x", " y"), told, strict=True) if isinstance(told, tuple) else [("", told)]
@@ -162,7 +162,7 @@ def javascript(construction: Construction) -> str:
              for k, item in enumerate(code.moving)]
     places = iter(range(len(outputs)))
     told = {kind: {name: tuple(next(places) for _ in told) if isinstance(told, tuple) else next(places)
-                   for name, told in named.items()} for kind, named in code.replay.told.items()}
+                   for name, told in named.items()} for kind, named in code.replay.places_of_results.items()}
     return JAVASCRIPT_FILE.format(
         head=code.head(), table=code.table("x", "y"), inputs=_names(code.inputs), outputs=_names(code.outputs),
         parameters="".join(f"x{k}, " for k in range(count)), arguments="".join(f"x[{k}][k], " for k in range(count)),

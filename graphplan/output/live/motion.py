@@ -61,7 +61,8 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
         "guides": {name: [*map(float, guide.direction)] for name, guide in guides(scene).items()},
         "touching": [*_touching(scene)],
         "under": points_under_slides(scene),
-            "shared": [[point, at, coincidence_fault(point, at)] for point, at in drawings[0].shared.items()],
+        "shared": [[point, at, coincidence_fault(point, at)]
+                   for point, at in drawings[0].coincident_points.items()],
         "lined": [[one, other, said("guides {0} and {1} are drawn as one line, and turn apart here", one, other)]
                   for one, other in _lined(scene)],
         "scene": _plain(_anywhere(tomllib.loads(scene.text))), "placed": [*_placed(scene)],

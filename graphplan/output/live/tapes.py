@@ -139,7 +139,7 @@ class PosedTapes:
     def _results(self, told: _Told) -> Data:
         """What `solve` prints, of symbols."""
         domain, program = told.domain, self.drawing.program
-        results = self.drawing.told([told.values[index] for index in program.wanted], domain)
+        results = self.drawing.results_from_marks([told.values[index] for index in program.wanted], domain)
         at = {name: (domain.tape.input(f"{name}.x"), domain.tape.input(f"{name}.y")) for name in self.points}
         scene = self.drawing.scene.with_pose({**self.drawing.scene.points, **at}, lambda one: one.direction)
         forces = _Forces(scene, results, cast(Any, None), rounds=self.drawing.rounds, bounded=True)

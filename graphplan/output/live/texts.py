@@ -46,7 +46,7 @@ class FollowingScales(Scales):
 def with_marks_anywhere(construction: Construction, later: Later) -> Construction:
     """The construction with its marks wherever they will lie, and what is read of them there."""
     values = Values(construction.drawn_out.drawing, unknown(later, construction.values), Laters())
-    results = construction.told([values[mark] for mark in construction.drawn.wanted], values.domain)
+    results = construction.results_from_marks([values[mark] for mark in construction.drawn.wanted], values.domain)
     return construction.with_values(values, results)
 
 

@@ -70,8 +70,9 @@ class Plans:
         lie between its wanted marks."""
         no_mechanism = Scene(scene.title, scene.source, scene.name, scene.units, {}, {}, {}, (), {}, Find((), ()),
                              sheet=scene.sheet, text=scene.text)
+        marks = DrawnOut(values.drawing, values.numbers, values.domain)
         drawing = Construction(values.drawing.program, scene=no_mechanism, tempo=Tempo(1), readings=(), turned=False,
-                               shown=tuple(vectors), posed=DrawnOut(values.drawing, values.numbers, values.domain))
+                               force_arrows=tuple(vectors), posed=marks)
         return cls(drawing, tongue)
 
     @cached_property

@@ -233,7 +233,7 @@ def test_poses() -> None:
             continue
         ends = min(0.0, *case.travels) * case.unit, max(0.0, *case.travels) * case.unit
         turn = RangeOfMotion(case.scene, *ends, False).turn(np.array(case.travels) * case.unit)
-        together = {point: turn.points[at] for point, at in case.drawing.shared.items()}
+        together = {point: turn.points[at] for point, at in case.drawing.coincident_points.items()}
         if any(np.abs(z - turn.points[point]).max() > NINE for point, z in together.items()):
             assert not any(pose["results"] for pose in case.found["poses"]), name  # one mark cannot serve both
             continue
@@ -248,7 +248,7 @@ def test_poses() -> None:
                 assert gap <= NINE * case.scene.extent, (name, case.travels[k], point, gap)
             for part, kinds in KINDS.items():
                 for kind in kinds if k not in poses.faults else ():
-                    key, named = kind.split()[-1], {of: z[k] for of, z in poses.named(kind).items()}
+                    key, named = kind.split()[-1], {of: z[k] for of, z in poses.results_of_kind(kind).items()}
                     size = max(least(case.scene)[key], *map(abs, named.values()), 0.0)
                     for of, true in named.items():
                         value = pose["results"][part][of][key]
@@ -263,7 +263,8 @@ def test_loads_that_change() -> None:
         case = cases()[name]
         ends = min(0.0, *case.travels) * case.unit, max(0.0, *case.travels) * case.unit
         turn = RangeOfMotion(case.scene, *ends, False).turn(np.array(case.travels) * case.unit)
-        moments = case.drawing.evaluate(turn.points, turn.guides, loads=turn.loads).named("balance moment")["1"]
+        poses = case.drawing.evaluate(turn.points, turn.guides, loads=turn.loads)
+        moments = poses.results_of_kind("balance moment")["1"]
         strokes |= {int(np.sign(turn.loads["P_3"].real[k])) for k in range(len(moments))}
         for pose, moment in zip(case.found["poses"], moments, strict=True):
             assert pose["results"]["balance"]["moment"] == pytest.approx(moment, rel=NINE), name

@@ -94,7 +94,7 @@ def test_unknown_numbers_change_no_reading() -> None:
     """What is read of the drawn marks is what the rules read, given vectors and rates along guides too."""
     for name in ("four-bar", "shaper", "slotted-link", "triad-loaded", "open-chain"):
         drawing = composition_of(name).plans.drawing
-        found = drawing.told([drawing.values[mark] for mark in drawing.drawn.wanted], Floats())
+        found = drawing.results_from_marks([drawing.values[mark] for mark in drawing.drawn.wanted], Floats())
         for kind, named in drawing.read(Floats()).items():
             for of, value in named.items():
                 assert found[kind][of] == pytest.approx(value, rel=1e-6, abs=1e-6), (name, kind, of)

@@ -6,12 +6,12 @@ import argparse
 import gc
 import importlib
 import os
+import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NoReturn
 
 from graphplan import __version__
-from graphplan.commands.arguments import with_values_joined
 from graphplan.commands.output import error, flush, hush
 from graphplan.errors import GraphplanError, Refused
 
@@ -113,3 +113,39 @@ def parser(names: Sequence[str]) -> argparse.ArgumentParser:
         command.add_argument("-q", "--quiet", action="store_true", help="no progress and no remarks, errors alone")
         command.set_defaults(run=module.run)
     return parser
+
+
+# --- numbers below zero, which argparse would take for options -------------------------------------------------------
+
+
+SIZE = r"(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?(?:/\d+)?"
+NUMBER = rf"[-+\u2212]?{SIZE}"
+OPTION = re.compile(r"--[a-z][\w-]*")
+BELOW_ZERO = re.compile(rf"[-\u2212](?:{SIZE}|inf|nan)(?:,.*)?", re.IGNORECASE)
+TRAVELS = re.compile(rf"{NUMBER}(?:,\s*{NUMBER})*,?", re.IGNORECASE)
+MINUS = "\u2212"  # as it is printed
+AT = "--at"  # the option that takes the travels of several drives, also as several words
+
+
+def with_values_joined(words: Sequence[str]) -> list[str]:
+    """The words, with each number below zero joined to the option before it, and the travels of a list into one word.
+
+    --at -3,1.5 becomes --at=-3,1.5, and --at 60 -30 becomes --at=60,-30.
+    """
+    return list(_join_values([*words]))
+
+
+def _join_values(words: list[str]) -> Iterator[str]:
+    while words:
+        word = words.pop(0)
+        if word == "--":
+            yield from (word, *words)
+            return
+        option, equals, value = word.partition("=")
+        values = [value] if equals else []
+        while option == AT and words and all(map(TRAVELS.fullmatch, (*values, words[0]))):
+            values.append(words.pop(0))
+        if not values and OPTION.fullmatch(option) and words and BELOW_ZERO.fullmatch(words[0]):
+            values.append(words.pop(0))
+        joined = ",".join(value.rstrip(",") for value in values) if len(values) > 1 else "".join(values)
+        yield f"{option}={joined.replace(MINUS, '-')}" if values else word

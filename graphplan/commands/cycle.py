@@ -19,17 +19,22 @@ examples:
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from itertools import groupby
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from graphplan.commands import animate
-from graphplan.commands.choices import add_choices, add_curves, add_language, count, load_sheet_scene
+from graphplan.commands.choices import add_choices, add_curves, add_language, count, load_sheet_scene, on_paper
 from graphplan.commands.output import Messages, error, kind, refuse_same_output, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
     from graphplan.check.cycle import Cycle
+    from graphplan.cycle.turn import Loop
+    from graphplan.methods.construction import Construction
+    from graphplan.output.animation import Film
+    from graphplan.sheet.layout.composition import Composition
+    from graphplan.sheet.plates.display import Sheet
+
 
 ENDINGS, PLOT_ENDINGS = (".csv", ".npz", ".json"), (".svg",)
 NOTHING_REACHED = 3
@@ -38,7 +43,7 @@ NOTHING_REACHED = 3
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("--positions", type=count("--positions", 1), metavar="N",
-        help=f"how many poses; without it an animation has {animate.POSES}")
+        help=f"how many poses; without it an animation has {POSES}")
     add("--from", type=float, dest="start", metavar="A",
         help="a range of the first drive's travel from the given pose, in degrees or lengths; without it one full turn")
     add("--to", type=float, dest="end", metavar="B", help="the end of the range, which is a pose too")
@@ -50,7 +55,7 @@ def options(command: argparse.ArgumentParser) -> None:
         help="what to plot: a link (its angle), a slide, or a point's coordinate such as B.x; up to four times")
     add("--strips", type=int, metavar="N",
         help="in how many strips the diagrams are divided; without it 24, 12 or as positions allow")
-    animate.options(add)
+    add_animation(add)
     add("--workers", default="1", metavar="N", help="processes that share the work, or a dask scheduler's address")
     add("--compiled", action="store_true", help="machine code, if numba is installed: the same numbers, faster")
     add_choices(command)
@@ -67,13 +72,13 @@ def run(options: argparse.Namespace) -> int:
     ending = kind(options.output, ENDINGS, "table")
     kind(options.plot, PLOT_ENDINGS, "plot", "--plot")
     kind(options.paths, PLOT_ENDINGS, "drawing", "--paths")
-    animate.check_options(options)
+    check_animation(options)
     refuse_same_output(options.output, options.plot, options.animate, options.paths)
     span = None if options.start is None else (options.start, options.end)
     if options.paths:
         write(_paths(options), options.paths)
     if options.animate:
-        animate.run(options, span)
+        write_animation(options, span)
     if (options.animate or options.paths) and not (options.output or options.plot):
         return 0
     scene = load_sheet_scene(options)
@@ -153,3 +158,80 @@ def _note_lines(notes: Mapping[int, str]) -> Iterator[str]:
 def _reason(note: str) -> str:
     """A note without the pose's own angle."""
     return note.partition(": ")[2] if note.startswith("at ") else note
+
+
+# --- animations ------------------------------------------------------------------------------------------------------
+
+
+ANIMATION_ENDINGS = (".gif", ".svg")
+POSES, MAX_POSES = 48, 240
+SECONDS, MAX_SECONDS = 6, 120
+WIDTH, MIN_WIDTH, MAX_WIDTH = 900, 200, 2400  # pixels
+MAX_PIXELS = 2e8  # pixels of all pictures of a .gif, were they square: about as many bytes of memory
+
+
+def add_animation(add: Callable[..., Any]) -> None:
+    add("--animate", metavar="FILE.gif", help="the construction in motion: .gif, or an animated .svg")
+    add("--seconds", type=count("--seconds", 1, MAX_SECONDS), metavar="S",
+        help=f"how long an animation takes until it begins again ({SECONDS})")
+    add("--width", type=count("--width", MIN_WIDTH, MAX_WIDTH), metavar="W",
+        help=f"how many pixels wide an animation is ({WIDTH})")
+
+
+def check_animation(options: argparse.Namespace) -> None:
+    """Refuse what an animation cannot be, before any work is done."""
+    ending = kind(options.animate, ANIMATION_ENDINGS, "animation", "--animate")
+    for name in ("seconds", "width"):
+        if getattr(options, name) and not options.animate:
+            raise Refused(f"--{name}", "only an animation uses it", "add --animate FILE.gif, or leave it out")
+    if options.positions is None and (options.output or options.plot or not (options.animate or options.paths)):
+        raise Refused("--positions", "the number of poses is missing", "such as --positions 36")
+    poses, width = options.positions or POSES, options.width or WIDTH
+    if options.animate and poses > MAX_POSES:
+        raise Refused(f"--positions {poses}", "too many poses", f"at most {MAX_POSES}")
+    if ending == ".gif" and options.animate and poses * width**2 > MAX_PIXELS:
+        raise Refused(f"--animate {options.animate}", f"{poses} pictures of {width} pixels in width are too many",
+                      f"--width {int((MAX_PIXELS / poses) ** 0.5)}, fewer --positions, or an .svg")
+
+
+def write_animation(options: argparse.Namespace, span: tuple[float, float] | None) -> None:
+    """Write the animation that is asked for."""
+    from graphplan.cycle.turn import loop
+    from graphplan.output.animation import gif, svg
+
+    options.protocol = "none"  # there is no time to read it
+    on_sheet, messages = on_paper(options), Messages(options.quiet)
+    motion = loop(on_sheet.drawing.scene, options.positions or POSES, span)
+    film = _film(on_sheet.drawing, on_sheet.composition, motion, options.seconds or SECONDS, messages)
+    width = options.width or WIDTH
+    written = (svg if kind(options.animate, ANIMATION_ENDINGS, "animation") == ".svg" else gif)(film, width)
+    write(written, options.animate)
+
+
+def _film(drawing: Construction, composition: Composition, moved: Loop, seconds: int, messages: Messages) -> Film:
+    """The sheets of a loop, in its order; where nothing can be drawn, which is told, the mechanism alone."""
+    from graphplan.accuracy.reach import constructions
+    from graphplan.check.poses import points_where_sound
+    from graphplan.mechanism.travel import travel_unit
+    from graphplan.output.animation import Film
+    from graphplan.phrases import arrange, digits, unit
+    from graphplan.sheet.cycle_frames import sheets
+
+    turn = moved.turn
+    reached = [k for k in range(len(turn.travel)) if k not in turn.faults]
+    if not reached:
+        raise Refused("--animate", "no pose of the range is reached", "another range")
+    points, guides, loads = ({name: z[reached] for name, z in arrays.items()}
+                             for arrays in (turn.points, turn.guides, turn.loads))
+    constructions_by_pose = [(construction, points_where_sound(construction, points, guides, loads))
+                             for construction in constructions(drawing)]
+    frames: dict[int, tuple[Sheet, bool]] = {}
+    for k, frame in zip(reached, sheets(composition, constructions_by_pose, points, guides, loads), strict=True):
+        frames[k] = frame
+        messages.progress(f"drawn: {len(frames)} of {len(reached)}" if len(frames) < len(reached) else "")
+    if bare := sum(not drawn for _, drawn in frames.values()):
+        messages.remark(f"the mechanism alone, as nothing can be drawn there, in {bare} of {len(frames)} poses")
+    poses, (each, name) = [k for k in moved.order if k in frames], travel_unit(drawing.scene)
+    words = (arrange("{0}°" if name == "degrees" else "{0} {1}", digits(float(turn.travel[k]) / each), unit(name))
+             for k in poses)
+    return Film([frames[k][0] for k in poses], [composition.plans.tongue(caption) for caption in words], seconds)

@@ -231,11 +231,10 @@ def inner(value: Value) -> Iterator[Field]:
             yield from inner(entry)
 
 
-def on_link(row: TableRow, link: str, what: str = "link") -> bool:
-    """Whether the point of a row is a point of this link; a fault where it is not."""
+def is_on_link(row: TableRow, key: str, point: str, link: str, what: str = "link") -> bool:
+    """Whether a point that a key names is a point of this link; a fault where it is not."""
     points = row.names.links.get(link, ())
-    key = "at" if "at" in row.items else "centre"
-    if points and row[key] not in points:
+    if points and point not in points:
         instead = "one of " + ", ".join(sorted(points, key=by_name))
-        row.items[key].fault(f"{row[key]} is not a point of {what} {link}", instead)
-    return row[key] in points
+        row.items[key].fault(f"{point} is not a point of {what} {link}", instead)
+    return point in points

@@ -13,7 +13,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from graphplan.mechanism.fields import Either, Field, Kind, Named, Rows, SceneNames, Table, TableRow, on_link
+from graphplan.mechanism.fields import Either, Field, Kind, Named, Rows, SceneNames, Table, TableRow, is_on_link
 from graphplan.mechanism.items import Item, describe, suggestion
 from graphplan.mechanism.loads import SPEED, SPEED_OF, TRAVEL, LoadTable
 from graphplan.mechanism.model import FRAME, Balance, Contact, Drive, Force, Friction, Loads, Mass, Moment, Pair, Slide
@@ -197,11 +197,15 @@ def _check_mass(link: str, item: Item, names: SceneNames) -> None:
         item.faults.unknown(item.where, "link", link, names.links)
 
 
+def _mass(row: TableRow) -> Mass | None:
+    return Mass(**row.values) if is_on_link(row, "centre", row["centre"], row.item.key) else None
+
+
 MASSES = Named(Table("a mass", (
     Field("mass", "its mass", AMOUNT, "a mass, such as mass = 10"),
     Field("inertia", "its inertia about the centre of mass, in mass * m^2", AMOUNT, default=0),
     Field("centre", "its centre of mass, a point of that link", POINT, 'a point of the link, such as centre = "S"'),
-), lambda row: Mass(**row.values) if on_link(row, row.item.key) else None), LINK, _check_mass)
+), _mass), LINK, _check_mass)
 
 _LOADED = moving("a load on the frame moves nothing")
 _STILL: Pair = (Fraction(0), Fraction(0))
@@ -210,7 +214,7 @@ _STILL: Pair = (Fraction(0), Fraction(0))
 def _force(row: TableRow) -> Force | None:
     """A force; of one with a table the value is filled in once the whole scene is read."""
     changing, load_table = "over" in row.items, table(row)
-    if not on_link(row, row["on"]) or (changing and load_table is None):
+    if not is_on_link(row, "at", row["at"], row["on"]) or (changing and load_table is None):
         return None
     if "direction" in row.items and not changing:
         return row.items["direction"].fault("a constant force has its direction in its value", "value, or over")
@@ -248,7 +252,7 @@ MOMENTS = Rows(Table("a moment", (
 
 def _balance(row: TableRow) -> Balance | None:
     vector, _, written = row["direction"]
-    return Balance(row["on"], row["at"], vector, written) if on_link(row, row["on"]) else None
+    return Balance(row["on"], row["at"], vector, written) if is_on_link(row, "at", row["at"], row["on"]) else None
 
 
 _BALANCED = moving("a balance on the frame, which does not move, keeps no motion")

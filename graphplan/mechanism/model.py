@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import permutations
-from typing import Any
+from typing import Any, TypeVar
 
 from graphplan.mechanism.loads import Balance, Force, Friction, Loads, LoadTable, Mass, Moment
 from graphplan.mechanism.numbers import Number, Pair
@@ -24,6 +24,8 @@ from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.units import Units
 from graphplan.mechanism.values import Written
+
+T = TypeVar("T", bound=KinematicPair)
 
 __all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Extreme", "Find", "Flywheel", "Force",
            "Friction", "Gear", "LoadTable", "Loads", "Mass", "Moment", "Motion", "Number", "Pair", "Placement",
@@ -270,20 +272,24 @@ class Scene:
         """The points of the revolute pairs."""
         return tuple(pair.at for pair in self.revolutes)
 
+    def _written_as(self, kind: type[T]) -> tuple[T, ...]:
+        """The pairs of a kind, in the order in which they are written."""
+        return tuple(pair for pair in self.written if isinstance(pair, kind))
+
     @cached_property
     def slides(self) -> tuple[Slide, ...]:
         """The pairs with a guide."""
-        return tuple(pair for pair in self.written if isinstance(pair, Slide))
+        return self._written_as(Slide)
 
     @cached_property
     def gears(self) -> tuple[Gear, ...]:
         """The links that are geared with each other."""
-        return tuple(pair for pair in self.written if isinstance(pair, Gear))
+        return self._written_as(Gear)
 
     @cached_property
     def contacts(self) -> tuple[Contact, ...]:
         """The links that touch each other."""
-        return tuple(pair for pair in self.written if isinstance(pair, Contact))
+        return self._written_as(Contact)
 
     def across_link(self, link: str, places: Mapping[str, tuple[Any, Any]]) -> tuple[Any, Any]:
         """Square to a link that is a bar between two joints; of any other link along x."""
@@ -307,7 +313,7 @@ class Scene:
     @cached_property
     def drives(self) -> tuple[Drive, ...]:
         """The drives."""
-        return tuple(pair for pair in self.written if isinstance(pair, Drive))
+        return self._written_as(Drive)
 
     def with_drives(self, drives: Iterable[Drive]) -> Scene:
         """The scene with other drives."""

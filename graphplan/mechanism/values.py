@@ -6,8 +6,7 @@ from collections.abc import Callable, Collection
 from fractions import Fraction
 from typing import Any
 
-from graphplan.errors import by_name
-from graphplan.mechanism.fields import Kind, SceneNames, TableRow
+from graphplan.mechanism.fields import Kind, SceneNames, TableRow, is_on_link
 from graphplan.mechanism.items import Item, Vector, describe
 from graphplan.mechanism.numbers import FLOAT_RECKONING, Pair, Reckoning, exactly, is_exact, number_text
 from graphplan.mechanism.pairs.pair import FRAME
@@ -75,12 +74,8 @@ RADII = _two("radii", "[48, 72]")
 
 def centres_on(row: TableRow, *wanted: tuple[str, str]) -> bool:
     """Whether each of these centres is a point of its link; a fault for one that is not."""
-    astray = [(centre, link) for centre, link in wanted if centre not in row.names.links.get(link, ())]
-    for centre, link in astray:
-        if points := row.names.links.get(link, ()):
-            instead = "one of " + ", ".join(sorted(points, key=by_name))
-            row.items["centres"].fault(f"{centre} is not a point of link {link}", instead)
-    return not astray
+    misplaced = [centre for centre, link in wanted if not is_on_link(row, "centres", centre, link)]
+    return not misplaced
 
 
 def choice(*words: str) -> Kind:

@@ -7,7 +7,7 @@ import json
 import pytest
 from command_line import run
 
-from graphplan.commands.arguments import with_values_joined
+from graphplan.commands.__init__ import with_values_joined
 
 JOINED = {
     "solve five-bar --at -3,1.5": "solve five-bar --at=-3,1.5",

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from graphplan.mechanism.fields import Field, Rows, Table, TableRow, on_link
+from graphplan.mechanism.fields import Field, Rows, Table, TableRow, is_on_link
 from graphplan.mechanism.numbers import Pair, quarter_turn
 from graphplan.mechanism.pairs.pair import LINE, TURNING, Along, GivenPose, KinematicPair, Statement, Turning
 from graphplan.mechanism.values import GUIDE, LINK, POINT, Written
@@ -73,7 +73,9 @@ def _read(row: TableRow) -> Slide | None:
     link, along = row["link"], row["along"]
     if link == along:
         return row.item.fault(f"link {link} slides along itself", "two different links")
-    return Slide(link, along, row["at"], *row["direction"]) if on_link(row, link, "the sliding link") else None
+    if not is_on_link(row, "at", row["at"], link, "the sliding link"):
+        return None
+    return Slide(link, along, row["at"], *row["direction"])
 
 
 FIELD = Field("slides", "a sliding pair: one link slides along another", Rows(Table("a sliding pair", (

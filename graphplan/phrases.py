@@ -109,7 +109,7 @@ class Unknown(ABC):
         """The length of a vector of which it is a component, and what other number is the other."""
 
 
-class Undecided(Exception, ABC):
+class UndecidedText(Exception, ABC):
     """What was asked of an unknown number hangs on its value."""
 
     @abstractmethod
@@ -121,7 +121,7 @@ def in_any_case(tell: Callable[[], Said]) -> Said:
     """What is told; of unknown numbers, whatever they turn out to be."""
     try:
         return tell()
-    except Undecided as asked:
+    except UndecidedText as asked:
         return asked.say_both(tell)
 
 

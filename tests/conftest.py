@@ -15,7 +15,7 @@ import pytest
 from hypothesis import settings
 from tiers import A_CLAIM, THOROUGH, sample, scenes, spread
 
-from graphplan.commands import GARBAGE
+from graphplan.commands import GC_THRESHOLD
 from graphplan.mechanism.scene import packaged_names
 
 PACKAGED = frozenset(packaged_names())
@@ -41,7 +41,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 def pytest_collection_finish() -> None:
     """What is collected stays to the end: garbage is looked for in what the tests make alone, and as by a command."""
     gc.freeze()
-    gc.set_threshold(GARBAGE)
+    gc.set_threshold(GC_THRESHOLD)
 
 
 def share(function: str, made: Sequence[pytest.Item]) -> Iterator[pytest.Item]:

@@ -14,7 +14,7 @@ from typing import Any
 from graphplan.cams.law import DWELL, MOTIONS, TABLE, Law, LawStage, spline
 from graphplan.cams.tolerances import LIFT_TOL
 from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
-from graphplan.mechanism.items import Faults, Item, Vector, describe
+from graphplan.mechanism.items import Faults, SceneItem, Vector, describe
 from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.numbers import number_text
 from graphplan.mechanism.scene import read_task, task_table, task_text
@@ -90,7 +90,7 @@ class Task:
 # ---- the law --------------------------------------------------------------------------------------------------------
 
 
-def _rows(item: Item, names: SceneNames) -> tuple[tuple[Fraction, Fraction], ...] | None:
+def _rows(item: SceneItem, names: SceneNames) -> tuple[tuple[Fraction, Fraction], ...] | None:
     """The angles and lifts of a table, both from 0, the angles rising."""
     if not isinstance(item.value, list) or len(item.value) < 3:
         return item.fault(f"{describe(item.value)} where angles and lifts are wanted",
@@ -142,7 +142,7 @@ LAW = Rows(Either((
 # ---- follower and cam -----------------------------------------------------------------------------------------------
 
 
-def _offset(item: Item, names: SceneNames) -> Fraction | str | None:
+def _offset(item: SceneItem, names: SceneNames) -> Fraction | str | None:
     return SMALLEST if item.value == SMALLEST else item.number()
 
 
@@ -178,18 +178,18 @@ FOLLOWER = Table("the follower", (
 ), _follower)
 
 
-def _base(item: Item, names: SceneNames) -> Fraction | str | None:
+def _base(item: SceneItem, names: SceneNames) -> Fraction | str | None:
     return str(item.value) if item.value in (PRESSURE, CONVEX) else item.positive("radius")
 
 
-def _angle(item: Item, names: SceneNames) -> Fraction | None:
+def _angle(item: SceneItem, names: SceneNames) -> Fraction | None:
     number = item.positive("angle")
     if number is not None and number >= 90:
         return item.fault(f"the angle {number_text(number)} is not below 90", "30 as a rule")
     return number
 
 
-def _divisions(item: Item, names: SceneNames) -> int | None:
+def _divisions(item: SceneItem, names: SceneNames) -> int | None:
     number = item.number()
     if number is not None and (number.denominator != 1 or not MIN_DIVISIONS <= number <= MAX_DIVISIONS):
         return item.fault(f"{number_text(number)} is not a number of divisions",

@@ -22,7 +22,7 @@ MODULES = {"list": "catalogue", "import": "import_"}  # whose own names Python h
 # all others take a scene
 SCENELESS = ("new", "list", "import", "watch", "cam", "balance", "chart", "gallery", "schema", "completion")
 
-GARBAGE = 100_000  # new objects before any is looked through: a command lives briefly and leaves little
+GC_THRESHOLD = 100_000  # new objects before any is looked through: a command lives briefly and leaves little
 
 EXAMPLES = """\
 examples:
@@ -43,7 +43,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _run(list(argv))
     if sys.stderr is None:  # it is closed
         sys.stderr = open(os.devnull, "w")  # noqa: SIM115
-    gc.set_threshold(GARBAGE)
+    gc.set_threshold(GC_THRESHOLD)
     status = _run(sys.argv[1:])
     gc.freeze()  # the process ends here: nothing is looked through once more
     return status

@@ -10,7 +10,7 @@ from itertools import permutations
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from graphplan.accuracy import PREFERENCES
-from graphplan.commands.output import DOTS, Messages
+from graphplan.commands.output import DEFAULT_DPI, Messages
 from graphplan.errors import ConstructionError, Disagreement, Refused, SingularPose
 from graphplan.mechanism.items import suggestion
 from graphplan.mechanism.pairs.pair import FRAME
@@ -92,7 +92,7 @@ def add_diagrams(command: argparse.ArgumentParser, source: str = "scene") -> Non
     """The options that say what a sheet of diagrams looks like; without them the scene, or the task, has a say in it.
     """
     add = command.add_argument
-    add("--dpi", type=count("--dpi", 20, 600), metavar="N", help=f"dots per inch of a .png ({DOTS})")
+    add("--dpi", type=count("--dpi", 20, 600), metavar="N", help=f"dots per inch of a .png ({DEFAULT_DPI})")
     add_paper(command, f"the sheet; without it the {source}'s, or the smallest that will do")
     add("--frame", choices=FRAMES, help=f"frame and title block; without it the {source}'s, or iso")
 

@@ -15,7 +15,7 @@ from graphplan.commands.choices import add_paper, add_pencil, count, pencil
 from graphplan.commands.output import Messages, as_json, write
 from graphplan.methods.styles import motion_plans
 
-HAND = 4096  # bytes for what one hand draws, as measured
+BYTES_PER_HAND = 4096  # bytes for what one hand draws, as measured
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -34,7 +34,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.errors import Disagreement
     from graphplan.mechanism.scene import load
 
-    afford("--hands", options.hands, "hands", HAND)
+    afford("--hands", options.hands, "hands", BYTES_PER_HAND)
     scene, hand, messages = load(options.scene), pencil(options), Messages(options.quiet)
     comparisons = []
     for strict, plan in product((False, True), motion_plans(scene)):

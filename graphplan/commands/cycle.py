@@ -43,7 +43,7 @@ NOTHING_REACHED = 3
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("--positions", type=count("--positions", 1), metavar="N",
-        help=f"how many poses; without it an animation has {POSES}")
+        help=f"how many poses; without it an animation has {DEFAULT_POSES}")
     add("--from", type=float, dest="start", metavar="A",
         help="a range of the first drive's travel from the given pose, in degrees or lengths; without it one full turn")
     add("--to", type=float, dest="end", metavar="B", help="the end of the range, which is a pose too")
@@ -164,18 +164,18 @@ def _reason(note: str) -> str:
 
 
 ANIMATION_ENDINGS = (".gif", ".svg")
-POSES, MAX_POSES = 48, 240
-SECONDS, MAX_SECONDS = 6, 120
-WIDTH, MIN_WIDTH, MAX_WIDTH = 900, 200, 2400  # pixels
+DEFAULT_POSES, MAX_POSES = 48, 240
+DEFAULT_SECONDS, MAX_SECONDS = 6, 120
+DEFAULT_WIDTH, MIN_WIDTH, MAX_WIDTH = 900, 200, 2400  # pixels
 MAX_PIXELS = 2e8  # pixels of all pictures of a .gif, were they square: about as many bytes of memory
 
 
 def add_animation(add: Callable[..., Any]) -> None:
     add("--animate", metavar="FILE.gif", help="the construction in motion: .gif, or an animated .svg")
     add("--seconds", type=count("--seconds", 1, MAX_SECONDS), metavar="S",
-        help=f"how long an animation takes until it begins again ({SECONDS})")
+        help=f"how long an animation takes until it begins again ({DEFAULT_SECONDS})")
     add("--width", type=count("--width", MIN_WIDTH, MAX_WIDTH), metavar="W",
-        help=f"how many pixels wide an animation is ({WIDTH})")
+        help=f"how many pixels wide an animation is ({DEFAULT_WIDTH})")
 
 
 def check_animation(options: argparse.Namespace) -> None:
@@ -186,7 +186,7 @@ def check_animation(options: argparse.Namespace) -> None:
             raise Refused(f"--{name}", "only an animation uses it", "add --animate FILE.gif, or leave it out")
     if options.positions is None and (options.output or options.plot or not (options.animate or options.paths)):
         raise Refused("--positions", "the number of poses is missing", "such as --positions 36")
-    poses, width = options.positions or POSES, options.width or WIDTH
+    poses, width = options.positions or DEFAULT_POSES, options.width or DEFAULT_WIDTH
     if options.animate and poses > MAX_POSES:
         raise Refused(f"--positions {poses}", "too many poses", f"at most {MAX_POSES}")
     if ending == ".gif" and options.animate and poses * width**2 > MAX_PIXELS:
@@ -201,9 +201,9 @@ def write_animation(options: argparse.Namespace, span: tuple[float, float] | Non
 
     options.protocol = "none"  # there is no time to read it
     on_sheet, messages = on_paper(options), Messages(options.quiet)
-    motion = loop(on_sheet.drawing.scene, options.positions or POSES, span)
-    film = _film(on_sheet.drawing, on_sheet.composition, motion, options.seconds or SECONDS, messages)
-    width = options.width or WIDTH
+    motion = loop(on_sheet.drawing.scene, options.positions or DEFAULT_POSES, span)
+    film = _film(on_sheet.drawing, on_sheet.composition, motion, options.seconds or DEFAULT_SECONDS, messages)
+    width = options.width or DEFAULT_WIDTH
     written = (svg if kind(options.animate, ANIMATION_ENDINGS, "animation") == ".svg" else gif)(film, width)
     write(written, options.animate)
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 ENDINGS = (".html",)
 CHOICES = "plans", "methods", "languages"
-AGAIN = 2  # further constructions for the poses of a plan or method that is not the page's own: each takes its time
+MAX_ALTERNATIVES = 2  # further constructions for a plan or method that is not the page's own: each takes its time
 MAX_OFFERED = 2  # constructions for the poses of a page: their words in all languages are small, and quickly told
 PLANS = "polar", "orthogonal"
 
@@ -97,7 +97,7 @@ def _variants(options: argparse.Namespace) -> Iterator[Variant]:
             composition = compose(drawing, protocol="none")
             alternatives = _alternatives(drawing)
             yield Variant(drawing.plan, method,
-                          on_one_sheet(composition, alternatives if first else alternatives[:AGAIN]))
+                          on_one_sheet(composition, alternatives if first else alternatives[:MAX_ALTERNATIVES]))
 
 
 def _alternatives(drawing: Construction) -> list[Construction]:

@@ -27,13 +27,13 @@ from graphplan.errors import Refused, printable
 
 STANDARD = "-"
 RED, PLAIN = "\x1b[31m", "\x1b[0m"
-WIDTH = 60  # of the line of progress, which is written over and over
-ROW = 100  # of a row of numbers
+PROGRESS_WIDTH = 60  # of the line of progress, which is written over and over
+MAX_ROW_LENGTH = 100  # of a row of numbers
 NUMBERS = re.compile(r"\[\n( *)([-+\d.eE,\s]+|(?:[-+\d.eE,\s]|null|NaN|Infinity)+)\]")  # no string has a line's end
 
 
 SHEETS = (".svg", ".pdf", ".png", ".dxf", ".tex")  # what sheets of diagrams are written as
-DOTS = 150  # per inch
+DEFAULT_DPI = 150  # per inch
 PROTOCOL = "-protocol"  # what the name of a page of words adds to that of the sheet
 
 
@@ -144,7 +144,8 @@ def write_sheets(pages: Sequence[Any], path: str | None, ending: str, dpi: int |
     else:
         module, function = {"png": ("pdf_png", "png"), "tex": ("exports.ink_tikz", "sheet_tikz")}.get(
             ending, (ending, ending))
-        write_out, look = getattr(loaded(ending, module), function), {"dpi": dpi or DOTS} if ending == "png" else {}
+        write_out, look = getattr(loaded(ending, module),
+                                  function), {"dpi": dpi or DEFAULT_DPI} if ending == "png" else {}
         names = page_names(path, len(pages), PROTOCOL)
         write_all([(name, write_out(page, **look)) for name, page in zip(names, pages, strict=False)])
 
@@ -171,9 +172,9 @@ def as_json(data: Any, indent: int = 1, rows: bool = False) -> str:
 def _row(listed: re.Match[str]) -> str:
     """A list of numbers on one line, or filling lines where it is long."""
     row = " ".join(listed[2].split())
-    if len(row) <= ROW:
+    if len(row) <= MAX_ROW_LENGTH:
         return f"[{row}]"
-    lines = textwrap.wrap(row, ROW, initial_indent=listed[1], subsequent_indent=listed[1])
+    lines = textwrap.wrap(row, MAX_ROW_LENGTH, initial_indent=listed[1], subsequent_indent=listed[1])
     return "\n".join(["[", *lines, listed[1][:-1] + "]"])
 
 
@@ -294,7 +295,7 @@ def error(line: str) -> None:
 def _say(line: str, before: str = "", after: str = "") -> None:
     """A line, which covers progress that may stand there."""
     text = printable(line)
-    covering = f"{text:<{WIDTH}}" if sys.stderr.isatty() else text
+    covering = f"{text:<{PROGRESS_WIDTH}}" if sys.stderr.isatty() else text
     _tell(f"{before}{covering}{after}\n")
 
 
@@ -317,4 +318,4 @@ class Messages:
     def progress(self, told: str) -> None:
         """Say how far it is, over what was said before; nothing when it is done."""
         if not self.quiet and sys.stderr.isatty():
-            _tell(f"\r{told:<{WIDTH}}\r")
+            _tell(f"\r{told:<{PROGRESS_WIDTH}}\r")

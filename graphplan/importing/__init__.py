@@ -24,7 +24,7 @@ from graphplan.importing.written import propose_scene
 from graphplan.marking.files.safe import MB, contents, unpack
 from graphplan.mechanism.scene import parse
 
-LARGEST = 16 * MB
+MAX_BYTES = 16 * MB
 SCENE = "scene.toml"  # the member of an archive
 KINDS = ".ggb (GeoGebra), .dxf, .linkage2 (Linkage), or a .csv, .pmks or address of PMKS+"
 COMMENT = re.compile(rb"^ *999\r?\nscene: ?([^\r\n]*)", re.MULTILINE)
@@ -36,7 +36,7 @@ def import_scene(path: Path) -> str:
 
     Fails with `Refused` where the file is of no kind that is known, is damaged, or nothing in it moves.
     """
-    data = contents(path, LARGEST)
+    data = contents(path, MAX_BYTES)
     if carried := _embedded_scene(path, data):
         try:
             parse(carried, f"{path}")
@@ -56,7 +56,7 @@ def _embedded_scene(path: Path, data: bytes) -> str:
     found = ""
     with suppress(Refused, UnicodeDecodeError):
         if data.startswith(b"PK"):
-            found = unpack(path, data, SCENE, LARGEST).decode()
+            found = unpack(path, data, SCENE, MAX_BYTES).decode()
         elif lines := COMMENT.findall(data):
             found = b"\n".join(lines).decode() + "\n"
         elif data.lstrip()[:1] == b"<" and (held := SCRIPT.search(data.decode())):

@@ -31,7 +31,7 @@ OWN, SYMBOLS = "MECHANISM 1-1 ", re.compile(r"blocks|drive|dimensions")  # of gr
 MAX_PIN_RADIUS = 0.06  # of the drawing: a larger circle is no pin
 NAME_REACH = 2.5  # heights of letters from a pin to its name
 UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}  # of $INSUNITS
-THINGS = 4000
+MAX_ENTITIES = 4000
 
 
 def read(path: Path, data: bytes) -> LinkageSketch:
@@ -69,7 +69,7 @@ class _DxfLinkage:
 
     def sketch(self) -> LinkageSketch:
         """Its sketch: joints, links, slides, what is fixed and what drives."""
-        self.budget = Budget(self.path, THINGS, "lines, circles and texts")
+        self.budget = Budget(self.path, MAX_ENTITIES, "lines, circles and texts")
         self.hidden = {layer.dxf.name for layer in self.document.layers if layer.is_off() or layer.is_frozen()}
         self.own = any(layer.dxf.name.startswith(OWN) for layer in self.document.layers)
         self._read(self.document.modelspace(), 0, "")

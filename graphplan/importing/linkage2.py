@@ -23,7 +23,7 @@ from graphplan.mechanism.model import FRAME
 
 DRAWING = 0xF  # the layers of what only is drawn
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
-STROKES = 30  # an actuator makes its throw twice in a cycle
+STROKES_PER_CYCLE = 30  # an actuator makes its throw twice in a cycle
 
 
 def read(path: Path, data: bytes) -> LinkageSketch:
@@ -86,7 +86,7 @@ class _Linkage:
         rod = sketch.link([end], name=f"{name} rod" if name else "")
         sketch.guides.append(SketchGuide(rod, barrel, end, (start, end)))
         throw, cycles = (read_number(link.get(key, "0") or "0") for key in ("throw", "cpm"))
-        speed = throw * cycles / STROKES
+        speed = throw * cycles / STROKES_PER_CYCLE
         motion = f"throw {number(throw)}, {number(cycles)} cycles a minute"
         remark = f"An actuator: {motion}, here at the speed of its stroke."
         if not speed:

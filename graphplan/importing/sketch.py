@@ -18,7 +18,7 @@ from graphplan.mechanism.model import FRAME
 Way = tuple[str, str] | complex
 """The direction of a guide: from one point to another, or a vector."""
 
-MAX_LINKS, MOST = 300, 1500  # links, and points that they have together
+MAX_LINKS, MAX_POINTS = 300, 1500  # links, and points that they have together
 MAX_DISTANCE = 1e9  # from the origin
 
 
@@ -98,8 +98,8 @@ class LinkageSketch:
 
     def hold(self, link: str, *points: str) -> None:
         """Give a link further points; fails with `ValueError` where there are too many."""
-        if sum(map(len, self.links.values())) + len(points) > MOST:
-            raise ValueError(f"its links have more than {MOST} points")
+        if sum(map(len, self.links.values())) + len(points) > MAX_POINTS:
+            raise ValueError(f"its links have more than {MAX_POINTS} points")
         self.links[link] = [*dict.fromkeys([*self.links[link], *points])]
 
     def note(self, told: str) -> None:

@@ -19,7 +19,7 @@ from graphplan.mechanism.scene import parse
 from graphplan.mechanism.scene_text import decimal_text
 
 BARE = re.compile(r"[A-Za-z0-9_-]+")
-DIGITS = 14  # of a coordinate, counted from the size of the sketch
+COORDINATE_DIGITS = 14  # of a coordinate, counted from the size of the sketch
 ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 MAX_NUMBER = 1e12
 MAX_TEXT_LENGTH = 300  # characters of a comment, a title or a source
@@ -143,7 +143,7 @@ def number(value: float, size: float = 1.0) -> str:
     """
     if not abs(value) < MAX_NUMBER:
         raise ValueError(f"the number {value:g} is too large")
-    places = DIGITS - Decimal(abs(size) or 1.0).adjusted()
+    places = COORDINATE_DIGITS - Decimal(abs(size) or 1.0).adjusted()
     return decimal_text(Fraction(round(Decimal(repr(float(value))), min(places, 60)) + 0))
 
 

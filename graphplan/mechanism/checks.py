@@ -19,7 +19,7 @@ from graphplan.mechanism.order import ordered_links
 from graphplan.mechanism.structure import Bracing, bracing, mobility
 from graphplan.mechanism.tolerances import COINCIDENCE_TOL
 
-TRIED, TOLD = 200, 3  # sets of points, in a scene with many loose ends
+MAX_PIVOT_SETS, MAX_PIVOT_SUGGESTIONS = 200, 3  # sets of points, in a scene with many loose ends
 
 
 def check_use(scene: Scene, elsewhere: Collection[str], faults: Faults) -> None:
@@ -234,10 +234,10 @@ def missing_pivots(scene: Scene, freedoms: int) -> list[tuple[str, ...]]:
     fixed = scene.links.get(FRAME, ())
     lone = {point: links[0] for point, links in scene.links_of.items() if len(links) == 1}
     ends = sorted(lone.keys() - {*fixed}, key=lambda p: (len(scene.links[lone[p]]), by_name(p)))
-    choices = islice(combinations(ends, freedoms // 2), TRIED)
+    choices = islice(combinations(ends, freedoms // 2), MAX_PIVOT_SETS)
     sound = (pivots for pivots in choices
              if bracing(replace(scene, links={**scene.links, FRAME: (*fixed, *pivots)})).sound)
-    return list(islice(sound, TOLD))
+    return list(islice(sound, MAX_PIVOT_SUGGESTIONS))
 
 
 def frame_entry(scene: Scene, way: tuple[str, ...]) -> str:
@@ -248,13 +248,13 @@ def frame_entry(scene: Scene, way: tuple[str, ...]) -> str:
 # --- questions: no faults, but what is more often a slip of the pen --------------------------------------------------
 
 
-ROUGHEST = 2
+MAX_FRICTION_COEFFICIENT = 2
 """A coefficient of friction: no dry surfaces of machines rub more, and a wedge-shaped slide seldom seems to."""
 
 
 def questions(scene: Scene) -> Iterator[Fault]:
     """What is to be looked at again, each with where it stands and what was perhaps meant."""
     for number, friction in enumerate(scene.loads.frictions if scene.loads else (), 1):
-        if (coefficient := friction.coefficient) > ROUGHEST:
+        if (coefficient := friction.coefficient) > MAX_FRICTION_COEFFICIENT:
             yield Fault(f"friction.{number}.coefficient", f"{number_text(coefficient)} is more than dry surfaces have",
                         f"perhaps {number_text(coefficient / 100)}, if that is in percent")

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple, TypeAlias
 
 from graphplan.errors import by_name
-from graphplan.mechanism.items import Item
+from graphplan.mechanism.items import SceneItem
 from graphplan.mechanism.numbers import Pair
 from graphplan.mechanism.pairs.pair import FRAME, KinematicPair
 from graphplan.mechanism.units import Units
@@ -81,8 +81,8 @@ class Field(NamedTuple):
 class TableRow:
     """A table as it was read: its values by key, the items that they are from, and what the scene has."""
 
-    item: Item
-    items: dict[str, Item]
+    item: SceneItem
+    items: dict[str, SceneItem]
     values: dict[str, Any]
     names: SceneNames
 
@@ -94,7 +94,7 @@ class Kind(NamedTuple):
     """A kind of value that is no table: in words, how it is read (None where that noted a fault), and its schema."""
 
     says: str
-    read: Callable[[Item, SceneNames], Any]
+    read: Callable[[SceneItem, SceneNames], Any]
     schema: Fragment
 
 
@@ -115,7 +115,7 @@ class Table(NamedTuple):
         """The names of its fields."""
         return [field.name for field in self.fields]
 
-    def read(self, item: Item, names: SceneNames) -> Any:
+    def read(self, item: SceneItem, names: SceneNames) -> Any:
         """What is made of a table; None where it, or a value in it, has a fault."""
         items = item.fields(self.keys, {field.name: field.wanted for field in self.fields if field.wanted})
         if items is None:
@@ -139,14 +139,14 @@ class Either(NamedTuple):
     """
 
     forms: tuple[Any, ...]
-    choose: Callable[[Item], Value | None] | None = None
+    choose: Callable[[SceneItem], Value | None] | None = None
 
     @property
     def says(self) -> str:
         """The forms in words."""
         return ", or ".join(form.says for form in self.forms)
 
-    def read(self, item: Item, names: SceneNames) -> Any:
+    def read(self, item: SceneItem, names: SceneNames) -> Any:
         """What the form makes of a table."""
         if self.choose:
             form = self.choose(item)
@@ -174,7 +174,7 @@ class Rows(NamedTuple):
         """The entries in words."""
         return f"{'a table or ' if self.single else ''}an array of tables: {self.entry.says}"
 
-    def read(self, item: Item, names: SceneNames) -> Any:
+    def read(self, item: SceneItem, names: SceneNames) -> Any:
         """What is made of the tables without faults, in order."""
         rows = [item] if self.single and not isinstance(item.value, list) else item.rows()
         entries: list[Any] = []
@@ -197,7 +197,7 @@ class Named(NamedTuple):
 
     entry: Value
     key: Kind
-    check: Callable[[str, Item, SceneNames], object] = lambda name, item, names: None
+    check: Callable[[str, SceneItem, SceneNames], object] = lambda name, item, names: None
     least: int = 0
 
     @property
@@ -205,7 +205,7 @@ class Named(NamedTuple):
         """The entries in words."""
         return f"by {self.key.says}: {self.entry.says}"
 
-    def read(self, item: Item, names: SceneNames) -> Any:
+    def read(self, item: SceneItem, names: SceneNames) -> Any:
         """What the entries say, without those that say nothing."""
         entries = {}
         for name, entry in (item.table() or {}).items():

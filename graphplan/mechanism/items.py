@@ -68,7 +68,7 @@ class Faults:
 
 
 @dataclass(frozen=True)
-class Item:
+class SceneItem:
     """A value as tomllib gave it, `where` it stands in the scene, the faults to add to, and the key it is under."""
 
     value: object
@@ -76,7 +76,7 @@ class Item:
     faults: Faults
     key: str = ""
 
-    def with_value(self, value: object) -> Item:
+    def with_value(self, value: object) -> SceneItem:
         """Another value at the same place, such as a part of this one."""
         return replace(self, value=value)
 
@@ -167,14 +167,14 @@ class Item:
             return self.fault(f"{describe(self.value)} where two points are wanted", f'two points such as "{such}"')
         return None if names is None else " ".join(names)
 
-    def table(self) -> dict[str, Item] | None:
+    def table(self) -> dict[str, SceneItem] | None:
         """The items of a table."""
         if not isinstance(self.value, dict):
             return self.fault(f"{describe(self.value)} where a table is wanted", "a table of keys and values")
         prefix = f"{self.where}." if self.where else ""
-        return {key: Item(value, prefix + quote_key(key), self.faults, key) for key, value in self.value.items()}
+        return {key: SceneItem(value, prefix + quote_key(key), self.faults, key) for key, value in self.value.items()}
 
-    def fields(self, known: Iterable[str], required: Mapping[str, str]) -> dict[str, Item] | None:
+    def fields(self, known: Iterable[str], required: Mapping[str, str]) -> dict[str, SceneItem] | None:
         """The items of a table with these keys only; `required` keys must be there, each with what it should say."""
         items, keys = self.table(), list(known)
         if items is None:
@@ -190,10 +190,10 @@ class Item:
             self.fault(f"{key} is missing", required[key])
         return None if missing else {key: items[key] for key in keys if key in items}
 
-    def rows(self) -> list[Item]:
+    def rows(self) -> list[SceneItem]:
         """The tables of an array of tables; their places are numbered from 1."""
         if isinstance(self.value, list):
-            return [Item(row, f"{self.where}.{i}", self.faults) for i, row in enumerate(self.value, 1)]
+            return [SceneItem(row, f"{self.where}.{i}", self.faults) for i, row in enumerate(self.value, 1)]
         self.fault(f"{describe(self.value)} where a list of tables is wanted", f"[[{self.where}]], in double brackets")
         return []
 

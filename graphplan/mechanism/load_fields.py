@@ -14,7 +14,7 @@ from itertools import pairwise
 from typing import Any
 
 from graphplan.mechanism.fields import Either, Field, Kind, Named, Rows, SceneNames, Table, TableRow, is_on_link
-from graphplan.mechanism.items import Item, describe, suggestion
+from graphplan.mechanism.items import SceneItem, describe, suggestion
 from graphplan.mechanism.loads import SPEED, SPEED_OF, TRAVEL, LoadTable
 from graphplan.mechanism.model import FRAME, Balance, Contact, Drive, Force, Friction, Loads, Mass, Moment, Pair, Slide
 from graphplan.mechanism.numbers import decimal, number_text
@@ -24,13 +24,13 @@ from graphplan.mechanism.values import AMOUNT, GUIDE, LINK, NUMBER, POINT, TWO_L
 
 MAX_ROWS = 100_000  # rows of a table
 MAX_BYTES = 8_000_000  # bytes of a file
-SUCH = "values = [[0, 0], [30, -1200], [360, 0]]"
-EITHER = "value", "over"
+ROWS_EXAMPLE = "values = [[0, 0], [30, -1200], [360, 0]]"
+VALUE_OR_OVER = "value", "over"
 COLUMNS = "lines of a place and a value, with a comma, a semicolon, a tab or blanks between them"
 Pairs = tuple[tuple[Fraction, Fraction], ...]
 
 
-def _read_over(item: Item, names: SceneNames) -> str | None:
+def _read_over(item: SceneItem, names: SceneNames) -> str | None:
     name = item.text("what the load changes with", 'over = "travel", or a slide such as over = "3 along frame"')
     slides = [pair.name for pair in names.pairs if isinstance(pair, Slide)]
     choices = [TRAVEL, *slides, SPEED, *(SPEED_OF + slide for slide in slides)]
@@ -39,16 +39,16 @@ def _read_over(item: Item, names: SceneNames) -> str | None:
     return item.fault(f"there is no slide {name}", suggestion(name, choices, "slide"))
 
 
-def _read_values(item: Item, names: SceneNames) -> Pairs | None:
+def _read_values(item: SceneItem, names: SceneNames) -> Pairs | None:
     if not isinstance(item.value, list):
-        return item.fault(f"{describe(item.value)} where rows are wanted", SUCH)
+        return item.fault(f"{describe(item.value)} where rows are wanted", ROWS_EXAMPLE)
     if len(item.value) > MAX_ROWS:
         return item.fault(f"{len(item.value)} rows", f"at most {MAX_ROWS}")
     rows = [item.with_value(row).vector() for row in item.value]
     return None if None in rows else tuple(row for row in rows if row)
 
 
-def _read_powers(item: Item, names: SceneNames) -> tuple[Fraction, ...] | None:
+def _read_powers(item: SceneItem, names: SceneNames) -> tuple[Fraction, ...] | None:
     if not isinstance(item.value, list) or not 1 <= len(item.value) <= 3:
         return item.fault(f"{describe(item.value)} where up to three numbers are wanted",
                           "powers = [c0, c1, c2] of the load c0 + c1 v + c2 v |v|")
@@ -56,7 +56,7 @@ def _read_powers(item: Item, names: SceneNames) -> tuple[Fraction, ...] | None:
     return None if None in coefficients else tuple(c for c in coefficients if c is not None)
 
 
-def _read_file(item: Item, names: SceneNames) -> Pairs | None:
+def _read_file(item: SceneItem, names: SceneNames) -> Pairs | None:
     name = item.text("the name of a file", 'the name of a file beside the scene, such as file = "indicator.csv"')
     if name is None:
         return None
@@ -77,7 +77,7 @@ def _read_file(item: Item, names: SceneNames) -> Pairs | None:
     return rows
 
 
-def _columns(item: Item, text: str) -> Pairs | None:
+def _columns(item: SceneItem, text: str) -> Pairs | None:
     """The two columns of a text; a line of words at its top is its head."""
     lines = [(number, line.partition("#")[0].strip()) for number, line in enumerate(text.splitlines(), 1)]
     lines = [(number, line) for number, line in lines if line]
@@ -136,7 +136,7 @@ def table(row: TableRow) -> LoadTable | None:
         return None
     if len(sources) != 1:
         problem = f"{' and '.join(sources)} are both given" if sources else "values is missing"
-        return row.item.fault(problem, f"one of values, file or powers, such as {SUCH}")
+        return row.item.fault(problem, f"one of values, file or powers, such as {ROWS_EXAMPLE}")
     if over == "travel" and not any(isinstance(pair, Drive) for pair in row.names.pairs):
         return row.items["over"].fault("the scene has no drive", "a slide, or a scene with a [[drive]]")
     item, where = row.items[sources[0]], row.item.where
@@ -159,7 +159,7 @@ def _out_of_order(table: LoadTable) -> Iterator[tuple[str, str]]:
     """What is wrong with the order of a table's rows, and what would be right."""
     places = [place for place, _ in table.rows]
     if len(places) < 2 or len({*places}) < 2:
-        yield "a table of fewer than two places", f"at least two rows, such as {SUCH}"
+        yield "a table of fewer than two places", f"at least two rows, such as {ROWS_EXAMPLE}"
         return
     around = [*places, *places[:2]] if table.over_position else places
     for three in zip(around, around[1:], around[2:], strict=False):
@@ -189,7 +189,7 @@ def _period(table: LoadTable, names: SceneNames) -> Fraction:
 # --- masses, forces, moments ---------------------------------------------------------------------------------------
 
 
-def _check_mass(link: str, item: Item, names: SceneNames) -> None:
+def _check_mass(link: str, item: SceneItem, names: SceneNames) -> None:
     """A fault where a link can have no mass."""
     if link == FRAME:
         item.fault("the frame is given a mass", "a moving link")
@@ -239,12 +239,12 @@ FORCES = Rows(Table("a force", (
     Field("at", "a point of that link", POINT, 'a point of that link, such as at = "C"'),
     Field("value", "the components of the force", VECTOR),
     DIRECTION, *TABLE,
-), _force, either=EITHER, remedy="two components, such as value = [-150, 0], or over and a table"))
+), _force, either=VALUE_OR_OVER, remedy="two components, such as value = [-150, 0], or over and a table"))
 MOMENTS = Rows(Table("a moment", (
     Field("on", "the loaded link", _LOADED, 'the loaded link, such as on = "3"'),
     Field("value", "the moment in force * m, counter-clockwise positive", NUMBER),
     *TABLE,
-), _moment, either=EITHER, remedy="a moment, such as value = 12.0, or over and a table"))
+), _moment, either=VALUE_OR_OVER, remedy="a moment, such as value = 12.0, or over and a table"))
 
 
 # --- balance and friction ------------------------------------------------------------------------------------------

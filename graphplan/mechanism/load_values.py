@@ -17,7 +17,7 @@ from graphplan.mechanism.equations import Elimination
 from graphplan.mechanism.loads import SPEED, LoadTable
 from graphplan.mechanism.model import Force, Moment, Scene, Slide
 from graphplan.mechanism.numbers import Number, Pair, dot, exactly, is_exact, minus, root, times
-from graphplan.mechanism.pairs.pair import FRAME, Along, LinkSide, LinkSides, Rate, Statement
+from graphplan.mechanism.pairs.pair import FRAME, Along, PairSide, PairSides, Rate, Statement
 from graphplan.mechanism.tolerances import DEAD_POINT_TOL
 from graphplan.mechanism.travel import sense_of_travel
 
@@ -163,10 +163,10 @@ class OwnPose:
         return {columns[link] + k: Fraction(weight) for (link, _), rate in zip(fact.ends, weights, strict=True)
                 if link in columns for k, weight in enumerate(rate)}
 
-    def _sides(self, fact: Statement, rates: Mapping[str, Rate]) -> LinkSides:
+    def _sides(self, fact: Statement, rates: Mapping[str, Rate]) -> PairSides:
         """The two links of a statement, with these rates; a link's base is at the scene's origin."""
         none = Fraction(0)
-        return LinkSides(*(LinkSide(exactly(self.scene.points[point]) if point else (none, none),
+        return PairSides(*(PairSide(exactly(self.scene.points[point]) if point else (none, none),
                                     rates.get(link, Rate(none, none, none))) for link, point in fact.ends))
 
 

@@ -44,10 +44,10 @@ def dot(a: Pair, b: Pair) -> Number:
     return a[0] * b[0] + a[1] * b[1]
 
 
-_DIGITS = 100
+MAX_NUMERAL_LENGTH = 100
 """The longest numeral that is read: no drawing needs more, and exact arithmetic on more may never end."""
 
-_DECADES = 60
+MAX_DECADES = 60
 """Numbers beyond 10^±60 are refused: their fourth powers would leave the range of a float."""
 
 ROOT_BITS = 200
@@ -64,16 +64,17 @@ class Unusable:
 def decimal(text: str) -> Fraction | Unusable:
     """The number that a TOML float says, exactly; 0.1 is one tenth."""
     try:
-        number = Decimal(text[: _DIGITS + 1])
+        number = Decimal(text[: MAX_NUMERAL_LENGTH + 1])
     except InvalidOperation:
         return Unusable(text[:20])
-    usable = len(text) <= _DIGITS and number.is_finite() and (number == 0 or abs(number.adjusted()) < _DECADES)
+    usable = len(text) <= MAX_NUMERAL_LENGTH and number.is_finite() and (number == 0
+                                                                         or abs(number.adjusted()) < MAX_DECADES)
     return Fraction(number) if usable else Unusable(text[:20])
 
 
 def integer(value: int) -> Fraction | Unusable:
     """The number that a TOML integer says, if it is of a usable size."""
-    if value.bit_length() > _DECADES * 10 // 3:
+    if value.bit_length() > MAX_DECADES * 10 // 3:
         return Unusable("an integer that is too large")
     return Fraction(value)
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from graphplan.errors import by_name
 from graphplan.mechanism.fields import Either, Field, Kind, Named, SceneNames, Table, Value
-from graphplan.mechanism.items import Item, describe, quote_key
+from graphplan.mechanism.items import SceneItem, describe, quote_key
 from graphplan.mechanism.model import Pair, Placement
 from graphplan.mechanism.numbers import FLOAT_RECKONING, Reckoning, exactly, is_exact, number_text
 from graphplan.mechanism.tolerances import TANGENCY_TOL
@@ -40,7 +40,7 @@ def _placement_table(how: str, says: str, *fields: Field) -> Table:
 
 def _distances(wanted: int) -> Kind:
     """Distances from so many points."""
-    def read(item: Item, names: SceneNames) -> dict[str, Fraction] | None:
+    def read(item: SceneItem, names: SceneNames) -> dict[str, Fraction] | None:
         table = item.table()
         if table is None:
             return None
@@ -57,7 +57,7 @@ def _distances(wanted: int) -> Kind:
         "minProperties": wanted, "maxProperties": wanted})
 
 
-def _coordinates(item: Item, names: SceneNames) -> Placement | None:
+def _coordinates(item: SceneItem, names: SceneNames) -> Placement | None:
     at = item.vector()
     return None if at is None else Placement("given", {"at": at})
 
@@ -97,7 +97,7 @@ WAYS = (
 COORDINATES = Kind("coordinates [x, y]", _coordinates, VECTOR.schema)
 
 
-def _form(item: Item) -> Value | None:
+def _form(item: SceneItem) -> Value | None:
     """The way to place a point of which the most keys are there; coordinates where it is no table."""
     if not isinstance(item.value, dict):
         return COORDINATES
@@ -108,7 +108,7 @@ def _form(item: Item) -> Value | None:
                       'coordinates [x, y], or a table such as { from = "O", distance = 250, angle = 20 }')
 
 
-def _check_name(point: str, item: Item, names: SceneNames) -> None:
+def _check_name(point: str, item: SceneItem, names: SceneNames) -> None:
     """A fault where a point's name cannot stand in a list of points."""
     if "," in point or point.split() != [point] or not point.isprintable():
         item.fault("a point's name is empty or has blanks or commas", "a name without them, such as A2")
@@ -125,13 +125,13 @@ def needs(placement: Placement) -> tuple[str, ...]:
     return (*points_of(data.get("from")), *data.get("distances", ()), *chain.from_iterable(map(points_of, line)))
 
 
-def place(placements: Mapping[str, Placement], table: Item) -> dict[str, Pair]:
+def place(placements: Mapping[str, Placement], table: SceneItem) -> dict[str, Pair]:
     """The coordinates of all points that can be placed; the others are faults of `table`, or wait for such ones."""
     points: dict[str, Pair] = {}
     for name in _in_order(placements, table):
         placement = placements[name]
         if all(centre in points for centre in needs(placement)):
-            item = Item(None, f"{table.where}.{quote_key(name)}", table.faults)
+            item = SceneItem(None, f"{table.where}.{quote_key(name)}", table.faults)
             try:
                 points[name] = _put(placement, points)
             except Misfit as misfit:
@@ -158,7 +158,7 @@ def _put(placement: Placement, points: Mapping[str, Pair]) -> Pair:
     return (x, y) if exact and rational else (float(x), float(y))
 
 
-def _in_order(placements: Mapping[str, Placement], table: Item) -> list[str]:
+def _in_order(placements: Mapping[str, Placement], table: SceneItem) -> list[str]:
     """The points, each after those that place it; a ring of points that place each other is a fault and left out."""
     waiting = {name: [p for p in needs(placement) if p in placements] for name, placement in placements.items()}
     while True:

@@ -26,7 +26,7 @@ from graphplan.mechanism.checks import (
     check_use,
 )
 from graphplan.mechanism.fields import Field, SceneNames, Table
-from graphplan.mechanism.items import Faults, Item, quote_key, suggestion
+from graphplan.mechanism.items import Faults, SceneItem, quote_key, suggestion
 from graphplan.mechanism.load_fields import BALANCE, FORCES, FRICTION, MASSES, MOMENTS, loads_of
 from graphplan.mechanism.load_values import filled_in
 from graphplan.mechanism.model import Contact, Find, Gear, Pair, Presentation, Scene, Slide
@@ -174,11 +174,11 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
 
     Where something is faulty the scene is patched up, and only good for finding more faults.
     """
-    items = Item(tables, "", faults).fields(SCENE.keys, {}) or {}
+    items = SceneItem(tables, "", faults).fields(SCENE.keys, {}) or {}
     for field in SCENE.fields:
         if field.wanted and not (field.name in items and items[field.name].value):
             faults.add(field.name, f"the scene has no {field.name}", field.wanted)
-    points = items.get("points", Item({}, "points", faults))
+    points = items.get("points", SceneItem({}, "points", faults))
     names = SceneNames(dict.fromkeys(points.value) if isinstance(points.value, dict) else {}, tables=tables,
                        scene=name, folder=folder)
     kinds, read = {field.name: field.kind for field in SCENE.fields}, {}
@@ -332,7 +332,7 @@ def read_task(whole: Table, text: str, name: str, made: Callable[[dict[str, Any]
     Fails with `SceneError`, one line a fault, in which `name` stands for the file.
     """
     faults = Faults()
-    item, names = Item(tables_of(text, name), "", faults), SceneNames(())
+    item, names = SceneItem(tables_of(text, name), "", faults), SceneNames(())
     items = item.fields(whole.keys, {}) or {}
     read: dict[str, Any] = {}
     for field in sorted(whole.fields, key=lambda field: field.name != "units"):  # the sheet speaks of units

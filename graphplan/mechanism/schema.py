@@ -60,7 +60,7 @@ def schema(value: Value) -> Fragment:
             return fragment
 
 
-class KeyRow(NamedTuple):
+class ReferenceRow(NamedTuple):
     """A row of the reference of keys: a key, the head of a table, or one of the forms that a table may take."""
 
     level: str
@@ -79,7 +79,7 @@ def reference(whole: Table = SCENE) -> str:
     return "\n".join(["| key | takes | what it says |", "|---|---|---|", *rows, ""])
 
 
-def keys(whole: Table = SCENE) -> Iterator[KeyRow]:
+def keys(whole: Table = SCENE) -> Iterator[ReferenceRow]:
     """All keys of a scene, or of another file, table after table."""
     for field in whole.fields:
         match field.kind:
@@ -92,18 +92,18 @@ def keys(whole: Table = SCENE) -> Iterator[KeyRow]:
                 head = f"[{field.name}.{key.says.upper()}]"
             case Named(entry=entry) | entry:
                 head = f"[{field.name}]"
-        yield KeyRow(HEAD, head, "required" if field.wanted else "", field.words)
+        yield ReferenceRow(HEAD, head, "required" if field.wanted else "", field.words)
         forms = entry.forms if isinstance(entry, Either) else (entry,)
         for form in forms:
-            yield from [KeyRow(FORM, form.says, "", "")] if len(forms) > 1 else []
+            yield from [ReferenceRow(FORM, form.says, "", "")] if len(forms) > 1 else []
             yield from _rows(form.fields) if isinstance(form, Table) else []
 
 
-def _rows(fields: Iterable[Field], path: str = "") -> Iterator[KeyRow]:
+def _rows(fields: Iterable[Field], path: str = "") -> Iterator[ReferenceRow]:
     """The rows of keys, each before those below it."""
     for name, words, kind, required, default in fields:
         default_text = f"default {str(default).lower() if isinstance(default, bool) else default}"
         more = ["required"] if required else [] if default in (None, []) else [default_text]
-        yield KeyRow(KEY, f"{path}{name}", ", ".join([kind.says, *more]), words)
+        yield ReferenceRow(KEY, f"{path}{name}", ", ".join([kind.says, *more]), words)
         if isinstance(kind, Table):
             yield from _rows(kind.fields, f"{path}{name}.")

@@ -10,7 +10,7 @@ from math import pi
 
 from graphplan.errors import by_name
 from graphplan.mechanism.fields import Field, Kind, Named, SceneNames, Table, TableRow
-from graphplan.mechanism.items import Item, describe, suggestion
+from graphplan.mechanism.items import SceneItem, describe, suggestion
 from graphplan.mechanism.model import (
     FRAME,
     Contact,
@@ -45,7 +45,7 @@ from graphplan.words import LANGUAGES
 # --- links ---------------------------------------------------------------------------------------------------------
 
 
-def _link(item: Item, names: SceneNames) -> tuple[str, ...]:
+def _link(item: SceneItem, names: SceneNames) -> tuple[str, ...]:
     """The points of a link; none of a faulty one."""
     named = item.points(names.points)
     if named == ():
@@ -68,7 +68,7 @@ UNITS = Table("the units", (
 # --- motions and questions -----------------------------------------------------------------------------------------
 
 
-def _check_motion(point: str, item: Item, names: SceneNames) -> None:
+def _check_motion(point: str, item: SceneItem, names: SceneNames) -> None:
     """A fault where a point cannot have a given motion."""
     if point not in names.points:
         item.faults.unknown(item.where, "point", point, names.points)
@@ -84,7 +84,7 @@ MOTIONS = Named(Table("a motion", (
 ), lambda row: Motion(**row.values)), POINT, _check_motion)
 
 
-def _has_no_motion(point: object, item: Item, names: SceneNames) -> bool:
+def _has_no_motion(point: object, item: SceneItem, names: SceneNames) -> bool:
     """Whether a point that is asked for has no motion, as no link has it; that is a fault."""
     lonely = point in names.points and point not in names.link_counts and item.faults.none_in("links")
     if lonely:
@@ -92,7 +92,7 @@ def _has_no_motion(point: object, item: Item, names: SceneNames) -> bool:
     return lonely
 
 
-def _is_frame(name: object, item: Item, names: SceneNames) -> bool:
+def _is_frame(name: object, item: SceneItem, names: SceneNames) -> bool:
     """Whether it is the frame of which something is asked; that is a fault."""
     if name == FRAME:
         item.fault("the frame stands still", "a moving link")
@@ -120,7 +120,7 @@ def _points_on_links(names: SceneNames) -> tuple[str, ...]:
                  for point in sorted(names.links[link], key=by_name) if point in names.movable)
 
 
-def _has_no_path(name: object, item: Item, names: SceneNames) -> bool:
+def _has_no_path(name: object, item: SceneItem, names: SceneNames) -> bool:
     """Whether a point on a link that is asked for has no path; that is a fault."""
     point, on, link = name.partition(" on ") if isinstance(name, str) else ("", "", "")
     if not on or point not in names.points or link not in names.bodies:
@@ -143,7 +143,7 @@ def _turning(names: SceneNames) -> tuple[str, ...]:
     return tuple(link for link in _links(names) if link not in still)
 
 
-def _never_turns(link: object, item: Item, names: SceneNames) -> bool:
+def _never_turns(link: object, item: SceneItem, names: SceneNames) -> bool:
     """Whether a link that is asked for never turns; that is a fault."""
     if link in names.moving and link not in _turning(names):
         item.fault(f"link {link} only slides and never turns, so it has no inflection circle", "a link that turns")
@@ -253,14 +253,14 @@ LENGTH = r"(?=[0.]*[1-9])(\d{1,9}(?:\.\d{1,9})?)"  # above zero
 RATIO = rf"\s*{LENGTH}\s*:\s*{LENGTH}\s*"
 
 
-def _line(item: Item, names: SceneNames) -> str | None:
+def _line(item: SceneItem, names: SceneNames) -> str | None:
     text = item.text("a text", "a text in quotes")
     if text is not None and not text.replace("\N{NO-BREAK SPACE}", " ").isprintable():
         item.fault("a text with line breaks or characters that cannot be printed", "a text on one line")
     return text
 
 
-def _ratio(item: Item, names: SceneNames) -> Fraction | None:
+def _ratio(item: SceneItem, names: SceneNames) -> Fraction | None:
     """The scene's lengths in a millimetre of paper, from a ratio such as 1:2."""
     ratio = re.fullmatch(RATIO, item.value) if isinstance(item.value, str) else None
     if ratio is None:
@@ -269,13 +269,13 @@ def _ratio(item: Item, names: SceneNames) -> Fraction | None:
     return Fraction(ratio[2]) / Fraction(ratio[1]) / 1000 / METRES[names.units.length]
 
 
-def _plan(name: str, item: Item, names: SceneNames) -> None:
+def _plan(name: str, item: SceneItem, names: SceneNames) -> None:
     """A fault where unknown plan; which force plans there are only the drawing tells."""
     if name not in PLANS and not name.startswith(("force plan ", "lever ")):
         item.fault("unknown plan", suggestion(name, (*PLANS, "force plan 2, 3"), "plan"))
 
 
-def _stands_still(point: object, item: Item, names: SceneNames) -> bool:
+def _stands_still(point: object, item: SceneItem, names: SceneNames) -> bool:
     """Whether a point whose path is asked for has none; that is a fault."""
     still = point in names.points and point not in names.movable
     if still:
@@ -288,7 +288,7 @@ def _on_another(names: SceneNames) -> Iterator[str]:
     return (f"{link} {on}" for link, on in permutations((FRAME, *names.moving), 2))
 
 
-def _count(item: Item, names: SceneNames) -> int | None:
+def _count(item: SceneItem, names: SceneNames) -> int | None:
     number = item.number()
     if number is None:
         return None

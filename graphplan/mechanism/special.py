@@ -22,7 +22,7 @@ from graphplan.mechanism.equations import PIN, FreedomEquation, System, Thing, U
 from graphplan.mechanism.model import FRAME, Balance, Condition, Scene, Slide
 from graphplan.mechanism.numbers import Reckoning, exactly, heading, is_exact, root
 from graphplan.mechanism.order import Key, by_name
-from graphplan.mechanism.pairs.pair import Attitude, Statement
+from graphplan.mechanism.pairs.pair import LinkPose, Statement
 from graphplan.mechanism.placements import placed_by
 from graphplan.mechanism.tolerances import SERIES_TOL
 from graphplan.mechanism.values import Misfit, vector
@@ -47,7 +47,7 @@ class Special(NamedTuple):
 
 def special(scene: Scene) -> Special:
     """The mechanism in its pose, its drives and given motions apart."""
-    with localcontext(prec=DIGITS):
+    with localcontext(prec=POSE_DIGITS):
         system = System(*fine_pose(replace(scene, motions={}, redundant=())))
         pairs, echelon = _in_order(scene, system.pairs), _Echelon()
         redundant = tuple(equation.fact.condition for equation in pairs if not echelon.add(equation.terms))
@@ -120,7 +120,7 @@ class _Course:
         bodies: list[Thing] = [("link", link) for link in (*scene.moving, FRAME)]
         bodies += [("joint", point) for point in scene.joints]
         unity, nothing = Decimal(1), Decimal(0)
-        self._attitudes = {body: Attitude(*map(_Series, (nothing, nothing, unity, nothing))) for body in bodies}
+        self._attitudes = {body: LinkPose(*map(_Series, (nothing, nothing, unity, nothing))) for body in bodies}
 
     def continues(self, found: _Echelon, pairs: Sequence[FreedomEquation], unknowns: Iterable[Unknown]) -> bool:
         """Whether the motion can be continued beyond its velocities, what is free going any way it likes."""
@@ -224,7 +224,7 @@ class _Echelon:
 
 # --- the pose to a hundred digits: fine enough to tell special geometry from what only comes close to it --------------
 
-DIGITS = 100
+POSE_DIGITS = 100
 _BITS = 360
 _ONE = 1 << _BITS
 
@@ -235,7 +235,7 @@ def fine_pose(scene: Scene) -> tuple[Scene, bool, dict[str, Place]]:
     """A scene in its pose as it is written, unbalanced: points in reaches from the first one, directions of length 1;
     and in which direction each moving link's joints are held."""
     points = _points(scene)
-    with localcontext(prec=DIGITS):
+    with localcontext(prec=POSE_DIGITS):
         first, *_ = points.values()
         arms = {name: (_decimal(x - first[0]), _decimal(y - first[1])) for name, (x, y) in points.items()}
         reach = max(max(map(abs, arm)) for arm in arms.values()) or Decimal(1)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import Number, Pair, Reckoning
-from graphplan.mechanism.pairs.pair import Attitude
+from graphplan.mechanism.pairs.pair import LinkPose
 from graphplan.phrases import said
 
 if TYPE_CHECKING:
@@ -110,23 +110,23 @@ def moved_on(given: Scene, shifts: tuple[Fraction, ...], by: Reckoning) -> tuple
     return tuple(moves)
 
 
-STILL = Attitude(0, 0, 1, 0)
+STILL = LinkPose(0, 0, 1, 0)
 
 
-def turned_about(at: Pair, cos: Number, sin: Number) -> Attitude:
+def turned_about(at: Pair, cos: Number, sin: Number) -> LinkPose:
     """A turn about a point."""
     x, y = at
-    return Attitude(x - cos * x + sin * y, y - sin * x - cos * y, cos, sin)
+    return LinkPose(x - cos * x + sin * y, y - sin * x - cos * y, cos, sin)
 
 
-def following(first: Attitude, then: Attitude) -> Attitude:
+def following(first: LinkPose, then: LinkPose) -> LinkPose:
     """One after the other."""
     x, y = then.place_of((first.x, first.y))
-    return Attitude(x, y, then.cos * first.cos - then.sin * first.sin,
+    return LinkPose(x, y, then.cos * first.cos - then.sin * first.sin,
                     then.sin * first.cos + then.cos * first.sin)
 
 
-def undone(attitude: Attitude, at: Pair) -> Pair:
+def undone(attitude: LinkPose, at: Pair) -> Pair:
     """The point that an attitude brings to a place."""
     x, y = at[0] - attitude.x, at[1] - attitude.y
     return attitude.cos * x + attitude.sin * y, attitude.cos * y - attitude.sin * x

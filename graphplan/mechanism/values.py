@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.mechanism.fields import Kind, SceneNames, TableRow, is_on_link
-from graphplan.mechanism.items import Item, Vector, describe
+from graphplan.mechanism.items import SceneItem, Vector, describe
 from graphplan.mechanism.numbers import FLOAT_RECKONING, Pair, Reckoning, exactly, is_exact, number_text
 from graphplan.mechanism.pairs.pair import FRAME
 
@@ -25,7 +25,7 @@ LINK = Kind("link", lambda item, names: item.name_of("link", names.links), {"typ
 BODY = Kind("link", lambda item, names: item.name_of("link", names.bodies), LINK.schema)
 
 
-def _two_links(item: Item, names: SceneNames) -> tuple[str | None, ...] | None:
+def _two_links(item: SceneItem, names: SceneNames) -> tuple[str | None, ...] | None:
     if not isinstance(item.value, list) or len(item.value) != 2:
         return item.fault(f"{describe(item.value)} where two links are wanted", 'two links such as ["3", "2"]')
     return tuple(LINK.read(item.with_value(name), names) for name in item.value)
@@ -34,7 +34,7 @@ def _two_links(item: Item, names: SceneNames) -> tuple[str | None, ...] | None:
 TWO_LINKS = Kind("two links", _two_links, {"type": "array", "items": LINK.schema, "minItems": 2, "maxItems": 2})
 
 
-def _flag(item: Item, names: SceneNames) -> bool | None:
+def _flag(item: SceneItem, names: SceneNames) -> bool | None:
     fault = f"{describe(item.value)} where true or false is wanted"
     return item.value if isinstance(item.value, bool) else item.fault(fault, "true or false, without quotes")
 
@@ -42,7 +42,7 @@ def _flag(item: Item, names: SceneNames) -> bool | None:
 FLAG = Kind("true · false", _flag, {"type": "boolean"})
 
 
-def _centres(item: Item, names: SceneNames) -> tuple[str, ...] | None:
+def _centres(item: SceneItem, names: SceneNames) -> tuple[str, ...] | None:
     if not isinstance(item.value, list) or not item.value:
         return item.fault(f"{describe(item.value)} where centres are wanted", 'points such as ["B", "C"]')
     centres = tuple(POINT.read(item.with_value(name), names) for name in item.value)
@@ -54,7 +54,7 @@ CENTRES = Kind("centres", _centres, {"type": "array", "items": POINT.schema, "mi
 
 def _two(what: str, such: str, whole: bool = False) -> Kind:
     """Two numbers above zero."""
-    def read(item: Item, names: SceneNames) -> tuple[Any, ...] | None:
+    def read(item: SceneItem, names: SceneNames) -> tuple[Any, ...] | None:
         if not isinstance(item.value, list) or len(item.value) != 2:
             return item.fault(f"{describe(item.value)} where two {what} are wanted", f"two numbers such as {such}")
         numbers = tuple(item.with_value(entry).positive(f"number of {what}" if whole else "radius")
@@ -85,7 +85,7 @@ def choice(*words: str) -> Kind:
 
 def moving(fault: str) -> Kind:
     """A link that is not the frame; with the frame it is this fault."""
-    def read(item: Item, names: SceneNames) -> str | None:
+    def read(item: SceneItem, names: SceneNames) -> str | None:
         link = item.name_of("link", names.links)
         if link == FRAME:
             item.fault(fault, "a moving link")
@@ -96,7 +96,7 @@ def moving(fault: str) -> Kind:
 
 def name_list(noun: str, such: str, known: Callable[[SceneNames], Collection[str]],
               every: Callable[[SceneNames], Any] | None = None, *, many: str = "", after: tuple[str, ...] = (),
-              entry: Kind = TEXT, wrong: Callable[[object, Item, SceneNames], bool] = lambda name, item,
+              entry: Kind = TEXT, wrong: Callable[[object, SceneItem, SceneNames], bool] = lambda name, item,
               names: False) -> Kind:
     """A list of what results are asked of, of those `known` that are not `wrong`; or "all", which means `every` one.
 
@@ -104,7 +104,7 @@ def name_list(noun: str, such: str, known: Callable[[SceneNames], Collection[str
     """
     many = many or f"{noun}s"
 
-    def read(item: Item, names: SceneNames) -> Any:
+    def read(item: SceneItem, names: SceneNames) -> Any:
         if not item.faults.none_in(*after):
             return ()
         if item.value == "all":
@@ -145,7 +145,7 @@ class Misfit(Exception):
         super().__init__(what)
 
 
-def _direction(item: Item, names: SceneNames) -> Direction | None:
+def _direction(item: SceneItem, names: SceneNames) -> Direction | None:
     """A direction in one of its three spellings."""
     if isinstance(item.value, list):
         components = item.vector()
@@ -159,7 +159,7 @@ def _direction(item: Item, names: SceneNames) -> Direction | None:
     return item.number()
 
 
-def _guide(item: Item, names: SceneNames) -> tuple[Pair, tuple[str, ...] | None, Written] | None:
+def _guide(item: SceneItem, names: SceneNames) -> tuple[Pair, tuple[str, ...] | None, Written] | None:
     """A guide's direction in this pose, the two points that give it, if points do, and the direction as written."""
     direction = _direction(item, names)
     if direction is None:

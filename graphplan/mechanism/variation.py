@@ -12,13 +12,13 @@ from fractions import Fraction
 from math import floor
 
 from graphplan.mechanism.fields import Either, Field, Kind, Named, SceneNames, Table, TableRow, Value
-from graphplan.mechanism.items import Item, describe, quote_key
+from graphplan.mechanism.items import SceneItem, describe, quote_key
 from graphplan.mechanism.numbers import number_text
 from graphplan.mechanism.values import NUMBER
 
 MAX_VALUES = 10_000  # values of one number
 SAME_FOR_ALL = ("vary", "sheet", "units")  # tables whose numbers do not vary
-SUCH = "{ from = 20, to = 160, step = 5 }, or a list such as [8, 10, 12]"
+RANGE_EXAMPLE = "{ from = 20, to = 160, step = 5 }, or a list such as [8, 10, 12]"
 
 Choices = dict[str, tuple[Fraction, ...]]  # the values that a number may have, by its path
 
@@ -47,7 +47,7 @@ def _value_at(tables: object, path: tuple[str, ...]) -> object:
     return tables
 
 
-def _path(name: str, item: Item, names: SceneNames) -> None:
+def _path(name: str, item: SceneItem, names: SceneNames) -> None:
     """A fault where there is no such number, or it must be the same for all."""
     path = path_parts(name)
     value = _value_at(names.tables, path)
@@ -74,11 +74,11 @@ def _range(row: TableRow) -> tuple[Fraction, ...] | None:
     return tuple(low + step * place for place in range(count))
 
 
-def _list(item: Item, names: SceneNames) -> tuple[Fraction, ...] | None:
+def _list(item: SceneItem, names: SceneNames) -> tuple[Fraction, ...] | None:
     """The values one by one."""
     numbers = [item.with_value(value).number() for value in item.value] if isinstance(item.value, list) else []
     if not numbers:
-        return item.fault("an empty list", SUCH)
+        return item.fault("an empty list", RANGE_EXAMPLE)
     if len(numbers) > MAX_VALUES:
         return item.fault(f"{len(numbers)} values", f"at most {MAX_VALUES}")
     return tuple(dict.fromkeys(value for value in numbers if value is not None))
@@ -93,10 +93,10 @@ RANGE = Table("a range", (
 LIST = Kind("list of numbers", _list, {"type": "array", "items": NUMBER.schema, "minItems": 1, "maxItems": MAX_VALUES})
 
 
-def _form(item: Item) -> Value | None:
+def _form(item: SceneItem) -> Value | None:
     if isinstance(item.value, dict | list):
         return RANGE if isinstance(item.value, dict) else LIST
-    return item.fault(f"{describe(item.value)} where a range is wanted", SUCH)
+    return item.fault(f"{describe(item.value)} where a range is wanted", RANGE_EXAMPLE)
 
 
 PATH = Kind("path of a number", lambda item, names: None, {"type": "string", "minLength": 1})

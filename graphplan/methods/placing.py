@@ -16,7 +16,7 @@ from graphplan.kernel.stages import Stage
 from graphplan.mechanism.model import FRAME, Assembly, Pair, Scene, Slide
 from graphplan.mechanism.numbers import minus, plus, times
 from graphplan.mechanism.order import ordered_points
-from graphplan.mechanism.pairs.pair import Attitude
+from graphplan.mechanism.pairs.pair import LinkPose
 from graphplan.mechanism.travel import STILL, following, turned_about, undone
 from graphplan.methods.figures import angle, figure, runs_along, same_place, widest
 from graphplan.methods.motion.network import Network
@@ -33,7 +33,7 @@ class Body:
     """
 
     top: str
-    lies: dict[str, Attitude]
+    lies: dict[str, LinkPose]
     spots: list[tuple[Pair, Mark]] = field(default_factory=list)
     heading: tuple[Pair, Mark] | None = None
 
@@ -54,14 +54,14 @@ class Placing:
 
     # ---- figures of bodies ------------------------------------------------------------------------------------------
 
-    def _lies(self, link: str) -> Attitude:
+    def _lies(self, link: str) -> LinkPose:
         """How a link lies in its body, after what its drives have moved it."""
         if link not in self.net.welds:
             return STILL
         weld = self.net.welds[link]
         x, y = self.assembly.moves[self.given.drives.index(weld.drive)]
         here = (turned_about(self.given.points[weld.at], x, weld.sign * y) if weld.slide is None
-                else Attitude(weld.sign * x, weld.sign * y, 1, 0))
+                else LinkPose(weld.sign * x, weld.sign * y, 1, 0))
         return following(here, self._lies(weld.to))
 
     def _first_body_with(self, point: str) -> Body:
@@ -143,7 +143,7 @@ class Placing:
             if weld.slide is None:
                 root = self._figure(body, weld.at)
                 return self.board.crank(self.mark(weld.at), angle=angle(minus(at, root)), name=name)
-            before = undone(Attitude(weld.sign * self._move(weld)[0], weld.sign * self._move(weld)[1], 1, 0), at)
+            before = undone(LinkPose(weld.sign * self._move(weld)[0], weld.sign * self._move(weld)[1], 1, 0), at)
             line = self._line(body, before, weld.slide.direction)
             shift = self.assembly.shifts[self.given.drives.index(weld.drive)]
             start = self._mark_at(body, before)

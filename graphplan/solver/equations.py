@@ -24,7 +24,7 @@ from graphplan.errors import Refused, by_name
 from graphplan.mechanism.equations import PIN, Elimination, transpose
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene
 from graphplan.mechanism.numbers import dot, is_exact, minus, times
-from graphplan.mechanism.pairs.pair import Along, KinematicPair, LinkSide, LinkSides, Rate, Statement
+from graphplan.mechanism.pairs.pair import Along, KinematicPair, PairSide, PairSides, Rate, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.solver.blocks import TOGETHER
 
@@ -137,13 +137,13 @@ class Equations:
         return [change + fact.left_over(sides[fact.ends])
                 for fact, (_, change) in zip(self.facts, self.prescribed_rates, strict=True)]
 
-    def sides(self, one: tuple[str, str], other: tuple[str, str], rates: dict[str, Rate]) -> LinkSides:
+    def sides(self, one: tuple[str, str], other: tuple[str, str], rates: dict[str, Rate]) -> PairSides:
         """Two links, each at a point, with these rates."""
-        return LinkSides(self.side(*one, rates), self.side(*other, rates))
+        return PairSides(self.side(*one, rates), self.side(*other, rates))
 
-    def side(self, link: str, point: str, rates: dict[str, Rate]) -> LinkSide:
+    def side(self, link: str, point: str, rates: dict[str, Rate]) -> PairSide:
         """One link at one point, with these rates."""
-        return LinkSide(self.arm(link, point), rates[link])
+        return PairSide(self.arm(link, point), rates[link])
 
     def rates(self, values: Sequence[Number], zero: Number) -> dict[str, Rate]:
         """The solved unknowns link by link, the resting frame among them; a pin, which no arm reaches, adds nothing."""

@@ -12,7 +12,7 @@ from graphplan.errors import SingularPose
 from graphplan.mechanism.equations import Elimination
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.numbers import dot, minus, times
-from graphplan.mechanism.pairs.pair import LinkSides, Rate
+from graphplan.mechanism.pairs.pair import PairSides, Rate
 from graphplan.solver.equations import Equations, Solution, motion_equations
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ def read(equations: Equations, first: dict[str, Rate], second: dict[str, Rate]) 
     carriers = {p: FRAME if FRAME in links else links[0] for p, links in equations.scene.links_of.items() if links}
     slides = equations.scene.slides
 
-    def sides(slide: Slide, rates: dict[str, Rate]) -> LinkSides:
+    def sides(slide: Slide, rates: dict[str, Rate]) -> PairSides:
         return equations.sides((slide.link, slide.at), (slide.along, slide.at), rates)
 
     return Rates(

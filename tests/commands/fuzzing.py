@@ -15,7 +15,7 @@ from pathlib import Path
 from random import Random
 from typing import NamedTuple
 
-from graphplan.commands import GARBAGE, main
+from graphplan.commands import GC_THRESHOLD, main
 from graphplan.mechanism.scene import load, packaged_names
 
 SECONDS = 5.0  # of the processor, for one command
@@ -186,7 +186,7 @@ def _watched(given: str, out: io.StringIO, err: io.StringIO) -> Iterator[None]:
     """
     before, stdin, garbage = signal.signal(signal.SIGPROF, _too_long), sys.stdin, gc.get_threshold()
     gc.freeze()
-    gc.set_threshold(GARBAGE)
+    gc.set_threshold(GC_THRESHOLD)
     sys.stdin = io.TextIOWrapper(io.BytesIO(given.encode("utf-8", "surrogatepass")))
     signal.setitimer(signal.ITIMER_PROF, 2 * SECONDS)
     try:

@@ -18,7 +18,7 @@ from graphplan.commands import main
 from graphplan.commands.new import KINDS, template
 from graphplan.commands.result_schemas import result_schema as schema_of
 from graphplan.errors import SceneError
-from graphplan.mechanism.items import Item
+from graphplan.mechanism.items import SceneItem
 from graphplan.mechanism.scene import load, packaged_names, parse
 from graphplan.mechanism.schema import scene
 from graphplan.mechanism.units import BY_QUANTITY
@@ -135,13 +135,13 @@ def forms(fragment: Mapping[str, Any], section: str) -> Iterator[Form]:
 def test_schema_and_loader_know_the_same_keys(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every table that the loader reads is in the schema with the same keys and requirements, and the reverse."""
     read: set[Form] = set()
-    fields = Item.fields
+    fields = SceneItem.fields
 
-    def recorded(item: Item, known: Any, required: Mapping[str, str]) -> Any:
+    def recorded(item: SceneItem, known: Any, required: Mapping[str, str]) -> Any:
         read.add((item.where.split(".")[0], frozenset(known), frozenset(required)))
         return fields(item, known, required)
 
-    monkeypatch.setattr(Item, "fields", recorded)
+    monkeypatch.setattr(SceneItem, "fields", recorded)
     for name in packaged_names():
         load(name)
     for kind in KINDS:

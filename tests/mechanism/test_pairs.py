@@ -25,10 +25,10 @@ from graphplan.mechanism.pairs.pair import (
     POINT,
     TURNING,
     Along,
-    Attitude,
     KinematicPair,
-    LinkSide,
-    LinkSides,
+    LinkPose,
+    PairSide,
+    PairSides,
     Rate,
     Rolling,
     Statement,
@@ -63,10 +63,10 @@ def stated(scene: Scene) -> Iterator[tuple[KinematicPair, Statement]]:
             yield pair, replace(fact, to="") if isinstance(fact, Along) else fact
 
 
-def lying(rate: Rate, change: Rate, t: float) -> Attitude:
+def lying(rate: Rate, change: Rate, t: float) -> LinkPose:
     """Where a link is after a time, from the origin, as its rates and their changes have it."""
     x, y, angle = (v * t + a * t * t / 2 for v, a in zip(rate, change, strict=True))
-    return Attitude(x, y, math.cos(angle), math.sin(angle))
+    return LinkPose(x, y, math.cos(angle), math.sin(angle))
 
 
 @pytest.mark.parametrize("name", [*SCENES, *HIGHER])
@@ -85,7 +85,7 @@ def test_what_is_stated_of_poses_is_stated_of_rates(name: str) -> None:
         assert once == pytest.approx(_weighed(weights, first), abs=1e-6)
         first = _allowed(fact, first, arms)
         _, twice = _derived(fact, first, second, arms)
-        left = fact.left_over(LinkSides(*(LinkSide(arm, first[link]) for (link, _),
+        left = fact.left_over(PairSides(*(PairSide(arm, first[link]) for (link, _),
                                           arm in zip(fact.ends, arms, strict=True))))
         assert twice == pytest.approx(float(_weighed(weights, second) - left), abs=1e-5)
 
@@ -176,7 +176,7 @@ def _left(group: ClosureGroup, known: list[closure.LinkPose], state: Any) -> tup
 
 def _stated(linkage: Linkage, group: ClosureGroup, bodies: dict[str, closure.LinkPose]) -> Iterator[float]:
     """What each statement on a group's links leaves, without its sign; of gears with 1 for the largest factor."""
-    lies = {link: Attitude(*body.base, *(body.turn or (1.0, 0.0))) for link, body in bodies.items()}
+    lies = {link: LinkPose(*body.base, *(body.turn or (1.0, 0.0))) for link, body in bodies.items()}
     for bond in [bond for link in group.links for bond in linkage.bonds[link]]:
         if isinstance(bond, GearBond):
             turns = [lies[link] for link in (bond.link, bond.on, linkage.lines.carriers[bond.arm])]

@@ -14,7 +14,7 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
-from graphplan.mechanism.items import Faults, Item, describe
+from graphplan.mechanism.items import Faults, SceneItem, describe
 from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.numbers import heading, number_text
 from graphplan.mechanism.scene import read_task, task_table
@@ -71,7 +71,7 @@ class TrialWeights(Trial):
 
 def _amounts(least: int, most: int, what: str, such: str) -> Kind:
     """A list of numbers from 0."""
-    def read(item: Item, names: SceneNames) -> tuple[Fraction, ...] | None:
+    def read(item: SceneItem, names: SceneNames) -> tuple[Fraction, ...] | None:
         if not isinstance(item.value, list) or not least <= len(item.value) <= most:
             return item.fault(f"{describe(item.value)} where {what} are wanted", such)
         numbers = [item.with_value(value).amount() for value in item.value]
@@ -237,7 +237,7 @@ def direction(x: Fraction | float, y: Fraction | float) -> float:
 # ---- the masses -----------------------------------------------------------------------------------------------------
 
 
-def _name(item: Item, names: SceneNames) -> str | None:
+def _name(item: SceneItem, names: SceneNames) -> str | None:
     text = item.text("a name", 'a name in quotes, such as "fan"')
     if text is not None and not (text.isprintable() and 0 < len(text.strip()) <= MAX_NAME_LETTERS):
         return item.fault(f"{describe(text)} is not a name", f"a name of {MAX_NAME_LETTERS} letters or less")
@@ -283,7 +283,7 @@ MASSES = Rows(Either((
 def _numbers(least: int, what: str, such: str, positive: str = "") -> Kind:
     """A list of one number or two, at least so many; one alone may stand without brackets. Above 0 where that is what
     is `positive`."""
-    def found(item: Item, names: SceneNames) -> tuple[Fraction, ...] | None:
+    def found(item: SceneItem, names: SceneNames) -> tuple[Fraction, ...] | None:
         values = item.value if isinstance(item.value, list) else [item.value]
         if not least <= len(values) <= 2:
             return item.fault(f"{describe(item.value)} where {what} wanted", such)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 from graphplan.mechanism.fields import Field, Kind, Rows, SceneNames, Table, TableRow
-from graphplan.mechanism.items import Item, describe
+from graphplan.mechanism.items import SceneItem, describe
 from graphplan.mechanism.numbers import Pair, dot, exactly, minus, plus, quarter_turn, times
 from graphplan.mechanism.pairs.pair import (
     ROLLING,
@@ -100,7 +100,7 @@ class Contact(KinematicPair):
             yield Rolling(link, on, first, second, minus(points[second], points[first]), (k1, -k2), self.name)
 
 
-def _profiles(item: Item, names: SceneNames) -> tuple[Any, ...] | None:
+def _profiles(item: SceneItem, names: SceneNames) -> tuple[Any, ...] | None:
     """Of each profile the centre, or in its place the direction of a straight one."""
     if not isinstance(item.value, list) or len(item.value) != 2:
         return item.fault(f"{describe(item.value)} where two centres are wanted",
@@ -109,7 +109,7 @@ def _profiles(item: Item, names: SceneNames) -> tuple[Any, ...] | None:
     return None if None in profiles else tuple(profiles)
 
 
-def _centre(item: Item, names: SceneNames) -> Any:
+def _centre(item: SceneItem, names: SceneNames) -> Any:
     """The name of a point, or a direction."""
     if isinstance(item.value, str) and len(item.value.split()) < 2:
         return item.name_of("point", names.points)

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Any, ClassVar
 
 from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
-from graphplan.mechanism.items import Item
+from graphplan.mechanism.items import SceneItem
 from graphplan.mechanism.numbers import (
     FLOAT_RECKONING,
     Number,
@@ -216,7 +216,7 @@ def _misfit(row: TableRow, belt: str, internal: bool) -> tuple[str, str, str] | 
             f"radii whose {limit} is the distance, or teeth")
 
 
-def _pressure(item: Item, names: SceneNames) -> Number | None:
+def _pressure(item: SceneItem, names: SceneNames) -> Number | None:
     """The tangent of an angle in degrees, which is irrational."""
     degrees = item.number()
     if degrees is None or not 0 <= degrees < 90:

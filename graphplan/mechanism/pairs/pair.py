@@ -56,7 +56,7 @@ class Condition(NamedTuple):
         return self.name or f"{self.link} {'at' if self.way in ('x', 'y') else 'along'} {self.on}"
 
 
-class Attitude(NamedTuple):
+class LinkPose(NamedTuple):
     """How a link lies: where its origin is, and the cosine and the sine of its turn; in any numbers."""
 
     x: Any
@@ -85,7 +85,7 @@ class Rate(NamedTuple):
         return plus((self.x, self.y), times(self.turn, quarter_turn(arm)))
 
 
-class LinkSide(NamedTuple):
+class PairSide(NamedTuple):
     """One link as a statement sees it: the arm from the link's base to the statement's point, and the link's rates."""
 
     arm: Pair
@@ -103,11 +103,11 @@ class LinkSide(NamedTuple):
 
 
 @dataclass(frozen=True)
-class LinkSides:
+class PairSides:
     """The two links of a statement."""
 
-    link: LinkSide
-    on: LinkSide
+    link: PairSide
+    on: PairSide
 
     @cached_property
     def slip(self) -> Pair:
@@ -137,7 +137,7 @@ def angle(x: Any, y: Any) -> Any:
     return x.angle(y) if hasattr(x, "angle") else math.atan2(y, x)
 
 
-def turning(link: Attitude, on: Attitude) -> Any:
+def turning(link: LinkPose, on: LinkPose) -> Any:
     """The angle by which a link has turned on another."""
     return angle(link.cos * on.cos + link.sin * on.sin, link.sin * on.cos - link.cos * on.sin)
 
@@ -163,7 +163,7 @@ class Turning:
         """The statement by its name."""
         return Condition(self.link, self.on, self.way)
 
-    def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
+    def residual(self, pose: dict[str, LinkPose], arms: tuple[Any, Any]) -> Any:
         """The sine of the angle by which one link has turned on the other."""
         link, on = pose[self.link], pose[self.on]
         return link.sin * on.cos - link.cos * on.sin
@@ -172,7 +172,7 @@ class Turning:
         """How much each rate of the links counts."""
         return Rate(0, 0, 1), Rate(0, 0, -1)
 
-    def left_over(self, sides: LinkSides) -> Number:
+    def left_over(self, sides: PairSides) -> Number:
         """Angular accelerations add up as angular velocities do."""
         return 0
 
@@ -207,12 +207,12 @@ class Along:
         """The statement by its name."""
         return Condition(self.link, self.at if self.way in ("x", "y") else self.on, self.way, self.name)
 
-    def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
+    def residual(self, pose: dict[str, LinkPose], arms: tuple[Any, Any]) -> Any:
         """How far the point has gone from its place on the other link, of which `arms` are its places in the two."""
         gone = dot(pose[self.to or self.on].turn_vector(self.direction), self._displacement(pose, arms))
         return gone + self.lever * turning(pose[self.link], pose[self.on]) if self.lever else gone
 
-    def _displacement(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
+    def _displacement(self, pose: dict[str, LinkPose], arms: tuple[Any, Any]) -> Any:
         """From the place on the other link to the point."""
         return minus(pose[self.link].place_of(arms[0]), pose[self.on].place_of(arms[1]))
 
@@ -222,7 +222,7 @@ class Along:
         (x, y) = self.direction
         return Rate(x, y, link_turn), Rate(-x, -y, -on_turn)
 
-    def left_over(self, sides: LinkSides) -> Number:
+    def left_over(self, sides: PairSides) -> Number:
         """What the velocities add to `change` on the right-hand side of the accelerations, from the links' surplus."""
         return dot(self.direction, sides.surplus)
 
@@ -236,7 +236,7 @@ class OnRack(Along):
 
     radius: Number = 0
 
-    def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
+    def residual(self, pose: dict[str, LinkPose], arms: tuple[Any, Any]) -> Any:
         """How far the wheel's centre has gone further than the wheel has rolled."""
         return self.with_lever(lambda square: square ** type(square)(0.5)).residual(pose, arms)
 
@@ -270,13 +270,13 @@ class Touching(Along):
         share = dot(self.arm, self.direction) / dot(self.direction, self.direction)
         return Fraction(share) if isinstance(share, float) and is_exact(self.direction) else share
 
-    def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
+    def residual(self, pose: dict[str, LinkPose], arms: tuple[Any, Any]) -> Any:
         """How far the centre has left the curve parallel to the other profile: a line, or half of what the squared
         distance from its centre has grown by."""
         gone, radius = self._displacement(pose, arms), pose[self.on].turn_vector(self.direction)
         return dot(radius, gone) if self.straight else dot(radius, gone) + dot(gone, gone) / 2
 
-    def left_over(self, sides: LinkSides) -> Number:
+    def left_over(self, sides: PairSides) -> Number:
         """From n (v_1 - v_2) = 0 where they touch, derived once more as that point runs along both profiles.
 
         With u_1 and u_2 its speeds along them: u_1 - u_2 is what slides, and both normals are one and turn alike,
@@ -284,7 +284,7 @@ class Touching(Along):
         """
         normal, to = self.direction, times(-self.share, self.direction)
         square = dot(normal, normal)
-        touching = LinkSides(*(LinkSide(plus(side.arm, to), side.rate) for side in (sides.link, sides.on)))
+        touching = PairSides(*(PairSide(plus(side.arm, to), side.rate) for side in (sides.link, sides.on)))
         link_turn, on_turn = touching.link.rate.turn, touching.on.rate.turn
         slides = dot(quarter_turn(normal), touching.slip) / square
         turns = on_turn if self.straight else slides + self.share * link_turn + (1 - self.share) * on_turn
@@ -322,7 +322,7 @@ class Rolling:
         """The statement by its name."""
         return Condition(self.link, self.on, self.way, self.name)
 
-    def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
+    def residual(self, pose: dict[str, LinkPose], arms: tuple[Any, Any]) -> Any:
         """The angles by which the links have turned on the line of centres, times the factors and its squared length.
         """
         link, on, still = pose[self.link], pose[self.on], self.line
@@ -339,7 +339,7 @@ class Rolling:
         return (Rate(*across, self.factors[0] * square + link_turn), Rate(-across[0], -across[1],
                                                                           self.factors[1] * square - on_turn))
 
-    def left_over(self, sides: LinkSides) -> Number:
+    def left_over(self, sides: PairSides) -> Number:
         """The centripetal terms of the centres across the line: its own is along it."""
         return dot(times(self.factors[0] + self.factors[1], quarter_turn(self.line)), sides.inwards)
 

@@ -18,7 +18,7 @@ from typing import Any
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.tape.record import Symbol, Tape
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer
-from graphplan.phrases import Said, Undecided, Unknown, arrange, figures, in_any_case
+from graphplan.phrases import Said, UndecidedText, Unknown, arrange, figures, in_any_case
 from graphplan.sheet.words.sums import FORMS
 
 PLACE, EITHER, THEN, ELSE, END = map(chr, range(0xE000, 0xE005))
@@ -81,7 +81,7 @@ class Later:
         return "\n".join(["function (v, s, {tenths, hypot, level, result}) {", *body, f"return [{told}];", "}"])
 
 
-class Asked(Undecided):
+class Asked(UndecidedText):
     """Whether a number is above zero hangs on the pose."""
 
     def __init__(self, later: Later, place: int):

@@ -43,17 +43,19 @@ if TYPE_CHECKING:
     from graphplan.methods.executors import SharedOut
     from graphplan.sheet.layout.composition import Composition
 
-MOST, FEW = 1000, 4  # variants of a class; of so few more hands save no time
-CHOSEN = ("method", "plan", "inertia", "rounds", "paper", "language")  # options that the register keeps
+MAX_VARIANTS, MIN_SHARED_VARIANTS = 1000, 4  # variants of a class; of so few more hands save no time
+REGISTERED_OPTIONS = ("method", "plan", "inertia", "rounds", "paper", "language")  # options that the register keeps
 
 
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("-o", "--output", metavar="FOLDER", required=True, help="the folder to make; it is not there yet, or empty")
-    add("-n", "--count", type=count("-n", 1, MOST), metavar="N", help="how many tasks (without it one for each name)")
+    add("-n", "--count", type=count("-n", 1, MAX_VARIANTS), metavar="N",
+        help="how many tasks (without it one for each name)")
     add("--seed", type=count("--seed", 0), default=1, metavar="S", help="what the numbers are drawn by (1)")
     add("--names", metavar="CLASS.csv", help="the students: a column called name or student, or else the first")
-    add("--spare", type=count("--spare", 0, MOST), default=0, metavar="K", help="so many more tasks without a name")
+    add("--spare", type=count("--spare", 0, MAX_VARIANTS), default=0, metavar="K",
+        help="so many more tasks without a name")
     add("--jobs", type=count("--jobs", 1), metavar="N", help="how many processes work (as many as there are cores)")
     add_paper(command, "the sheets of the class; without it that of the scene itself")
     add_language(command)
@@ -74,7 +76,7 @@ def run(options: argparse.Namespace) -> int:
                       'a table [vary], such as "drive.0.omega" = [8, 10, 12]')
     draw = partial(draft_scene, options)
     own_sheet = draw(scene)
-    jobs = options.jobs or (cores() if len(students) > FEW else 1)
+    jobs = options.jobs or (cores() if len(students) > MIN_SHARED_VARIANTS else 1)
     with crew(jobs) as shared_out:
         series = Design(own_sheet, draw, shared_out).series(
             len(students), options.seed, lambda done, of: messages.progress(f"variants: {done}/{of}"))
@@ -120,7 +122,7 @@ def _files(options: argparse.Namespace, own: Composition, variants: Sequence[Cla
     """All that is written, by name."""
     from graphplan.commands.cycle_results import key_rows
     from graphplan.marking.classroom.booklet import Exercise, PrintedExercise, key_table, overview, print_exercise
-    from graphplan.marking.classroom.register import FILE, ClassRegister, TaskSheet
+    from graphplan.marking.classroom.register import REGISTER_FILE, ClassRegister, TaskSheet
 
     digits = len(str(len(variants)))
     exercises = [Exercise(variant, student, f"variant-{variant.number:0{max(2, digits)}}.toml")
@@ -148,10 +150,10 @@ def _files(options: argparse.Namespace, own: Composition, variants: Sequence[Cla
                         *(sheet for printed_exercise in pages for sheet in printed_exercise.solution)], title=title),
         "key.csv": key_table((sheet.variant, sheet.student, exercise_sheets.rows)
                              for sheet, exercise_sheets in zip(sheets, pages, strict=True)),
-        FILE: register.text,
+        REGISTER_FILE: register.text,
     }
 
 
 def _register_options(options: argparse.Namespace) -> dict[str, str]:
     """The options by which the sheets of the class can be composed again."""
-    return {name: str(getattr(options, name) or "") for name in CHOSEN}
+    return {name: str(getattr(options, name) or "") for name in REGISTERED_OPTIONS}

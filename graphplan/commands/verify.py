@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     from graphplan.output.subjects.rotor_sheet import RotorSheet
     from graphplan.phrases import Said
 
-MOST_JOBS = 256
+MAX_JOBS = 256
 ENDINGS, CLASS_ENDINGS = (".html", ".svg", ".pdf", ".json"), (".html", ".json")
 
 
@@ -67,7 +67,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("-o", "--output", metavar="FOLDER", help="where the results of a stack are written; without it FOLDER/results")
     add("--assign", action="append", metavar="PAGE=STUDENT", help="whose a page of a stack is that bears no code; - "
         "sets it aside; or a table with the columns page and student, or page and variant")
-    add("--jobs", type=count("--jobs", 1, MOST_JOBS), metavar="N", help="so many sheets of a stack at once; without it "
+    add("--jobs", type=count("--jobs", 1, MAX_JOBS), metavar="N", help="so many sheets of a stack at once; without it "
         "one for each core")
     add_sheet(command)
     add_choices(command)

@@ -22,8 +22,8 @@ from graphplan.commands.verify_desk import Desk
 from graphplan.errors import GraphplanError, Refused
 from graphplan.marking.classroom import results as found_results
 from graphplan.marking.classroom import stack as fates
-from graphplan.marking.classroom.grading import FILES, Data, Failed, Keeper, file_digest, key, run_jobs
-from graphplan.marking.classroom.register import FILE, ClassRegister, TaskSheet, is_class, load_register
+from graphplan.marking.classroom.grading import FILES_KEY, Data, Failed, Keeper, file_digest, key, run_jobs
+from graphplan.marking.classroom.register import REGISTER_FILE, ClassRegister, TaskSheet, is_class, load_register
 from graphplan.marking.classroom.results import SheetResult, StackResults, Unread, file_names
 from graphplan.marking.classroom.stack import (
     PlacedPage,
@@ -42,9 +42,9 @@ from graphplan.methods.executors import cores
 from graphplan.phrases import said
 from graphplan.words.tongue import Tongue, tongue
 
-FAULT = "fault"  # in the place of what is found of a page
+FAULT_KEY = "fault"  # in the place of what is found of a page
 # Options, as they are kept.
-OF_THE_SHEETS = {"method": str, "plan": str, "inertia": str, "rounds": int, "paper": str, "language": str,
+SHEET_OPTIONS = {"method": str, "plan": str, "inertia": str, "rounds": int, "paper": str, "language": str,
                  "frame": str, "protocol": str, "curves": str, "centrodes": str, "faint": int}
 
 
@@ -55,7 +55,8 @@ def run(options: argparse.Namespace) -> int:
     if not find_spec("cv2"):
         raise Refused(f"{stack}", "reading scans needs OpenCV, which is not installed", "pip install 'graphplan[scan]'")
     if stack.is_dir() and is_class(stack):
-        raise Refused(f"{stack}", f"this folder has a {FILE}, and no scans", "the file or the folder of the scans")
+        raise Refused(f"{stack}", f"this folder has a {REGISTER_FILE}, and no scans",
+                      "the file or the folder of the scans")
     into = Path(options.output or folder / "results")
     if options.report:
         raise Refused(f"--report {options.report}", f"the results of a class are written into {into}", "-o FOLDER")
@@ -113,7 +114,7 @@ class StackDesk:
         seen_pages, broken = self._look_at_pages(stack)
         whose = place_pages(seen_pages, self.register, word)
         judged = self._judge_pages(whose)
-        whose = list(replace_failed(whose, {page for page, data in judged.items() if FAULT in data}))
+        whose = list(replace_failed(whose, {page for page, data in judged.items() if FAULT_KEY in data}))
         sheets = [*self._sheets(whose, judged), *broken]
         blank = sum(placed_page.fate == fates.BLANK for placed_page in whose)
         return StackResults(self.register.title, self.say.code, tuple(sheets), blank, tuple(unread))
@@ -128,8 +129,8 @@ class StackDesk:
         outcomes = self._run_jobs(try_look, jobs, "pages", lambda page: page.name)
         seen_pages, broken = [], []
         for page, name in keys.items():
-            if FAULT in outcomes[name]:
-                broken.append(SheetResult(found_results.FAILED, page.name, look=(outcomes[name][FAULT],)))
+            if FAULT_KEY in outcomes[name]:
+                broken.append(SheetResult(found_results.FAILED, page.name, look=(outcomes[name][FAULT_KEY],)))
             else:
                 seen_pages.append(SeenPage(page, load_sight(outcomes[name])))
         return seen_pages, broken
@@ -161,10 +162,10 @@ class StackDesk:
     def _sheet_options(self) -> argparse.Namespace:
         """The options by which the sheets of the class were drawn, and the pencil of this run."""
         options = parser(("verify",)).parse_args(["verify", self.options.scene, self.options.drawing])
-        if conflicting := [name for name in OF_THE_SHEETS if getattr(self.options, name) != getattr(options, name)]:
-            raise Refused(f"--{conflicting[0]}", f"the sheets of this class were drawn as its {FILE} says",
+        if conflicting := [name for name in SHEET_OPTIONS if getattr(self.options, name) != getattr(options, name)]:
+            raise Refused(f"--{conflicting[0]}", f"the sheets of this class were drawn as its {REGISTER_FILE} says",
                           "leave it out")
-        for name, kind in OF_THE_SHEETS.items():
+        for name, kind in SHEET_OPTIONS.items():
             if value := self.register.options.get(name):
                 setattr(options, name, kind(value))
         options.pencil = self.options.pencil
@@ -176,7 +177,7 @@ class StackDesk:
         messages, outcomes = Messages(self.options.quiet), dict[str, Data]()
         try:
             for name, outcome in run_jobs(work, jobs, self.keeper, self.processes):
-                outcomes[name] = {FAULT: outcome.why} if isinstance(outcome, Failed) else outcome
+                outcomes[name] = {FAULT_KEY: outcome.why} if isinstance(outcome, Failed) else outcome
                 messages.progress(f"{what}: {len(outcomes)}/{len(jobs)} {named(jobs[name])}")
         except KeyboardInterrupt:
             messages.remark(
@@ -206,12 +207,12 @@ class StackDesk:
                             one.owner, look=notes, thumbnail=one.seen.sight.thumbnail)
         if data is None:
             return about
-        if FAULT in data:
-            return replace(about, status=found_results.FAILED, look=(*notes, data[FAULT]))
+        if FAULT_KEY in data:
+            return replace(about, status=found_results.FAILED, look=(*notes, data[FAULT_KEY]))
         judged_fields = {name: data[name]
                          for name in ("score", "groups", "first", "words", "faultless", "kind", "confidence",
                                       "detail", "judgement")}
-        return replace(about, **judged_fields, look=(*notes, *data["look"]), corrected=data[FILES][0])
+        return replace(about, **judged_fields, look=(*notes, *data["look"]), corrected=data[FILES_KEY][0])
 
     def write(self, found: StackResults) -> None:
         """Write all that is found into the folder, and remove what an earlier run had to hand back."""
@@ -260,7 +261,7 @@ def try_look(page: StackPage) -> Data:
     try:
         return look_at_page(page).data
     except GraphplanError as fault:
-        return {FAULT: fault.lines[0].removeprefix(f"{page.path}: ")}
+        return {FAULT_KEY: fault.lines[0].removeprefix(f"{page.path}: ")}
 
 
 def try_judge(job: Job) -> Data:
@@ -268,7 +269,7 @@ def try_judge(job: Job) -> Data:
     try:
         return _judge_sheet_of_job(job)
     except GraphplanError as fault:
-        return {FAULT: fault.lines[0].removeprefix(f"{job.page.name}: ")}
+        return {FAULT_KEY: fault.lines[0].removeprefix(f"{job.page.name}: ")}
 
 
 def _judge_sheet_of_job(job: Job) -> Data:
@@ -310,5 +311,5 @@ def _judge_sheet_of_job(job: Job) -> Data:
         "words": say(opinion(marked.judgement)), "faultless": marked.faultless, "kind": first.kind if first else "",
         "confidence": round(min(sure, default=1.0), 3),
         "look": [say(line) for line in look], "detail": embedded(detail) if detail else "",
-        "judgement": judgement_record(marked.judgement, marked.score), FILES: [job.corrected.name],
+        "judgement": judgement_record(marked.judgement, marked.score), FILES_KEY: [job.corrected.name],
     }  # fmt: skip

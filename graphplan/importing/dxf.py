@@ -18,7 +18,7 @@ from typing import Any
 from graphplan.errors import Refused
 from graphplan.importing.sketch import LinkageSketch, SketchDrive, Slot
 from graphplan.importing.tolerances import JOINT_TOL
-from graphplan.marking.files.dxf import DEEPEST, read_document
+from graphplan.marking.files.dxf import MAX_BLOCK_DEPTH, read_document
 from graphplan.marking.files.safe import Budget, on_paper
 from graphplan.mechanism.model import FRAME
 
@@ -78,7 +78,7 @@ class _DxfLinkage:
             raise Refused(f"{self.path}", "a line lies too far away", "coordinates below a million")
         self.size = max((max(spans) - min(spans) for spans in ([spot.real for spot in spots],
                                                                [spot.imag for spot in spots]) if spans),
-                                                            default=0.0) or 1.0
+                        default=0.0) or 1.0
         big = [pin for pin in self.pins if pin.radius > MAX_PIN_RADIUS * self.size]
         self.pins = [pin for pin in self.pins if pin not in big]
         sketch = LinkageSketch("DXF", length=UNITS.get(self.document.units, ""))
@@ -102,7 +102,7 @@ class _DxfLinkage:
                 continue
             layer = layer.removeprefix(OWN)
             match entity.dxftype():
-                case "INSERT" if depth < DEEPEST:
+                case "INSERT" if depth < MAX_BLOCK_DEPTH:
                     if GROUND.search(entity.dxf.name):
                         self.pins.append(_Pin(_spot(entity.dxf.insert), 0.0, "ground"))
                     else:

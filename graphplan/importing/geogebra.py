@@ -24,8 +24,8 @@ from typing import Any
 from graphplan.importing.sketch import LinkageSketch, SketchDrive, Slot
 from graphplan.importing.tolerances import DIRECTION_TOL
 from graphplan.marking.files.constructions import (
-    CAPTION,
-    LINES,
+    CAPTION_MODE,
+    LINE_TYPES,
     NAME,
     GeoGebraObjects,
     PlaneVector,
@@ -82,7 +82,7 @@ class _GeoGebraLinkage:
     def _name(self, label: str) -> str:
         element = self.objects.elements[label]
         mode, caption = element.find("labelMode"), element.find("caption")
-        is_shown = caption is not None and mode is not None and mode.get("val") == CAPTION
+        is_shown = caption is not None and mode is not None and mode.get("val") == CAPTION_MODE
         return caption.get("val", "") or label if is_shown and caption is not None else label
 
     # ---- what moves ------------------------------------------------------------------------------------------------
@@ -255,7 +255,7 @@ class _GeoGebraLinkage:
 
     def _is_line(self, name: str) -> bool:
         element = self.objects.elements.get(name)
-        is_line = element is not None and element.get("type") in LINES
+        is_line = element is not None and element.get("type") in LINE_TYPES
         return name in AXES or is_line or (element is None and self._command(name)[0] in ("Line", "Segment", "Ray"))
 
     def _ends(self, line: str) -> tuple[str, ...]:

@@ -14,10 +14,10 @@ from graphplan.mechanism.units import Dimension, Units
 from graphplan.phrases import Said, arrange, digits, said, unit
 
 RIGHT, WRONG, MISSING = "right", "wrong", "missing"
-SURE = 1.5  # times the two standard deviations by which a drawing may be off: three
-SI = Units("m", "N", "kg")
-TURN = 360.0
-POWERS = tuple(10.0**power for power in (-6, -3, -2, -1, 1, 2, 3, 6))  # that a unit may be mistaken by
+TOLERANCE_FACTOR = 1.5  # times the two standard deviations by which a drawing may be off: three
+SI_UNITS = Units("m", "N", "kg")
+TURN_DEGREES = 360.0
+UNIT_POWERS = tuple(10.0**power for power in (-6, -3, -2, -1, 1, 2, 3, 6))  # that a unit may be mistaken by
 
 
 @dataclass(frozen=True)
@@ -43,13 +43,13 @@ class TrueNumber:
             if answer.unit not in ("", "°", "deg"):
                 raise ValueError(f"{answer.unit!r} is not a unit of angle")
             return answer.value
-        return answer.value * (unit_factor(answer.unit, self.dimension, SI) if answer.unit else self.one)
+        return answer.value * (unit_factor(answer.unit, self.dimension, SI_UNITS) if answer.unit else self.one)
 
     def gap(self, value: float) -> float:
         """How far a number is from this."""
         if self.dimension is not None:
             return abs(value - self.value)
-        return abs((value - self.value + TURN / 2) % TURN - TURN / 2)
+        return abs((value - self.value + TURN_DEGREES / 2) % TURN_DEGREES - TURN_DEGREES / 2)
 
     def number_text(self, value: float) -> Said:
         """A number in its unit."""
@@ -102,7 +102,7 @@ def _judge_answer(one: TrueNumber, expected: Sequence[TrueNumber], answer: Table
         return AnswerVerdict(one, None, MISSING)
     value = one.read(answer)
     scale = abs(value / answer.value) if answer.value else one.one
-    if one.gap(value) <= SURE * one.off + 2 * answer.rounding * scale:
+    if one.gap(value) <= TOLERANCE_FACTOR * one.off + 2 * answer.rounding * scale:
         return AnswerVerdict(one, value, RIGHT)
     return AnswerVerdict(one, value, WRONG, _hint(one, expected, value))
 
@@ -110,16 +110,17 @@ def _judge_answer(one: TrueNumber, expected: Sequence[TrueNumber], answer: Table
 def _hint(one: TrueNumber, expected: Sequence[TrueNumber], value: float) -> str:
     """What may have gone wrong: a unit, a sense, or another's number."""
     def is_near(rival: TrueNumber, number: float) -> bool:
-        return rival.gap(number) <= SURE * max(rival.off, 0.01 * abs(rival.value) if rival.dimension else 0.5)
+        return rival.gap(number) <= TOLERANCE_FACTOR * max(rival.off,
+                                                           0.01 * abs(rival.value) if rival.dimension else 0.5)
 
     alike = next((rival for rival in expected if rival is not one and rival.written == one.written
                   and is_near(rival, value)), None)
     if alike is not None:
         return said("this is that of {0}", " ".join(filter(None, (alike.quantity, alike.of))))
     if one.dimension is None:
-        return said("it is opposite") if is_near(one, value + TURN / 2) else said(
+        return said("it is opposite") if is_near(one, value + TURN_DEGREES / 2) else said(
             "counted clockwise") if is_near(one, -value) else ""
-    power = next((power for power in POWERS if is_near(one, value / power)), None)
+    power = next((power for power in UNIT_POWERS if is_near(one, value / power)), None)
     if power is not None:
         return said("{0} times as large: a unit is mistaken", digits(power))
     return said("negative") if is_near(one, -value) else ""

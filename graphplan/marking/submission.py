@@ -15,14 +15,15 @@ from graphplan.marking.traces import Frames, Submission
 if TYPE_CHECKING:
     from graphplan.sheet.plates.display import Sheet
 
-Size = tuple[float, float] | None  # width and height in mm, where they are known
-FILES, IMAGES = (".csv", ".toml", ".svg", ".dxf", ".ggb"), (".png", ".jpg", ".jpeg", ".pdf")
+SheetSize = tuple[float, float] | None  # width and height in mm, where they are known
+DATA_SUFFIXES, IMAGE_SUFFIXES = (".csv", ".toml", ".svg", ".dxf", ".ggb"), (".png", ".jpg", ".jpeg", ".pdf")
 STANDARD_ERROR = 2  # the file in which libraries in other languages write, whatever Python does
-EXTRAS = {".svg": ("svgelements", "svg"), ".dxf": ("ezdxf", "dxf")}  # the package that reads a kind, and its extra
+# the package that reads a kind, and its extra
+READER_PACKAGES = {".svg": ("svgelements", "svg"), ".dxf": ("ezdxf", "dxf")}
 
 
 def read_submission(path: Path, panels: Collection[str], frames: Frames,
-         printed: Callable[[], Sheet] | None = None, code: int | None = None, size: Size = None) -> Submission:
+         printed: Callable[[], Sheet] | None = None, code: int | None = None, size: SheetSize = None) -> Submission:
     """The drawing in a file; `panels` are the plans of the construction, `frames` where they lie on its own sheet.
 
     A picture is read beside the sheet that was `printed`, laid out when it is asked for, and the `code` of its corner
@@ -31,12 +32,12 @@ def read_submission(path: Path, panels: Collection[str], frames: Frames,
     Fails with `Refused` where the file is none that can be read, or says nothing, and tells what to do.
     """
     suffix = path.suffix.casefold()
-    if suffix in IMAGES:
+    if suffix in IMAGE_SUFFIXES:
         return _read_image(path, frames, printed, code)
-    if suffix not in FILES:
+    if suffix not in DATA_SUFFIXES:
         kind = suffix if suffix[1:].isalnum() else "without a suffix that is known"
         raise Refused(f"{path}", f"files of this kind ({kind[:40]}) are not read",
-                      f"give one of {' '.join([*FILES, *IMAGES])}")
+                      f"give one of {' '.join([*DATA_SUFFIXES, *IMAGE_SUFFIXES])}")
     submission = _read_data_file(path, suffix, panels, frames, size)
     if not submission.traces and not submission.numbers:
         raise Refused(f"{path}", "it contains no mark and no result", "fill it in")
@@ -74,9 +75,9 @@ def silence_stderr() -> Iterator[None]:
         os.close(standard_error)
 
 
-def _read_data_file(path: Path, suffix: str, panels: Collection[str], frames: Frames, size: Size) -> Submission:
+def _read_data_file(path: Path, suffix: str, panels: Collection[str], frames: Frames, size: SheetSize) -> Submission:
     """A file of numbers or of a drawing program."""
-    package, extra = EXTRAS.get(suffix, ("", ""))
+    package, extra = READER_PACKAGES.get(suffix, ("", ""))
     if package and not find_spec(package):
         raise Refused(f"{path}", f"reading {suffix[1:].upper()} needs {package}", f"pip install 'graphplan[{extra}]'")
     match suffix:

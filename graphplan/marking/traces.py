@@ -21,7 +21,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.sheet.lettering.lettering import CAPS, GREEK
 
 Spot = tuple[float, float]
-SPOTS = {POINT: 1, LINE: 2, CIRCLE: 3}  # how many spots at least say where a thing lies
+MIN_SPOTS = {POINT: 1, LINE: 2, CIRCLE: 3}  # how many spots at least say where a thing lies
 
 
 @dataclass(frozen=True)
@@ -43,8 +43,9 @@ class Trace:
     crossed: bool = False
 
     def __post_init__(self) -> None:
-        if len(self.spots) < SPOTS[self.kind]:
-            raise ValueError(f"a {self.kind} needs {SPOTS[self.kind]} spots, {self.label or 'one'} has {self.spots}")
+        if len(self.spots) < MIN_SPOTS[self.kind]:
+            raise ValueError(
+                f"a {self.kind} needs {MIN_SPOTS[self.kind]} spots, {self.label or 'one'} has {self.spots}")
 
     @property
     def figure(self) -> Point | LineString:
@@ -155,19 +156,19 @@ class Submission:
 
 
 NAMES = {letter: name for name, letter in GREEK.items()} | {"ϵ": "epsilon", "ϕ": "phi", "ϑ": "theta"}
-SPELLED = {letter.upper(): name.capitalize() for letter, name in NAMES.items()} | NAMES
-LOW = str.maketrans("₀₁₂₃₄₅₆₇₈₉ₐₑₕₖₗₘₙₒₚₛₜₓ", "0123456789aehklmnopstx")
+SPELLED_LETTERS = {letter.upper(): name.capitalize() for letter, name in NAMES.items()} | NAMES
+SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉ₐₑₕₖₗₘₙₒₚₛₜₓ", "0123456789aehklmnopstx")
 PRIMES = str.maketrans({"′": "'", "’": "'", "`": "'", "″": "''", "”": "''", '"': "''", "‴": "'''"})
-STEM = "|".join([*sorted(GREEK, key=len, reverse=True), "[A-Z]?[a-z][0-9]{0,2}", "[0-9]{1,3}"])
-MARK = re.compile(rf"(?:{STEM})(?:_[A-Z0-9,]{{1,6}})?(?:\([A-Z0-9]{{1,3}}\))?'*", re.IGNORECASE)
+NAME_STEM = "|".join([*sorted(GREEK, key=len, reverse=True), "[A-Z]?[a-z][0-9]{0,2}", "[0-9]{1,3}"])
+MARK_NAME = re.compile(rf"(?:{NAME_STEM})(?:_[A-Z0-9,]{{1,6}})?(?:\([A-Z0-9]{{1,3}}\))?'*", re.IGNORECASE)
 
 
 def spell(name: str) -> str:
     """A name as it is compared: v_{b}, A₁′, α and P_25_1 become v_b, A_1', alpha and P_25,1."""
     text = re.sub(r"[{}$\\]", "", name.strip()).translate(PRIMES)
     if low := re.search(r"[₀-₉ₐ-ₜ]+", text):
-        text = f"{text[: low.start()]}_{low[0].translate(LOW)}{text[low.end() :]}"
-    text = "".join([SPELLED.get(char, char) for char in text])
+        text = f"{text[: low.start()]}_{low[0].translate(SUBSCRIPTS)}{text[low.end() :]}"
+    text = "".join([SPELLED_LETTERS.get(char, char) for char in text])
     stem, _, index = text.replace("'", "").partition("_")
     index = re.sub(r"(?<=\d)_(?=\d)", ",", index).replace("_", "")
     return stem + (f"_{index}" if index else "") + "'" * text.count("'")
@@ -181,7 +182,7 @@ def bare_name(name: str) -> str:
 def mark_name(name: str) -> str:
     """The name spelled, if it reads as that of a mark; else nothing."""
     name_spelled = spell(name)
-    return name_spelled if MARK.fullmatch(name_spelled) else ""
+    return name_spelled if MARK_NAME.fullmatch(name_spelled) else ""
 
 
 def is_greek(name: str) -> bool:

@@ -15,8 +15,8 @@ from importlib.resources import files
 from graphplan.marking.classroom.results import NOT_JUDGED, Classroom, MarkedDrawing, mistake_words
 from graphplan.marking.judge.findings import (
     ALLOWED,
-    FIGURES,
     OFF,
+    SIGNIFICANT_DIGITS,
     look_at_lines,
     number_text,
     number_words,
@@ -161,7 +161,8 @@ class _Report(HtmlPage):
     def _step(self, verdict: Verdict) -> tuple[HtmlCell, ...]:
         drawn, plans = self.judgement.drawing.drawn, self.judgement.composition.plans
         seen = self.judgement.is_measured(verdict)
-        sizes = [self.say(digits(size, FIGURES)) if seen else "" for size in (verdict.off, verdict.tolerance)]
+        sizes = [self.say(digits(size, SIGNIFICANT_DIGITS)) if seen else ""
+                 for size in (verdict.off, verdict.tolerance)]
         return (
             HtmlCell(self.set(step_name(drawn, verdict.step).short), FIGURE),
             HtmlCell(self.say(plans.plan_of_step[verdict.step].words)),
@@ -195,7 +196,8 @@ class _Report(HtmlPage):
         return (
             HtmlCell(self.set(what)), HtmlCell(self.say(number_words(verdict.number)), FIGURE),
             HtmlCell(self.say(number_text(verdict.true)), FIGURE), HtmlCell(self.say(STATES[verdict.state]()), STATE),
-            *(HtmlCell(self.say(digits(size, FIGURES)), FIGURE) for size in (verdict.off, verdict.tolerance)),
+            *(HtmlCell(self.say(digits(size, SIGNIFICANT_DIGITS)), FIGURE)
+              for size in (verdict.off, verdict.tolerance)),
             HtmlCell(self.set(verdict.mistake or "")),
         )  # fmt: skip
 

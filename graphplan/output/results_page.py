@@ -10,7 +10,7 @@ from graphplan.marking.classroom.results import (
     ABSENT,
     FAILED,
     JUDGED,
-    SHOWN,
+    MISTAKES_SHOWN,
     STATUS,
     UNASSIGNED,
     SheetResult,
@@ -82,8 +82,8 @@ class _ResultsPage(HtmlPage):
         found = self.found.mistakes
         kinds = {self.say(mistake_words(kind)): len(sheets) for kind, sheets in found.items()}
         yield from self.bars(said("Mistakes"), kinds, len(self.found.with_status(JUDGED)))
-        for kind, sheets in list(found.items())[:SHOWN]:
-            shown = [one for one in sheets if one.detail][:SHOWN]
+        for kind, sheets in list(found.items())[:MISTAKES_SHOWN]:
+            shown = [one for one in sheets if one.detail][:MISTAKES_SHOWN]
             if not shown:
                 continue
             yield f"<h3>{self.say(mistake_words(kind))}</h3><div class=\"pictures\">"

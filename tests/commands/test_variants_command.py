@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from graphplan.commands import main
-from graphplan.commands.variants import MOST
+from graphplan.commands.variants import MAX_VARIANTS
 from graphplan.marking.classroom.register import ClassRegister, load_register
 from graphplan.mechanism.scene import load as load_scene
 
@@ -133,7 +133,7 @@ def refusals(tmp_path: Path) -> Iterator[tuple[list[str], str]]:
     (tmp_path / "far.csv").write_text("name\n学生\n", encoding="utf-8")
     yield ["four-bar", "--names", str(tmp_path / "far.csv")], "far.csv: 学生: the font of the sheets has no 学 生; the"
     yield ["four-bar", "-n", "2", "-o", "-"], "-o -: a folder cannot go to standard output; the name of a folder"
-    yield ["four-bar", "-n", str(MOST + 1)], f"-n: {MOST + 1}; give 1 to {MOST}"
+    yield ["four-bar", "-n", str(MAX_VARIANTS + 1)], f"-n: {MAX_VARIANTS + 1}; give 1 to {MAX_VARIANTS}"
     scene = tmp_path / "wide.toml"
     scene.write_text(re.sub(r"(?s)\[vary\].*", '[vary]\n"points.A.angle" = { from = 45, to = 135, step = 1 }\n',
                             load_scene("ozols-5-1").text).replace("A = 730", "A = 280"))

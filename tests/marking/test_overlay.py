@@ -10,14 +10,14 @@ from judged import TOLERANCE, TURNED, judgement
 
 from graphplan.kernel.kinds import CIRCLE, POINT
 from graphplan.marking.judge.overlay import (
-    ALLOWED,
     GOLD,
+    HALF_SIZES_MM,
     LAYER,
     PENS,
     RED,
-    SIZES,
-    SPARE,
-    WANTED,
+    SPARE_PEN,
+    TOLERANCE_PEN,
+    WANTED_PEN,
     StudentStrokes,
     overlay,
 )
@@ -64,7 +64,8 @@ def test_a_wrong_point_stands_where_it_was_drawn(name: str) -> None:
     found = judgement(name, {index: 3 + 1j})
     plans = found.composition.plans
     true = found.composition.views[plans.plan_of_step[index]](plans.spot(index))
-    (stroke,) = [item for item in StudentStrokes(found).items() if item.pen == WANTED and isinstance(item, Polyline)]
+    (stroke,) = [item
+                 for item in StudentStrokes(found).items() if item.pen == WANTED_PEN and isinstance(item, Polyline)]
     assert math.dist(stroke.spots[1], true) < 1e-9
     assert math.dist(stroke.spots[0], true) == pytest.approx(abs((3 + 1j) / TURNED))
 
@@ -72,7 +73,8 @@ def test_a_wrong_point_stands_where_it_was_drawn(name: str) -> None:
 def test_tolerances_are_as_large_as_they_are_on_the_students_sheet() -> None:
     """The ellipse of a right point has its half axes, enlarged as the sheet is."""
     found = judgement("four-bar")
-    ellipses = [item for item in StudentStrokes(found).items() if item.pen == ALLOWED and isinstance(item, Polygon)]
+    ellipses = [item
+                for item in StudentStrokes(found).items() if item.pen == TOLERANCE_PEN and isinstance(item, Polygon)]
     points = [v for v in found.verdicts if v.ellipse is not None]
     assert len(ellipses) == len(points)
     index = ellipses[0].step
@@ -129,9 +131,9 @@ def test_many_wrong_steps_run_over_to_further_pages() -> None:
 
 def test_verdicts_differ_by_more_than_colour() -> None:
     """The strokes of verdicts differ in width or dashes, so that they are told apart in grey."""
-    looks = {(pen.width, pen.dash) for pen in (*PENS.values(), SPARE)}
+    looks = {(pen.width, pen.dash) for pen in (*PENS.values(), SPARE_PEN)}
     assert len(looks) == len(PENS) + 1
-    assert SIZES[WRONG] > SIZES[RIGHT]
+    assert HALF_SIZES_MM[WRONG] > HALF_SIZES_MM[RIGHT]
 
 
 def test_what_is_spare_is_shown_where_it_lies() -> None:
@@ -139,7 +141,7 @@ def test_what_is_spare_is_shown_where_it_lies() -> None:
     found = judgement("four-bar")
     trace = next(v.trace for v in found.verdicts if v.trace is not None and v.trace.kind == POINT)
     strokes = StudentStrokes(replace(found, spare=(trace,)))
-    spared = [item for item in strokes.items() if item.pen.colour == SPARE.colour]
+    spared = [item for item in strokes.items() if item.pen.colour == SPARE_PEN.colour]
     assert len(spared) == 1
 
 
@@ -157,7 +159,7 @@ def test_nothing_leaves_its_plan() -> None:
     found = judgement("four-bar", {index: 2000.0})
     rects = [view.rect for view in found.composition.views.values()]
     strokes = [item for item in StudentStrokes(found).items() if isinstance(item, Polyline)]
-    assert any(item.pen == WANTED for item in strokes)
+    assert any(item.pen == WANTED_PEN for item in strokes)
     assert all(any(all(rect.holds(spot, 1e-9) for spot in item.spots) for rect in rects) for item in strokes)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from graphplan.errors import Refused
-from graphplan.marking.classroom.register import FILE, ClassRegister, TaskSheet, is_class, load_register
+from graphplan.marking.classroom.register import REGISTER_FILE, ClassRegister, TaskSheet, is_class, load_register
 
 SHEETS = (TaskSheet(0x01020304, 1, "Student 1", "variant-01.toml", 1),
           TaskSheet(0xFF0203FF, 2, "", "variant-02.toml", 2))
@@ -48,7 +48,7 @@ TEXTS = {"empty": b"", "half": b"{", "no UTF-8": b"\xff", "deep": b"[" * 100_000
 @pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
 def test_a_broken_register_is_refused(tmp_path: Path, text: bytes) -> None:
     """What is no register is one line that says what is wrong."""
-    (tmp_path / FILE).write_bytes(text)
+    (tmp_path / REGISTER_FILE).write_bytes(text)
     with pytest.raises(Refused, match=r"class\.json: not .*; the class\.json that graphplan variants wrote$"):
         load_register(tmp_path)
 

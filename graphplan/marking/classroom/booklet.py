@@ -62,8 +62,8 @@ def print_exercise(exercise: Exercise, draw: Draw, further: Callable[[Scene], It
 # ---- the key --------------------------------------------------------------------------------------------------------
 
 
-KEY = said("Key")
-HEAD = "variant", "student", "quantity", "of", "x", "y", "value", "unit"
+KEY_TITLE = said("Key")
+KEY_COLUMNS = "variant", "student", "quantity", "of", "x", "y", "value", "unit"
 
 
 class KeyRow(NamedTuple):
@@ -105,7 +105,7 @@ def key_table(found: Iterable[tuple[int, str, Iterable[KeyRow]]]) -> str:
     """The results of all variants, each by its number, with its student, as CSV."""
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
-    table.writerow(HEAD)
+    table.writerow(KEY_COLUMNS)
     for variant, student, rows in found:
         table.writerows((variant, student, *row) for row in rows)
     return text.getvalue()
@@ -122,8 +122,8 @@ def overview(composition: Composition, told: Sequence[tuple[int, str, str]]) -> 
         return [row for number, line in lines for row in words.paragraph(line, wide, number=number)]
 
     apart, filled = replace(composition, arrangement=page), paginate_tightly(page.set(rows), page)
-    first = layout(composition, document=KEY)
+    first = layout(composition, document=KEY_TITLE)
     for number, page_rows in enumerate(filled, 1):
         items = back_to_front([*frame_items(apart), *row_items(page_rows),
-                               *title_items(apart, KEY, number, len(filled))])
+                               *title_items(apart, KEY_TITLE, number, len(filled))])
         yield replace(first, width=page.width, height=page.height, frame=page.frame, panels={}, items=tuple(items))

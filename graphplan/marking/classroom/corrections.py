@@ -12,10 +12,10 @@ from functools import cached_property
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.judge.findings import look_at_lines, opinion
 from graphplan.marking.judge.overlay import (
-    CALLED,
+    CALLOUT_PEN,
+    HALF_SIZES_MM,
     LAYER,
     PENS,
-    SIZES,
     StudentMark,
     StudentStrokes,
     boxed_words,
@@ -30,9 +30,10 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.display import Circle, Item, Photograph, Rect, Sheet, Spot, move_item
 from graphplan.sheet.plates.view import View, clip_item
 
-RING = 1.0  # mm about what is right
-CUT, ABOUT = (28.0, 20.0), 4.0  # mm to each side of the first wrong mark that its picture shows, and of its ring
-TURNED = 0.02  # radians by which a plan may be turned, and where its marks should be is still shown
+RIGHT_RING_MM = 1.0  # mm about what is right
+# mm to each side of the first wrong mark that its picture shows, and of its ring
+DETAIL_HALF_MM, DETAIL_RING_MM = (28.0, 20.0), 4.0
+MAX_TURN_RAD = 0.02  # radians by which a plan may be turned, and where its marks should be is still shown
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,8 @@ class ScanStrokes(StudentStrokes):
             if verdict.trace is None or frame is None:
                 continue
             view = View(self.rect(step.panel), abs(frame.unit), (frame.origin.real, frame.origin.imag))
-            expected_value = verdict.own if abs(cmath.phase(frame.unit)) < TURNED else (math.nan,) * len(verdict.own)
+            expected_value = (verdict.own if abs(cmath.phase(frame.unit)) < MAX_TURN_RAD
+                              else (math.nan,) * len(verdict.own))
             marks.append(StudentMark(verdict, verdict.trace, verdict.trace.spots,
                                      replace(step, view=view, value=expected_value), 1.0))
         return marks
@@ -80,13 +82,13 @@ class ScanStrokes(StudentStrokes):
             state, rect = mark.verdict.state, mark.wanted.view.rect
             items = [*mark.items(), *mark.tolerance()]
             if state in EARNED:
-                ring = Circle(PENS.get(state, CALLED), LAYER, mark.verdict.step, mark.spots[0], RING)
+                ring = Circle(PENS.get(state, CALLOUT_PEN), LAYER, mark.verdict.step, mark.spots[0], RIGHT_RING_MM)
                 items = [ring] if mark.trace.kind == POINT else []
             for item in items:
                 yield from clip_item(item, rect)
         for verdict in self.judgement.verdicts:
             if verdict.state == UNSURE and verdict.trace is None and (spot := self.doubtful(verdict)):
-                yield Circle(PENS[UNSURE], LAYER, verdict.step, spot, SIZES[UNSURE])
+                yield Circle(PENS[UNSURE], LAYER, verdict.step, spot, HALF_SIZES_MM[UNSURE])
 
 
 @dataclass(frozen=True)
@@ -121,9 +123,9 @@ class Corrections:
             return None
         (x, y), whole = mark.label_spot, self.scan.rect
         left, low = (min(max(at - half, 0.0), most - 2 * half)
-                     for at, half, most in ((x, CUT[0], whole.width), (y, CUT[1], whole.height)))
-        rect = Rect(left, low, left + 2 * CUT[0], low + 2 * CUT[1])
-        ring = Circle(CALLED.with_fill("none"), LAYER, None, (x, y), ABOUT)
+                     for at, half, most in ((x, DETAIL_HALF_MM[0], whole.width), (y, DETAIL_HALF_MM[1], whole.height)))
+        rect = Rect(left, low, left + 2 * DETAIL_HALF_MM[0], low + 2 * DETAIL_HALF_MM[1])
+        ring = Circle(CALLOUT_PEN.with_fill("none"), LAYER, None, (x, y), DETAIL_RING_MM)
         items = [piece for item in (*mark.items(), ring) for piece in clip_item(item, rect)]
         return self._page(cut(rect), *(move_item(item, -rect.left, -rect.bottom) for item in items))
 
@@ -140,4 +142,4 @@ class Corrections:
             join((self.score.text, opinion(self.judgement), *look_at_lines(self.judgement)), " "))
         names = tuple(step.name for step in self.judgement.drawing.drawn.steps if step.name)
         rect = student.rect(next(iter(self.printed.views)))
-        return [*over, *boxed_words(words, names, (rect.left, rect.top), [*true, *over], rect, CALLED)[1]]
+        return [*over, *boxed_words(words, names, (rect.left, rect.top), [*true, *over], rect, CALLOUT_PEN)[1]]

@@ -24,10 +24,11 @@ from graphplan.errors import GraphplanError
 
 Data = dict[str, Any]
 Job = TypeVar("Job")
-FILES = "files"  # of data: names of files beside it that belong to it
-BLOCK = 2**20  # bytes of a file that are read at a time
-ONE_THREAD = "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OPENCV_FOR_THREADS_NUM"  # a process: each core has one
-DIED = "the process that worked on it died"
+FILES_KEY = "files"  # of data: names of files beside it that belong to it
+BLOCK_BYTES = 2**20  # bytes of a file that are read at a time
+# a process: each core has one
+THREAD_COUNT_VARIABLES = "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OPENCV_FOR_THREADS_NUM"
+PROCESS_DIED = "the process that worked on it died"
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class Keeper:
             data = json.loads((self.folder / f"{key}.json").read_text(encoding="utf-8"))
         except (OSError, ValueError, RecursionError):
             return None
-        whole = isinstance(data, dict) and all((self.folder / name).is_file() for name in data.get(FILES, ()))
+        whole = isinstance(data, dict) and all((self.folder / name).is_file() for name in data.get(FILES_KEY, ()))
         return data if whole else None
 
     def put(self, key: str, data: Data) -> None:
@@ -77,7 +78,7 @@ def file_digest(path: Path) -> str:
     """A digest of a file's bytes."""
     digest = blake2b(digest_size=16, person=b"graphplan file")
     with path.open("rb") as file:
-        while block := file.read(BLOCK):
+        while block := file.read(BLOCK_BYTES):
             digest.update(block)
     return digest.hexdigest()
 
@@ -111,7 +112,7 @@ def _run_together(work: Callable[[Job], Data], jobs: Mapping[str, Job], processe
         del waiting[name]
         yield name, outcome
     for name, job in waiting.items():
-        yield next(iter(_run_in_pool(work, {name: job}, 1)), (name, Failed(DIED)))
+        yield next(iter(_run_in_pool(work, {name: job}, 1)), (name, Failed(PROCESS_DIED)))
 
 
 def _run_in_pool(work: Callable[[Job], Data], jobs: Mapping[str, Job], processes: int
@@ -159,8 +160,8 @@ def _try_job(work: Callable[[Job], Data], job: Job) -> Data | Failed:
 @contextmanager
 def _one_thread_each() -> Iterator[None]:
     """The processes that start meanwhile have one thread each for sums of arrays."""
-    before = {name: os.environ.get(name) for name in ONE_THREAD}
-    os.environ.update(dict.fromkeys(ONE_THREAD, "1"))
+    before = {name: os.environ.get(name) for name in THREAD_COUNT_VARIABLES}
+    os.environ.update(dict.fromkeys(THREAD_COUNT_VARIABLES, "1"))
     try:
         yield
     finally:

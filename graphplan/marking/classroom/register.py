@@ -18,7 +18,7 @@ from typing import Any
 from graphplan.errors import Refused, printable
 from graphplan.sheet.frames.frame import corner_numbers
 
-FILE = "class.json"
+REGISTER_FILE = "class.json"
 REMEDY = "the class.json that graphplan variants wrote"
 
 
@@ -70,17 +70,17 @@ class ClassRegister:
 
     def save(self, folder: Path) -> None:
         """Write the file into a folder."""
-        (folder / FILE).write_text(self.text, encoding="utf-8")
+        (folder / REGISTER_FILE).write_text(self.text, encoding="utf-8")
 
 
 def is_class(folder: Path) -> bool:
     """Whether a folder has a register."""
-    return (folder / FILE).is_file()
+    return (folder / REGISTER_FILE).is_file()
 
 
 def load_register(folder: Path) -> ClassRegister:
     """The register in a folder. Fails with `Refused` where there is none, or it is not what graphplan writes."""
-    path = folder / FILE
+    path = folder / REGISTER_FILE
     try:
         read = json.loads(path.read_text(encoding="utf-8"))
         return _parse_register(read)
@@ -93,12 +93,12 @@ def load_register(folder: Path) -> ClassRegister:
         raise Refused(f"{path}", "not a register of a class", REMEDY) from None
 
 
-KINDS = {"code": int, "variant": int, "student": str, "scene": str, "page": int}
+FIELD_TYPES = {"code": int, "variant": int, "student": str, "scene": str, "page": int}
 
 
 def _parse_register(read: Any) -> ClassRegister:
     """The register of a file; fails with `KeyError` or `TypeError` where something is missing or of another kind."""
-    sheets = tuple(TaskSheet(**{key: _require_type(row[key], kind) for key, kind in KINDS.items()})
+    sheets = tuple(TaskSheet(**{key: _require_type(row[key], kind) for key, kind in FIELD_TYPES.items()})
                    for row in read["sheets"])
     options = {_require_type(key, str): _require_type(value, str) for key, value in dict(read["options"]).items()}
     if any(Path(sheet.scene).name != sheet.scene for sheet in sheets):  # a scene lies in the folder itself
@@ -115,11 +115,13 @@ def _require_type(value: Any, kind: type) -> Any:
 # ---- names: a CSV file in whatever dialect --------------------------------------------------------------------------
 
 
-WHOLE = {"name", "student", "full name", "student name", "nimi", "vārds", "имя", "фио", "студент", "ім'я", "піб"}
-FIRST = {"first name", "firstname", "given name", "vorname", "eesnimi", "vārds", "имя", "ім'я"}
-LAST = {"last name", "lastname", "surname", "family name", "nachname", "perenimi", "uzvārds", "фамилия", "прізвище"}
+FULL_NAME_COLUMNS = {"name", "student", "full name", "student name", "nimi", "vārds", "имя", "фио", "студент", "ім'я",
+                     "піб"}
+FIRST_NAME_COLUMNS = {"first name", "firstname", "given name", "vorname", "eesnimi", "vārds", "имя", "ім'я"}
+LAST_NAME_COLUMNS = {"last name", "lastname", "surname", "family name", "nachname", "perenimi", "uzvārds", "фамилия",
+                     "прізвище"}
 SEPARATORS = ";\t,"
-LARGEST, MOST = 10_000_000, 10_000  # bytes of a list, and names in it
+MAX_LIST_BYTES, MAX_NAMES = 10_000_000, 10_000  # bytes of a list, and names in it
 
 
 @dataclass(frozen=True)
@@ -141,8 +143,8 @@ def read_class_list(path: Path) -> ClassList:
     names = [name for row in _student_cells(rows) if (name := " ".join(filter(None, row)))]
     if not names:
         raise Refused(f"{path}", "it contains no name", "a line for each student, such as: name")
-    if len(names) > MOST:
-        raise Refused(f"{path}", f"it contains {len(names)} names", f"at most {MOST}")
+    if len(names) > MAX_NAMES:
+        raise Refused(f"{path}", f"it contains {len(names)} names", f"at most {MAX_NAMES}")
     students = _numbered_names(names)
     remarks += [f"{path}: {name} is named {count} times; the others are {name} (2) ..."
                 for name, count in Counter(names).items() if count > 1]
@@ -153,10 +155,10 @@ def _read_text(path: Path) -> tuple[str, list[str]]:
     """The text of a file and what is to be told of it."""
     try:
         with path.open("rb") as file:
-            data = file.read(LARGEST + 1)
+            data = file.read(MAX_LIST_BYTES + 1)
     except OSError as error:
         raise Refused(f"{path}", f"it cannot be read ({error.strerror})", "a list of names, a .csv") from None
-    if len(data) > LARGEST or b"\0" in data.removeprefix(b"\xff\xfe"):
+    if len(data) > MAX_LIST_BYTES or b"\0" in data.removeprefix(b"\xff\xfe"):
         raise Refused(f"{path}", "not a list of names", "a .csv, saved as UTF-8")
     try:
         return data.decode("utf-8-sig"), []
@@ -177,9 +179,9 @@ def _rows(text: str) -> list[list[str]]:
 def _student_cells(rows: Sequence[Sequence[str]]) -> list[tuple[str, ...]]:
     """The cells of each row that name a student; a first row that says what columns are is none."""
     heads = [cell.casefold() for cell in rows[0]] if rows else []
-    whole = next((place for place, head in enumerate(heads) if head in WHOLE), None)
+    whole = next((place for place, head in enumerate(heads) if head in FULL_NAME_COLUMNS), None)
     first, last = (next((place for place, head in enumerate(heads) if head in column_names), None)
-                   for column_names in (FIRST, LAST))
+                   for column_names in (FIRST_NAME_COLUMNS, LAST_NAME_COLUMNS))
     if first is not None and last is not None:
         columns = [first, last]
     elif whole is not None:

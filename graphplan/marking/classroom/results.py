@@ -178,11 +178,11 @@ STATUS: Mapping[str, Phrase] = {
     ASIDE: phrase("set aside"), UNASSIGNED: phrase("unassigned"), FAILED: phrase("not judged"),
     ABSENT: phrase("not handed in"),
 }  # fmt: skip
-BINS = 10  # of the histogram of scores
-SHOWN = 5  # the most frequent mistakes that are shown, and how many pictures of each
-LONGEST = 60  # characters of a file's name
-UNSAFE = re.compile(r"[^\w \-.,()]|[. ]+$")
-RESERVED = re.compile(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\.|$)")
+SCORE_BINS = 10  # of the histogram of scores
+MISTAKES_SHOWN = 5  # the most frequent mistakes that are shown, and how many pictures of each
+MAX_NAME_CHARS = 60  # characters of a file's name
+UNSAFE_CHARS = re.compile(r"[^\w \-.,()]|[. ]+$")
+RESERVED_NAMES = re.compile(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\.|$)")
 
 
 @dataclass(frozen=True)
@@ -245,9 +245,9 @@ class StackResults:
     @property
     def histogram(self) -> dict[str, int]:
         """How many scores there are in each tenth, the hundred in the last."""
-        counts = Counter(min(int(score * BINS / 100), BINS - 1) for score in self.scores)
-        wide = 100 // BINS
-        return {f"{wide * i}–{wide * (i + 1)}": counts[i] for i in range(BINS)}
+        counts = Counter(min(int(score * SCORE_BINS / 100), SCORE_BINS - 1) for score in self.scores)
+        wide = 100 // SCORE_BINS
+        return {f"{wide * i}–{wide * (i + 1)}": counts[i] for i in range(SCORE_BINS)}
 
     @property
     def mistakes(self) -> dict[str, list[SheetResult]]:
@@ -313,8 +313,8 @@ def file_names(wanted: Sequence[str]) -> list[str]:
     """Names of files for what is called so: safe on any system, no two alike whatever their letters' size."""
     taken, names = set[str](), list[str]()
     for name in wanted:
-        safe = UNSAFE.sub("_", name.strip())[:LONGEST].lstrip(".") or "_"
-        safe = f"_{safe}" if RESERVED.match(safe) else safe
+        safe = UNSAFE_CHARS.sub("_", name.strip())[:MAX_NAME_CHARS].lstrip(".") or "_"
+        safe = f"_{safe}" if RESERVED_NAMES.match(safe) else safe
         again, unique = 1, safe
         while unique.casefold() in taken:
             again += 1

@@ -20,7 +20,7 @@ from graphplan.errors import GraphplanError, Refused, by_name, printable
 from graphplan.marking.classroom.register import ClassRegister, TaskSheet
 from graphplan.marking.classroom.results import Unread
 from graphplan.marking.files.safe import MB, text
-from graphplan.marking.submission import IMAGES
+from graphplan.marking.submission import IMAGE_SUFFIXES
 from graphplan.mechanism.items import suggestion
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.frames.frame import corner_numbers, page_code
@@ -28,7 +28,7 @@ from graphplan.sheet.frames.frame import corner_numbers, page_code
 # ---- pages ----------------------------------------------------------------------------------------------------------
 
 
-THUMBNAIL, QUALITY = 480, 70  # pixels of its longer side, and how well JPEG keeps it
+THUMBNAIL_PX, THUMBNAIL_JPEG_QUALITY = 480, 70  # pixels of its longer side, and how well JPEG keeps it
 
 
 @dataclass(frozen=True)
@@ -83,12 +83,13 @@ def look_at_page(page: StackPage) -> PageSight:
     from graphplan.marking.scans.printed_ink import is_blank, marks_of_sheet
 
     image = page_picture(page.path, page.number)
-    small = shrink(image, THUMBNAIL**2 * min(image.shape) / max(image.shape))
+    small = shrink(image, THUMBNAIL_PX**2 * min(image.shape) / max(image.shape))
     marks, mirrored = (tuple(sorted(marks_of_sheet(picture).values())) for picture in (image, image[:, ::-1]))
     digest = blake2b(image.tobytes(), digest_size=16, person=b"graphplan page")
     digest.update(repr(image.shape).encode())
     empty = not marks and not mirrored and is_blank(image)
-    return PageSight(digest.hexdigest(), marks, mirrored, empty, b64encode(encode_jpeg(small, QUALITY)).decode())
+    return PageSight(digest.hexdigest(), marks, mirrored, empty,
+                     b64encode(encode_jpeg(small, THUMBNAIL_JPEG_QUALITY)).decode())
 
 
 def _files(stack: Path) -> list[Path]:
@@ -110,8 +111,8 @@ def _file_pages(path: Path, name: str) -> Iterator[StackPage]:
         raise Refused(f"{path}", "this is a folder within the folder", "move its scans out of it")
     if not path.is_file():
         raise Refused(f"{path}", "no such file", "a scan, or a folder of scans")
-    if path.suffix.casefold() not in IMAGES:
-        raise Refused(f"{path}", "not a scan", f"one of {' '.join(IMAGES)}")
+    if path.suffix.casefold() not in IMAGE_SUFFIXES:
+        raise Refused(f"{path}", "not a scan", f"one of {' '.join(IMAGE_SUFFIXES)}")
     from graphplan.marking.scans.image import count
 
     many = path.suffix.casefold() == ".pdf"
@@ -122,10 +123,11 @@ def _file_pages(path: Path, name: str) -> Iterator[StackPage]:
 # ---- whose they are -------------------------------------------------------------------------------------------------
 
 
-SURE, ENOUGH = 3, 2  # marks that tell a sheet though another one is misread, and though the others are lost
-ALL = 4  # marks of a page
-PAGES = 3  # of a task, at most
-ASIDE = "-"  # in the place of a name: the page is set aside
+# marks that tell a sheet though another one is misread, and though the others are lost
+MIN_MARKS_OF_SHEET, MIN_MARKS_ALONE = 3, 2
+MARKS_OF_PAGE = 4  # marks of a page
+MAX_TASK_PAGES = 3  # of a task, at most
+SET_ASIDE_NAME = "-"  # in the place of a name: the page is set aside
 COUNTS, AGAIN, JOINED, BLANK, SET_ASIDE, UNASSIGNED = "judged", "again", "joined", "blank", "aside", "unassigned"
 PERHAPS = "perhaps"  # it counts or is joined, as there is no other sheet of its student, or is one
 
@@ -177,7 +179,7 @@ def decode_page(sight: PageSight, register: ClassRegister) -> DecodedPage:
             best = DecodedPage(*fitting[0], mirrored, len(marks))
     if best.sheet is not None:
         return best
-    if len(sight.marks) > ENOUGH:
+    if len(sight.marks) > MIN_MARKS_ALONE:
         return DecodedPage(None, why=said("its code is that of no sheet of this class"))
     return DecodedPage(None, why=said("too few of its corner marks can be read") if sight.marks else
                        said("no corner marks are seen on it"))
@@ -185,9 +187,9 @@ def decode_page(sight: PageSight, register: ClassRegister) -> DecodedPage:
 
 def _fitting_sheets(marks: Sequence[int], sheets: Iterable[TaskSheet]) -> Iterator[tuple[TaskSheet, int]]:
     """The sheets and the pages of them that bear these marks: all of them, or at least three."""
-    for sheet, page in product(sheets, range(1, PAGES + 1)):
+    for sheet, page in product(sheets, range(1, MAX_TASK_PAGES + 1)):
         matching_marks = len(set(marks) & set(corner_numbers(page_code(sheet.code, page))))
-        if matching_marks >= SURE or matching_marks == len(marks) >= ENOUGH:
+        if matching_marks >= MIN_MARKS_OF_SHEET or matching_marks == len(marks) >= MIN_MARKS_ALONE:
             yield sheet, page
 
 
@@ -250,7 +252,7 @@ def _page_name(told: str, name: str, pages: Sequence[StackPage]) -> str:
 
 def _parse_assignment(told: str, student: str, variant: str, register: ClassRegister) -> Assignment:
     """Who or what was meant."""
-    if ASIDE in (student, variant):
+    if SET_ASIDE_NAME in (student, variant):
         return Assignment()
     variants = [str(sheet.variant) for sheet in register.sheets]
     if variant and variant not in variants:
@@ -313,7 +315,7 @@ def _notes(code: DecodedPage) -> Iterator[Said]:
     """What the teacher must know of how a page was read."""
     if code.mirrored:
         yield said("the page is mirrored")
-    if code.sheet is not None and code.marks < ALL:
+    if code.sheet is not None and code.marks < MARKS_OF_PAGE:
         yield said("{0} of 4 corner marks are read", code.marks)
 
 

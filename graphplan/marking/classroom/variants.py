@@ -35,9 +35,9 @@ from graphplan.words.tongue import Tongue
 # ---- flaws: why a variant is no task for a class, though the scene itself is one ------------------------------------
 
 
-FLATTEST = 12.0  # degrees: two lines that cross flatter have no clear point
-COARSEST = 0.15  # of the largest of its kind: a result that a careful hand misses by more is none
-WORSE = 1.25  # times: so much worse than the scene itself a variant may be where that is no better
+MIN_CROSSING_DEGREES = 12.0  # degrees: two lines that cross flatter have no clear point
+MAX_ERROR_SHARE = 0.15  # of the largest of its kind: a result that a careful hand misses by more is none
+MAX_WORSE_RATIO = 1.25  # times: so much worse than the scene itself a variant may be where that is no better
 
 Draw = Callable[[Scene], Drafted]  # a scene on its sheet, as the options say
 
@@ -73,13 +73,13 @@ class Quality:
 
     def find_flaw(self, own: Quality) -> Flaw | None:
         """What makes it worse than a class's sheet may be; `own` is the quality of the scene's own sheet."""
-        if self.flattest < min(FLATTEST, own.flattest / WORSE):
+        if self.flattest < min(MIN_CROSSING_DEGREES, own.flattest / MAX_WORSE_RATIO):
             return Flaw("it is nearly singular", f"lines cross at {self.flattest:.0f}°")
         if len(self.short) > len(own.short):
             return Flaw("vectors are too short", f"vectors of {min(self.short):.1f} mm are too short")
         if len(self.outside) > len(own.outside):
             return Flaw("steps are outside the paper", f"step {self.outside[0]} is outside the paper")
-        if self.error > max(COARSEST, WORSE * own.error):
+        if self.error > max(MAX_ERROR_SHARE, MAX_WORSE_RATIO * own.error):
             off = f"by {100 * self.error:.0f} %" if math.isfinite(self.error) else "without bound"
             return Flaw("a careful hand draws it too far off", f"a careful hand is off {off} in {self.worst}")
         if own.legible and not self.legible:
@@ -111,13 +111,14 @@ def find_flaw(text: str, name: str, draw: Draw, own: Quality) -> Flaw | None:
 # ---- variants -------------------------------------------------------------------------------------------------------
 
 
-MOST_TRIES, PATIENCE = 8, 40  # draws for each variant, and more of them in all
-PILOTS, ENOUGH = 12, 0.75  # first variants by which scales are chosen, and the part of them that is to fit
-SMALL = 1 / 6, 1 / 2  # of them are drawn as small, or smaller
+TRIES_PER_VARIANT, EXTRA_TRIES = 8, 40  # draws for each variant, and more of them in all
+# first variants by which scales are chosen, and the part of them that is to fit
+PILOT_VARIANTS, MIN_FITTING_SHARE = 12, 0.75
+SMALLER_SHARES = 1 / 6, 1 / 2  # of them are drawn as small, or smaller
 Values = Mapping[str, Fraction]  # by the paths of the numbers
 Keys = Mapping[str, str]  # of [sheet], as TOML
 Progress = Callable[[int, int], None]  # how many are done, of how many
-COORDINATES = {"0": "x", "1": "y"}  # of a point, by their places
+COORDINATE_NAMES = {"0": "x", "1": "y"}  # of a point, by their places
 
 
 @dataclass(frozen=True)
@@ -157,7 +158,7 @@ def _path_words(path: str) -> str:
     """The number at a path: a coordinate by its point, else what it is of, of things in a list counted from 1."""
     table, *keys = path.split(".")
     if table == "points":
-        return " ".join((*keys[:-1], COORDINATES.get(keys[-1], keys[-1])))
+        return " ".join((*keys[:-1], COORDINATE_NAMES.get(keys[-1], keys[-1])))
     return " ".join((table, *(str(int(key) + 1) if key.isdigit() else key for key in keys)))
 
 
@@ -276,7 +277,7 @@ class Design:
             fitting = sum(flaw is None for flaw in self.shared_out(self._work, texts))
             if most is None or fitting > most[0]:
                 most = fitting, keys
-            if fitting >= ENOUGH * len(pilots):
+            if fitting >= MIN_FITTING_SHARE * len(pilots):
                 break
         assert most is not None
         return most[1]
@@ -299,7 +300,8 @@ class Design:
                      for plan in scales_of_scene.multiples if all(plan in multiples for multiples in variant_multiples)]
             ordered = {plan: sorted(multiples[plan] for multiples in variant_multiples)
                        for plan in plans if variant_multiples}
-            fitted = [{plan: sizes[int(share * len(sizes))] for plan, sizes in ordered.items()} for share in SMALL]
+            fitted = [{plan: sizes[int(share * len(sizes))] for plan, sizes in ordered.items()}
+                      for share in SMALLER_SHARES]
             yield from (sheet_keys(self.scene, replace(scales, multiples=sizes), paper) for sizes in fitted if sizes)
 
     @property
@@ -312,8 +314,8 @@ class Design:
     def series(self, count: int, seed: int, progress: Progress) -> VariantSeries:
         """So many variants; fails with `Refused` where too few of those drawn are without a flaw."""
         choices = self.scene.vary
-        wording = self.wording(self.scales([*islice(draw_values(choices, seed), min(PILOTS, count + 2))]))
-        tried = [*islice(draw_values(choices, seed), MOST_TRIES * count + PATIENCE)]
+        wording = self.wording(self.scales([*islice(draw_values(choices, seed), min(PILOT_VARIANTS, count + 2))]))
+        tried = [*islice(draw_values(choices, seed), TRIES_PER_VARIANT * count + EXTRA_TRIES)]
         good_values, drawn_anew = list[Values](), list[tuple[int, Values, Flaw]]()
         flaws = self.shared_out(self._work, (wording.variant(count, values).text for values in tried))
         for values, wrong in zip(tried, flaws, strict=False):
@@ -322,7 +324,7 @@ class Design:
             else:
                 drawn_anew.append((len(good_values) + 1, values, wrong))
             progress(len(good_values), count)
-            if len(good_values) == count or len(drawn_anew) > PATIENCE + MOST_TRIES * len(good_values):
+            if len(good_values) == count or len(drawn_anew) > EXTRA_TRIES + TRIES_PER_VARIANT * len(good_values):
                 break
         if (len(good_values) < count
             and not (good_values and len(good_values) + len(drawn_anew) == math.prod(map(len, choices.values())))):

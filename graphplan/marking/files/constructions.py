@@ -19,20 +19,21 @@ from typing import Any, NamedTuple, TypeVar
 from xml.etree.ElementTree import Element
 
 from graphplan.errors import Refused
-from graphplan.marking.files.drawing import NEAR
+from graphplan.marking.files.drawing import SHAPE_TOL
 from graphplan.marking.files.safe import MB, number, tree, unpack
 from graphplan.marking.tolerances import PARALLEL_TOL
 
 T = TypeVar("T")
-LARGEST = 16 * MB
-CAPTION = "3"  # the mode in which a caption is shown as label
+MAX_GGB_BYTES = 16 * MB
+CAPTION_MODE = "3"  # the mode in which a caption is shown as label
 
-LINES, CIRCLES = {"line", "segment", "ray", "vector"}, {"conic", "conicpart"}
-UNDEFINED = ("NaN", "?", "Infinity", "-Infinity")  # coordinates of what cannot be drawn
-LETTERS, LONGEST = 300_000, 2000  # of all terms that are worked out, and of one; what is beyond has no value
+LINE_TYPES, CIRCLE_TYPES = {"line", "segment", "ray", "vector"}, {"conic", "conicpart"}
+UNDEFINED_NUMERALS = ("NaN", "?", "Infinity", "-Infinity")  # coordinates of what cannot be drawn
+# of all terms that are worked out, and of one; what is beyond has no value
+MAX_TERM_LETTERS, MAX_TERM_LENGTH = 300_000, 2000
 NUMERAL, NAME = r"\d+\.?\d*(?:E[+-]?\d+)?|\.\d+", r"[^\W\d](?:\w|')*(?:\{[^{}]*\}'*)?"
 TOKEN = re.compile(rf"\s*(?:({NUMERAL})|({NAME})|(<=|>=|[-+*/^(),\[\]°<>≤≥]))")
-SIGNS = {"^": "**", "≤": "<=", "≥": ">=", "[": "(", "]": ")", "°": "**degree"}  # in Python's grammar
+PYTHON_SIGNS = {"^": "**", "≤": "<=", "≥": ">=", "[": "(", "]": ")", "°": "**degree"}  # in Python's grammar
 
 
 class LineValue(NamedTuple):
@@ -89,28 +90,29 @@ def _unit(thing: Any, turn: complex = 1.0) -> PlaneVector:
     return PlaneVector(turn * thing.along / abs(thing.along))
 
 
-NUMBER = float | int
-DIRECTED = LineValue | PlaneVector
-CALLS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {  # what a command does, and of which kinds of thing
-    **dict.fromkeys(("Line", "Ray"), (_line, (complex, complex | DIRECTED))), "Segment": (_line, (complex, complex)),
+NUMBER_TYPES = float | int
+DIRECTED_TYPES = LineValue | PlaneVector
+COMMANDS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {  # what a command does, and of which kinds of thing
+    **dict.fromkeys(("Line", "Ray"), (_line, (complex, complex | DIRECTED_TYPES))),
+    "Segment": (_line, (complex, complex)),
     **dict.fromkeys(("OrthogonalLine", "PerpendicularLine"),
-                    (lambda point, other: LineValue(point, 1j * other.along), (complex, DIRECTED))),
+                    (lambda point, other: LineValue(point, 1j * other.along), (complex, DIRECTED_TYPES))),
     **dict.fromkeys(("LineBisector", "PerpendicularBisector"), (_bisector, (complex, complex))),
     "Intersect": (_meet, (LineValue, LineValue)),
     "Midpoint": (lambda one, two: (one + two) / 2, (complex, complex)),
-    "Distance": (_distance, (complex, complex | LineValue)), "Circle": (_circle, (complex, complex | NUMBER)),
+    "Distance": (_distance, (complex, complex | LineValue)), "Circle": (_circle, (complex, complex | NUMBER_TYPES)),
     "Center": (lambda circle: circle.at, (CircleValue,)), "Radius": (lambda circle: circle.radius, (CircleValue,)),
     "Vector": (lambda start, end=None: PlaneVector(start if end is None else end - start), (complex, complex)),
-    "Direction": (lambda line: PlaneVector(line.along), (LineValue,)), "UnitVector": (_unit, (DIRECTED,)),
-    "OrthogonalVector": (lambda thing: PlaneVector(1j * thing.along), (DIRECTED,)),
-    "UnitOrthogonalVector": (lambda thing: _unit(thing, 1j), (DIRECTED,)),
+    "Direction": (lambda line: PlaneVector(line.along), (LineValue,)), "UnitVector": (_unit, (DIRECTED_TYPES,)),
+    "OrthogonalVector": (lambda thing: PlaneVector(1j * thing.along), (DIRECTED_TYPES,)),
+    "UnitOrthogonalVector": (lambda thing: _unit(thing, 1j), (DIRECTED_TYPES,)),
     "Translate": (lambda point, vector: point + vector.along, (complex, PlaneVector)),
     "Rotate": (lambda point, angle, centre: centre + (point - centre) * cmath.exp(1j * angle),
-               (complex, NUMBER, complex)),
+               (complex, NUMBER_TYPES, complex)),
     "If": (lambda holds, one, other: one if holds else other, (bool, object, object)),
-    "sqrt": (math.sqrt, (NUMBER,)), "abs": (abs, (complex | NUMBER,)),
-    "sgn": (lambda value: (value > 0) - (value < 0), (NUMBER,)), "sin": (math.sin, (NUMBER,)),
-    "cos": (math.cos, (NUMBER,)), "x": (lambda thing: _vector_or_point(thing).real, (complex | PlaneVector,)),
+    "sqrt": (math.sqrt, (NUMBER_TYPES,)), "abs": (abs, (complex | NUMBER_TYPES,)),
+    "sgn": (lambda value: (value > 0) - (value < 0), (NUMBER_TYPES,)), "sin": (math.sin, (NUMBER_TYPES,)),
+    "cos": (math.cos, (NUMBER_TYPES,)), "x": (lambda thing: _vector_or_point(thing).real, (complex | PlaneVector,)),
     "y": (lambda thing: _vector_or_point(thing).imag, (complex | PlaneVector,)),
 }  # fmt: skip
 
@@ -124,7 +126,7 @@ def _run_command(name: str, arguments: list[Any]) -> Any:
 
     Fails with `ValueError` where it is not known, or not for these arguments.
     """
-    command, kinds = CALLS.get(name, (None, ()))
+    command, kinds = COMMANDS.get(name, (None, ()))
     if command is None or len(arguments) > len(kinds) or not all(map(isinstance, arguments, kinds)):
         raise ValueError(f"{name} is not known, or not of these")
     try:
@@ -134,7 +136,7 @@ def _run_command(name: str, arguments: list[Any]) -> Any:
 
 
 def _number(value: Any) -> float:
-    if not isinstance(value, NUMBER):
+    if not isinstance(value, NUMBER_TYPES):
         raise ValueError("a number is expected")
     return float(value)
 
@@ -142,7 +144,7 @@ def _number(value: Any) -> float:
 def _plus(one: Any, two: Any) -> Any:
     if isinstance(two, PlaneVector) and isinstance(one, complex | PlaneVector):
         return one + two.along if isinstance(one, complex) else PlaneVector(one.along + two.along)
-    if isinstance(one, complex | NUMBER) and isinstance(two, complex | NUMBER):
+    if isinstance(one, complex | NUMBER_TYPES) and isinstance(two, complex | NUMBER_TYPES):
         return one + two
     raise ValueError("these cannot be added")
 
@@ -151,7 +153,7 @@ def _times(one: Any, two: Any) -> Any:
     if isinstance(two, PlaneVector):
         one, two = two, one
     factor = two if isinstance(two, complex) else _number(two)
-    if not isinstance(one, complex | NUMBER | PlaneVector):
+    if not isinstance(one, complex | NUMBER_TYPES | PlaneVector):
         raise ValueError("these cannot be multiplied")
     return PlaneVector(one.along * factor) if isinstance(one, PlaneVector) else one * factor
 
@@ -169,12 +171,13 @@ def _python_term(term: str, names: list[str]) -> str:
     tokens, place, term = [], 0, term.rstrip()
     while place < len(term):
         token = TOKEN.match(term, place)
-        if token is None or len(term) > LONGEST:
+        if token is None or len(term) > MAX_TERM_LENGTH:
             raise ValueError(f"{term[place:place + 10]!r} is not understood")
         numeral, name, sign = token.groups()
         if name:
             names.append(name)
-        tokens.append(repr(float(numeral)) if numeral else f"n{len(names) - 1}" if name else SIGNS.get(sign, sign))
+        tokens.append(repr(float(numeral)) if numeral else f"n{len(names) - 1}" if name
+                      else PYTHON_SIGNS.get(sign, sign))
         place = token.end()
     return " ".join(tokens)
 
@@ -212,7 +215,7 @@ class GeoGebraObjects:
         self.commands: dict[str, tuple[str, list[str], int]] = {}  # its name, of what, and which of its results
         self.values: dict[str, Any] = {}
         self.terms: dict[str, str] = {}  # the expressions of those that have one
-        self.left = LETTERS
+        self.left = MAX_TERM_LETTERS
         for child in construction:
             if child.tag == "expression":
                 self.terms[child.get("label", "")] = child.get("exp", "")
@@ -269,7 +272,7 @@ def stated_value(element: Element) -> Any:
     if kind in ("numeric", "angle"):
         value = element.find("value")
         return None if value is None else coordinate(value.get("val", ""))
-    if kind in CIRCLES:
+    if kind in CIRCLE_TYPES:
         return _circle_of_conic(element.find("matrix"))
     if coords is None:
         return None
@@ -281,12 +284,12 @@ def stated_value(element: Element) -> Any:
     if kind == "vector":
         return PlaneVector(complex(x, y))
     across = complex(x, y)  # of the line x X + y Y + z = 0
-    return LineValue(-z * across / abs(across) ** 2, -1j * across) if across and kind in LINES else None
+    return LineValue(-z * across / abs(across) ** 2, -1j * across) if across and kind in LINE_TYPES else None
 
 
 def coordinate(written: str) -> float:
     """A coordinate; what cannot be drawn has none."""
-    return math.nan if written in UNDEFINED else number(written)
+    return math.nan if written in UNDEFINED_NUMERALS else number(written)
 
 
 def _circle_of_conic(matrix: Element | None) -> CircleValue | None:
@@ -294,7 +297,7 @@ def _circle_of_conic(matrix: Element | None) -> CircleValue | None:
     if matrix is None:
         return None
     xx, yy, constant, xy, x, y = (coordinate(matrix.get(f"A{i}", "0")) for i in range(6))
-    if not math.isfinite(xx + yy + constant + xy + x + y) or not xx or abs(xx - yy) + abs(xy) > NEAR * abs(xx):
+    if not math.isfinite(xx + yy + constant + xy + x + y) or not xx or abs(xx - yy) + abs(xy) > SHAPE_TOL * abs(xx):
         return None
     centre = complex(-x / xx, -y / xx)
     square = abs(centre) ** 2 - constant / xx
@@ -309,7 +312,7 @@ def is_shown(element: Element) -> bool:
 
 def read_construction(path: Path, data: bytes, read: Callable[[GeoGebraObjects], T]) -> T:
     """What is read from the objects of a GeoGebra file; fails with `Refused` where it is damaged."""
-    root = tree(path, unpack(path, data, "geogebra.xml", LARGEST))
+    root = tree(path, unpack(path, data, "geogebra.xml", MAX_GGB_BYTES))
     construction = root.find("construction")
     if root.tag != "geogebra" or construction is None:
         raise Refused(f"{path}", "it holds no construction of GeoGebra", "save the drawing anew")

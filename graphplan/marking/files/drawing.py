@@ -17,7 +17,7 @@ from shapely import Point, STRtree
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.files.safe import FARTHEST, TRACES, Budget, on_paper
+from graphplan.marking.files.safe import MAX_DISTANCE_MM, MAX_TRACES, Budget, on_paper
 from graphplan.marking.tolerances import BULGE_TOL, COLLINEAR_TOL, SIZE_TOL
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace, can_name_line
 from graphplan.sheet.lettering.lettering import SUBSCRIPT, TextRun, width
@@ -25,14 +25,16 @@ from graphplan.sheet.lettering.lettering import SUBSCRIPT, TextRun, width
 # ---- lines and circles by their spots -------------------------------------------------------------------------------
 
 
-DOT, SMALL = 1.5, 100  # mm: no compass strikes so small a circle, a pair's symbol has 1.2; nor so small a part of all
-RING = 4  # spots of a whole circle
-HALVED, SQUARED = 0.05, 0.7  # of their length that strokes of a cross may miss their middles; the sine of their angle
-NEAR = 0.01  # how far spots may lie off a line or circle that they are to show, beside its size
-FAR_CLOSER = 10  # times: where an arc is so much closer to spots than a line, they show no line
-ROUND = 12  # straight pieces at least that show a circle
-SHORT = 0.5  # mm: a straight piece shorter than this shows no line
-SHARP = math.radians(45)  # the corner of an outline that is as sharp as a tip
+# mm: no compass strikes so small a circle, a pair's symbol has 1.2; nor so small a part of all
+MAX_DOT_RADIUS_MM, DOT_SIZE_RATIO = 1.5, 100
+CIRCLE_SPOTS = 4  # spots of a whole circle
+# of their length that strokes of a cross may miss their middles; the sine of their angle
+CROSS_MIDDLE_SHARE, MIN_CROSS_SINE = 0.05, 0.7
+SHAPE_TOL = 0.01  # how far spots may lie off a line or circle that they are to show, beside its size
+ARC_CLOSER_RATIO = 10  # times: where an arc is so much closer to spots than a line, they show no line
+MIN_ROUND_PIECES = 12  # straight pieces at least that show a circle
+MIN_LINE_MM = 0.5  # mm: a straight piece shorter than this shows no line
+MAX_TIP_RAD = math.radians(45)  # the corner of an outline that is as sharp as a tip
 
 
 def circle_spots(centre: Spot, radius: float) -> tuple[Spot, ...]:
@@ -59,13 +61,13 @@ def circle_trace(centre: Spot, radius: float) -> Trace:
 def dots_to_points(traces: Sequence[Trace]) -> list[Trace]:
     """The things with points for what stands for them: circles and crosses that are small beside all."""
     drawing_extent = extent([spot for trace in traces for spot in trace.spots] or [(0.0, 0.0)])
-    most = min(DOT, drawing_extent / SMALL)
+    most = min(MAX_DOT_RADIUS_MM, drawing_extent / DOT_SIZE_RATIO)
     return _crosses_to_points([dot_or_circle(trace, most) for trace in traces], most)
 
 
-def dot_or_circle(trace: Trace, radius: float = DOT) -> Trace:
+def dot_or_circle(trace: Trace, radius: float = MAX_DOT_RADIUS_MM) -> Trace:
     """A circle, or the point that a small one stands for."""
-    if trace.kind != CIRCLE or len(trace.spots) != RING:
+    if trace.kind != CIRCLE or len(trace.spots) != CIRCLE_SPOTS:
         return trace
     rim = circle_through(*trace.spots[:3])
     return Trace(POINT, (rim[0],)) if rim and rim[1] < radius else trace
@@ -76,12 +78,12 @@ def _crosses_to_points(traces: Sequence[Trace], most: float) -> list[Trace]:
     short = [trace for trace in traces if trace.kind == LINE and math.dist(*trace.spots) < 3 * most]
     replacements, crosses = dict[Trace, Trace | None](), STRtree([trace.figure.centroid for trace in short])
     for first in short:
-        for place in crosses.query(first.figure.centroid, "dwithin", HALVED * first.figure.length):
+        for place in crosses.query(first.figure.centroid, "dwithin", CROSS_MIDDLE_SHARE * first.figure.length):
             second = short[place]
             directions = [complex(*trace.spots[1]) - complex(*trace.spots[0]) for trace in (first, second)]
             across = abs((directions[0].conjugate() * directions[1]).imag)
             if (first not in replacements and second not in replacements
-                and across > SQUARED * max(abs(direction) for direction in directions) ** 2):
+                and across > MIN_CROSS_SINE * max(abs(direction) for direction in directions) ** 2):
                 at = first.figure.centroid
                 replacements |= {first: Trace(POINT, ((at.x, at.y),)), second: None}
     return [replacement for trace in traces if (replacement := replacements.get(trace, trace))]
@@ -90,9 +92,9 @@ def _crosses_to_points(traces: Sequence[Trace], most: float) -> list[Trace]:
 def chain_traces(spots: Sequence[Spot], short: float = 0.0) -> Iterator[Trace]:
     """A chain of straight pieces: one line where it is straight, a circle where it is as round, else line by line;
     what is not longer than `short` shows none."""
-    if len(spots) > 2 and (far := extent(spots)) > short and _chord_deviation(spots) <= NEAR * far:
+    if len(spots) > 2 and (far := extent(spots)) > short and _chord_deviation(spots) <= SHAPE_TOL * far:
         yield Trace(LINE, (spots[0], spots[-1]))
-    elif len(spots) > ROUND and (curve := recognize_curve(spots)):
+    elif len(spots) > MIN_ROUND_PIECES and (curve := recognize_curve(spots)):
         yield curve
     else:
         for start, end in pairwise(spots):
@@ -106,14 +108,14 @@ def recognize_curve(spots: Sequence[Spot]) -> Trace | None:
     A flat arc is as good as straight; it is an arc where it lies closer to its circle by far.
     """
     count, far = len(spots) - 1, extent(spots)
-    closed = math.dist(spots[0], spots[-1]) < NEAR * far
+    closed = math.dist(spots[0], spots[-1]) < SHAPE_TOL * far
     rim_spots = [spots[count * i // 4] for i in range(4)] if closed else [spots[0], spots[count // 2], spots[-1]]
     rim = circle_through(*rim_spots[:3])
     off = max(abs(math.dist(spot, rim[0]) - rim[1]) for spot in spots) if rim else math.inf
     bulge = _chord_deviation(spots)
-    if bulge <= NEAR * far and not BULGE_TOL * far < bulge > FAR_CLOSER * off:
-        return Trace(LINE, (spots[0], spots[-1])) if far > SHORT else None
-    if rim is None or off > NEAR * rim[1]:
+    if bulge <= SHAPE_TOL * far and not BULGE_TOL * far < bulge > ARC_CLOSER_RATIO * off:
+        return Trace(LINE, (spots[0], spots[-1])) if far > MIN_LINE_MM else None
+    if rim is None or off > SHAPE_TOL * rim[1]:
         return None
     return Trace(CIRCLE, tuple(rim_spots))
 
@@ -123,7 +125,7 @@ def sharp_corners(corners: Sequence[Spot]) -> Iterator[Spot]:
     spots = [complex(*corner) for corner in corners]
     for before, vertex, after in zip([*spots[-1:], *spots], spots, [*spots[1:], *spots[:1]], strict=False):
         turn = (before - vertex) * (after - vertex).conjugate()
-        if turn and abs(cmath.phase(turn)) < SHARP:
+        if turn and abs(cmath.phase(turn)) < MAX_TIP_RAD:
             yield vertex.real, vertex.imag
 
 
@@ -175,10 +177,11 @@ def _chord_deviation(spots: Sequence[Spot]) -> float:
 # ---- drawings -------------------------------------------------------------------------------------------------------
 
 
-STATED = 3.0  # what the unit that a file states speaks for itself, as a logarithm of odds
-WORDS = 500  # that may be names; more name nothing
-LED = 0.6  # of their size that a leader begins beside letters
-AT, FREE, LONGEST = 0.3, 0.5, 30.0  # mm from a leader's end to its mark, and from the other to anything; of a leader
+STATED_UNIT_ODDS = 3.0  # what the unit that a file states speaks for itself, as a logarithm of odds
+MAX_WORDS = 500  # that may be names; more name nothing
+LEADER_GAP_SIZES = 0.6  # of their size that a leader begins beside letters
+# mm from a leader's end to its mark, and from the other to anything; of a leader
+LEADER_MARK_MM, LEADER_FREE_MM, MAX_LEADER_MM = 0.3, 0.5, 30.0
 
 
 def word_at(text: str, at: Spot, size: float, anchor: float = 0.0) -> Lettering:
@@ -225,7 +228,7 @@ def follow_leaders(words: Sequence[Lettering], traces: Sequence[Trace], leaders:
     for stroke in strokes if able else ():
         gap, nearest, far = min(_nearest_letters(boxes, *spots) for spots in (stroke.spots, stroke.spots[::-1]))
         word = able[nearest]
-        if gap < LED * words[word].size and gap < ends.get(word, (math.inf,))[0]:
+        if gap < LEADER_GAP_SIZES * words[word].size and gap < ends.get(word, (math.inf,))[0]:
             ends[word] = gap, far
             taken.add(stroke)
     led_words = [replace(word, leads=ends[place][1]) if place in ends else word for place, word in enumerate(words)]
@@ -248,19 +251,20 @@ def _likely_leaders(traces: Sequence[Trace]) -> list[Trace]:
 
     def leader(line: Trace) -> bool:
         ends = [Point(*spot) for spot in line.spots]
-        marked = [bool(len(points.query(end, "dwithin", AT))) for end in ends]
-        if line.figure.length > LONGEST or sum(marked) != 1 or len(points.query(line.figure, "dwithin", FREE)) > 1:
+        marked = [bool(len(points.query(end, "dwithin", LEADER_MARK_MM))) for end in ends]
+        if (line.figure.length > MAX_LEADER_MM or sum(marked) != 1
+            or len(points.query(line.figure, "dwithin", LEADER_FREE_MM)) > 1):
             return False
         mark, end = ends if marked[0] else ends[::-1]
-        through = (lines[place] for place in strokes.query(mark, "dwithin", AT))
-        return len(figures.query(end, "dwithin", FREE)) == 1 and not any(
-            line_through is not line and distance_off_line(line_through.spots, (end.x, end.y)) < FREE
+        through = (lines[place] for place in strokes.query(mark, "dwithin", LEADER_MARK_MM))
+        return len(figures.query(end, "dwithin", LEADER_FREE_MM)) == 1 and not any(
+            line_through is not line and distance_off_line(line_through.spots, (end.x, end.y)) < LEADER_FREE_MM
             for line_through in through)
 
     return [line for line in lines if leader(line)]
 
 
-NO_DRAWING = frozenset({  # layers of graphplan's own sheets with nothing that a construction draws
+LAYERS_NOT_DRAWN = frozenset({  # layers of graphplan's own sheets with nothing that a construction draws
     "paper", "border", "corner marks", "ruling", "frame", "text", "letters", "results", "ground", "wheels", "drive",
     "motion"})
 
@@ -303,10 +307,10 @@ def drawing_submission(path: Path, traces: Iterable[Trace], words: Sequence[Lett
     Fails with `Refused` where something lies on no sheet, there is too much of it, or nothing at all.
     """
     once = list(dict.fromkeys(dots_to_points(list(traces))))
-    Budget(path, TRACES, "points, lines and circles").spend(len(once))
+    Budget(path, MAX_TRACES, "points, lines and circles").spend(len(once))
     for trace in once:
         if not on_paper(*chain.from_iterable(trace.spots)):
-            raise Refused(f"{path}", f"a {trace.kind} lies farther away than {FARTHEST:g} mm, or nowhere",
+            raise Refused(f"{path}", f"a {trace.kind} lies farther away than {MAX_DISTANCE_MM:g} mm, or nowhere",
                           "millimetres of paper as unit of the drawing")
     if not once:
         raise Refused(f"{path}", "it contains no point, line or circle", "give the drawing itself")
@@ -315,5 +319,5 @@ def drawing_submission(path: Path, traces: Iterable[Trace], words: Sequence[Lett
     shows = frozenset({LINE, *(trace.kind for trace in remaining)})
     ends = tuple(tip for tip in tips if on_paper(*tip))
     return Submission(path.name, tuple(remaining), shows=shows, frames=frames, tips=ends,
-                      letters=tuple(letters[:WORDS]),
+                      letters=tuple(letters[:MAX_WORDS]),
                       millimetres=millimetres)

@@ -19,9 +19,9 @@ from ezdxf.units import MM, conversion_factor
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.drawing import (
-    NO_DRAWING,
-    SHORT,
-    STATED,
+    LAYERS_NOT_DRAWN,
+    MIN_LINE_MM,
+    STATED_UNIT_ODDS,
     DrawingReader,
     arc_spots,
     chain_traces,
@@ -32,22 +32,24 @@ from graphplan.marking.files.drawing import (
     visible_stretch,
     word_at,
 )
-from graphplan.marking.files.safe import MB, TRACES, Budget, contents
+from graphplan.marking.files.safe import MAX_TRACES, MB, Budget, contents
 from graphplan.marking.traces import Frames, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import CAPS
 
 T = TypeVar("T")
 
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it mends in a file it would tell on standard error
-LARGEST = 8 * MB
-LINES, ENTITIES = 300_000, 20_000  # of a file: so many are read in a short time
-BESIDE = 15.0  # mm: so far right of the first page are further ones of words
-RAISED, HANGING = re.compile(r"\\S([^;^]+)\^ ?;"), re.compile(r"\\S\^ ?([^;^]+);")  # in texts of several levels
-DEEPEST = 8  # blocks within each other
-OWN = "GRAPHPLAN"  # whose extended data our own sheets have
-FULL_SIZE, SHEET = "MECHANISM 1-1", "SHEET "  # how layers of our own begin: of what is beside the sheet, and of its own
-BASE_LINES = {"LEFT": 0.0, "CENTER": 0.5, "RIGHT": 1.0, "MIDDLE": 0.5}
-STEPS = 48  # spots of an ellipse
+MAX_DXF_BYTES = 8 * MB
+MAX_LINES, MAX_ENTITIES = 300_000, 20_000  # of a file: so many are read in a short time
+WORDS_PAGE_GAP_MM = 15.0  # mm: so far right of the first page are further ones of words
+# in texts of several levels
+SUPERSCRIPT, SUBSCRIPT_CODE = re.compile(r"\\S([^;^]+)\^ ?;"), re.compile(r"\\S\^ ?([^;^]+);")
+MAX_BLOCK_DEPTH = 8  # blocks within each other
+OWN_APPLICATION = "GRAPHPLAN"  # whose extended data our own sheets have
+# how layers of our own begin: of what is beside the sheet, and of its own
+FULL_SIZE_LAYER, SHEET_LAYER = "MECHANISM 1-1", "SHEET "
+ANCHOR_SHARES = {"LEFT": 0.0, "CENTER": 0.5, "RIGHT": 1.0, "MIDDLE": 0.5}
+ELLIPSE_SPOTS = 48  # spots of an ellipse
 
 
 def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None) -> Submission:
@@ -59,7 +61,7 @@ def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None
         reader.add_endless_lines()
         return reader
 
-    reader = read_document(path, contents(path, LARGEST), read_model_space)
+    reader = read_document(path, contents(path, MAX_DXF_BYTES), read_model_space)
     return reader.submission(frames, size)
 
 
@@ -89,7 +91,7 @@ def _check_size(path: Path, data: bytes) -> bytes:
         raise Refused(f"{path}", "it is a binary DXF", "save it as DXF in text (ASCII)")
     if b"SECTION" not in data[:4096]:
         raise Refused(f"{path}", "not a DXF file", "give a DXF drawing")
-    for pattern, most, unit in ((rb"\n", LINES, "lines"), (rb"\n *0\r?\n", ENTITIES, "entities")):
+    for pattern, most, unit in ((rb"\n", MAX_LINES, "lines"), (rb"\n *0\r?\n", MAX_ENTITIES, "entities")):
         if sum(1 for _ in re.finditer(pattern, data)) > most:
             raise Refused(f"{path}", f"it has more than {most} {unit}", "a file of the drawing alone")
     return data
@@ -100,8 +102,8 @@ class _DxfReader(DrawingReader):
 
     def __init__(self, path: Path, document: Any):
         super().__init__(path)
-        self.own = OWN in document.appids
-        self.millimetres, self.short = (STATED, SHORT) if document.units else (0.0, 0.0)
+        self.own = OWN_APPLICATION in document.appids
+        self.millimetres, self.short = (STATED_UNIT_ODDS, MIN_LINE_MM) if document.units else (0.0, 0.0)
         self.mm = conversion_factor(document.units, MM) if document.units else 1.0
         self.origin = (0.0, 0.0)  # in units of the drawing: the lower left corner of a sheet of graphplan's own
         corners = [document.header.get(key, (0.0, 0.0)) for key in ("$LIMMIN", "$LIMMAX")]
@@ -109,7 +111,7 @@ class _DxfReader(DrawingReader):
         self.size = right - left, top - bottom  # of the sheet in mm, which stays when something is drawn beyond it
         self.origin = corners[0][:2] if self.own else self.origin
         self.lines: list[tuple[complex, complex]] = []
-        self.budget = Budget(path, 2 * TRACES, "entities")
+        self.budget = Budget(path, 2 * MAX_TRACES, "entities")
         self.hidden = {layer.dxf.name for layer in document.layers if layer.is_off() or layer.is_frozen()}
 
     def read(self, entities: Iterable[Any], depth: int) -> None:
@@ -117,7 +119,7 @@ class _DxfReader(DrawingReader):
         for entity in entities:
             self.budget.spend()
             layer = entity.dxf.get("layer", "0")
-            if layer in self.hidden or layer.startswith(FULL_SIZE) or entity.dxf.get("invisible", 0):
+            if layer in self.hidden or layer.startswith(FULL_SIZE_LAYER) or entity.dxf.get("invisible", 0):
                 continue
             if entity.dxftype() == "INSERT":
                 self._block(entity, depth)
@@ -126,7 +128,7 @@ class _DxfReader(DrawingReader):
             elif entity.dxftype() == "SOLID":  # the last two of its corners come the other way round
                 first, second, *last = map(self._spot, entity.vertices())
                 self.tips += sharp_corners([first, second, *reversed(last)])
-            elif not (self.own and (own_layer := self._own_layer(entity, layer)) in NO_DRAWING):
+            elif not (self.own and (own_layer := self._own_layer(entity, layer)) in LAYERS_NOT_DRAWN):
                 traces = list(self._traces(entity))
                 self.budget.spend(len(traces))
                 self.traces += traces
@@ -135,13 +137,13 @@ class _DxfReader(DrawingReader):
 
     def _own_layer(self, entity: Any, layer: str) -> str:
         """The layer of graphplan's own sheet: what of a step is no drawing bears it, all else is on it."""
-        named_layer = entity.get_xdata(OWN)[0].value if entity.has_xdata(OWN) else ""
-        return named_layer if named_layer in NO_DRAWING else layer.removeprefix(SHEET).partition("-")[0]
+        named_layer = entity.get_xdata(OWN_APPLICATION)[0].value if entity.has_xdata(OWN_APPLICATION) else ""
+        return named_layer if named_layer in LAYERS_NOT_DRAWN else layer.removeprefix(SHEET_LAYER).partition("-")[0]
 
     def _block(self, insert: Any, depth: int) -> None:
         """A block where it is put, each of its copies."""
-        if depth >= DEEPEST:
-            raise Refused(f"{self.path}", f"blocks are nested more than {DEEPEST} deep", "explode the blocks")
+        if depth >= MAX_BLOCK_DEPTH:
+            raise Refused(f"{self.path}", f"blocks are nested more than {MAX_BLOCK_DEPTH} deep", "explode the blocks")
         self.budget.spend(max(0, insert.mcount - 1))
         for copy in insert.multi_insert() if insert.mcount > 1 else [insert]:
             self.read(copy.virtual_entities(), depth + 1)
@@ -164,7 +166,7 @@ class _DxfReader(DrawingReader):
             case "ELLIPSE":
                 ends = entity.dxf.start_param, entity.dxf.end_param
                 sweep = (ends[1] - ends[0]) % math.tau or math.tau
-                at = [ends[0] + sweep * i / STEPS for i in range(STEPS + 1)]
+                at = [ends[0] + sweep * i / ELLIPSE_SPOTS for i in range(ELLIPSE_SPOTS + 1)]
                 yield from filter(None, [recognize_curve([self._spot(vertex) for vertex in entity.vertices(at)])])
             case "LWPOLYLINE" | "POLYLINE":
                 yield from self._polyline(entity)
@@ -172,7 +174,7 @@ class _DxfReader(DrawingReader):
                 yield from self._filling_dots(entity)
             case "SPLINE":
                 self.budget.spend(len(entity.control_points) + len(entity.fit_points))
-                spots = [self._spot(vertex) for vertex in entity.construction_tool().approximate(STEPS)]
+                spots = [self._spot(vertex) for vertex in entity.construction_tool().approximate(ELLIPSE_SPOTS)]
                 yield from filter(None, [recognize_curve(spots)])
 
     def _arc(self, arc: Any) -> Trace:
@@ -226,16 +228,16 @@ class _DxfReader(DrawingReader):
     def _add_words(self, entity: Any) -> None:
         """Letters, by the place and the height that they have on paper."""
         if entity.dxftype() == "MTEXT":
-            text = plain_mtext(HANGING.sub(r"_\1", RAISED.sub(r"\1", entity.text))).strip()
+            text = plain_mtext(SUBSCRIPT_CODE.sub(r"_\1", SUPERSCRIPT.sub(r"\1", entity.text))).strip()
             high, (row, column) = entity.dxf.char_height * self.mm, divmod(entity.dxf.attachment_point - 1, 3)
             (x, y), lower, anchor = self._spot(entity.dxf.insert), 1 - row / 2, column / 2
         else:
             text = entity.plain_text().strip()
             high, (align, first, second) = entity.dxf.height * self.mm, entity.get_placement()
-            anchor = next((anchor for name, anchor in BASE_LINES.items() if align.name.endswith(name)), 0.0)
+            anchor = next((anchor for name, anchor in ANCHOR_SHARES.items() if align.name.endswith(name)), 0.0)
             x, y = self._spot(second if anchor and second is not None else first)
             lower = 1.0 if "TOP" in align.name else 0.5 if "MIDDLE" in align.name else 0.0
-        if high > 0 and "\n" not in text and not (self.own and x > self.size[0] + BESIDE):
+        if high > 0 and "\n" not in text and not (self.own and x > self.size[0] + WORDS_PAGE_GAP_MM):
             place = x, y - lower * high
             self.words.append(word_at(text.replace("^ ", "_").replace("^", ""), place, high / CAPS, anchor))
 

@@ -9,10 +9,10 @@ from xml.etree.ElementTree import Element
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.constructions import (
-    CAPTION,
-    CIRCLES,
-    LARGEST,
-    LINES,
+    CAPTION_MODE,
+    CIRCLE_TYPES,
+    LINE_TYPES,
+    MAX_GGB_BYTES,
     CircleValue,
     GeoGebraObjects,
     LineValue,
@@ -25,12 +25,12 @@ from graphplan.marking.files.drawing import arc_spots, circle_trace, drawing_sub
 from graphplan.marking.files.safe import contents
 from graphplan.marking.traces import Spot, Submission, Trace, can_name_line, mark_name
 
-ARCS = {"CircleArc", "CircularArc", "Arc"}
+ARC_COMMANDS = {"CircleArc", "CircularArc", "Arc"}
 
 
 def read_ggb(path: Path) -> Submission:
     """The things that are to be seen in a GeoGebra file, and hidden points that are named as marks."""
-    return read_construction(path, contents(path, LARGEST),
+    return read_construction(path, contents(path, MAX_GGB_BYTES),
                              lambda objects: drawing_submission(path, _traces(objects), (), {}))
 
 
@@ -54,9 +54,9 @@ def _curve(objects: GeoGebraObjects, label: str, box: list[Spot]) -> Iterator[Tr
         return
     letters = mark_name(_letters(label, element))
     name = letters if can_name_line(letters) else ""
-    if element.get("type") in CIRCLES:
+    if element.get("type") in CIRCLE_TYPES:
         yield from _round(objects, label, name)
-    elif element.get("type") in LINES:
+    elif element.get("type") in LINE_TYPES:
         ends = _ends(objects,
                      label) or (visible_stretch(value.at, value.along, box) if isinstance(value, LineValue) else None)
         if ends is not None:
@@ -67,7 +67,7 @@ def _round(objects: GeoGebraObjects, label: str, name: str) -> Iterator[Trace]:
     """A circle, or as much of it as an arc has."""
     command, inputs, _ = objects.commands.get(label, ("", [], 0))
     circle = objects.values.get(label)
-    arc = [spot for term in inputs if (spot := objects.point(term)) is not None] if command in ARCS else []
+    arc = [spot for term in inputs if (spot := objects.point(term)) is not None] if command in ARC_COMMANDS else []
     if len(arc) == 3 and arc[0] != arc[1]:
         centre, *ends = arc
         angles = [math.degrees(math.atan2((end - centre).imag, (end - centre).real)) for end in ends]
@@ -102,5 +102,5 @@ def _letters(label: str, element: Element) -> str:
     """What stands beside an object: its caption where this is shown or the label is no mark's, else its label."""
     mode, caption = element.find("labelMode"), element.find("caption")
     caption_text = "" if caption is None else caption.get("val", "")
-    captioned = not mark_name(label) or (mode is not None and mode.get("val") == CAPTION)
+    captioned = not mark_name(label) or (mode is not None and mode.get("val") == CAPTION_MODE)
     return caption_text if captioned and mark_name(caption_text) else label

@@ -16,7 +16,7 @@ from functools import cache
 from typing import Self
 
 from graphplan.marking.files.safe import number
-from graphplan.marking.traces import LOW, StudentNumber
+from graphplan.marking.traces import SUBSCRIPTS, StudentNumber
 from graphplan.mechanism.model import Units
 from graphplan.mechanism.units import INERTIA, KILOGRAMS, METRES, MOMENT, NEWTONS, Dimension
 from graphplan.methods.kinds import CYCLE, KINDS
@@ -27,10 +27,11 @@ from graphplan.words.tongue import catalogue
 # ---- numbers --------------------------------------------------------------------------------------------------------
 
 
-POWER = re.compile(r"\s*[·×x*⋅]\s*10\s*\^?\s*\(?([+-]?\d{1,3})\)?$")
-SIGNED_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺−", "0123456789-+-")
-ENOUGH, COARSER = 12, (5, 2)  # so many numbers that are multiples of these, in units of the last digit, are so by plan
-UNIFORM = math.sqrt(12.0)  # the width of a uniform distribution over its standard deviation
+TIMES_POWER = re.compile(r"\s*[·×x*⋅]\s*10\s*\^?\s*\(?([+-]?\d{1,3})\)?$")
+RAISED_NUMERALS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺−", "0123456789-+-")
+# so many numbers that are multiples of these, in units of the last digit, are so by plan
+MIN_COMMON_NUMBERS, COARSER_STEPS = 12, (5, 2)
+UNIFORM_WIDTH_SIGMAS = math.sqrt(12.0)  # the width of a uniform distribution over its standard deviation
 
 
 class WrittenNumber(float):
@@ -50,8 +51,8 @@ def parse_number(text: str) -> WrittenNumber:
 
     Fails with `ValueError` where it is none.
     """
-    bare = text.strip().translate(SIGNED_RAISED)
-    if power := POWER.search(bare):
+    bare = text.strip().translate(RAISED_NUMERALS)
+    if power := TIMES_POWER.search(bare):
         bare = f"{bare[:power.start()]}e{int(power[1])}"
     if re.fullmatch(r"[+-]?\d+,(\d{1,2}|\d{4,})([eE][+-]?\d+)?", bare):
         bare = bare.replace(",", ".")
@@ -77,20 +78,23 @@ def rounding_deviation(values: Sequence[float]) -> float:
     if not values:
         return 0.0
     unit = min(map(last_digit_unit, values))
-    steps = [round(value / unit) for value in values] if len(values) >= ENOUGH and unit > 0 else []
-    return unit * next((many for many in COARSER if steps and not any(step % many for step in steps)), 1) / UNIFORM
+    steps = [round(value / unit) for value in values] if len(values) >= MIN_COMMON_NUMBERS and unit > 0 else []
+    return unit * next((many for many in COARSER_STEPS if steps and not any(step % many for step in steps)),
+                       1) / UNIFORM_WIDTH_SIGMAS
 
 
 # ---- results --------------------------------------------------------------------------------------------------------
 
 
-ALSO = {"angular velocity": "omega", "angular acceleration": "alpha", "ω": "omega", "α": "alpha", "ε": "alpha"}
-LETTERS = {"v": "velocity", "a": "acceleration", "ω": "omega", "omega": "omega", "w": "omega", "α": "alpha",
-           "alpha": "alpha", "ε": "alpha", "epsilon": "alpha"}
-SYMBOL = re.compile(rf"({'|'.join(sorted(LETTERS, key=len, reverse=True))})[\s_]*[({{]?\s*([^\W_][\w'’]*)\s*[)}}]?")
-AT = re.compile(r"(.+?) at ([-+]?\d+(?:[.,]\d+)?)\s*°?")  # a quantity at a travel of the drive
+QUANTITY_ALIASES = {"angular velocity": "omega", "angular acceleration": "alpha", "ω": "omega", "α": "alpha",
+                    "ε": "alpha"}
+SYMBOL_LETTERS = {"v": "velocity", "a": "acceleration", "ω": "omega", "omega": "omega", "w": "omega", "α": "alpha",
+                  "alpha": "alpha", "ε": "alpha", "epsilon": "alpha"}
+LONGEST_FIRST = "|".join(sorted(SYMBOL_LETTERS, key=len, reverse=True))
+SYMBOL = re.compile(rf"({LONGEST_FIRST})[\s_]*[({{]?\s*([^\W_][\w'’]*)\s*[)}}]?")
+AT_TRAVEL = re.compile(r"(.+?) at ([-+]?\d+(?:[.,]\d+)?)\s*°?")  # a quantity at a travel of the drive
 QUANTITIES = {**KINDS, **CYCLE}
-LARGEST = 1e60  # beyond it squares leave the range of a float
+MAX_RESULT = 1e60  # beyond it squares leave the range of a float
 
 
 def student_number(quantity: str, of: str, value: Sequence[float], unit: str, rounding: float = 0.0) -> StudentNumber:
@@ -103,7 +107,7 @@ def student_number(quantity: str, of: str, value: Sequence[float], unit: str, ro
         raise ValueError(f"{quantity!r} is not a quantity")
     if len(value) != (1 if QUANTITIES[kind].single else 2):
         raise ValueError(f"{kind} is {'one number' if QUANTITIES[kind].single else 'a vector'}")
-    if any(abs(component) > LARGEST for component in value):
+    if any(abs(component) > MAX_RESULT for component in value):
         raise ValueError("a number is too large")
     if unit:
         unit_factor(unit, QUANTITIES[kind].dimension, Units())
@@ -112,14 +116,14 @@ def student_number(quantity: str, of: str, value: Sequence[float], unit: str, ro
 
 def _name_quantity(quantity: str, of: str) -> tuple[str, str]:
     """The kind of a quantity and what it is of, whether it is written as words or as a symbol."""
-    name = " ".join(quantity.translate(LOW).casefold().split())
-    if (at := AT.fullmatch(name)) and at[1] in CYCLE:
+    name = " ".join(quantity.translate(SUBSCRIPTS).casefold().split())
+    if (at := AT_TRAVEL.fullmatch(name)) and at[1] in CYCLE:
         name, of = at[1], at[2].replace(",", ".")
-    kind = LETTERS.get(ALSO.get(name, name), ALSO.get(name, name))
+    kind = SYMBOL_LETTERS.get(QUANTITY_ALIASES.get(name, name), QUANTITY_ALIASES.get(name, name))
     if kind in QUANTITIES:
         return kind, of
-    symbol = SYMBOL.fullmatch(" ".join(quantity.translate(LOW).split())) if not of.strip() else None
-    return (LETTERS[symbol[1]], symbol[2]) if symbol else (kind, of)
+    symbol = SYMBOL.fullmatch(" ".join(quantity.translate(SUBSCRIPTS).split())) if not of.strip() else None
+    return (SYMBOL_LETTERS[symbol[1]], symbol[2]) if symbol else (kind, of)
 
 
 def polar_vector(size: float, angle: float) -> tuple[float, float]:
@@ -147,7 +151,7 @@ def scene_unit(number: StudentNumber, units: Units) -> float:
     return unit_factor(number.unit, QUANTITIES[number.kind].dimension, units) if number.unit else 1.0
 
 
-BASES: dict[str, tuple[float, tuple[int, int, int]]] = {
+UNIT_BASES: dict[str, tuple[float, tuple[int, int, int]]] = {
     **{name: (float(size), powers) for known, powers in ((METRES, (1, 0, 0)), (KILOGRAMS, (-1, 2, 1)),
                                                          (NEWTONS, (0, 0, 1))) for name, size in known.items()},
     "kp": (float(NEWTONS["kgf"]), (0, 0, 1)), "MN": (1e6, (0, 0, 1)), "daN": (10.0, (0, 0, 1)),
@@ -156,11 +160,11 @@ BASES: dict[str, tuple[float, tuple[int, int, int]]] = {
     "rad": (1.0, (0, 0, 0)), "1": (1.0, (0, 0, 0)), "deg": (math.pi / 180, (0, 0, 0)),
     "°": (math.pi / 180, (0, 0, 0)), "rev": (2 * math.pi, (0, 0, 0)), "rpm": (math.pi / 30, (0, -1, 0)),
 }  # fmt: skip
-TEN, FORCES_NAMED = "10", (*NEWTONS, "kp", "MN", "daN")
-RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
-FACTOR = re.compile(r"(1|°|[^\W\d_]+)(?:\^?\(?([+-]?[0-9])\)?)?")
-TENS = re.compile(r"10\^?\(?([+-]?[0-9]{1,2})\)?")
-LONGEST = 30  # characters
+TEN_BASE, FORCE_UNITS = "10", (*NEWTONS, "kp", "MN", "daN")
+RAISED_DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
+UNIT_FACTOR = re.compile(r"(1|°|[^\W\d_]+)(?:\^?\(?([+-]?[0-9])\)?)?")
+POWER_OF_TEN = re.compile(r"10\^?\(?([+-]?[0-9]{1,2})\)?")
+MAX_UNIT_CHARS = 30  # characters
 
 
 def unit_factor(written: str, dimension: Dimension, units: Units) -> float:
@@ -170,10 +174,10 @@ def unit_factor(written: str, dimension: Dimension, units: Units) -> float:
     """
     product, powers = 1.0, [0, 0, 0]
     for name, power in _unit_factors(written):
-        if name == TEN:
+        if name == TEN_BASE:
             product *= 10.0**power
             continue
-        unit_size, bases = BASES[name]
+        unit_size, bases = UNIT_BASES[name]
         product *= unit_size**power
         powers = [total + power * base for total, base in zip(powers, bases, strict=True)]
     if tuple(powers) != dimension[:3]:
@@ -186,16 +190,16 @@ def unit_factor(written: str, dimension: Dimension, units: Units) -> float:
 
 def _unit_factors(written: str) -> list[tuple[str, int]]:
     """The factors of a unit with their powers; all that stands after a slash divides."""
-    if len(written) > LONGEST:
-        raise ValueError(f"{written[:LONGEST]!r}... is not a known unit")
+    if len(written) > MAX_UNIT_CHARS:
+        raise ValueError(f"{written[:MAX_UNIT_CHARS]!r}... is not a known unit")
     factors = []
-    for place, numerator_or_denominator in enumerate(written.translate(RAISED).split("/")):
+    for place, numerator_or_denominator in enumerate(written.translate(RAISED_DIGITS).split("/")):
         for piece in re.split(r"[\s·*⋅×.]+", numerator_or_denominator.strip(" ()·*⋅×.")):
             sign = -1 if place else 1
-            if tens := TENS.fullmatch(piece):
-                factors.append((TEN, int(tens[1]) * sign))
+            if tens := POWER_OF_TEN.fullmatch(piece):
+                factors.append((TEN_BASE, int(tens[1]) * sign))
                 continue
-            fits = FACTOR.fullmatch(piece)
+            fits = UNIT_FACTOR.fullmatch(piece)
             names = _unit_names(fits[1]) if fits else []
             if not (fits and names):
                 raise ValueError(f"{written!r} is not a known unit")
@@ -205,13 +209,13 @@ def _unit_factors(written: str) -> list[tuple[str, int]]:
 
 def _unit_names(written: str) -> list[str]:
     """The unit, or the two of a force and a length that are written in one, as in Nm."""
-    name = written if written in BASES else _foreign_units().get(written)
+    name = written if written in UNIT_BASES else _foreign_units().get(written)
     if name:
         return [name]
     for place in range(1, len(written)):
-        names = [piece if piece in BASES else _foreign_units().get(piece)
+        names = [piece if piece in UNIT_BASES else _foreign_units().get(piece)
                  for piece in (written[:place], written[place:])]
-        if names[0] in FORCES_NAMED and names[1] in METRES:
+        if names[0] in FORCE_UNITS and names[1] in METRES:
             return [piece for piece in names if piece]
     return []
 

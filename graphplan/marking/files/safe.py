@@ -17,13 +17,13 @@ from xml.parsers import expat
 from graphplan.errors import Refused
 
 MB = 2**20
-TRACES = 20_000  # more things are on no sheet
-ELEMENTS = 60_000  # of an XML document, and of what its copies amount to
-DEEPEST = 100  # elements within each other
-FARTHEST = 1e6  # mm: a kilometre of paper
-LONGEST = 40  # characters of a numeral
+MAX_TRACES = 20_000  # more things are on no sheet
+MAX_XML_ELEMENTS = 60_000  # of an XML document, and of what its copies amount to
+MAX_XML_DEPTH = 100  # elements within each other
+MAX_DISTANCE_MM = 1e6  # mm: a kilometre of paper
+MAX_NUMERAL_CHARS = 40  # characters of a numeral
 NUMERAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
-PLAIN = "-//W3C//DTD SVG"  # the public name under which older programs declare SVG; nothing is looked up by it
+SVG_DOCTYPE = "-//W3C//DTD SVG"  # the public name under which older programs declare SVG; nothing is looked up by it
 
 
 def contents(path: Path, most: int) -> bytes:
@@ -85,7 +85,7 @@ class _TreeReader:
     """Builds the tree while it counts."""
 
     def __init__(self, path: Path):
-        self.path, self.builder, self.budget = path, TreeBuilder(), Budget(path, ELEMENTS, "elements")
+        self.path, self.builder, self.budget = path, TreeBuilder(), Budget(path, MAX_XML_ELEMENTS, "elements")
         self.depth = 0
         self.parser = expat.ParserCreate(namespace_separator="}")
         self.parser.buffer_text = True
@@ -100,7 +100,7 @@ class _TreeReader:
         return self.builder.close()
 
     def _doctype(self, name: str, system: str | None, public: str | None, subset: int) -> None:
-        if subset or (system is not None and not (public or "").startswith(PLAIN)):
+        if subset or (system is not None and not (public or "").startswith(SVG_DOCTYPE)):
             raise Refused(f"{self.path}", "it declares a document type of its own, which is not read",
                           "save the drawing without <!DOCTYPE ...>")
 
@@ -111,8 +111,8 @@ class _TreeReader:
     def _start(self, name: str, attributes: dict[str, str]) -> None:
         self.budget.spend()
         self.depth += 1
-        if self.depth > DEEPEST:
-            raise Refused(f"{self.path}", f"more than {DEEPEST} elements are nested", "ungroup the drawing")
+        if self.depth > MAX_XML_DEPTH:
+            raise Refused(f"{self.path}", f"more than {MAX_XML_DEPTH} elements are nested", "ungroup the drawing")
         self.builder.start(_bare(name), {_bare(key): value for key, value in attributes.items()})
 
     def _end(self, name: str) -> None:
@@ -142,11 +142,11 @@ def number(written: str) -> float:
     Fails with `ValueError` where it is none, or of no use.
     """
     bare = written.strip().replace("−", "-")
-    if len(bare) > LONGEST or not NUMERAL.fullmatch(bare) or not math.isfinite(float(bare)):
-        raise ValueError(f"{bare[:LONGEST]!r} is not a number" if bare else "a number is missing")
+    if len(bare) > MAX_NUMERAL_CHARS or not NUMERAL.fullmatch(bare) or not math.isfinite(float(bare)):
+        raise ValueError(f"{bare[:MAX_NUMERAL_CHARS]!r} is not a number" if bare else "a number is missing")
     return float(bare)
 
 
 def on_paper(*lengths: float) -> bool:
     """Whether lengths in mm, or coordinates, are numbers and fall on a conceivable sheet."""
-    return all(abs(length) <= FARTHEST for length in lengths)
+    return all(abs(length) <= MAX_DISTANCE_MM for length in lengths)

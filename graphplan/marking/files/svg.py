@@ -21,10 +21,10 @@ from svgelements import Circle, Close, Ellipse, Line, Matrix, Move, Path, Polygo
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.files.drawing import (
-    DOT,
-    NO_DRAWING,
-    SHORT,
-    STATED,
+    LAYERS_NOT_DRAWN,
+    MAX_DOT_RADIUS_MM,
+    MIN_LINE_MM,
+    STATED_UNIT_ODDS,
     DrawingReader,
     chain_traces,
     dot_or_circle,
@@ -32,21 +32,21 @@ from graphplan.marking.files.drawing import (
     sharp_corners,
     word_at,
 )
-from graphplan.marking.files.safe import DEEPEST, MB, TRACES, Budget, contents, on_paper, tree
+from graphplan.marking.files.safe import MAX_TRACES, MAX_XML_DEPTH, MB, Budget, contents, on_paper, tree
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
 from graphplan.sheet.plates.pens import LEADER
 
-MM = {"mm": 1.0, "cm": 10.0, "in": 25.4, "px": 25.4 / 96, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
-PHYSICAL = re.compile("mm|cm|in|pt|pc|q", re.IGNORECASE)  # not so px
+MM_PER_UNIT = {"mm": 1.0, "cm": 10.0, "in": 25.4, "px": 25.4 / 96, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
+PHYSICAL_UNITS = re.compile("mm|cm|in|pt|pc|q", re.IGNORECASE)  # not so px
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 NUMBERS = re.compile(NUMBER)
-LONGEST = 7  # numerals of a path's command: an arc's
+MAX_COMMAND_NUMERALS = 7  # numerals of a path's command: an arc's
 LENGTH = re.compile(rf"\s*({NUMBER})\s*([a-zA-Z%]*)\s*")
 PATH = re.compile(r"\s*(?:[Mm][-+\d.,eE\s]*[\d.](?:[MmZzLlHhVvCcSsQqTtAa]|[-+\d.,eE\s])*)?")
-PARTS = 8  # a curve by so many stretches
-RULE = re.compile(r"\.([\w-]+)\s*\{([^{}]*)\}")  # of a style sheet, by class alone
-INHERITED = ("stroke", "font-size", "text-anchor", "visibility")
-LOOKS = {*INHERITED, "display", "baseline-shift"}
+CURVE_PARTS = 8  # a curve by so many stretches
+STYLE_RULE = re.compile(r"\.([\w-]+)\s*\{([^{}]*)\}")  # of a style sheet, by class alone
+INHERITED_KEYS = ("stroke", "font-size", "text-anchor", "visibility")
+LOOK_KEYS = {*INHERITED_KEYS, "display", "baseline-shift"}
 Look = Mapping[str, str]
 
 
@@ -77,7 +77,8 @@ def length(written: str | None, whole: float = 0.0, otherwise: float = 0.0) -> f
     number_and_unit = LENGTH.fullmatch(written)
     if number_and_unit is None:
         raise ValueError(f"{written[:40]!r} is not a length")
-    sizes = {"": 1.0, "%": whole / 100, "em": 16.0, "rem": 16.0, "ex": 8.0} | {u: mm / MM["px"] for u, mm in MM.items()}
+    sizes = {"": 1.0, "%": whole / 100, "em": 16.0, "rem": 16.0, "ex": 8.0} | {u: mm / MM_PER_UNIT["px"]
+                                                                               for u, mm in MM_PER_UNIT.items()}
     if (unit := number_and_unit[2].lower()) not in sizes:
         raise ValueError(f"{unit!r} is not a unit of length")
     return float(number_and_unit[1]) * sizes[unit]
@@ -90,7 +91,7 @@ def paper(root: Element) -> tuple[Matrix, Viewport, tuple[float, float]]:
     sides = box[2:] if box else (0.0, 0.0)
     stated = (None if "%" in (root.get(key) or "") else root.get(key) for key in ("width", "height"))
     wide, high = (length(written, otherwise=side) for written, side in zip(stated, sides, strict=True))
-    px = MM["px"]
+    px = MM_PER_UNIT["px"]
     onto = fit_view_box(root, wide, high) * Matrix(px, 0, 0, -px, 0, px * high)
     return onto, Viewport(*(sides if box else (wide, high))), (wide * px, high * px)
 
@@ -146,8 +147,8 @@ def chains(drawn: Path, onto: Matrix) -> Iterator[tuple[bool, list[Spot]]]:
     for smooth, group in groupby(segments_drawn, key=_is_curve):
         chain = list(group)
         if smooth is not None:
-            ends = [segment.point(i / PARTS) if i < PARTS else segment.end
-                    for segment in chain for i in range(1 if smooth else PARTS, PARTS + 1)]
+            ends = [segment.point(i / CURVE_PARTS) if i < CURVE_PARTS else segment.end
+                    for segment in chain for i in range(1 if smooth else CURVE_PARTS, CURVE_PARTS + 1)]
             yield smooth, [spot(onto, end) for end in (chain[0].start, *ends)]
 
 
@@ -161,7 +162,7 @@ class Looks:
 
     def __init__(self, root: Element):
         self.rules = {name: _style_entries(declared) for sheet in root.iter("style")
-                      for name, declared in RULE.findall(sheet.text or "")}
+                      for name, declared in STYLE_RULE.findall(sheet.text or "")}
 
     def look_of(self, element: Element) -> dict[str, str]:
         """What is said of an element itself."""
@@ -173,16 +174,16 @@ class Looks:
 
 def inherit_look(look: Look, above: Look) -> Look:
     """What an element hands on to those in it."""
-    return {**above, **{key: value for key in INHERITED if (value := look.get(key, "inherit")) != "inherit"}}
+    return {**above, **{key: value for key in INHERITED_KEYS if (value := look.get(key, "inherit")) != "inherit"}}
 
 
 def _style_entries(style: str) -> dict[str, str]:
     entries = (entry.partition(":") for entry in style.split(";"))
-    return {name.strip(): value.strip() for name, _, value in entries if name.strip() in LOOKS}
+    return {name.strip(): value.strip() for name, _, value in entries if name.strip() in LOOK_KEYS}
 
 
-ANCHORS = {"middle": 0.5, "end": 1.0}
-SIZE = "16"  # px, unless it is said
+ANCHOR_SHARES = {"middle": 0.5, "end": 1.0}
+FONT_SIZE_PX = "16"  # px, unless it is said
 
 
 @dataclass
@@ -239,7 +240,7 @@ def _begin_line(element: Element, view: Viewport, look: Look, otherwise: complex
     """The line that begins with an element."""
     x = length(_first_length(element.get("x")), view.wide, otherwise.real)
     at = complex(x, length(_first_length(element.get("y")), view.high, otherwise.imag))
-    return _Line(at, length(look.get("font-size", SIZE)), ANCHORS.get(look.get("text-anchor", ""), 0.0))
+    return _Line(at, length(look.get("font-size", FONT_SIZE_PX)), ANCHOR_SHARES.get(look.get("text-anchor", ""), 0.0))
 
 
 def _first_length(written: str | None) -> str | None:
@@ -247,22 +248,22 @@ def _first_length(written: str | None) -> str | None:
     return written.replace(",", " ").split()[0] if written and written.strip(" ,") else None
 
 
-LARGEST = 16 * MB
-VISITS, LETTERS = 30_000, 400_000  # elements, and letters of attributes and words; those of copies among them
-GROUPS = {"svg", "g", "a", "switch"}
-READ = {*GROUPS, "use", "text", "circle", "ellipse", "line", "polyline", "polygon", "rect", "path"}
-LEADING = LEADER.colour, f"{LEADER.width}"
-NOT_DRAWN = {f"layer-{name}" for name in NO_DRAWING}
+MAX_SVG_BYTES = 16 * MB
+MAX_ELEMENTS, MAX_LETTERS = 30_000, 400_000  # elements, and letters of attributes and words; those of copies among them
+GROUP_TAGS = {"svg", "g", "a", "switch"}
+READ_TAGS = {*GROUP_TAGS, "use", "text", "circle", "ellipse", "line", "polyline", "polygon", "rect", "path"}
+LEADER_STYLE = LEADER.colour, f"{LEADER.width}"
+CLASSES_NOT_DRAWN = {f"layer-{name}" for name in LAYERS_NOT_DRAWN}
 SHAPES: dict[str, tuple[Any, tuple[str, ...]]] = {  # with the lengths that say where they lie
     "circle": (Circle, ("cx", "cy", "r")), "ellipse": (Ellipse, ("cx", "cy", "rx", "ry")),
     "line": (SimpleLine, ("x1", "y1", "x2", "y2")), "rect": (Rect, ("x", "y", "width", "height")),
 }  # fmt: skip
-CHAINS: dict[str, Any] = {"polyline": Polyline, "polygon": Polygon}
+CHAIN_SHAPES: dict[str, Any] = {"polyline": Polyline, "polygon": Polygon}
 
 
 def read_svg(path: File, frames: Frames, size: tuple[float, float] | None = None) -> Submission:
     """The things drawn in an SVG file; on graphplan's own sheet of this size plans lie where its frames say."""
-    root = tree(path, contents(path, LARGEST))
+    root = tree(path, contents(path, MAX_SVG_BYTES))
     if root.tag != "svg":
         raise Refused(f"{path}", f"this is XML of another kind ({root.tag[:20]})", "give an SVG drawing")
     return _SvgReader(path, root).submission(frames, size)
@@ -286,9 +287,9 @@ class _SvgReader(DrawingReader):
         super().__init__(path)
         self.named = {name: element for element in root.iter() if (name := element.get("id"))}
         self.looks = Looks(root)
-        self.budget, self.things = Budget(path, VISITS, "elements"), Budget(path, TRACES, "things drawn")
-        self.letters = Budget(path, LETTERS, "letters of attributes and words")
-        self.millimetres = STATED if PHYSICAL.search(root.get("width", "")) else 0.0
+        self.budget, self.things = Budget(path, MAX_ELEMENTS, "elements"), Budget(path, MAX_TRACES, "things drawn")
+        self.letters = Budget(path, MAX_LETTERS, "letters of attributes and words")
+        self.millimetres = STATED_UNIT_ODDS if PHYSICAL_UNITS.search(root.get("width", "")) else 0.0
         self.own = any(element.get("class") == "layer-paper" for element in root)
         try:
             onto, view, self.size = paper(root)
@@ -301,20 +302,20 @@ class _SvgReader(DrawingReader):
     def _element(self, element: Element, place: _Place) -> None:
         """One element and all in it."""
         self.budget.spend()
-        if element.tag not in READ:
+        if element.tag not in READ_TAGS:
             return
         self.letters.spend(sum(map(len, element.attrib.values())))
         look = self.looks.look_of(element)
         if look.get("display", "").strip() == "none":
             return
-        if place.depth > DEEPEST:
-            raise Refused(f"{self.path}", f"copies are nested more than {DEEPEST} deep", "ungroup the drawing")
+        if place.depth > MAX_XML_DEPTH:
+            raise Refused(f"{self.path}", f"copies are nested more than {MAX_XML_DEPTH} deep", "ungroup the drawing")
         onto = transform(element.get("transform")) * place.onto
         if not on_paper(onto.a, onto.b, onto.c, onto.d, onto.e, onto.f):
             raise ValueError("a transform leads off the paper")
-        is_drawn = place.drawn and element.get("class") not in NOT_DRAWN
+        is_drawn = place.drawn and element.get("class") not in CLASSES_NOT_DRAWN
         inner_place = _Place(onto, place.view, inherit_look(look, place.look), place.depth + 1, is_drawn)
-        if element.tag in GROUPS:
+        if element.tag in GROUP_TAGS:
             self._group(element, inner_place)
         elif element.tag == "use":
             self._copy(element, inner_place)
@@ -346,13 +347,14 @@ class _SvgReader(DrawingReader):
 
     def _shape(self, element: Element, place: _Place) -> None:
         """A shape's traces; without a stroke it is no more than a dot. Numerals for too many are not read at all."""
-        Budget(self.things.path, TRACES, "things drawn").spend(len(NUMBERS.findall(element.get("d", ""))) // LONGEST)
+        Budget(self.things.path, MAX_TRACES,
+               "things drawn").spend(len(NUMBERS.findall(element.get("d", ""))) // MAX_COMMAND_NUMERALS)
         stroked = place.look.get("stroke", "none").strip() not in ("none", "transparent")
         if element.tag == "polygon" and not stroked:
             corners = Polygon(points=element.get("points", "")).points
             self.things.spend(len(corners))
             self.tips += sharp_corners([spot(place.onto, corner) for corner in corners])
-        leads = self.own and (element.get("stroke"), element.get("stroke-width")) == LEADING
+        leads = self.own and (element.get("stroke"), element.get("stroke-width")) == LEADER_STYLE
         for trace in map(dot_or_circle, _traces(element, place.onto, place.view)):
             self.things.spend()
             if stroked or trace.kind == POINT:
@@ -368,19 +370,19 @@ def _traces(element: Element, onto: Matrix, view: Viewport) -> Iterator[Trace]:
     """What a shape shows on paper; one as small as a dot shows where it is."""
     if element.tag == "path":
         shape = segments(element.get("d", ""))
-    elif element.tag in CHAINS:
-        shape = CHAINS[element.tag](points=element.get("points", ""))
+    elif element.tag in CHAIN_SHAPES:
+        shape = CHAIN_SHAPES[element.tag](points=element.get("points", ""))
     else:
         shape_type, keys = SHAPES[element.tag]
         sizes = {key: view(element, key) for key in keys}
         radii = [sizes[key] for key in ("r", "rx", "ry") if key in sizes]
-        if radii and 0 < max(radii) * abs(onto.determinant) ** 0.5 < DOT:
+        if radii and 0 < max(radii) * abs(onto.determinant) ** 0.5 < MAX_DOT_RADIUS_MM:
             yield Trace(POINT, (spot(onto, complex(sizes["cx"], sizes["cy"])),))
             return
         shape = shape_type(**sizes | ({"rx": radii[0] or radii[1], "ry": radii[1] or radii[0]} if "rx" in sizes
                                       else {}))
     for smooth, spots in chains(Path(shape), onto):
         if not smooth:
-            yield from chain_traces(spots, SHORT)
+            yield from chain_traces(spots, MIN_LINE_MM)
         elif curve := recognize_curve(spots):
             yield curve

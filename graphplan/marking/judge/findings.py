@@ -31,10 +31,10 @@ from graphplan.sheet.lettering.lettering import HEADING, Runs, sentence_runs
 from graphplan.sheet.words.rows import Cell, TextRow, table_rows
 from graphplan.sheet.words.texts import SheetWords
 
-FIGURES = 2  # of a distance on paper
+SIGNIFICANT_DIGITS = 2  # of a distance on paper
 OFF, ALLOWED = phrase("off"), phrase("allowed")
-VERDICT = said("Verdict")
-KEY = 11.0  # mm: where the words of the legend begin
+VERDICT_TITLE = said("Verdict")
+LEGEND_WORDS_MM = 11.0  # mm: where the words of the legend begin
 
 
 def count_words(judgement: Judgement) -> Said:
@@ -155,7 +155,7 @@ def remark(judgement: Judgement, verdict: Verdict) -> Said:
     if verdict.mistake is not None and not math.isfinite(verdict.off):
         return verdict.mistake
     sizes = said("{0} mm off, {1} mm allowed",
-                 *(digits(length, FIGURES) for length in (verdict.off, verdict.tolerance)))
+                 *(digits(length, SIGNIFICANT_DIGITS) for length in (verdict.off, verdict.tolerance)))
     if verdict.mistake is None:
         return sizes
     if verdict.at_fault == verdict.step:
@@ -184,7 +184,7 @@ def result_named(judgement: Judgement, kind: str, of: str) -> Said:
 
 def wrong_number(judgement: Judgement, verdict: NumberVerdict) -> Said:
     """What is wrong with a number: by how much, in the scene's units, and what was probably done."""
-    sizes = digits(verdict.off, FIGURES), digits(verdict.tolerance, FIGURES)
+    sizes = digits(verdict.off, SIGNIFICANT_DIGITS), digits(verdict.tolerance, SIGNIFICANT_DIGITS)
     result_name = result_named(judgement, verdict.number.kind, verdict.number.of)
     phrases = [result_name, arrange("{0} {1}", OFF(), sizes[0]), arrange("{0} {1}", ALLOWED(), sizes[1])]
     return said("Wrong result: {0}.", join(phrases if verdict.mistake is None else [*phrases, verdict.mistake]))
@@ -278,7 +278,7 @@ class Remarks(SheetWords):
 
     def lines(self, wide: float, judgement: Judgement, score: Score) -> list[TextRow]:
         """Everything, for a column of this width, what matters most first."""
-        return [self._heading(VERDICT, gap=0.0), *self._verdict(wide, judgement), *self._legend(wide),
+        return [self._heading(VERDICT_TITLE, gap=0.0), *self._verdict(wide, judgement), *self._legend(wide),
                 *self._score(score), *self._numbers(wide, judgement), *self._wrong(wide, judgement)]
 
     def _heading(self, text: str, size: float = HEADING, gap: float = 3.0, step: int | None = None) -> TextRow:
@@ -297,7 +297,8 @@ class Remarks(SheetWords):
         yield self._heading(said("Legend"))
         for state in (RIGHT, FOLLOWS, WRONG, UNSURE, None):
             state_text = NOT_NEEDED() if state is None else STATES[state]()
-            yield LegendRow((Cell(KEY, sentence_runs(self.plans.tongue(state_text))),), gap=0.6, state=state)
+            yield LegendRow((Cell(LEGEND_WORDS_MM, sentence_runs(self.plans.tongue(state_text))),), gap=0.6,
+                            state=state)
         yield from self.paragraph(said("Grey: the true drawing. Ellipses: where a point may be, after the student's "
                                        "own earlier marks. Dashed: where a wrong mark should be."), wide)
 

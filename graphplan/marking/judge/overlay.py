@@ -20,7 +20,7 @@ from graphplan.kernel.elementary import foot
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.marking.files.drawing import circle_through
-from graphplan.marking.judge.findings import VERDICT, LegendRow, Remarks, complaint, opinion, step_name
+from graphplan.marking.judge.findings import VERDICT_TITLE, LegendRow, Remarks, complaint, opinion, step_name
 from graphplan.marking.judge.score import Score
 from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNSURE, WRONG, Judgement, Verdict
 from graphplan.marking.traces import Trace
@@ -42,21 +42,22 @@ LAYER = "student"
 BLUE, GREEN, RED, GOLD, PLUM, DARK = "#0072b2", "#00785a", "#d04a00", "#8f6a00", "#8a5a7a", "#333333"
 PENS: dict[str | None, Pen] = {RIGHT: Pen(0.3, BLUE), FOLLOWS: Pen(0.35, GREEN, (2.2, 0.9)), WRONG: Pen(0.7, RED),
                                UNSURE: Pen(0.5, GOLD, (0.8, 0.8))}
-SPARE = Pen(0.3, PLUM, (0.3, 0.8))
-ALLOWED = Pen(0.13, DARK)
-WANTED = Pen(0.3, RED, (1.2, 0.8))  # where a wrong mark should be
-SIZES: dict[str | None, float] = {RIGHT: 0.45, FOLLOWS: 0.6, WRONG: 1.3, UNSURE: 3.2}  # half of a mark, in mm
-REACH = 12.0  # mm of a line past the mark that it should have been, each way
-CORNERS = 36  # of an ellipse
-WHOLE = 0.99  # of a diameter: spots farther apart are opposite each other
-FAINT, LETTERED, TINTED = "#a6a6a6", "#7a7a7a", "#efefef"
-THIN = 0.18  # mm: the widest stroke of the true drawing
-BESIDE = ("paper", BORDER, "text")  # the layers of what is not on a plan
-LIFT = 1.2  # mm from the base line of the legend's words up to its samples
-CALLED = Pen(0.35, RED)
-WIDEST, PAD, PITCH = 62.0, 1.5, 2.0  # mm: of the lettering; about it in its box; between the places that are tried
-CLEAR, FAR = 6.0, 0.25  # mm between the box and its mark; the price of every further one
-RING = 2.4  # mm about the mark
+SPARE_PEN = Pen(0.3, PLUM, (0.3, 0.8))
+TOLERANCE_PEN = Pen(0.13, DARK)
+WANTED_PEN = Pen(0.3, RED, (1.2, 0.8))  # where a wrong mark should be
+HALF_SIZES_MM: dict[str | None, float] = {RIGHT: 0.45, FOLLOWS: 0.6, WRONG: 1.3, UNSURE: 3.2}  # half of a mark, in mm
+WANTED_LINE_MM = 12.0  # mm of a line past the mark that it should have been, each way
+ELLIPSE_CORNERS = 36  # of an ellipse
+DIAMETER_SHARE = 0.99  # of a diameter: spots farther apart are opposite each other
+FAINT_COLOUR, LETTER_COLOUR, TINT_COLOUR = "#a6a6a6", "#7a7a7a", "#efefef"
+MAX_TRUE_WIDTH_MM = 0.18  # mm: the widest stroke of the true drawing
+OUTER_LAYERS = ("paper", BORDER, "text")  # the layers of what is not on a plan
+SAMPLE_LIFT_MM = 1.2  # mm from the base line of the legend's words up to its samples
+CALLOUT_PEN = Pen(0.35, RED)
+# mm: of the lettering; about it in its box; between the places that are tried
+MAX_WORDS_MM, BOX_PAD_MM, BOX_PITCH_MM = 62.0, 1.5, 2.0
+MIN_BOX_GAP_MM, PRICE_PER_MM = 6.0, 0.25  # mm between the box and its mark; the price of every further one
+CALLOUT_RING_MM = 2.4  # mm about the mark
 
 
 def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
@@ -65,9 +66,9 @@ def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     arrangement, tongue = composition.arrangement, composition.plans.tongue
     solution = layout(composition)
     apart = (*arrangement.columns, arrangement.title)
-    around = [item for item in solution.items if item.layer in BESIDE and not lies_in(item, apart)]
+    around = [item for item in solution.items if item.layer in OUTER_LAYERS and not lies_in(item, apart)]
     empty = [item for item in around if not lies_in(item, arrangement.panels.values())]
-    over = [faint_item(item) for item in solution.items if item.layer not in (*BESIDE, RESULTS)]
+    over = [faint_item(item) for item in solution.items if item.layer not in (*OUTER_LAYERS, RESULTS)]
     student = StudentStrokes(judgement)
     over += student.items()
     over += [item for panel, view in composition.views.items()
@@ -76,7 +77,7 @@ def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     about, pages = replace(solution, description=tongue(opinion(judgement))), paginate_tightly(words, arrangement)
     sheets = []
     for number, page in enumerate(pages, 1):
-        block = title_items(composition, VERDICT, number, len(pages))
+        block = title_items(composition, VERDICT_TITLE, number, len(pages))
         items = [*(around + over if number == 1 else empty), *block, *_remarks(page)]
         sheets.append(replace(about, items=tuple(items), panels=solution.panels if number == 1 else {}))
     return sheets
@@ -86,9 +87,9 @@ def faint_item(item: Item) -> Item:
     """An item of the true drawing: thin and grey."""
     pen = item.pen
     if isinstance(item, Text):
-        return replace(item, pen=Pen(0.0, LETTERED, fill=LETTERED))
-    fill = pen.fill if pen.fill in ("none", PAPER) else FAINT if pen.width else TINTED
-    return replace(item, pen=Pen(min(pen.width, THIN), FAINT, pen.dash, fill))
+        return replace(item, pen=Pen(0.0, LETTER_COLOUR, fill=LETTER_COLOUR))
+    fill = pen.fill if pen.fill in ("none", PAPER) else FAINT_COLOUR if pen.width else TINT_COLOUR
+    return replace(item, pen=Pen(min(pen.width, MAX_TRUE_WIDTH_MM), FAINT_COLOUR, pen.dash, fill))
 
 
 def plan_remarks(student: StudentStrokes, panel: str, rect: Rect, items: Sequence[Item]) -> Iterator[Item]:
@@ -102,9 +103,9 @@ def plan_remarks(student: StudentStrokes, panel: str, rect: Rect, items: Sequenc
         if verdict is judgement.first_wrong:
             names = tuple(step.name for step in program.steps if step.name)
             sentence = judgement.composition.plans.tongue(complaint(judgement, verdict))
-            obstacles += (boxed := [*callout(sentence, names, at, obstacles, rect, CALLED, letters.text)])
+            obstacles += (boxed := [*callout(sentence, names, at, obstacles, rect, CALLOUT_PEN, letters.text)])
             yield from boxed
-    wishes = [Wish((TextRun(step_name(program, verdict.at_fault).short),), (at,), SIZES[WRONG], True,
+    wishes = [Wish((TextRun(step_name(program, verdict.at_fault).short),), (at,), HALF_SIZES_MM[WRONG], True,
                    Pen(0.0, RED, fill=RED),
                    bold=True) for verdict, at in wrong if verdict is not judgement.first_wrong]
     yield from place_letters(wishes, obstacles, [at for _, at in wrong], rect, letters)
@@ -115,7 +116,7 @@ def _remarks(page: Sequence[Placed]) -> Iterator[Item]:
     for row, x, y in page:
         yield from row_items([(row, x, y)])
         if isinstance(row, LegendRow):
-            yield from legend_sample(row.state, (x + row.cells[0].x / 2 - 0.5, y + LIFT - 0.3))
+            yield from legend_sample(row.state, (x + row.cells[0].x / 2 - 0.5, y + SAMPLE_LIFT_MM - 0.3))
 
 
 def callout(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[Item], rect: Rect,
@@ -123,8 +124,8 @@ def callout(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[I
     """The box with its leader, in letters of a size; `items` are what it should not cover."""
     box, words = boxed_words(sentence, names, spot, items, rect, pen, size)
     nearest = min(max(spot[0], box.left), box.right), min(max(spot[1], box.bottom), box.top)
-    leader = offset(spot, unit_vector(spot, nearest), RING)
-    yield Circle(pen.with_fill("none"), LAYER, None, spot, RING)
+    leader = offset(spot, unit_vector(spot, nearest), CALLOUT_RING_MM)
+    yield Circle(pen.with_fill("none"), LAYER, None, spot, CALLOUT_RING_MM)
     yield Polyline(pen, LAYER, None, (leader, nearest))
     yield from words
 
@@ -132,12 +133,13 @@ def callout(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[I
 def boxed_words(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[Item], rect: Rect,
                 pen: Pen, size: float = SIZE) -> tuple[Rect, list[Item]]:
     """A box near a spot, and the box with its words."""
-    room = min(WIDEST, rect.width - 4 * PAD)
+    room = min(MAX_WORDS_MM, rect.width - 4 * BOX_PAD_MM)
     lines = wrap(sentence_runs(sentence, names), size, room)
-    wide = max(width(line, size) for line in lines) + 2 * PAD
-    high = size * (CAPS + LEADING * (len(lines) - 1)) + 2 * PAD
+    wide = max(width(line, size) for line in lines) + 2 * BOX_PAD_MM
+    high = size * (CAPS + LEADING * (len(lines) - 1)) + 2 * BOX_PAD_MM
     box = _box(wide, high, spot, items, rect)
-    words = (Text(LETTERS, LAYER, None, (box.left + PAD, box.top - PAD - size * (CAPS + LEADING * i)), runs, size)
+    words = (Text(LETTERS, LAYER, None, (box.left + BOX_PAD_MM, box.top - BOX_PAD_MM - size * (CAPS + LEADING * i)),
+                  runs, size)
              for i, runs in enumerate(lines))
     return box, [Polygon(pen.with_fill(PAPER), LAYER, None, box.corners), *words]
 
@@ -146,18 +148,20 @@ def _box(wide: float, high: float, spot: Spot, items: Sequence[Item], rect: Rect
     """The cheapest of many places on the panel: the fewer strokes and letters it covers, and the nearer, the better."""
     boxes = _grid(wide, high, rect)
     gaps = np.hypot(*np.maximum(np.maximum(boxes[:, :2] - spot, spot - boxes[:, 2:]), 0.0).T)
-    if (gaps >= CLEAR).any():
-        boxes, gaps = boxes[gaps >= CLEAR], gaps[gaps >= CLEAR]
+    if (gaps >= MIN_BOX_GAP_MM).any():
+        boxes, gaps = boxes[gaps >= MIN_BOX_GAP_MM], gaps[gaps >= MIN_BOX_GAP_MM]
     touched, _ = STRtree([_ink_outline(item) for item in items]).query(shapely.box(*boxes.T), "intersects")
-    cost = np.bincount(touched, minlength=len(boxes)) + FAR * gaps
+    cost = np.bincount(touched, minlength=len(boxes)) + PRICE_PER_MM * gaps
     left, bottom, right, top = map(float, boxes[int(np.argmin(cost))])
     return Rect(left, bottom, right, top)
 
 
 def _grid(wide: float, high: float, rect: Rect) -> Array:
     """Boxes of this size all over a panel; one, at its corner, where it is hardly larger."""
-    lefts = np.arange(rect.left + PAD, max(rect.right - PAD - wide, rect.left + PAD) + PITCH / 2, PITCH)
-    lows = np.arange(rect.bottom + PAD, max(rect.top - PAD - high, rect.bottom + PAD) + PITCH / 2, PITCH)
+    lefts = np.arange(rect.left + BOX_PAD_MM,
+                      max(rect.right - BOX_PAD_MM - wide, rect.left + BOX_PAD_MM) + BOX_PITCH_MM / 2, BOX_PITCH_MM)
+    lows = np.arange(rect.bottom + BOX_PAD_MM,
+                     max(rect.top - BOX_PAD_MM - high, rect.bottom + BOX_PAD_MM) + BOX_PITCH_MM / 2, BOX_PITCH_MM)
     x, y = (coordinates.ravel() for coordinates in np.meshgrid(lefts, lows))
     return np.stack([x, y, x + wide, y + high], axis=1)
 
@@ -209,14 +213,14 @@ class StudentMark:
         """Where a wrong mark should be."""
         step, wanted, spot = self.verdict.step, self.wanted, self.label_spot
         if wanted.kind == POINT:
-            return Polyline(WANTED, LAYER, step, (spot, wanted.spot))
+            return Polyline(WANTED_PEN, LAYER, step, (spot, wanted.spot))
         if wanted.kind == LINE:
-            at, long = foot(Floats(), wanted.line, spot), max(REACH, math.dist(*self.spots[:2]) / 2)
-            return Polyline(WANTED, LAYER, step,
+            at, long = foot(Floats(), wanted.line, spot), max(WANTED_LINE_MM, math.dist(*self.spots[:2]) / 2)
+            return Polyline(WANTED_PEN, LAYER, step,
                             (offset(at, wanted.direction, -long), offset(at, wanted.direction, long)))
         middle = _angle(wanted.spot, spot)
-        wide = math.degrees(REACH / wanted.radius) if wanted.radius > REACH / math.pi else 180.0
-        return Arc(WANTED, LAYER, step, wanted.spot, wanted.radius, middle - wide, middle + wide)
+        wide = math.degrees(WANTED_LINE_MM / wanted.radius) if wanted.radius > WANTED_LINE_MM / math.pi else 180.0
+        return Arc(WANTED_PEN, LAYER, step, wanted.spot, wanted.radius, middle - wide, middle + wide)
 
     def tolerance(self) -> Iterator[Item]:
         """The ellipse about where a point should be; it is as much larger as our sheet is than the student's.
@@ -229,11 +233,11 @@ class StudentMark:
             return
         angle = math.radians(ellipse.angle)
         direction = math.cos(angle), math.sin(angle)
-        around = [math.tau * i / CORNERS for i in range(CORNERS)]
+        around = [math.tau * i / ELLIPSE_CORNERS for i in range(ELLIPSE_CORNERS)]
         spots = [offset(self.wanted.spot, direction, grown * ellipse.major * math.cos(t),
                         grown * ellipse.minor * math.sin(t))
                  for t in around]
-        yield Polygon(ALLOWED, LAYER, self.verdict.step, tuple(spots))
+        yield Polygon(TOLERANCE_PEN, LAYER, self.verdict.step, tuple(spots))
 
 
 @dataclass(frozen=True)
@@ -316,9 +320,9 @@ def _clip_items(items: Iterable[Item], view: View) -> Iterator[Item]:
 def legend_sample(state: str | None, spot: Spot) -> Iterator[Item]:
     """How marks of a verdict look, for a legend: a stroke with a point on it; what is spare without a verdict."""
     x, y = spot
-    yield Polyline(PENS.get(state, SPARE), LAYER, None, ((x - 4.0, y), (x + 4.0, y)))
+    yield Polyline(PENS.get(state, SPARE_PEN), LAYER, None, ((x - 4.0, y), (x + 4.0, y)))
     if state == UNSURE:  # its ring is wider than a row is high
-        yield Circle(PENS[UNSURE].with_fill("none"), LAYER, None, spot, SIZES[WRONG])
+        yield Circle(PENS[UNSURE].with_fill("none"), LAYER, None, spot, HALF_SIZES_MM[WRONG])
     else:
         yield from _point_items(spot, state, None)
 
@@ -328,14 +332,14 @@ def _trace_items(trace: Trace, spots: Sequence[Spot], state: str | None, step: i
     if trace.kind == POINT:
         yield from _point_items(spots[0], state, step)
     elif trace.kind == CIRCLE:
-        yield _arc(spots, PENS.get(state, SPARE), step)
+        yield _arc(spots, PENS.get(state, SPARE_PEN), step)
     else:
-        yield Polyline(PENS.get(state, SPARE), LAYER, step, tuple(spots[:2]))
+        yield Polyline(PENS.get(state, SPARE_PEN), LAYER, step, tuple(spots[:2]))
 
 
 def _point_items(spot: Spot, state: str | None, step: int | None) -> Iterator[Item]:
     """A ring; a square if it is right after a mistake, a cross if it is wrong; a wide ring where it cannot be told."""
-    (x, y), pen, half_size = spot, PENS.get(state, SPARE), SIZES.get(state, 0.6)
+    (x, y), pen, half_size = spot, PENS.get(state, SPARE_PEN), HALF_SIZES_MM.get(state, 0.6)
     firm = Pen(min(pen.width, 0.5), pen.colour, fill=PAPER)
     corners = Rect(x - half_size, y - half_size, x + half_size, y + half_size).corners
     if state == WRONG:
@@ -356,7 +360,7 @@ def _arc(spots: Sequence[Spot], pen: Pen, step: int | None) -> Item:
         return Polyline(pen, LAYER, step, tuple(spots))
     centre, radius = arc_circle
     across = [math.dist(spots[i], spots[i + 2]) for i in (0, 1)] if len(spots) == 4 else [0.0]
-    if min(across) > WHOLE * 2 * radius:
+    if min(across) > DIAMETER_SHARE * 2 * radius:
         return Arc(pen, LAYER, step, centre, radius, 0.0, 360.0)
     start, between, end = (_angle(centre, spot) for spot in (first, middle, last))
     if (between - start) % 360.0 > (end - start) % 360.0:

@@ -15,7 +15,7 @@ from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.mistakes import MISTAKES
 from graphplan.marking.judge.verdict import IMPLIED, UNSEEN, UNSURE, WRONG, Judgement, asked_results
-from graphplan.marking.judge.verdicts import EXCHANGED, WORDS
+from graphplan.marking.judge.verdicts import EXCHANGED_KIND, EXCHANGED_WORDS
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
 from graphplan.phrases import Phrase, Said, arrange, join, phrase, said
@@ -26,12 +26,13 @@ GROUPS: Mapping[str, Phrase] = {
     POSE: phrase("given points"), VELOCITY: phrase("velocity"), ACCELERATION: phrase("acceleration"),
     FORCE: phrase("force"), RESULTS: phrase("results"),
 }  # fmt: skip
-OTHER, ANOTHERS = "other", "another's number"
+OTHER_KIND, OTHER_RESULT_KIND = "other", "another's number"
 KINDS: Mapping[str, Callable[[], Said]] = {**{kind: entry.words for kind, entry in MISTAKES.items()},
-                                           EXCHANGED: WORDS, ANOTHERS: phrase("the number of another result"),
-                                           OTHER: phrase("another mistake")}
+                                           EXCHANGED_KIND: EXCHANGED_WORDS,
+                                           OTHER_RESULT_KIND: phrase("the number of another result"),
+                                           OTHER_KIND: phrase("another mistake")}
 SLIPS = frozenset({"wrong side", "wrong scale", "wrong crossing", "wrong opening", "wrong centre",
-                   "exchanged coordinates", EXCHANGED, ANOTHERS, OTHER})
+                   "exchanged coordinates", EXCHANGED_KIND, OTHER_RESULT_KIND, OTHER_KIND})
 
 
 @dataclass(frozen=True)
@@ -52,14 +53,16 @@ class Weights:
         return 0.0 if state == UNSURE else float(getattr(self, "right" if state == IMPLIED else state))
 
 
-VERDICTS = "right", "follows", "missing", "wrong", "numbers"
+WEIGHT_NAMES = "right", "follows", "missing", "wrong", "numbers"
 
 
 def parse_weights(text: str) -> Weights:
     """The weights that a text such as `follows=0.5,numbers=3,reversed=30` speaks of; what it leaves out stays as it is
     by default."""
-    settings = read_settings("--weights", text, [*VERDICTS, *KINDS], "nothing of this name is weighed", _parse_weight)
-    right, follows, missing, wrong, numbers = (settings.get(name, float(getattr(Weights, name))) for name in VERDICTS)
+    settings = read_settings("--weights", text, [*WEIGHT_NAMES, *KINDS], "nothing of this name is weighed",
+                             _parse_weight)
+    right, follows, missing, wrong, numbers = (settings.get(name, float(getattr(Weights, name)))
+                                               for name in WEIGHT_NAMES)
     costs = {kind: settings.get(kind, cost) for kind, cost in Weights().costs.items()}
     weights = Weights(right, follows, missing, wrong, numbers, costs)
     if weights.right < max(weights.follows, weights.missing, weights.wrong):
@@ -136,11 +139,11 @@ def _weighed_states(judgement: Judgement, weighed: Weights) -> Iterator[tuple[st
 
 def _mistake_costs(judgement: Judgement, weighed: Weights, most: float) -> Iterator[tuple[str, float]]:
     """What the first mistake of each kind costs beside the share of its step, or of its number."""
-    wrong = [(verdict.kind or OTHER, 1.0) for verdict in judgement.counting_verdicts if verdict.state == WRONG]
-    wrong += [(number.kind or OTHER, weighed.numbers) for number in judgement.numbers if number.state == WRONG]
+    wrong = [(verdict.kind or OTHER_KIND, 1.0) for verdict in judgement.counting_verdicts if verdict.state == WRONG]
+    wrong += [(number.kind or OTHER_KIND, weighed.numbers) for number in judgement.numbers if number.state == WRONG]
     firsts = dict[str, float]()
     for kind, count in wrong if most else ():
-        firsts.setdefault(kind if kind in weighed.costs else OTHER, count)
+        firsts.setdefault(kind if kind in weighed.costs else OTHER_KIND, count)
     for kind, count in firsts.items():
         beyond = weighed.costs[kind] - measures.FULL_SCORE * count * (weighed.right - weighed.wrong) / most
         if beyond > 0.0:

@@ -25,7 +25,7 @@ from graphplan.marking.judge.student_sheet import StudentSheet
 from graphplan.marking.tolerances import VARIANCE_FLOOR
 from graphplan.marking.traces import Submission, Trace
 
-SCALES, READ, PARTS = (np.geomspace(*tried) for tried in (
+SCALES_TRIED, READINGS_TRIED, SHARES_TRIED = (np.geomspace(*tried) for tried in (
     measures.HAND_SCALES, measures.READINGS_MM, measures.STATED_SHARES))
 Sample = tuple[Any, Any, Any]  # how far off, the covariance from the hand, and from reading
 
@@ -43,20 +43,21 @@ def seen_pencil(matching: Matching, now: SeenPencil, submission: Submission) -> 
         return None
     rounding = max(0.0, min((trace.blur**2 for trace in submission.traces), default=0.0))
     read, stated_shares, reading_ratios = np.zeros(1), np.ones(1), np.ones(1)
-    odds = -np.log(SCALES)[:, None] ** 2 / (2 * measures.HAND_SCALE_SIGMA**2)
+    odds = -np.log(SCALES_TRIED)[:, None] ** 2 / (2 * measures.HAND_SCALE_SIGMA**2)
     if submission.measured and submission.stated:
-        stated_shares, reading_ratios = PARTS, (PARTS / now.share_shown) ** 2
-        odds = odds - np.log(PARTS)[None, :] ** 2 / (2 * measures.STATED_SHARE_SIGMA**2)
+        stated_shares, reading_ratios = SHARES_TRIED, (SHARES_TRIED / now.share_shown) ** 2
+        odds = odds - np.log(SHARES_TRIED)[None, :] ** 2 / (2 * measures.STATED_SHARE_SIGMA**2)
     if now.reading:
-        read, reading_ratios = READ, (READ**2 + rounding) / (now.reading**2 + rounding)
-        odds = odds - np.log(READ / measures.RULER_MM)[None, :] ** 2 / (2 * measures.READING_SIGMA**2)
+        read, reading_ratios = READINGS_TRIED, (READINGS_TRIED**2 + rounding) / (now.reading**2 + rounding)
+        odds = odds - np.log(READINGS_TRIED / measures.RULER_MM)[None, :] ** 2 / (2 * measures.READING_SIGMA**2)
     for width in (1, 2, 3):
-        odds = odds + _sample_likelihood([sample for sample in samples if len(sample[0]) == width], SCALES / now.scale,
+        odds = odds + _sample_likelihood([sample for sample in samples if len(sample[0]) == width],
+                                         SCALES_TRIED / now.scale,
                                          reading_ratios)
     weights = np.exp(odds - odds.max())
     weights /= weights.sum()
     scale, reading, share = (math.sqrt(float(np.sum(weights * tried_sizes**2)))
-                             for tried_sizes in (SCALES[:, None], read[None, :], stated_shares[None, :]))
+                             for tried_sizes in (SCALES_TRIED[:, None], read[None, :], stated_shares[None, :]))
     return SeenPencil(now.stated, scale, reading, len(samples), share)
 
 

@@ -29,7 +29,7 @@ from graphplan.marking.traces import PlanFrame, Trace
 from graphplan.methods.construction import Construction
 from graphplan.sheet.plates.plans import Plans
 
-NONE = np.finfo(float).tiny
+MIN_VARIANCE = np.finfo(float).tiny
 
 SURVIVAL: dict[int, Callable[[float], float]] = {  # how often a sum of n squares is larger than x
     1: lambda x: math.erfc(math.sqrt(x / 2)),
@@ -63,9 +63,9 @@ class Residual:
     def _axes_and_deviations(self) -> tuple[Any, Any]:
         """The variances along the axes of the covariance, none of them nothing, and the deviation along them."""
         if len(self.off) == 1:
-            return np.maximum(self.covariance[0], NONE), self.off
+            return np.maximum(self.covariance[0], MIN_VARIANCE), self.off
         variances, axes = np.linalg.eigh(self.covariance)
-        return np.maximum(variances, max(VARIANCE_TOL * variances[-1], NONE)), axes.T @ self.off
+        return np.maximum(variances, max(VARIANCE_TOL * variances[-1], MIN_VARIANCE)), axes.T @ self.off
 
     @property
     def square(self) -> float:

@@ -168,7 +168,7 @@ def sureness(odds: float) -> float:
 # ---- exchanged letters: one mistake, and none about mechanics -------------------------------------------------------
 
 
-EXCHANGED, WORDS = "exchanged letters", phrase("letters of two marks exchanged")
+EXCHANGED_KIND, EXCHANGED_WORDS = "exchanged letters", phrase("letters of two marks exchanged")
 Pair = tuple[int, int]
 
 
@@ -208,7 +208,7 @@ def with_exchanged(verdicts: Iterable[Verdict], pairs: Iterable[Pair], matching:
             spots = matching.sheet.spots(index, trace)
             off = matching.sheet.residual(step, matching.mended[index], spots, matching.mended)
             yield replace(verdict, state=WRONG, off=off.distance, tolerance=off.tolerance(matching.chance), trace=trace,
-                          kind=EXCHANGED, guilty=index,
+                          kind=EXCHANGED_KIND, guilty=index,
                           mistake=said("the letters of {0} and {1} are exchanged", name(index), name(other)))
         elif index in second and verdict.state == RIGHT:
             yield replace(verdict, state=FOLLOWS)

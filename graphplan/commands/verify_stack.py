@@ -143,7 +143,7 @@ class StackDesk:
                 further = [joined_page for joined_page in whose if joined_page.fate == fates.JOINED
                            and _is_same_owner(placed_page, joined_page)]
                 name, job = self._job(placed_page, further if placed_page.fate == fates.COUNTS else [])
-                keys[placed_page.seen.page.name] = name
+                keys[placed_page.seen_page.page.name] = name
                 jobs.setdefault(name, job)
         outcomes = self._run_jobs(try_judge, jobs, "sheets", lambda job: job.page.name)
         return {page: outcomes[name] for page, name in keys.items()}
@@ -152,10 +152,11 @@ class StackDesk:
         """The job of a sheet, by a digest of all that it hangs on."""
         assert one.sheet is not None
         scene, options = self.folder / one.sheet.scene, self._sheet_options()
-        digests = [placed_page.seen.sight.digest for placed_page in (one, *further)]
+        digests = [placed_page.seen_page.sight.digest for placed_page in (one, *further)]
         made_from = key("judged", __version__, digests, one.mirrored, one.sheet, file_digest(scene),
                         sorted(self.register.options.items()), options.pencil, self.weights)
-        return made_from, Job(one.seen.page, one.mirrored, tuple(joined_page.seen.page for joined_page in further),
+        return made_from, Job(one.seen_page.page, one.mirrored,
+                              tuple(joined_page.seen_page.page for joined_page in further),
                               one.sheet,
                               scene, self.keeper.folder / f"{made_from}.pdf", self.weights, options)
 
@@ -193,7 +194,8 @@ class StackDesk:
         named = [placed_page for placed_page in whose if placed_page.sheet is not None]
         for sheet in self.register.sheets:
             sheet_pages = [placed_page for placed_page in named if placed_page.sheet == sheet]
-            yield from (self._sheet(placed_page, judged.get(placed_page.seen.page.name)) for placed_page in sheet_pages)
+            yield from (self._sheet(placed_page, judged.get(placed_page.seen_page.page.name))
+                        for placed_page in sheet_pages)
             if sheet.student and not any(placed_page.owner == sheet.student for placed_page in named):
                 yield SheetResult(found_results.ABSENT, variant=sheet.variant, student=sheet.student)
         for placed_page in whose:
@@ -203,8 +205,8 @@ class StackDesk:
     def _sheet(self, one: PlacedPage, data: Data | None) -> SheetResult:
         """One page as a line of the results."""
         notes = tuple(self.say(note) for note in one.notes)
-        about = SheetResult(FATES[one.fate], one.seen.page.name, None if one.sheet is None else one.sheet.variant,
-                            one.owner, look=notes, thumbnail=one.seen.sight.thumbnail)
+        about = SheetResult(FATES[one.fate], one.seen_page.page.name, None if one.sheet is None else one.sheet.variant,
+                            one.owner, look=notes, thumbnail=one.seen_page.sight.thumbnail)
         if data is None:
             return about
         if FAULT_KEY in data:

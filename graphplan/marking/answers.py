@@ -30,7 +30,7 @@ class TrueNumber:
     value: float
     off: float
     written: str
-    one: float = 1.0
+    unit_size: float = 1.0
     dimension: Dimension | None = None
 
     def matches(self, answer: TableAnswer) -> bool:
@@ -43,7 +43,7 @@ class TrueNumber:
             if answer.unit not in ("", "°", "deg"):
                 raise ValueError(f"{answer.unit!r} is not a unit of angle")
             return answer.value
-        return answer.value * (unit_factor(answer.unit, self.dimension, SI_UNITS) if answer.unit else self.one)
+        return answer.value * (unit_factor(answer.unit, self.dimension, SI_UNITS) if answer.unit else self.unit_size)
 
     def gap(self, value: float) -> float:
         """How far a number is from this."""
@@ -54,7 +54,7 @@ class TrueNumber:
     def number_text(self, value: float) -> Said:
         """A number in its unit."""
         pattern = "{0} {1}" if self.dimension else "{0}{1}"
-        return arrange(pattern, digits(value / self.one), unit(self.written))
+        return arrange(pattern, digits(value / self.unit_size), unit(self.written))
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ class AnswerVerdict:
     @property
     def record(self) -> dict[str, Any]:
         """As data."""
-        unit_size = self.expected.one
+        unit_size = self.expected.unit_size
         return {"quantity": self.expected.quantity, "of": self.expected.of, "unit": self.expected.written,
                 "answered": None if self.answered is None else self.answered / unit_size,
                 "true": self.expected.value / unit_size, "state": self.state, "hint": str(self.hint)}
@@ -101,7 +101,7 @@ def _judge_answer(one: TrueNumber, expected: Sequence[TrueNumber], answer: Table
     if answer is None:
         return AnswerVerdict(one, None, MISSING)
     value = one.read(answer)
-    scale = abs(value / answer.value) if answer.value else one.one
+    scale = abs(value / answer.value) if answer.value else one.unit_size
     if one.gap(value) <= TOLERANCE_FACTOR * one.off + 2 * answer.rounding * scale:
         return AnswerVerdict(one, value, RIGHT)
     return AnswerVerdict(one, value, WRONG, _hint(one, expected, value))

@@ -146,7 +146,7 @@ def measure(kind: str, name: str, seeds: range, tally: Tally) -> None:
             tally.confusion[slip.kind, told] += 1
             if not exact:
                 tally.missed.append(f"{name} {seed} step {drawing.drawn.number(slip.step.index)} {slip.kind}, "
-                                    f"{slip.told}: {_told(found)}")
+                                    f"{slip.text}: {_told(found)}")
 
 
 def _judged(kind: str, drawing: Construction, sheet: Composition, drawn: Drawn, seed: int, tally: Tally) -> Judgement:

@@ -48,7 +48,7 @@ class Maker:
         for step in self.drawing.drawn.steps:
             value = tuple(map(float, self.drawing.values[step.index]))
             if step.op.gives == OPENING:
-                yield Verdict(step.index, UNSEEN, own=value)
+                yield Verdict(step.index, UNSEEN, expected=value)
                 continue
             off = self.wrong.get(step.index, 0j)
             state = WRONG if off else FOLLOWS if after & set(step.args) else RIGHT

@@ -94,7 +94,7 @@ def test_later_steps_follow_from_a_slip() -> None:
     """What rests on a wrong mark is right after an earlier mistake, what does not is right."""
     drawing, sheet = composed("four-bar")
     where = {step.name: step.index for step in drawing.drawn.steps}
-    mistake = next(one for one in slipped(drawing, where["v_b"]) if one.told.endswith("AB instead of line 3"))
+    mistake = next(one for one in slipped(drawing, where["v_b"]) if one.text.endswith("AB instead of line 3"))
     drawn = draw(drawing, frames(drawing, sheet), PENCIL, 1, {where["v_b"]: mistake})
     states = {verdict.step: verdict.state for verdict in judge(drawing, sheet, whole(drawn), PENCIL).verdicts}
     assert states[where["v_b"]] == WRONG
@@ -320,6 +320,6 @@ def test_a_number_read_off_a_wrong_drawing_follows() -> None:
               for trace in traced(drawn) if trace.kind == POINT]
     value = drawing.velocity["B"] - 8.0j / sheet.views["mechanism"].scale / drawing.kappa
     submission = Submission("x.csv", tuple(traces), (StudentNumber("velocity", "B", (value.real, value.imag), "mm/s"),),
-                    frozenset({POINT}))
+                            frozenset({POINT}))
     found = judge(drawing, sheet, submission, PENCIL)
     assert found.numbers[0].state == FOLLOWS

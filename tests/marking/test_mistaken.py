@@ -40,7 +40,7 @@ def judged(name: str, seed: int, mistakes: dict[str, str] | None = None, odd: di
     drawing = gp.construct(gp.load(name))
     sheet = compose(drawing)
     texts = {drawing.drawn.text(step.index): step for step in drawing.drawn.steps}
-    made = {texts[text].index: next(one for one in slipped(drawing, texts[text].index) if one.told == told)
+    made = {texts[text].index: next(one for one in slipped(drawing, texts[text].index) if one.text == told)
             for text, told in (mistakes or {}).items()}
     made |= {texts[text].index: Mistake("odd", said("wrong"), texts[text], factor)
              for text, factor in (odd or {}).items()}
@@ -84,7 +84,7 @@ def test_a_mark_that_is_not_to_be_seen_is_told_by_what_follows(name: str, mark: 
     drawing = gp.construct(gp.load(name))
     sheet = compose(drawing)
     step = next(s for s in drawing.drawn.steps if mark in (s.name, str(drawing.drawn.number(s.index))))
-    made = {step.index: next(one for one in slipped(drawing, step.index) if one.told == mistake)}
+    made = {step.index: next(one for one in slipped(drawing, step.index) if one.text == mistake)}
     drawn = draw(drawing, frames(drawing, sheet), Pencil(), 711, made)
     submission = unlabelled(drawn)
     kept = [trace for trace, true in zip(submission.traces, traced(drawn), strict=True) if true.label != mark]

@@ -289,13 +289,13 @@ def test_another_task_is_refused(tmp_path: Path) -> None:
 def test_print_that_is_drawn_over_is_known() -> None:
     """A sheet all of whose own print a pencil is drawn along is still that of its task; one without it is not."""
     ink = print_pieces(page())
-    side = np.column_stack([-ink.along[:, 1], ink.along[:, 0]])[ink.own] * 0.5
-    ends = (ink.along * ink.halves[:, None])[ink.own]
+    side = np.column_stack([-ink.along[:, 1], ink.along[:, 0]])[ink.is_own] * 0.5
+    ends = (ink.along * ink.halves[:, None])[ink.is_own]
     pencil = [(tuple(map(tuple, (at - end, at + end))), 0.6, 0.9)
-              for at, end in zip(ink.middles[ink.own] + side, ends, strict=True)]
+              for at, end in zip(ink.middles[ink.is_own] + side, ends, strict=True)]
     over = scan(paper(), pencil, 83).image
     assert straighten(over, page(), print_picture(page(), measures.PAGE_PX_PER_MM), measures.PAGE_PX_PER_MM, CODE,
-                      "over")[1].own > 0.5
+                      "over")[1].own_share > 0.5
     bare = replace(page(), items=tuple(item for item in page().items if item.layer in {"paper", MARKS}))
     with pytest.raises(Refused, match="not found where this task has it"):
         straighten(scan(printed(bare), [], 84).image, page(), print_picture(page(), measures.PAGE_PX_PER_MM),

@@ -89,7 +89,7 @@ def test_a_wrong_line_is_found_in_a_scan(tmp_path: Path) -> None:
     """A perpendicular to the wrong side of the link is named, with the line that was taken for it."""
     drawing, *_ = handout()
     beta = next(step.index for step in drawing.drawn.steps if step.name == "beta")
-    mistake = next(mistake for mistake in slipped(drawing, beta) if mistake.told == "perpendicular to AB instead of BC")
+    mistake = next(mistake for mistake in slipped(drawing, beta) if mistake.text == "perpendicular to AB instead of BC")
     found = judged(tmp_path, 32, {beta: mistake})
     assert found.first_wrong_step == beta
     assert found.first_wrong

@@ -40,7 +40,8 @@ def seen(name: str, upright: tuple[int, ...] = (), mirrored: tuple[int, ...] = (
 def fates(*pages: SeenPage, assigned: dict[str, Assignment] | None = None) -> list[tuple[str, str, str]]:
     """What becomes of pages: each by its name, whose it is, and its fate."""
     found = place_pages(pages, REGISTER, assigned or {})
-    return [(one.seen.page.name, one.owner or (str(one.sheet.variant) if one.sheet else ""), one.fate) for one in found]
+    return [(one.seen_page.page.name, one.owner or (str(one.sheet.variant) if one.sheet else ""), one.fate)
+            for one in found]
 
 
 @pytest.mark.parametrize(("upright", "mirrored", "student"), [

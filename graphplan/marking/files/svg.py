@@ -277,7 +277,7 @@ class _Place:
     view: Viewport
     look: Look
     depth: int = 0
-    drawn: bool = True
+    is_drawn: bool = True
 
 
 class _SvgReader(DrawingReader):
@@ -313,7 +313,7 @@ class _SvgReader(DrawingReader):
         onto = transform(element.get("transform")) * place.onto
         if not on_paper(onto.a, onto.b, onto.c, onto.d, onto.e, onto.f):
             raise ValueError("a transform leads off the paper")
-        is_drawn = place.drawn and element.get("class") not in CLASSES_NOT_DRAWN
+        is_drawn = place.is_drawn and element.get("class") not in CLASSES_NOT_DRAWN
         inner_place = _Place(onto, place.view, inherit_look(look, place.look), place.depth + 1, is_drawn)
         if element.tag in GROUP_TAGS:
             self._group(element, inner_place)

@@ -75,18 +75,18 @@ class PolarPlan:
 
     speaks: float
     fit: Fit
-    held: tuple[int, ...]
+    held_places: tuple[int, ...]
     names: Mapping[int, str] = field(default_factory=dict)
     at_once: float = 0.0
 
 
 @dataclass(frozen=True)
 class Proposer:
-    """What a drawing may be meant as, other than as the task: `seen` are its marks with the letters that the task gave
-    them, `frame` is where its mechanism lies."""
+    """What a drawing may be meant as, other than as the task: `labelled` are its marks with the letters that the task
+    gave them, `frame` is where its mechanism lies."""
 
     task: SheetReading
-    seen: Submission
+    labelled: Submission
     frame: PlanFrame
     pencil: Pencil
     plan: str
@@ -97,17 +97,17 @@ class Proposer:
         """The readings that something on the sheet speaks for."""
         at_points = self._readings_at_points()
         yield from at_points
-        for reading in (replace(self.task, submission=self.seen), *at_points):
+        for reading in (replace(self.task, submission=self.labelled), *at_points):
             yield from self._renumbered_readings(reading)
-        if "polar" in (self.plan or "polar") and not self.seen.page:
+        if "polar" in (self.plan or "polar") and not self.labelled.page:
             yield from self._polar_readings()
 
     def with_all_ends(self) -> SheetReading | None:
         """As the task has it, but every velocity that is marked ends in a mark of its own; None where steps are called
         by their numbers, which would be others then."""
-        numbered = any(trace.label.isdigit() for trace in self.seen.traces)
-        drawing = None if numbered else self.at_tempo(Fraction(1), self.seen)
-        return replace(self.task, drawing=drawing, submission=self.seen) if drawing else None
+        numbered = any(trace.label.isdigit() for trace in self.labelled.traces)
+        drawing = None if numbered else self.at_tempo(Fraction(1), self.labelled)
+        return replace(self.task, drawing=drawing, submission=self.labelled) if drawing else None
 
     def other_forms(self, reading: SheetReading) -> Iterator[SheetReading]:
         """A reading by the other forms of its loci, which have other marks."""
@@ -118,7 +118,7 @@ class Proposer:
                                                    construct=self.construct):
             if isinstance(construction, Construction) and _step_keys(construction) != _step_keys(drawing):
                 yield replace(reading, drawing=construction, prior=reading.prior + measures.OTHER_FORM_ODDS,
-                              told=(*reading.told, said("drawn by the form {0}", form_name(methods))))
+                              remarks=(*reading.remarks, said("drawn by the form {0}", form_name(methods))))
 
     def _renumbered_readings(self, reading: SheetReading) -> Iterator[SheetReading]:
         """With the numbers at its marks in an order of the student's own, so that they tell nothing."""
@@ -127,14 +127,14 @@ class Proposer:
             nameless_traces = tuple(replace(trace, label="") if trace.label.isdigit() else trace for trace in traces)
             yield replace(reading, submission=replace(reading.submission, traces=nameless_traces),
                           prior=reading.prior + measures.RENUMBERED_ODDS,
-                          told=(*reading.told, said("steps numbered in another order")))
+                          remarks=(*reading.remarks, said("steps numbered in another order")))
 
     # ---- velocities drawn from their points ------------------------------------------------------------------------
 
     def _readings_at_points(self) -> list[SheetReading]:
         """With the velocities at a scale of the student's own, turned the other way, or true at their points, where
         several of them agree on that; the likeliest first."""
-        if not self.task.drawing.turned or self.seen.page:
+        if not self.task.drawing.turned or self.labelled.page:
             return []
         votes = []
         for point, velocity in self.task.drawing.velocity.items():
@@ -157,10 +157,10 @@ class Proposer:
         if factor == 1 and quarters == 0:
             return None
         remarks, prior = SENSES[quarters]
-        submission = self._turned_back_submission() if quarters == 3 else self.seen
+        submission = self._turned_back_submission() if quarters == 3 else self.labelled
         drawing = self.at_tempo(factor * (-1 if quarters == 2 else 1), submission)
         return replace(
-            self.task, drawing=drawing, submission=submission, told=(*self.task.told, *remarks),
+            self.task, drawing=drawing, submission=submission, remarks=(*self.task.remarks, *remarks),
             scaled=MECHANISM if factor != 1 else "",
             prior=self.task.prior + prior + (measures.OWN_SCALE_ODDS if factor != 1 else 0.0)
         ) if drawing else None
@@ -192,7 +192,7 @@ class Proposer:
 
     def _turned_back_submission(self) -> Submission:
         """With every velocity that is drawn at its point turned a quarter, as on the task's sheet."""
-        marks = {spell(trace.label): complex(*trace.spots[0]) for trace in self.seen.traces
+        marks = {spell(trace.label): complex(*trace.spots[0]) for trace in self.labelled.traces
                  if trace.kind == POINT and trace.label}
         marks |= {point: self.frame.to_sheet(self._given_point(point)) for point in self.task.drawing.scene.points}
         starts = {f"v{name.casefold()}": spot for name, spot in marks.items() if name[:1].isupper()}
@@ -204,7 +204,7 @@ class Proposer:
             spot = start + 1j * (complex(*trace.spots[0]) - start)
             return replace(trace, spots=((spot.real, spot.imag),))
 
-        return replace(self.seen, traces=tuple(map(turned, self.seen.traces)))
+        return replace(self.labelled, traces=tuple(map(turned, self.labelled.traces)))
 
     # ---- velocities and accelerations from a pole ------------------------------------------------------------------
 
@@ -214,7 +214,7 @@ class Proposer:
             drawing = self._construct(self.task.drawing.scene, plan="polar")
         except GraphplanError:
             return
-        fits, submission, prior = dict[str, Fit](), self.seen, self.task.prior + measures.POLAR_PLAN_ODDS
+        fits, submission, prior = dict[str, Fit](), self.labelled, self.task.prior + measures.POLAR_PLAN_ODDS
         for kind, panel in ((VELOCITY, VELOCITY_PLAN), (ACCELERATION, ACCELERATION_PLAN)):
             plan = max(self._polar_plans(drawing, kind), key=lambda plan: plan.speaks, default=None)
             if plan:
@@ -225,16 +225,16 @@ class Proposer:
         if VELOCITY_PLAN in fits or not self._all_named:
             submission = submission if fits else self.task.submission
             yield replace(self.task, drawing=drawing, submission=submission, fits=fits, scaled=VELOCITY_PLAN,
-                          told=(*self.task.told, said("a polar plan")), prior=prior)
+                          remarks=(*self.task.remarks, said("a polar plan")), prior=prior)
 
     @cached_property
     def _all_named(self) -> bool:
         """Whether every point of the sheet says what it is."""
-        return all(trace.label and not trace.beside for trace in self.seen.traces if trace.kind == POINT)
+        return all(trace.label and not trace.beside for trace in self.labelled.traces if trace.kind == POINT)
 
     def _polar_plans(self, drawing: Construction, kind: ResultKind) -> Iterator[PolarPlan]:
         """The polar plans that the ends of vectors agree on, by each way to write them."""
-        steps, traces, ends = drawing.drawn.steps, self.seen.traces, dict[str, tuple[int, int]]()
+        steps, traces, ends = drawing.drawn.steps, self.labelled.traces, dict[str, tuple[int, int]]()
         for reading in drawing.readings:
             if reading.kind == kind:
                 start, end = (drawing.drawn.wanted[mark] for mark in reading.marks[-2:])
@@ -250,7 +250,7 @@ class Proposer:
                                              for place, mark in marked_places.items()} if marks else {})
             if polar_plan:
                 names = {place: steps[mark].name
-                         for place, mark in marked_places.items() if place in {*polar_plan.held, *marks}}
+                         for place, mark in marked_places.items() if place in {*polar_plan.held_places, *marks}}
                 yield replace(polar_plan, names=names)
 
     def _agreed_frame(self, pairs: Mapping[int, Pair]) -> PolarPlan | None:
@@ -290,7 +290,7 @@ class Proposer:
     def _find_mark(self, point: str, written: str) -> int | None:
         """The place of the mark that is called so for a point of the mechanism."""
         name = written.format(point.casefold())
-        for place, trace in enumerate(self.seen.traces):
+        for place, trace in enumerate(self.labelled.traces):
             if trace.kind == POINT and trace.label not in self.task.drawing.scene.points and (
                     _bare_label(trace.label) == name):
                 return place
@@ -298,7 +298,7 @@ class Proposer:
 
     def _find_end(self, point: str, written: str) -> Trace | None:
         place = self._find_mark(point, written)
-        return None if place is None else self.seen.traces[place]
+        return None if place is None else self.labelled.traces[place]
 
     def _given_point(self, point: str) -> complex:
         return complex(*map(float, self.task.drawing.scene.points[point]))

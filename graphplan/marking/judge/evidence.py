@@ -117,7 +117,8 @@ class Evidence:
 
 
 class ImageSearch(Evidence):
-    """The traces of a picture, which is searched for more; `found` is what was: the same thing is sought once."""
+    """The traces of a picture, which is searched for more; what was found is kept: the same thing is searched for
+    once."""
 
     picture, most = True, measures.PICTURE_ODDS
 
@@ -125,7 +126,7 @@ class ImageSearch(Evidence):
                  panels: Mapping[str, Rect], found: dict[tuple[Any, ...], Trace | None]):
         super().__init__(sheet, submission, traces, places)
         assert submission.page
-        self.page, self.panels, self._found = submission.page, panels, found
+        self.page, self.panels, self._cache = submission.page, panels, found
 
     def weight(self, place: int) -> float:
         """Less where it was found only by seeking it."""
@@ -135,10 +136,10 @@ class ImageSearch(Evidence):
         value, reach = plain_value(expected), min(within, measures.MAX_SEARCH_MM)
         spots = self._spots_on_panel(step, self._spots(step, value, own))
         key = (step.index, *value, *(round(coordinate) for spot in spots for coordinate in spot))
-        if key not in self._found:
+        if key not in self._cache:
             trace = self._find_near(step, value, spots, reach) if spots else None
-            self._found[key] = with_wobble(trace) if trace else None
-        return self._found[key]
+            self._cache[key] = with_wobble(trace) if trace else None
+        return self._cache[key]
 
     def search(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
         return self.find_trace(step, expected, own, within)

@@ -60,7 +60,7 @@ class Judge:
         self.named = name_marks(self.drawing, reading.task, reading.submission, pencil)
         self.submission = blur_marks(self.named, hand)
         plan_of_step = StudentSheet(self.drawing, {}, pencil).plan_of_step
-        self.sought: dict[tuple[Any, ...], Trace | None] = {}  # what was found in a picture by seeking it
+        self.search_cache: dict[tuple[Any, ...], Trace | None] = {}  # what was found in a picture by seeking it
         traces = self.submission.traces
         self.traces = [with_wobble(trace) for trace in traces] if self.submission.page else list(traces)
         self.labels = labelled_steps(self.drawing.drawn, plan_of_step, traces)
@@ -162,7 +162,7 @@ class Judge:
 
     def _reading_words(self) -> Iterator[Said]:
         """How the drawing was interpreted, and its scale."""
-        yield from self.reading.told
+        yield from self.reading.remarks
         if self.reading.scaled:
             scene, unit = self.drawing.scene, self.fits[self.reading.scaled].frame.unit
             speed = abs(1 / (self.drawing.kappa * unit))
@@ -223,7 +223,7 @@ class Judge:
         return self.matching({panel: mechanism if panel == MECHANISM else nowhere for panel in panels})
 
     def _take_labels(self, found: Mapping[int, int]) -> None:
-        """Take loose traces for what they were found to be."""
+        """Take unlabelled traces for what they were found to be."""
         self.labels |= found
         self.unlabelled = [place for place in self.unlabelled if place not in found.values()]
 
@@ -242,7 +242,7 @@ class Judge:
         sheet = StudentSheet(self.drawing, fits, self.pencil, self.hidden_steps)
         sources = sheet, self.submission, self.traces, self.unlabelled
         panels = self.reading.composition.arrangement.panels if self.submission.page else {}
-        evidence = ImageSearch(*sources, panels, self.sought) if self.submission.page else Evidence(*sources)
+        evidence = ImageSearch(*sources, panels, self.search_cache) if self.submission.page else Evidence(*sources)
         return Matching(evidence, self.labels, measures.FALSE_ALARM_CHANCE / max(1, len(self.drawing.drawn)))
 
 

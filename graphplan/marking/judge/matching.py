@@ -57,7 +57,7 @@ class Matching:
         self.used: set[int] = set()
         self.over: set[int] = set()  # what is drawn over print
         self.erred = False
-        self.found: Mapping[int, int | Mistake] = {}  # what some steps are taken for
+        self.taken: Mapping[int, int | Mistake] = {}  # what some steps are taken for
         self.dead: set[int] = set()  # the steps that nobody could draw from what is there
         self.weight = 0.0  # what speaks for this way
         self.odds: Mapping[int, float] = {}  # what speaks for the mistakes that were found
@@ -87,9 +87,9 @@ class Matching:
     def match_until(self, end: int, found: Mapping[int, int | Mistake] | None = None) -> Matching:
         """Go on before the step of this place, taking every trace that fits, what steps were found to be mistaken for,
         and no others."""
-        self.found = found or {}
+        self.taken = found or {}
         while len(self.own) < end:
-            self.match_next(self.found.get(len(self.own)))
+            self.match_next(self.taken.get(len(self.own)))
         return self
 
     def match_next(self, found: int | Mistake | None) -> Matching:
@@ -116,7 +116,7 @@ class Matching:
     # ---- one step --------------------------------------------------------------------------------------------------
 
     def find_place(self) -> int | None:
-        """The trace of the next step: the one that bears its label, else a loose one that fits."""
+        """The trace of the next step: the one that bears its label, else an unlabelled one that fits."""
         step = self.next_step
         lettered = self.labels.get(step.index)
         if lettered is not None and (is_sure(self.traces[lettered]) or self._fits_label(step, lettered)):
@@ -186,10 +186,10 @@ class Matching:
     def _known_marks(self, drawn: Sequence[Any]) -> KnownMarks:
         """What is known of the marks to come."""
         return KnownMarks(drawn,
-                          {index: mistake for index, mistake in self.found.items() if isinstance(mistake, Mistake)})
+                          {index: mistake for index, mistake in self.taken.items() if isinstance(mistake, Mistake)})
 
     def _find_fitting(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
-        """The loose trace that fits an expected value best, if any does."""
+        """The unlabelled trace that fits an expected value best, if any does."""
         places, off = self.evidence.nearby_traces(step.op.gives, self.sheet.plan_of_step[step.index],
                                                   plain_value(expected))
         best: tuple[bool, bool, float, int] | None = None

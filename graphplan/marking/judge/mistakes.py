@@ -32,7 +32,7 @@ class Mistake:
     """
 
     kind: str
-    told: Said
+    text: Said
     step: Step
     factor: complex = 1.0
     mirror: tuple[int, int] | None = None

@@ -184,19 +184,19 @@ def _ink_outline(item: Item) -> Geometry:
 
 @dataclass(frozen=True, eq=False)
 class StudentMark:
-    """A student's mark of a step on our sheet, as large as it is `grown` there: its spots, and the step as it should be
-    after the student's own earlier marks."""
+    """A student's mark of a step on our sheet, with the `growth` that it has there: its spots, and the step as it
+    should be after the student's own earlier marks."""
 
     verdict: Verdict
     trace: Trace
     spots: tuple[Spot, ...]
-    wanted: DrawnStep
-    grown: float
+    expected_step: DrawnStep
+    growth: float
 
     @property
     def label_spot(self) -> Spot:
         """Where on paper a verdict is to be told: at the mark, or the middle of its stroke within the panel."""
-        spots, rect = self.spots, self.wanted.view.rect
+        spots, rect = self.spots, self.expected_step.view.rect
         inside = clip_segment(rect, spots[0], spots[-1]) if self.trace.kind == LINE else None
         if inside:
             return interpolate(spots[0], spots[-1], sum(inside) / 2)
@@ -205,13 +205,13 @@ class StudentMark:
 
     def items(self) -> Iterator[Item]:
         """What was drawn, over where it should be if it is wrong."""
-        if self.verdict.state == WRONG and all(map(math.isfinite, self.wanted.value)):
+        if self.verdict.state == WRONG and all(map(math.isfinite, self.expected_step.value)):
             yield self._wanted_item()
         yield from _trace_items(self.trace, self.spots, self.verdict.state, self.verdict.step)
 
     def _wanted_item(self) -> Item:
         """Where a wrong mark should be."""
-        step, wanted, spot = self.verdict.step, self.wanted, self.label_spot
+        step, wanted, spot = self.verdict.step, self.expected_step, self.label_spot
         if wanted.kind == POINT:
             return Polyline(WANTED_PEN, LAYER, step, (spot, wanted.spot))
         if wanted.kind == LINE:
@@ -227,14 +227,14 @@ class StudentMark:
 
         A mark that goes on rightly from where a wrong one should have been has none of its own.
         """
-        ellipse, grown = self.verdict.ellipse, self.grown
-        far = math.dist(self.wanted.spot, self.spots[0]) if ellipse else math.inf
+        ellipse, grown = self.verdict.ellipse, self.growth
+        far = math.dist(self.expected_step.spot, self.spots[0]) if ellipse else math.inf
         if not ellipse or not math.isfinite(far) or (self.verdict.state != WRONG and far > grown * ellipse.major):
             return
         angle = math.radians(ellipse.angle)
         direction = math.cos(angle), math.sin(angle)
         around = [math.tau * i / ELLIPSE_CORNERS for i in range(ELLIPSE_CORNERS)]
-        spots = [offset(self.wanted.spot, direction, grown * ellipse.major * math.cos(t),
+        spots = [offset(self.expected_step.spot, direction, grown * ellipse.major * math.cos(t),
                         grown * ellipse.minor * math.sin(t))
                  for t in around]
         yield Polygon(TOLERANCE_PEN, LAYER, self.verdict.step, tuple(spots))
@@ -253,7 +253,8 @@ class StudentStrokes:
         for verdict, step in zip(self.judgement.verdicts, self.judgement.composition.plates.steps, strict=True):
             if verdict.trace and step.panel in frames:
                 marks.append(StudentMark(
-                    verdict, verdict.trace, self.spots(verdict.trace, step.panel), replace(step, value=verdict.own),
+                    verdict, verdict.trace, self.spots(verdict.trace, step.panel),
+                    replace(step, value=verdict.expected),
                     step.view.scale / abs(frames[step.panel].unit)))
         return marks
 
@@ -264,9 +265,9 @@ class StudentStrokes:
                 spare = _trace_items(trace, self.spots(trace, panel), None)
                 yield from _clip_items(spare, self.judgement.composition.views[panel])
         for mark in sorted(self.marks, key=lambda mark: mark.verdict.state == WRONG):
-            yield from _clip_items(mark.items(), mark.wanted.view)
+            yield from _clip_items(mark.items(), mark.expected_step.view)
         for mark in self.marks:
-            yield from _clip_items(mark.tolerance(), mark.wanted.view)
+            yield from _clip_items(mark.tolerance(), mark.expected_step.view)
         for verdict in self.judgement.verdicts:
             if verdict.state == UNSURE and verdict.trace is None:
                 yield from _point_items(self.expected_spot(verdict), UNSURE, verdict.step)
@@ -284,7 +285,7 @@ class StudentStrokes:
         """Where what is not to be seen should be: a point, or the middle of the marks on a line or an arc, or the foot
         on it from the middle of its panel; an opening is anywhere."""
         plates = self.judgement.composition.plates
-        expected_step = replace(plates.steps[verdict.step], value=verdict.own)
+        expected_step = replace(plates.steps[verdict.step], value=verdict.expected)
         rect = expected_step.view.rect
         on = ([expected_step.spot] if expected_step.kind == POINT
               else [mark.spot for mark in plates[expected_step.panel].marks(expected_step)])

@@ -28,14 +28,15 @@ from graphplan.sheet.layout.composition import Composition, compose
 class SheetReading:
     """One way to read a drawing: the `submission` as its traces are taken, and the construction that it is judged by.
 
-    `fits` are the frames of plans that its marks tell; `told` says what differs from the task, `scaled` the plan whose
-    k_v is told with that; `prior` is how unlikely it is, in natural logarithms of odds. `task` is the task's sheet.
+    `fits` are the frames of plans that its marks tell; `remarks` say what differs from the task, `scaled` the plan
+    whose k_v is told with that; `prior` is how unlikely it is, in natural logarithms of odds. `task` is the task's
+    sheet.
     """
 
     drawing: Construction
     task: Composition
     submission: Submission
-    told: tuple[Said, ...] = ()
+    remarks: tuple[Said, ...] = ()
     scaled: str = ""
     prior: float = 0.0
     fits: Mapping[str, Fit] = field(default_factory=dict)

@@ -30,7 +30,7 @@ Pair = tuple[complex, complex]  # where a mark is on its plan, and where on the 
 
 
 class FrameFinder:
-    """The frames of a sheet: given ones, those of labelled marks, or those that loose marks agree on."""
+    """The frames of a sheet: given ones, those of labelled marks, or those that unlabelled marks agree on."""
 
     def __init__(self, reading: SheetReading, pencil: Pencil, labels: Mapping[int, int]):
         self.reading, self.drawing, self.submission = reading, reading.drawing, reading.submission
@@ -79,7 +79,7 @@ class FrameFinder:
 
     def expected_fits(self, panel: str, mechanism: Fit) -> list[Fit]:
         """The frame of another plan as the task's sheet has it, laid on its beginning or else on any mark of it; where
-        no mark is labelled, the frames that loose marks agree on."""
+        no mark is labelled, the frames that unlabelled marks agree on."""
         if panel in self.submission.frames:
             return [Fit(self.submission.frames[panel])]
         if panel in self.reading.fits:
@@ -154,7 +154,7 @@ class FrameFinder:
         return [z for first, second in combinations(lines, 2) if (z := _line_crossing(first, second)) is not None]
 
     def _search_mechanism(self, given: Sequence[complex]) -> Fit | None:
-        """The frame in which most of the given points have a loose spot."""
+        """The frame in which most of the given points have an unlabelled spot."""
         unlabelled, points = np.array(self._unlabelled_spots()), np.array(list(dict.fromkeys(given)))
         if len(unlabelled) < 2 or len(points) < 2:
             return None
@@ -174,7 +174,7 @@ class FrameFinder:
         return best_fit(held_pairs, self.pencil.point) if held_pairs and chance < measures.CHANCE_MECHANISMS else None
 
     def _voted_origins(self, panel: str, unit: complex) -> list[complex]:
-        """The origins of a plan for which most of its marks are where loose ones are; a loose one must be where the
+        """The origins of a plan for which most of its marks are where unlabelled ones are; one must be where the
         plan begins."""
         steps = [step for step, home in zip(self.drawing.drawn.steps, self.plan_of_step, strict=True)
                  if home == panel and step.op.gives == POINT]
@@ -188,7 +188,7 @@ class FrameFinder:
         origins = unlabelled - unit * complex(*self.drawing.values[begin.index][:2])
 
         def met(spots: Any) -> Any:
-            """Which spots have a loose one near."""
+            """Which spots have an unlabelled one near."""
             return np.abs(spots[:, None] - unlabelled[None,
                                                       :]).min(axis=1) < 2 * measures.VOTE_SIGMAS * self.pencil.point
 
@@ -206,7 +206,7 @@ class FrameFinder:
         return origins_kept[:measures.MAX_ORIGINS]
 
     def find_origins(self, fits: Mapping[str, Fit]) -> dict[int, int]:
-        """The loose points that are the beginnings of plans, by step."""
+        """The unlabelled points that are the beginnings of plans, by step."""
         origin_places = {}
         points = [(place, complex(*trace.spots[0])) for place, trace in enumerate(self.submission.traces)
                   if trace.kind == POINT and place not in self.labels.values()]

@@ -33,7 +33,7 @@ class Guess:
     """What a step may have been mistaken for, how likely that is by itself, and how promising."""
 
     index: int
-    one: int | Mistake
+    taken_for: int | Mistake
     prior: float
     promise: float
     odds: float = 0.0  # what the whole way with it won
@@ -54,7 +54,7 @@ class Search:
             more = self._next_mistake(mistakes_found)
             if more is None:
                 break
-            mistakes_found[more.index] = more.one
+            mistakes_found[more.index] = more.taken_for
             self.odds[more.index] = more.odds
         return mistakes_found
 
@@ -82,15 +82,15 @@ class Search:
         """The weight of a way with one more mistake; less than everything as soon as it cannot come to the least."""
         touched, picture = self._touched_steps(guess.index), matching.evidence.picture
         rival = forks[min(touched)].fork()
-        rival.found = {**found, guess.index: guess.one}
+        rival.taken = {**found, guess.index: guess.taken_for}
         hope = guess.prior + sum(self._best_weight(match, touched) for match in matching.matches[len(rival.own):])
         for match in matching.matches[len(rival.own):]:
             index = match.step.index
             hope -= self._best_weight(match, touched)
             try:
                 anew = index in touched and (picture or index == guess.index)  # files show strokes as far as drawn
-                if anew or index in rival.found or not rival.try_repeat(matching):
-                    rival.match_next(rival.found.get(index))
+                if anew or index in rival.taken or not rival.try_repeat(matching):
+                    rival.match_next(rival.taken.get(index))
                     self.gone += 1
             except Undrawable:
                 return -math.inf
@@ -168,7 +168,7 @@ def is_clear(match: Match) -> bool:
 
 def unmatched_traces(matching: Matching, step: Step) -> Iterator[tuple[int, tuple[float, ...]]]:
     """The traces that no step needs, a line through one of the points that a step names, or a point anywhere near; with
-    what the step would have made. `walk` has gone through."""
+    what the step would have made. The matching has gone through all steps."""
     sheet, kind = matching.sheet, step.op.gives
     mm = abs(sheet.frame(step).unit)
     on = [plain_value(matching.own[step.args[claim[1]]]) for claim in step.op.claims if claim[0] == "on"]

@@ -1,6 +1,6 @@
 """A construction in first order as a student draws it: where each plan lies, what shakes, how far off a mark may be.
 
-Everything is reckoned with its derivatives by every slip of the hand, every reading of the sheet and every frame. So a
+Everything is computed with its derivatives by every slip of the hand, every reading of the sheet and every frame. So a
 mark's deviation from what the student's own earlier marks ask for comes with its own covariance; what all marks of a
 plan have in common, such as the frame they were read in, falls out by itself.
 

@@ -45,12 +45,12 @@ class Ellipse:
 class Verdict:
     """What is said of one drawn step, by its place in the drawn program; lengths are mm of paper.
 
-    `off` is how far what was drawn is from what the student's own earlier marks ask for, `tolerance` how far it may
-    be in that direction, `astray` how far it is from the true drawing, which errors that went before explain where
-    the step is right; all three are infinite of a line or an arc that was drawn by mistake and is not to be seen. `own`
-    is where it should be after the earlier marks, in plan units, as the kernel has it; `mistake` says what was probably
-    done, at the step `guilty`, which may be an earlier one that is not to be seen. `confidence` is how likely the
-    verdict is the right one, from 0 to 1.
+    `off` is how far what was drawn is from what the student's own earlier marks ask for, `tolerance` how far it may be
+    in that direction, `astray` how far it is from the true drawing, which errors that went before explain where the
+    step is right; all three are infinite of a line or an arc that was drawn by mistake and is not to be seen.
+    `expected` is where it should be after the earlier marks, in plan units, as the kernel has it; `mistake` says what
+    was probably done, at the step `guilty`, which may be an earlier one that is not to be seen. `confidence` is how
+    likely the verdict is the right one, from 0 to 1.
     """
 
     step: int
@@ -59,7 +59,7 @@ class Verdict:
     tolerance: float = 0.0
     astray: float = 0.0
     trace: Trace | None = None
-    own: tuple[float, ...] = ()
+    expected: tuple[float, ...] = ()
     ellipse: Ellipse | None = None
     mistake: Said | None = None
     kind: str = ""

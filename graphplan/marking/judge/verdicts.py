@@ -315,7 +315,8 @@ def _verdict_on(matching: Matching, match: Match, state: str) -> Verdict:
     guilty = reason.source.index if reason else step.index if state == WRONG else None
     if mistake and mistake.mirror and step.op.gives == POINT:  # wrong from the first of its lines on that is unseen
         guilty = next((line for line in sorted(mistake.step.args) if matching.matches[line].place is None), guilty)
-    verdict = Verdict(step.index, state, own=plain_value(match.expected), mistake=mistake.told if mistake else turned,
+    verdict = Verdict(step.index, state, expected=plain_value(match.expected),
+                      mistake=mistake.text if mistake else turned,
                       kind=mistake.kind if mistake else "", guilty=guilty)
     if not is_seen and (not mistake or step.op.gives != POINT):
         return replace(verdict, off=math.inf, tolerance=math.inf, astray=math.inf) if mistake else verdict

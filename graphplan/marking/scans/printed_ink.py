@@ -26,16 +26,16 @@ MARKS = "corner marks"
 @dataclass(frozen=True)
 class Pieces:
     """Straight pieces of print: where their middles are, their directions, and half their lengths, in mm; and which are
-    the task's `own`, that lie on its plans."""
+    the task's own (`is_own`), that lie on its plans."""
 
     middles: Sizes
     along: Sizes
     halves: Sizes
-    own: Flags
+    is_own: Flags
 
     def selected(self, which: Flags) -> Pieces:
         """Some of them."""
-        return Pieces(self.middles[which], self.along[which], self.halves[which], self.own[which])
+        return Pieces(self.middles[which], self.along[which], self.halves[which], self.is_own[which])
 
 
 def print_picture(sheet: Sheet, scale: float) -> Light:

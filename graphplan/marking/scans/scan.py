@@ -109,7 +109,7 @@ class PencilPage:
     shows the sheet."""
 
     ink: PencilInk
-    found: Ridges
+    ridges: Ridges
     error: float
     warp: Warp
 
@@ -140,20 +140,20 @@ class PencilPage:
         long = math.dist(one, two)
         direction = (ends[1] - ends[0]) / long
         normal, middle = np.array([-direction[1], direction[0]]), ends.mean(axis=0)
-        out = self.found.spots - middle
+        out = self.ridges.spots - middle
         along, off = out @ direction, out @ normal
         steep = math.tan(math.radians(angle))
         near = np.flatnonzero((np.abs(along) < long / 2 + measures.BEYOND_ENDS_MM)
                               & (np.abs(off) < within + np.abs(along) * steep)
-                              & (np.abs(self.found.normals @ normal)
+                              & (np.abs(self.ridges.normals @ normal)
                                  > math.cos(math.radians(measures.CREST_TURN_DEGREES + angle))))
-        lying = _align(along[near], off[near], self.found.strength[near], within, steep)
+        lying = _align(along[near], off[near], self.ridges.strength[near], within, steep)
         if lying is None:
             return None
         slope, level, which = lying
         turned = math.atan(slope)
         aside = normal * math.cos(turned) - direction * math.sin(turned)
-        crests = strokes.crest_row(self.found, middle + level * normal, aside, near[which])
+        crests = strokes.crest_row(self.ridges, middle + level * normal, aside, near[which])
         stretch = _whole_stretch(crests, self.ink, long / 2)
         return None if stretch is None else self._with_page_error(strokes.line_trace(crests, stretch))
 
@@ -161,21 +161,21 @@ class PencilPage:
         """The rim with most crests, near spots of an expected one, no further than `within` mm from it."""
         middle, at = np.array(centre), np.asarray(spots, float)
         aim = math.atan2(*(at.mean(axis=0) - middle)[::-1])
-        out = self.found.spots - middle
+        out = self.ridges.spots - middle
         far = np.maximum(np.hypot(out[:, 0], out[:, 1]), MIN_DIVISOR)
         along = strokes.angles_from(out, aim) * radius
         reach = np.abs(strokes.angles_from(at - middle, aim)).max() * radius + measures.BEYOND_ENDS_MM
-        square = (np.abs((out * self.found.normals).sum(axis=1)) > math.cos(math.radians(measures.CREST_TURN_DEGREES))
+        square = (np.abs((out * self.ridges.normals).sum(axis=1)) > math.cos(math.radians(measures.CREST_TURN_DEGREES))
                   * far)
         near = np.flatnonzero((np.abs(far - radius) < within) & (np.abs(along) < reach) & square)
         steep = within / max(reach, within)
-        lying = _align(along[near], far[near] - radius, self.found.strength[near], within, steep)
+        lying = _align(along[near], far[near] - radius, self.ridges.strength[near], within, steep)
         if lying is None:
             return None
         slope, level, which = lying
         rim_crests = near[which]
         if np.ptp(along[rim_crests]) > math.radians(measures.MIN_CENTRE_DEGREES) * radius:
-            rim = strokes.grow_rim(self.found, near, rim_crests, self.ink)
+            rim = strokes.grow_rim(self.ridges, near, rim_crests, self.ink)
         else:
             rim = _short_arc(self, middle, radius, aim, along[rim_crests], far[rim_crests] - radius, slope, level)
         return None if rim is None or rim.stretch.long < measures.MIN_ARC_MM else self._with_page_error(rim.trace())
@@ -190,7 +190,7 @@ class PencilPage:
         """How far every pixel is from the next strong crest, and from the next dot, in mm; less than nothing where
         print hides it."""
         maps = []
-        for spots in (self.found.spots[self.found.strength > measures.CLEAR_SIGMAS],
+        for spots in (self.ridges.spots[self.ridges.strength > measures.CLEAR_SIGMAS],
                       self._possible_dot_spots.view(float).reshape(-1, 2)):
             bare = np.ones(self.ink.dark.shape, np.uint8)
             bare[self.ink.cells(spots)] = 0
@@ -287,7 +287,7 @@ class PencilPage:
 
     @cached_property
     def _clear_ridges(self) -> Ridges:
-        return clear_ridges(self.found, self.ink)
+        return clear_ridges(self.ridges, self.ink)
 
     def _is_no_letter(self, ring: Ring) -> bool:
         """Whether a ring is no part of a letter: a stroke runs through it, or else it stands alone where others mark
@@ -351,7 +351,7 @@ def _align(along: Sizes, off: Sizes, strength: Sizes, within: float,
 def _whole_stretch(crests: strokes.CrestRow, ink: PencilInk, half: float) -> strokes.CrestStretch | None:
     """All the stretches of a row between the expected ends as one, where enough of it is seen."""
     parts_seen = [stretch for stretch in crests.drawn_stretches(ink)
-                  if stretch.seen >= measures.MIN_FAINT_SHARE and stretch.long >= 1.0 and stretch.start < half
+                  if stretch.seen_share >= measures.MIN_FAINT_SHARE and stretch.long >= 1.0 and stretch.start < half
                   and stretch.end > -half]
     if sum(stretch.long for stretch in parts_seen) < measures.MIN_FAINT_MM:
         return None
@@ -368,7 +368,7 @@ def _short_arc(page: PencilPage, centre: Sizes, radius: float, aim: float, along
 
     stretches = strokes.crest_stretches(along, lambda at: page.ink.are_hidden_or_dark(strokes.rim_spots(centre, radius
                                                                                                    + level, aim, at)))
-    clear_stretches = [stretch for stretch in stretches if stretch.seen >= measures.MIN_FAINT_SHARE]
+    clear_stretches = [stretch for stretch in stretches if stretch.seen_share >= measures.MIN_FAINT_SHARE]
     if not clear_stretches:
         return None
     stretch = max(clear_stretches, key=lambda stretch: stretch.long)

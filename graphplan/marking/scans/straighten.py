@@ -165,14 +165,14 @@ def _correlation(image: Grey, warp: Warp, ideal: Light) -> float:
 
 @dataclass(frozen=True)
 class RegisteredWarp:
-    """A warp that fits the print; `error` is what is left, as a standard deviation in mm, `share` how much of the
-    print was found where it should be, and `own` of what only this task has; of a drawing that was not made on it the
+    """A warp that fits the print; `error` is what is left, as a standard deviation in mm, `share` how much of the print
+    was found where it should be, and `own_share` of what only this task has; of a drawing that was not made on it the
     rest may be another."""
 
     warp: Warp
     error: float
     share: float
-    own: float
+    own_share: float
 
 
 def register_warp(image: Grey, start: Warp, light: Light, scale: float, pieces: Pieces) -> RegisteredWarp:
@@ -185,9 +185,9 @@ def register_warp(image: Grey, start: Warp, light: Light, scale: float, pieces: 
     for reach, degree in measures.WARP_ROUNDS if len(ideal) >= measures.MIN_BENT_PIECES else measures.WARP_ROUNDS[:1]:
         shift, match = _profile_shifts(ideal, _profiles(image, warp, pieces, measures.PROFILE_REACH_MM + reach))
         warp, error, near = _fit_warp(warp, pieces, shift, match > measures.MIN_CORRELATION, degree, reach / 4)
-    share, mine = float(near.sum() / max(1, len(ideal))), pieces.selected(pieces.own)
-    own_found = near[pieces.own] | _are_overdrawn(ideal[pieces.own],
-                                                  _profiles(image, warp, mine, measures.PROFILE_REACH_MM))
+    share, mine = float(near.sum() / max(1, len(ideal))), pieces.selected(pieces.is_own)
+    own_found = near[pieces.is_own] | _are_overdrawn(ideal[pieces.is_own],
+                                                     _profiles(image, warp, mine, measures.PROFILE_REACH_MM))
     return RegisteredWarp(warp, error, share, float(own_found.mean()) if len(own_found) else share)
 
 
@@ -262,7 +262,7 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
     if result is None:
         raise Refused(name, "neither the corner marks nor the frame of this task was found",
                       "photograph the whole sheet with its four corner marks, lying flat, in even light")
-    if result.own < measures.OWN_PRINT_SHARE:
+    if result.own_share < measures.OWN_PRINT_SHARE:
         raise Refused(name, "the print of this task was not found on it",
                       "verify it against its own scene, plan and paper, and photograph the sheet lying flat")
     _require_whole(result.warp, image, sheet, name)

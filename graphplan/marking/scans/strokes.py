@@ -25,7 +25,7 @@ class CrestStretch:
 
     start: float
     end: float
-    seen: float
+    seen_share: float
 
     @property
     def long(self) -> float:
@@ -55,7 +55,7 @@ class CrestRow:
     and off it is."""
 
     at: Spots
-    way: Spots
+    direction: Spots
     normal: Spots
     which: Places
     along: Sizes
@@ -63,7 +63,7 @@ class CrestRow:
 
     def spots(self, along: Sizes, off: Sizes | float = 0.0) -> Spots:
         """Spots so far along the row and off it."""
-        return np.asarray(self.at + np.multiply.outer(along, self.way)
+        return np.asarray(self.at + np.multiply.outer(along, self.direction)
                           + np.multiply.outer(off + np.zeros(len(along)), self.normal))
 
     def drawn_stretches(self, ink: PencilInk) -> Iterator[CrestStretch]:
@@ -162,7 +162,8 @@ def grow_rim(found: Ridges, left: Places, seed: Places, ink: PencilInk) -> Rim |
         if larger is None or (rim is not None and len(larger.which) <= len(rim.which)):
             break
         rim, chosen = larger, larger.which
-    return (rim if rim and rim.rough < measures.MAX_RIM_ROUGHNESS_MM and rim.stretch.seen > measures.MIN_STROKE_SHARE
+    return (rim if rim and rim.rough < measures.MAX_RIM_ROUGHNESS_MM
+            and rim.stretch.seen_share > measures.MIN_STROKE_SHARE
             else None)
 
 
@@ -248,7 +249,7 @@ def find_strokes(found: Ridges, ink: PencilInk) -> list[Trace]:
             assert crests
             crests_taken = crests.which[crests.in_stretch(stretch)]
             crests_taken = crests_taken[is_left[crests_taken]]
-            if (stretch.long >= measures.MIN_LINE_MM and stretch.seen >= measures.MIN_STROKE_SHARE
+            if (stretch.long >= measures.MIN_LINE_MM and stretch.seen_share >= measures.MIN_STROKE_SHARE
                 and len(crests_taken) >= measures.MIN_CRESTS):
                 rim = grow_rim(found, np.flatnonzero(is_left), crests_taken, ink) if is_bent(crests, stretch) else None
                 if rim and rim.stretch.long < measures.RIM_RATIO * stretch.long:

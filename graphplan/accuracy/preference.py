@@ -193,10 +193,10 @@ WEIGHED: dict[str, tuple[Phrase, Callable[[Drafted], tuple[float, ...]]]] = dict
 
 
 TABLE_WIDTH = 118
-COUNTED = "form", "sheet", "steps", "operations", "lines", "arcs"
-BY_SQUARES, STRICTLY = ("squares", "dividers"), ("S", "E")
-DRAWN = "changes", "flattest", "off"
-OFF = "form", "worst result", "beside largest", "in its unit", "mm", "most from"
+COUNT_COLUMNS = "form", "sheet", "steps", "operations", "lines", "arcs"
+SQUARES_COLUMNS, STRICT_COLUMNS = ("squares", "dividers"), ("S", "E")
+CROSSING_COLUMNS = "changes", "flattest", "off"
+ERROR_COLUMNS = "form", "worst result", "beside largest", "in its unit", "mm", "most from"
 
 
 @dataclass(frozen=True)
@@ -217,9 +217,9 @@ class Comparison:
     def lines(self) -> list[str]:
         """Costs and errors as two tables, and the forms that cannot be drawn with their reasons."""
         tools = "compasses and straightedge" if self.strict else "set squares, compasses and dividers"
-        head = (*COUNTED, *(STRICTLY if self.strict else BY_SQUARES), *DRAWN)
+        head = (*COUNT_COLUMNS, *(STRICT_COLUMNS if self.strict else SQUARES_COLUMNS), *CROSSING_COLUMNS)
         costs = [head, *(self._cost_row(name, draft) for name, draft in self.drawn_forms)]
-        errors = [(*OFF, *(("hands", "missed") if self.hands else ())),
+        errors = [(*ERROR_COLUMNS, *(("hands", "missed") if self.hands else ())),
                   *(self._error_row(name, draft) for name, draft in self.drawn_forms)]
         refused = [form.verdict for form in self.forms if form.drafted is None]
         return ["", f"{self.plan.capitalize()} plans, with {tools}:",
@@ -253,7 +253,7 @@ class Comparison:
         """One form's row of errors: those of its worst result, and how it scatters relative to what is expected."""
         worst = draft.worst
         if worst is None:
-            return name, *[""] * (len(OFF) - 1 + 2 * bool(self.hands))
+            return name, *[""] * (len(ERROR_COLUMNS) - 1 + 2 * bool(self.hands))
         deviation, mm = worst.deviation.value, worst.deviation.mm
         row = (name, worst.label, percent(draft.error), f"{Deviation(deviation).text} {worst.unit(self.scene)}",
                "" if mm is None else Deviation(mm).text, draft.step_name(worst.worst_step))

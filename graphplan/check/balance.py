@@ -59,21 +59,6 @@ class MassMotion:
     shaking: Shaking
     check: Mapping[str, float]
 
-    @property
-    def travel(self) -> Any:
-        """The travel of the first drive in the sense in which it moves, in radians or scene lengths."""
-        return self.links.travel
-
-    @property
-    def closes(self) -> bool:
-        """Whether the motion closes."""
-        return self.links.closes
-
-    @property
-    def faults(self) -> Mapping[int, str]:
-        """Why poses are not reached, by their places."""
-        return self.links.faults
-
 
 def mass_motion(scene: Scene, positions: int, links: LinkMotion | None = None) -> MassMotion:
     """The mass centre in so many poses of the cycle, constructed and compared.

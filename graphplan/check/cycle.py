@@ -23,13 +23,13 @@ from graphplan.cycle.pose import in_pose
 from graphplan.cycle.turn import Turn, motion_and_travel
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.mechanism.model import FRAME, Scene, Slide
+from graphplan.mechanism.travel import TURN
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import slide_named
 from graphplan.methods.styles import METHODS
 from graphplan.phrases import Said, said
 
-TURN = 2 * np.pi
 MAX_DIAGRAMS = 4  # diagrams that stand side by side
 MAX_OTHER_POSES = 3  # poses in which steps are recorded where those of the given pose do not serve
 Progress = Callable[[str, int, int], None]

@@ -24,8 +24,8 @@ from graphplan.check.tolerances import (
     BREAK_DISTANCE,
     END_TOL,
     INTERPOLATION_TOL,
-    LEAST_ERROR,
-    LEAST_SPEED,
+    MIN_ERROR_RATIO,
+    MIN_SPEED,
     MOTION_TOL,
     SPEED_TOL,
     STEP_TOL,
@@ -244,7 +244,7 @@ class ReferenceMotion:
         stops = np.union1d(places, [edge * unit + turn * period for edge in self.edges
                                     for turn in range(math.ceil((places[-1] - start) / period) + 1)])
         state, time, rows = np.array([start, omega, 0.0]), 0.0, []
-        scale = np.array([places[-1] - start, max(omega, LEAST_SPEED), 1.0])
+        scale = np.array([places[-1] - start, max(omega, MIN_SPEED), 1.0])
         for stop in stops[(stops > start) & (stops <= places[-1])]:
             middle = (state[0] + stop) / 2
             turn = math.floor((middle / unit - self.first) / (self.last - self.first)) if self.reduction.closed else 0
@@ -291,7 +291,7 @@ def _integrate_to(rates: Callable[[Reals], Reals], state: Reals, end: float,
             step = _step_to_angle(rates, state, first, step, end)
             return _runge_kutta_step(rates, state, first, step)[0], time + step, scale
         state, first, time = after, last, time + step
-        step *= min(5.0, 0.9 * max(error, LEAST_ERROR) ** -0.2)
+        step *= min(5.0, 0.9 * max(error, MIN_ERROR_RATIO) ** -0.2)
     raise Disagreement("motion", "time", "that of the energy", f"more than {MAX_STEPS} steps", math.inf)
 
 

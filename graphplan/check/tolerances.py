@@ -21,9 +21,9 @@ MOTION_TOL = 1e-8
 STEP_TOL = 1e-12  # of the same: the error of a step of the integration
 INTERPOLATION_TOL = 1e-12  # of the largest value: how well Chebyshev's points give it between them
 BREAK_DISTANCE = 1e-6  # of the cycle: breaks nearer to each other are one
-LEAST_SPEED = 1e-3  # rad/s: the size of speeds that are taken for the integration's error, as of a start from rest
+MIN_SPEED = 1e-3  # rad/s: the size of speeds that are taken for the integration's error, as of a start from rest
 # of the error that a step may have: what a smaller one is taken for, so that steps grow by six at most
-LEAST_ERROR = 1e-4
+MIN_ERROR_RATIO = 1e-4
 END_TOL = 1e-15  # of a step, some five roundings: Newton's step to a travel that is smaller is the last
 
 # ---- balance, rotors and cams ---------------------------------------------------------------------------------------

@@ -43,7 +43,7 @@ class Survey(NamedTuple):
 
 CHARTS = {
     "machine": Survey("MachineMeasure", lambda module, scene, hand, named: module.measures(
-        scene, compiled=module.ALL if named else 1)),  # compiling takes seconds
+        scene, compiled=module.ALL_FORMS if named else 1)),  # compiling takes seconds
     "draughtsman": Survey("Draft", lambda module, scene, hand, named: module.drafts(scene, hand, long=named)),
     "stability": Survey("Sample", lambda module, hand, tell: module.samples(*module.DEGENERACIES, pencil=hand),
                         "{0.degeneracy}, d = {0.distance:.0e}"),

@@ -129,7 +129,7 @@ def assemble_dyad(linkage: Linkage, group: ClosureGroup,
         return None
     (start,), (end,), (middle,) = *outer, inner
     swapped = start.letter + end.letter == "PR"
-    rule = _RULES.get(start.letter + middle.letter + end.letter if not swapped else "R" + middle.letter + "P")
+    rule = COMPASS_RULES.get(start.letter + middle.letter + end.letter if not swapped else "R" + middle.letter + "P")
     if rule is None:
         return None
     first, second, why = rule(end, middle, start) if swapped else rule(start, middle, end)
@@ -201,4 +201,4 @@ def _line_crossing(one: Array, ray: Array, other: Array, across: Array) -> Array
     return one + ray * ((other - one).conj() * across).imag / sine
 
 
-_RULES = {"RRR": _rrr, "RRP": _rrp, "RPR": _rpr, "PRP": _prp, "RPP": _rpp}
+COMPASS_RULES = {"RRR": _rrr, "RRP": _rrp, "RPR": _rpr, "PRP": _prp, "RPP": _rpp}

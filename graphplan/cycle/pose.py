@@ -105,7 +105,7 @@ def _pace_drives(scene: Scene, travels: Sequence[Fraction]) -> tuple[Scene, Frac
 # ---- extreme positions -----------------------------------------------------------------------------------------------
 
 
-WAYS = {"outer": 1, "inner": -1}  # on which side of the pivot the crank lies, seen from the joint, where b > r
+EXTREME_SIGNS = {"outer": 1, "inner": -1}  # on which side of the pivot the crank lies, seen from the joint, where b > r
 
 
 def extreme_position(scene: Scene, asked: str) -> tuple[Extreme, Fraction]:
@@ -114,7 +114,7 @@ def extreme_position(scene: Scene, asked: str) -> tuple[Extreme, Fraction]:
     Degrees. Fails with `Refused` where no link or more than one has such, or the mechanism does not come there.
     """
     side, _, link = asked.strip().partition(" ")
-    if side not in WAYS:
+    if side not in EXTREME_SIGNS:
         raise Refused(f"--at {asked}", "not a position", "degrees or lengths, or outer or inner, such as outer 3")
     matches = [position for position in _swung_links(scene, side) if link.strip() in ("", position.link)]
     if len(matches) != 1:
@@ -173,13 +173,13 @@ def _travel_to_extreme(scene: Scene, position: Extreme) -> float | None:
     where it does not come there."""
     at = {name: complex(*map(float, place)) for name, place in scene.points.items()}
     O, A, B = at[position.pivot], at[position.pin], at[position.joint]
-    long = abs(B - A) + WAYS[position.way] * abs(A - O)
+    long = abs(B - A) + EXTREME_SIGNS[position.way] * abs(A - O)
     if abs(long) <= PLACE_TOL * scene.extent:
         return None
     drive = scene.drives[0]
     sense_sign = sense(drive) * (1 if drive.on == FRAME else -1)
     for joint in _crossings(scene, position, O, B, abs(long), at):
-        arm = WAYS[position.way] * (joint - O) / long
+        arm = EXTREME_SIGNS[position.way] * (joint - O) / long
         turn = sense_sign * math.degrees(cmath.phase(arm / (A - O))) % 360
         for travel in (turn, turn - 360):
             turn_there = follow(scene, 1, (travel, travel))

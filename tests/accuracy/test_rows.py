@@ -13,7 +13,7 @@ import pytest
 
 from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.survey import growth
-from graphplan.accuracy.survey.draughtsman import LONG, Draft, drafts
+from graphplan.accuracy.survey.draughtsman import LONG_REASON, Draft, drafts
 from graphplan.accuracy.survey.growth import STAGES, chain, stages
 from graphplan.accuracy.survey.machine import FORCES, MOTION, MachineMeasure, measures
 from graphplan.accuracy.survey.picture import front, read, stairs, table
@@ -112,7 +112,7 @@ def test_the_gallery_has_what_the_command_gives() -> None:
 def test_forms_that_are_not_drawn_have_a_reason() -> None:
     """Strict forms with loads, left out for their time, are rows that say so."""
     rows = drafts(load("jaanimets-11"), Pencil(), long=False)
-    assert [row.why for row in rows if row.operations is None] == [LONG] * 2
+    assert [row.why for row in rows if row.operations is None] == [LONG_REASON] * 2
 
 
 def test_steps_grow_by_equal_increments() -> None:

@@ -77,7 +77,7 @@ def test_a_share_of_what_reciprocates() -> None:
     (weight,) = found.weights
     assert weight.mass == pytest.approx(27.5 + 50.5 / 2)
     force, half = found.after.shaking.force, abs(found.engine.order(1)) / 2
-    phase = found.before.travel + math.radians(60)
+    phase = found.before.links.travel + math.radians(60)
     assert 2 * np.array([force.real @ np.cos(phase), force.imag @ np.sin(phase)]) / 360 == pytest.approx([half, -half])
 
 

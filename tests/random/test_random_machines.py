@@ -51,4 +51,4 @@ def test_a_machine_runs_as_evenly_as_was_asked_for(seed: int) -> None:
 def test_a_machine_is_balanced(seed: int) -> None:
     """Its mass centre and what shakes its frame are found, and agree with the sums over its links."""
     found = balancing(machine(seed), 12)
-    assert np.isfinite(found.before.travel).all()
+    assert np.isfinite(found.before.links.travel).all()

@@ -28,7 +28,7 @@ from graphplan.sheet.plates.pens import BLUE, GREY, INK, RED
 
 PAPER = "A1"
 SQUARES, STRICT = "set squares", "compasses and straightedge"
-LONG = "with loads this takes many seconds a form; name the scene with --scenes"
+LONG_REASON = "with loads this takes many seconds a form; name the scene with --scenes"
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ def _draft_rows(scene: Scene, pencil: Pencil, long: bool) -> Iterator[Draft]:
     for tools in (SQUARES, STRICT):
         for plan in motion_plans(scene):
             if tools == STRICT and scene.loads is not None and not long:
-                yield Draft(scene.name, "every method", plan, tools, PAPER, None, None, why=LONG)
+                yield Draft(scene.name, "every method", plan, tools, PAPER, None, None, why=LONG_REASON)
                 continue
             for form in forms(scene, pencil, plan=plan, strict=tools == STRICT, paper=PAPER):
                 draft, place = form.drafted, (scene.name, form.name, plan, tools, PAPER)

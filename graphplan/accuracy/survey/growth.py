@@ -36,7 +36,7 @@ MIN_SECONDS, MAX_SECONDS = 0.02, 10.0  # of a measurement, and that a stage may 
 CONSTRUCT, SOLVE, CHECK, FOLLOW, DRAW, EVALUATE = STAGES = (
     "construct", "solve", "check", "follow, a pose", "draw", "evaluate, a pose of many")
 UNIT = "four links solved"
-ACROSS, UP, PITCH = 3, 4, 10  # of a rocker; from one pivot to the next
+ROCKER_X, ROCKER_Y, PIVOT_PITCH = 3, 4, 10  # of a rocker; from one pivot to the next
 
 
 def chain(dyads: int) -> Scene:
@@ -44,9 +44,9 @@ def chain(dyads: int) -> Scene:
     points: dict[str, Pair] = {}
     links: dict[str, tuple[str, ...]] = {}
     for k in range(dyads + 1):
-        across = -ACROSS if k % 2 else ACROSS
-        points[f"R{k}"] = Fraction(PITCH * k), Fraction(0)
-        points[f"P{k}"] = Fraction(PITCH * k + across), Fraction(UP)
+        across = -ROCKER_X if k % 2 else ROCKER_X
+        points[f"R{k}"] = Fraction(PIVOT_PITCH * k), Fraction(0)
+        points[f"P{k}"] = Fraction(PIVOT_PITCH * k + across), Fraction(ROCKER_Y)
         if k:
             links[f"{2 * k}"] = f"P{k - 1}", f"P{k}"
         links[f"{2 * k + 1}"] = f"R{k}", f"P{k}"

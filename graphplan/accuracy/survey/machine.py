@@ -43,7 +43,7 @@ from graphplan.methods.styles import MOTION_PLANS, motion_plans
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED
 
 MOTION, FORCES = "motion", "motion and forces"
-ALL = 1000
+ALL_FORMS = 1000
 Drawn = Construction | GraphplanError
 Key = tuple[str, str, str]  # form, plan and arithmetic
 Rivals = Mapping[str, Callable[[Problem], TimedRun]]
@@ -66,7 +66,7 @@ class MachineMeasure:
     why: str = ""
 
 
-def measures(scene: Scene, compiled: int = ALL) -> Iterator[MachineMeasure]:
+def measures(scene: Scene, compiled: int = ALL_FORMS) -> Iterator[MachineMeasure]:
     """Every form of a scene in every arithmetic, and the solver; of a scene with loads its forces, too.
 
     Numba compiles so many forms of each, the pose's own first; of the others it is said that they are left out.
@@ -77,7 +77,7 @@ def measures(scene: Scene, compiled: int = ALL) -> Iterator[MachineMeasure]:
 
 
 def measure_runs(problem: Problem, asked: str, others: Rivals, drawn: Iterable[tuple[str, str, Drawn]],
-                 compiled: int = ALL) -> Iterator[MachineMeasure]:
+                 compiled: int = ALL_FORMS) -> Iterator[MachineMeasure]:
     """What has no form, and every form in every arithmetic, taking turns; LAPACK is among the others."""
     runs, errors = dict[Key, TimedRun](), dict[Key, float]()
     for key, make in _candidate_runs(problem, others, drawn, compiled):

@@ -31,10 +31,10 @@ from graphplan.solver import Rates, poses, solve
 from graphplan.solver.statics import Reactions, reactions
 
 POSES = 4096  # at once
-SAMPLED = 5
-LARGER = 1.02
+SAMPLED_POSES = 5
+LARGEST_FACTOR = 1.02
 TRUE_BITS = 256  # of enclosures that stand for the truth: some 70 digits
-BYTES = 8e6  # of the matrices that LAPACK solves at once
+BATCH_BYTES = 8e6  # of the matrices that LAPACK solves at once
 SPARE_BITS = 104  # beyond the digits that are asked for: as many as `solve --digits` takes
 
 Results = Mapping[str, Mapping[str, Any]]
@@ -58,10 +58,10 @@ class Problem:
 
     def __init__(self, scene: Scene, forces: bool = False, points: Mapping[str, Any] | None = None):
         self.scene = binary(scene, forces)
-        factors = np.linspace(1.0, LARGER, POSES)
+        factors = np.linspace(1.0, LARGEST_FACTOR, POSES)
         self.points = dict(points or {name: complex(*map(float, at)) * factors for name, at in scene.points.items()})
         self.n = len(next(iter(self.points.values())))
-        self.places = [round(k) for k in np.linspace(0, self.n - 1, SAMPLED)]
+        self.places = [round(k) for k in np.linspace(0, self.n - 1, SAMPLED_POSES)]
 
     @cached_property
     def sampled_points(self) -> list[dict[str, complex]]:
@@ -75,14 +75,14 @@ class Problem:
 
     def error(self, run: TimedRun, found: Any) -> float:
         """The largest error of any number in the sampled poses, relative to the largest of its kind."""
-        readings = (run.read(found, j) for j in range(SAMPLED))
+        readings = (run.read(found, j) for j in range(SAMPLED_POSES))
         return max(largest_error(results, true.truth(results))
                    for results, true in zip(readings, self.truths, strict=True))
 
     def run_each(self, one: Callable[[Any], Any], given: Sequence[Any],
                  read: Callable[[Any], Results] = lambda found: found) -> TimedRun:
         """A run over the sampled poses, one after the other."""
-        return TimedRun(lambda: [one(pose) for pose in given], SAMPLED, lambda found, j: read(found[j]))
+        return TimedRun(lambda: [one(pose) for pose in given], SAMPLED_POSES, lambda found, j: read(found[j]))
 
     def arrays(self, call: Callable[[], Results]) -> TimedRun:
         """A run over all poses: results as arrays of them, as pairs of arrays, or as numbers that never change."""
@@ -209,7 +209,7 @@ def _run_enclosures(digits: int, problem: Problem, drawing: Construction) -> Tim
         with precision(bits):
             return [drawing.read(Enclosures(), numbers) for numbers in coordinates]
 
-    return TimedRun(call, SAMPLED, lambda found, j: found[j])
+    return TimedRun(call, SAMPLED_POSES, lambda found, j: found[j])
 
 
 ONE, MANY, COMPILED = "one pose", "many poses", "many poses, compiled"
@@ -242,7 +242,7 @@ def _run_solver(exact: bool, problem: Problem) -> TimedRun:
 
 def _run_lapack(problem: Problem) -> TimedRun:
     """The solver over many poses, in batches of LAPACK whose matrices take few megabytes: measured to be fastest."""
-    batch = max(1, int(BYTES / (8 * (3 * len(problem.scene.moving)) ** 2)))
+    batch = max(1, int(BATCH_BYTES / (8 * (3 * len(problem.scene.moving)) ** 2)))
     starts = range(0, problem.n, batch)
     sizes = [min(batch, problem.n - start) for start in starts]
 

@@ -48,7 +48,7 @@ def numbers(found: Balancing) -> dict[str, Any]:
                             "links": links(found.after), "variant": variant(found.after)}
     if found.engine is not None:
         told["engine"] = engine_numbers(found.engine)
-    told["faults"] = {str(pose): str(why) for pose, why in motion.faults.items()}
+    told["faults"] = {str(pose): str(why) for pose, why in motion.links.faults.items()}
     told["check"] = {what: float(gap) for what, gap in found.check.items()}
     return told
 
@@ -145,11 +145,11 @@ def table(motion: MassMotion) -> str:
     lines = [",".join(headings)]
     for pose, row in enumerate(np.stack(columns, 1).tolist()):
         told = ("" if math.isnan(number) else repr(number + 0.0) for number in row)
-        fault = motion.faults.get(pose, "").replace('"', '""')
+        fault = motion.links.faults.get(pose, "").replace('"', '""')
         lines.append(",".join((*told, f'"{fault}"' if fault else "")))
     return "\n".join([*lines, ""])
 
 
 def _travel(motion: MassMotion) -> Any:
     """The travel in degrees, or lengths of a drive that slides."""
-    return printed_travels(motion.centre.scene, motion.travel)
+    return printed_travels(motion.centre.scene, motion.links.travel)

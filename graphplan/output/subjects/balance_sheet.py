@@ -192,14 +192,14 @@ class BalanceSheet(Panelled):
     @cached_property
     def places(self) -> list[int]:
         """The positions that are numbered, by their places among all."""
-        count = len(self.given_motion.travel)
+        count = len(self.given_motion.links.travel)
         each = next(step for step in range(1, count + 1) if count % step == 0 and count / step <= MAX_NUMBERED)
         return [k for k in range(0, count, each) if np.isfinite(self.given_motion.path[k])]
 
     def _smooth(self, motion: MassMotion, spots: list[Spot]) -> list[Spot]:
         """A smooth line through spots, back to its beginning where the motion closes."""
         known = [spot for spot, z in zip(spots, motion.path, strict=True) if np.isfinite(z)]
-        if not motion.closes or len(known) < len(spots):
+        if not motion.links.closes or len(known) < len(spots):
             return smoothed(known)
         count = len(spots)
         whole = smoothed([known[-1], *known, known[0], known[1]])
@@ -236,7 +236,7 @@ class BalanceSheet(Panelled):
         beyond all bounds, those that are not many times as large as most."""
         known = values[np.isfinite(values)]
         most = MAX_FORCE_RATIO * np.median(np.abs(known))
-        return known if self.given_motion.closes or not most else known[np.abs(known) <= most]
+        return known if self.given_motion.links.closes or not most else known[np.abs(known) <= most]
 
     def _legend(self, rect: Rect, curves: list[tuple[str, Pen]]) -> Iterator[Item]:
         """Which curve is which, in the upper left corner."""
@@ -254,7 +254,7 @@ class BalanceSheet(Panelled):
         forces = [(clear_rounding(values, force), pen) for values, pen in self._forces]
         moments = [(clear_rounding(motion.shaking.moment, moment), pen) for motion, pen in self.motions]
         slides = self.scene.drives[0].slides
-        travel = self.given_motion.travel if slides else np.degrees(self.given_motion.travel)
+        travel = self.given_motion.links.travel if slides else np.degrees(self.given_motion.links.travel)
         ends = (0.0, 360.0 * max(1, round(travel[-1] / 360))) if self.is_whole_turns else (travel[0], travel[-1])
         spans = [_span([self.usual_values(values) for values, _ in curves]) for curves in (forces, moments)]
         upper, lower = stack_diagrams(rect.inset(2.0, 2.0, 4.0, 5.0), ends, spans)
@@ -274,7 +274,7 @@ class BalanceSheet(Panelled):
     @cached_property
     def is_whole_turns(self) -> bool:
         """Whether the travel is that of whole turns."""
-        return self.given_motion.closes and not self.scene.drives[0].slides
+        return self.given_motion.links.closes and not self.scene.drives[0].slides
 
     def _uprights(self, travel: Any) -> list[float]:
         """The travels of the numbered positions."""

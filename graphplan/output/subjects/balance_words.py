@@ -93,7 +93,7 @@ class BalanceWords:
     @property
     def given_pose(self) -> int | None:
         """The place of the given pose among the positions."""
-        there = np.flatnonzero(self.given_motion.travel == 0)
+        there = np.flatnonzero(self.given_motion.links.travel == 0)
         return int(there[0]) if there.size and np.isfinite(self.given_motion.path[there[0]]) else None
 
     def counterweight_table(self) -> Iterator[Words]:

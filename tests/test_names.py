@@ -12,7 +12,7 @@ from sources import FILES, PACKAGE, parsed
 
 import graphplan as gp
 from graphplan.kernel.kinds import TABLE, Variant, plain
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.methods import kinds
 from graphplan.methods.construct import construct
 from graphplan.methods.panels import JointForce, reactions_named

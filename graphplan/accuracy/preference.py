@@ -20,7 +20,7 @@ from graphplan.kernel.program import Program
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
-from graphplan.methods.styles import METHODS
+from graphplan.methods.panels import METHODS
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
 from graphplan.sheet.layout.paper import sheet_size
 from graphplan.sheet.words.rows import Deviation

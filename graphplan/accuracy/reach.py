@@ -23,8 +23,8 @@ from graphplan.cycle.relations import Relations, relations
 from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LINE, POINT
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.numbers.arrays import Arrays
-from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, evaluate
 from graphplan.mechanism.travel import paces
 from graphplan.methods.construct import construct

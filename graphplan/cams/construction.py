@@ -20,7 +20,7 @@ from graphplan.cams.follower import CamPair, FlatOscillating, Oscillating, Trans
 from graphplan.cams.profile import Cam
 from graphplan.cams.tolerances import DIRECTION_TOL, ZERO_LENGTH
 from graphplan.kernel.kinds import Quantity
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage

@@ -17,8 +17,7 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.errors import Refused, Undrawable
-from graphplan.kernel.numbers import Domain, Fractions
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Domain, Floats, Fractions
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, evaluate
 from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide

@@ -26,8 +26,7 @@ from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.mechanism.travel import TURN
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
-from graphplan.methods.panels import slide_named
-from graphplan.methods.styles import METHODS
+from graphplan.methods.panels import METHODS, slide_named
 from graphplan.phrases import Said, said
 
 MAX_DIAGRAMS = 4  # diagrams that stand side by side

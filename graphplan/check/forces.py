@@ -30,9 +30,8 @@ from graphplan.solver.friction import (
     name_in_joint,
     with_friction,
 )
-from graphplan.solver.higher_pairs import force, held_at, pushes
 from graphplan.solver.rates import Rates
-from graphplan.solver.statics import Reactions, acting, repeating, required_loads, resultants
+from graphplan.solver.statics import Reactions, acting, force, held_at, pushes, repeating, required_loads, resultants
 from graphplan.solver.statics import read as read_forces
 
 # ---- the solver between bounds --------------------------------------------------------------------------------------

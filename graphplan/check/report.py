@@ -19,7 +19,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.controls import Control
 from graphplan.methods.kinds import FORCES, MOTION, ORDER, POLE, POLE_HEADING, POLES, kind_of
 from graphplan.solver import Rates, solve
-from graphplan.solver import curvature as solved
+from graphplan.solver import instant_centres as solved
 from graphplan.solver.instant_centres import relative
 
 if TYPE_CHECKING:

@@ -21,8 +21,7 @@ from graphplan.check.compared import Readings, compare, printed_results, round_f
 from graphplan.check.report import ReferenceSolution, Report, reference_solution
 from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
 from graphplan.kernel.kinds import Movement, Primitive
-from graphplan.kernel.numbers import Domain
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Domain, Floats
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import constructions, plain_construction
 from graphplan.methods.construction import Construction

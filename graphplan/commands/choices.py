@@ -15,7 +15,7 @@ from graphplan.errors import ConstructionError, Disagreement, Refused, SingularP
 from graphplan.mechanism.items import suggestion
 from graphplan.mechanism.pairs.pair import FRAME
 from graphplan.mechanism.sections import FRAMES, MAX_POSITIONS, PROTOCOLS, SIZES
-from graphplan.methods.styles import INERTIA, METHODS, OF_PATHS
+from graphplan.methods.panels import INERTIA, METHODS, OF_PATHS
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:

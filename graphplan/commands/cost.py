@@ -13,7 +13,7 @@ from itertools import product
 
 from graphplan.commands.choices import add_paper, add_pencil, count, pencil
 from graphplan.commands.output import Messages, as_json, write
-from graphplan.methods.styles import motion_plans
+from graphplan.methods.panels import motion_plans
 
 BYTES_PER_HAND = 4096  # bytes for what one hand draws, as measured
 

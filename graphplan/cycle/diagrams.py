@@ -35,7 +35,7 @@ from graphplan.cycle.curves import (
 )
 from graphplan.cycle.tolerances import ORDINATE_TOL, TIME_TOL
 from graphplan.errors import Refused
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 

@@ -17,7 +17,7 @@ from graphplan.kernel.curvature_claims import CURVED
 from graphplan.kernel.drawn import Drawn, Vector, component_along, cross, cross3, dot, roundings, short, sideways, unit
 from graphplan.kernel.kinds import LINE, POINT, Claim
 from graphplan.kernel.loci import cubic_direction, cubic_point
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import Program, Step
 from graphplan.kernel.tolerances import CLAIM_TOL, MIN_MEASURE, STANDSTILL_TOL
 

@@ -15,8 +15,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from graphplan.kernel.numbers import Domain
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Domain, Floats
 from graphplan.kernel.panel import Panel
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Program, Step, evaluate

@@ -18,12 +18,11 @@ from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel.claims import unmet
 from graphplan.kernel.coincidence import LyingLine, LyingLines, crossing, line_gap, runs_against
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
-from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.panel import PlansApart
+from graphplan.kernel.numbers import Floats
+from graphplan.kernel.panel import EVERYWHERE, PlansApart, Window
 from graphplan.kernel.primitives import dot
 from graphplan.kernel.program import Board, Mark, Program, Step, Verbs, error_at
 from graphplan.kernel.tolerances import COINCIDENCE_TOL, FORM_TOL
-from graphplan.kernel.window import EVERYWHERE, Window
 
 FLOATS = Floats()
 

@@ -12,8 +12,7 @@ from typing import Any, NamedTuple
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel.kinds import POINT
-from graphplan.kernel.numbers import Fractions
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats, Fractions
 from graphplan.kernel.program import Program, about_origin
 from graphplan.kernel.tolerances import DIVISOR_SHARE
 

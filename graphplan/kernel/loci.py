@@ -18,7 +18,7 @@ from typing import Any, NamedTuple, Self
 from graphplan.errors import Undrawable
 from graphplan.kernel.closures import Attitude, Closure, Hinge, Pin, Vector, close_group
 from graphplan.kernel.kinds import CIRCLE, COMPASSES, PENCIL, POINT, TABLE, Movement, primitive
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.primitives import cross, dot
 from graphplan.kernel.tolerances import LOCUS_STEP, LOCUS_TOL

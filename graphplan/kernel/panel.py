@@ -7,8 +7,9 @@ cannot be recorded: on paper they stand apart, each at its own scale.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Sequence
-from typing import Self
+from typing import NamedTuple, Self
 
 from graphplan.kernel.kinds import Primitive
 from graphplan.phrases import Said, arrange, said
@@ -60,3 +61,16 @@ def require_one_plan(op: Primitive, panels: Sequence[str], names: Sequence[str])
         marks = ", ".join(f"{name} on {panel or 'no plan'}" for name, panel in zip(names, panels, strict=True))
         raise PlansApart(f"{op.name} was given marks of several plans ({marks}); it takes points, lines and circles of "
                          "one plan, from another a vector, an opening or a direction")
+
+
+class Window(NamedTuple):
+    """What counts as on the sheet of a panel: a circle, in plan units."""
+
+    centre: tuple[float, float]
+    radius: float
+
+    def holds(self, point: tuple[float, float]) -> bool:
+        return math.dist(point, self.centre) <= self.radius
+
+
+EVERYWHERE = Window((0.0, 0.0), math.inf)

@@ -25,9 +25,8 @@ from graphplan.mechanism.pairs.pair import LinkPose
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.structure import structure
 from graphplan.mechanism.travel import undone
-from graphplan.methods.figures import figure, runs_along
 from graphplan.methods.panels import MECHANISM, list_links
-from graphplan.methods.placing import Body, Placing
+from graphplan.methods.placing import Body, Placing, figure, runs_along
 from graphplan.phrases import digits, said
 
 Hinge = str | Slide  # a joint by its point, or a slide

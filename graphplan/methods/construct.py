@@ -12,7 +12,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.motion.alternatives import alternatives, growth_of_rates
 from graphplan.methods.motion.network import Network
-from graphplan.methods.styles import METHODS, OF_PATHS, Style, style
+from graphplan.methods.panels import METHODS, OF_PATHS, Style, style
 from graphplan.phrases import digits, said
 
 UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vectors are too short to draw

@@ -15,12 +15,12 @@ from graphplan.kernel.drawing import Compound, Drawing, Values
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander
 from graphplan.kernel.faithful import Faithful, faithful
 from graphplan.kernel.kinds import LINE, POINT, plain
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.origin import on_pose, shift_steps
+from graphplan.kernel.panel import EVERYWHERE, Window
 from graphplan.kernel.passes import gather_by_plan
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.kernel.tolerances import FORM_TOL
-from graphplan.kernel.window import EVERYWHERE, Window
 from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
 from graphplan.methods.controls import Control, controls

@@ -28,10 +28,9 @@ from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.poles import Poles, Unseen
 from graphplan.methods.motion.time_scale import point_distance, tempo
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Triangles, Velocity
-from graphplan.methods.panels import link_named, list_links, redundancies, replacements
+from graphplan.methods.panels import Style, link_named, list_links, redundancies, replacements
 from graphplan.methods.poses import Pose
 from graphplan.methods.recorded import Reading
-from graphplan.methods.styles import Style
 from graphplan.phrases import Said, said
 
 

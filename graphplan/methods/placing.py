@@ -1,27 +1,59 @@
 """What is placed of a mechanism in another pose: its bodies, with the points and lines that are drawn of them.
 
-Links that a drive holds together are one body: of it all lengths are known, whichever way it lies.
+Links that a drive holds together are one body: of it all lengths are known, whichever way it lies. Vectors of its
+figure are the parameters of what is drawn from them.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from graphplan.errors import Refused, by_name
+from graphplan.kernel.positions import Angle
 from graphplan.kernel.primitives import dot
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Stage
-from graphplan.mechanism.model import FRAME, Assembly, Pair, Scene, Slide
+from graphplan.mechanism.model import FRAME, Assembly, Number, Pair, Scene, Slide
 from graphplan.mechanism.numbers import minus, plus, times
 from graphplan.mechanism.order import ordered_points
 from graphplan.mechanism.pairs.pair import LinkPose
 from graphplan.mechanism.travel import STILL, following, turned_about, undone
-from graphplan.methods.figures import angle, figure, runs_along, same_place, widest
 from graphplan.methods.motion.network import Network
 from graphplan.methods.panels import MECHANISM, list_links
-from graphplan.phrases import Said, said
+from graphplan.methods.tolerances import PARALLEL_TOL
+from graphplan.phrases import Said, digits, said
+
+
+def figure(v: Pair, u: Pair) -> dict[str, Number]:
+    """A vector of a link's figure beside another, as parameters."""
+    return {"dx": v[0], "dy": v[1], "ux": u[0], "uy": u[1]}
+
+
+def angle(v: Pair) -> Angle:
+    """The direction of a vector, spoken in degrees from the x-axis."""
+    x, y = map(float, v)
+    return Angle(digits(round(math.degrees(math.atan2(y, x)), 6), 6), *v)
+
+
+def runs_along(v: Pair, u: Pair) -> bool:
+    """Whether a vector runs along another, or has no length."""
+    (x, y), (a, b) = map(float, v), map(float, u)
+    return abs(a * y - b * x) <= PARALLEL_TOL * (abs(a) + abs(b)) * (abs(x) + abs(y))
+
+
+def same_place(one: Pair, other: Pair) -> bool:
+    """Whether two places of a figure are one."""
+    pairs = zip(map(float, one), map(float, other), strict=True)
+    return all(abs(p - q) <= PARALLEL_TOL * (abs(p) + abs(q)) for p, q in pairs)
+
+
+def widest(drawn: Sequence[tuple[Pair, Mark]]) -> tuple[tuple[Pair, Mark], tuple[Pair, Mark]] | None:
+    """The two of some marks that lie furthest apart; none where all lie in one place."""
+    pairs = [(one, two) for k, one in enumerate(drawn) for two in drawn[k + 1:] if not same_place(one[0], two[0])]
+    return max(pairs, key=lambda ends: math.dist(*([float(part) for part in place] for place, _ in ends)), default=None)
 
 
 @dataclass

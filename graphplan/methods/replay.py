@@ -15,8 +15,8 @@ import numpy as np
 
 from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.kinds import Movement
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.numbers.arrays import Arrays
-from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, Step, error_at
 from graphplan.kernel.tape.record import Symbols
 from graphplan.kernel.tape.written import function, places
@@ -25,7 +25,7 @@ from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides as straight_guides
 from graphplan.mechanism.replaced import rolling_guides, with_lower_pairs
 from graphplan.methods.executors import crew
-from graphplan.methods.forces.changing import given_loads
+from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.recorded import NamedResults, ReadableDrawing
 from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Said, said

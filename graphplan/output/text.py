@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from graphplan.kernel.lemoine import counts
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import evaluate
 from graphplan.kernel.stages import Equation, Stage
 from graphplan.mechanism.model import Scene

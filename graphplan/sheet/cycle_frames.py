@@ -14,12 +14,12 @@ from typing import Any
 from graphplan.errors import ConstructionError
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import POINT, Movement
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import Program, evaluate
 from graphplan.mechanism.model import Pair, Scene, Slide
 from graphplan.mechanism.order import with_values
 from graphplan.methods.construction import Construction
-from graphplan.methods.forces.changing import given_loads
+from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.frames.title import CONSTRUCTION
 from graphplan.sheet.layout.composition import Composition

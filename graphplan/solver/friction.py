@@ -23,9 +23,17 @@ from graphplan.mechanism.pairs.pair import Along, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.units import metre
 from graphplan.solver.equations import Equations
-from graphplan.solver.higher_pairs import first_held, force, held_at, leaning_statements
 from graphplan.solver.rates import Rates
-from graphplan.solver.statics import Reactions, equilibrium, reactions, required_loads
+from graphplan.solver.statics import (
+    Reactions,
+    equilibrium,
+    first_held,
+    force,
+    held_at,
+    leaning_statements,
+    reactions,
+    required_loads,
+)
 from graphplan.solver.tolerances import FORCE_TOL, FRICTION_TOL, POWER_TOL, SLIP_TOL
 
 GROWING = tuple(Fraction(share, 4) for share in (1, 2, 3, 4))

@@ -20,7 +20,7 @@ from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
 from graphplan.solver.blocks import Block, blocks
 from graphplan.solver.equations import Equations, Row, force_equations, motion_equations
-from graphplan.solver.higher_pairs import pushes
+from graphplan.solver.statics import pushes
 from graphplan.solver.tolerances import POSE_SINGULAR_TOL
 
 TOGETHER = 24  # unknowns that one dense block has at most: over many poses small blocks cost no more than their sum

@@ -1,13 +1,14 @@
 """The reactions and the balances of a scene from one linear system: the equilibrium of every moving link.
 
-Besides each other, given forces and moments, weights and inertia forces act on the links.
+Gears and contacts push along their normals, flanks that are inclined by the pressure angle also radially, which does no
+work (Ozols 1974, 11-2). Besides each other, given forces and moments, weights and inertia forces act on the links.
 The rows of the rates state what a pair forbids; a pair's forces are what holds those facts. So the same rows, with the
 balances in the place of the drives, are the system for the forces when they are transposed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -28,13 +29,64 @@ from graphplan.mechanism.model import (
     Scene,
     Slide,
 )
-from graphplan.mechanism.numbers import minus, quarter_turn, times
-from graphplan.mechanism.pairs.pair import Along, Rate
+from graphplan.mechanism.numbers import minus, plus, quarter_turn, times
+from graphplan.mechanism.pairs.pair import Along, Rate, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.solver.equations import Equations, Solution, bound, force_equations, require_fractions
-from graphplan.solver.higher_pairs import pushes
 from graphplan.solver.rates import Rates, bound_by, moved_by, solve, solve_uniquely
+
+NO_ARMS = (0, 0), (0, 0)
+Sizes = Mapping[str, Sequence[Any]]
+
+
+def held_at(equations: Equations, fact: Statement) -> Rate:
+    """The force on the statement's link that is one time what holds it, and its moment about the statement's point."""
+    return fact.weights(NO_ARMS, equations.root)[0]
+
+
+def first_held(equations: Equations, pair: Gear | Contact) -> Pair:
+    """The direction, with its length, of what a gear or a contact holds first."""
+    x, y, _ = held_at(equations, next(pair.states(equations.scene)))
+    return x, y
+
+
+def force(equations: Equations, pair: Gear | Contact, sizes: Sequence[Any]) -> Pair:
+    """The force on the first link from the second, of a gear at the pitch point; without the friction of sliding."""
+    total: Any = (0, 0)
+    for fact, size in zip(pair.states(equations.scene), sizes, strict=True):
+        x, y, _ = held_at(equations, fact)
+        total = plus(total, times(size if fact.link == pair.links[0] else -size, (x, y)))
+    return plus(total, push(equations, pair, sizes[0])) if isinstance(pair, Gear) else total
+
+
+def push(equations: Equations, gear: Gear, size: Any) -> Pair:
+    """The radial force on the first wheel, off its mate, from its circumferential force."""
+    return times(gear.tangent * abs(size), quarter_turn(first_held(equations, gear)))
+
+
+def pushes(equations: Equations, sizes: Sizes) -> Iterator[Force]:
+    """The radial forces on both wheels of all gears; they act along the line of centres, on which the first lies."""
+    for gear in equations.scene.gears:
+        if gear.tangent and gear.name in sizes:
+            off = push(equations, gear, sizes[gear.name][0])
+            for link, value in zip(gear.links, (off, times(-1, off)), strict=True):
+                yield Force(link, gear.centres[0], value)
+
+
+def leaning_statements(equations: Equations, pair: Gear | Contact, lean: Number) -> Iterator[Statement]:
+    """What holds the links of a gear or a contact by a force that leans by so much from its first direction."""
+    first, *others = pair.states(equations.scene)
+    x, y, lever = held_at(equations, first)
+    direction = plus((x, y), times(lean, quarter_turn((x, y))))
+    if isinstance(pair, Gear):
+        yield Along(first.link, first.on, first.at, direction, first.way, lever=lever)
+    elif pair.rolling:
+        yield first
+    else:
+        yield Along(first.link, first.on, pair.at, direction, first.way)
+    yield from others
+
 
 Load = Force | Moment
 

@@ -9,7 +9,7 @@ import pytest
 
 from graphplan.accuracy.hand import Hand, Slips
 from graphplan.kernel import Board, Mark
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import evaluate

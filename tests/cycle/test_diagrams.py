@@ -18,9 +18,8 @@ from graphplan.cycle.curves import KinematicCurve, curve_over_travel
 from graphplan.cycle.diagrams import FoundCurve, KinematicDiagram, axes, by_chords, by_tangents, diagram, integrate
 from graphplan.errors import Refused
 from graphplan.kernel import Board, Mark
-from graphplan.kernel.numbers import Fractions
+from graphplan.kernel.numbers import Floats, Fractions
 from graphplan.kernel.numbers.arrays import Arrays
-from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import evaluate
 from graphplan.output import plots

@@ -16,8 +16,7 @@ from graphplan.errors import GraphplanError
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE, Board, Mark, Primitive, Program
 from graphplan.kernel.closures import Attitude, Closure, Hinge, Pin
 from graphplan.kernel.loci import Curve, cubic_direction, cubic_point
-from graphplan.kernel.numbers import Domain
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Domain, Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.primitives import dot

@@ -12,8 +12,7 @@ from tiers import sample
 
 from graphplan.kernel import Board
 from graphplan.kernel.claims import broken_claims, unmet
-from graphplan.kernel.numbers import Fractions
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats, Fractions
 from graphplan.kernel.passes import freeze
 
 RANDOMS = st.randoms(use_true_random=False)

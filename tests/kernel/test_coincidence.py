@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from graphplan.kernel.expand import Expander
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.numbers.arrays import Arrays
-from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 

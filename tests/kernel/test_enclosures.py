@@ -12,9 +12,8 @@ from figures import NAMES, corners, drawn, figure, size
 from tiers import sample
 
 from graphplan.errors import ConstructionError, Undrawable
-from graphplan.kernel.numbers import Fractions
+from graphplan.kernel.numbers import Floats, Fractions
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, heading, pi, precision
-from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import evaluate
 
 BITS = 160

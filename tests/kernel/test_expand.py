@@ -12,10 +12,10 @@ from graphplan.errors import ConstructionError
 from graphplan.kernel import Board, Mark, Program
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander
 from graphplan.kernel.kinds import TABLE, Choice, Form
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
+from graphplan.kernel.panel import Window
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import evaluate
-from graphplan.kernel.window import Window
 
 
 def points(board: Board, **places: tuple[float, float]) -> list[Mark]:

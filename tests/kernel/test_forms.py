@@ -18,7 +18,7 @@ from graphplan.errors import Undrawable
 from graphplan.kernel import FAILURES, LINE, TABLE, Mark, Program
 from graphplan.kernel.claims import broken_claims
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, FormBoard
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import prune
 
 FORMS = [(name, form) for name in COMPOUNDS for form in TABLE[name].forms]

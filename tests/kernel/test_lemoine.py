@@ -10,7 +10,7 @@ from graphplan.kernel import Board, Mark
 from graphplan.kernel.expand import STRICT, Expander
 from graphplan.kernel.kinds import SCALE, TABLE
 from graphplan.kernel.lemoine import Counts, counts
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import evaluate
 

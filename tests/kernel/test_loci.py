@@ -9,7 +9,7 @@ import pytest
 from graphplan.kernel import Board
 from graphplan.kernel.closures import Attitude, Closure, Hinge, Pin
 from graphplan.kernel.expand import Expander
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import evaluate
 

@@ -13,7 +13,7 @@ from figures import LENGTHS, NAMES, drawn, figure
 
 from graphplan.kernel import TABLE
 from graphplan.kernel.claims import broken_claims
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 
 Rule = Callable[..., Any]
 

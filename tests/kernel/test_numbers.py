@@ -14,9 +14,8 @@ from tiers import sample
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel import TABLE, Program
-from graphplan.kernel.numbers import Fractions
+from graphplan.kernel.numbers import Floats, Fractions
 from graphplan.kernel.numbers.arrays import Arrays
-from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import evaluate
 
 PLACES = each("place", [quarters, corners, extremes])

@@ -7,8 +7,7 @@ from fractions import Fraction
 
 from graphplan.check.cycle import cycle
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.kernel.numbers import Fractions
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats, Fractions
 from graphplan.kernel.origin import origin
 from graphplan.kernel.program import about_origin, evaluate
 from graphplan.mechanism.scene import load, parse

@@ -14,8 +14,7 @@ from figures import NAMES, drawn, figure
 from graphplan.errors import GraphplanError
 from graphplan.kernel import LINE, OPENING, POINT, TABLE, Board, Mark, Primitive
 from graphplan.kernel.expand import Expander
-from graphplan.kernel.numbers import Domain, Fractions
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Domain, Floats, Fractions
 from graphplan.kernel.panel import PlansApart
 from graphplan.kernel.passes import freeze, gather_by_plan
 from graphplan.kernel.program import Panel, evaluate

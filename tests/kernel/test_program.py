@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from tiers import sample
 
 from graphplan.kernel import TABLE, Board, Mark, Program
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze, gather_by_plan, prune
 from graphplan.kernel.program import Panel, evaluate
 

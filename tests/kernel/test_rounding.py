@@ -11,8 +11,7 @@ import pytest
 
 from graphplan.errors import Undrawable
 from graphplan.kernel import TABLE
-from graphplan.kernel.numbers import Fractions
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats, Fractions
 
 EPS = 2.0**-52
 TURNS = ("parallel", "perpendicular")

@@ -18,7 +18,7 @@ from figures import NAMES, drawn, figure
 from graphplan.kernel import CIRCLE, FAILURES, LINE, POINT, TABLE, Primitive
 from graphplan.kernel.claims import CLAIMS
 from graphplan.kernel.kinds import SCALE, Movement
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 
 EACH = each("op", [TABLE[name] for name in NAMES], ids=lambda op: op.name)
 

@@ -13,7 +13,7 @@ from figures import LENGTHS, NAMES, Place, corners, drawn, extremes, figure, qua
 from tiers import sample
 
 from graphplan.kernel import TABLE, Board, Program
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import evaluate
 from graphplan.kernel.tape import blocks

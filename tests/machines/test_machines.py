@@ -10,8 +10,7 @@ from closure import Closure, Rates
 from machine import Machine, Points, family
 
 import graphplan as gp
-from graphplan.kernel.numbers import Fractions
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats, Fractions
 from graphplan.mechanism.scene import parse
 
 FAMILIES = ("fourbars", "sixbars", "guided", "engines", "cylinders", "platforms")

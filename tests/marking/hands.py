@@ -15,7 +15,7 @@ from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.hand import hand as hand_of
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, OPENING, POINT
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import Step
 from graphplan.marking.judge.mistakes import Mistake, possible_mistakes
 from graphplan.marking.traces import PlanFrame, Submission, Trace

@@ -15,7 +15,7 @@ import graphplan as gp
 from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import CIRCLE, OPENING, POINT, Movement
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import Step
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.score import score

@@ -15,7 +15,7 @@ import pytest
 import graphplan as gp
 from graphplan.commands import main
 from graphplan.kernel.kinds import POINT
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import evaluate
 from graphplan.sheet.layout.composition import Composition, compose
 

@@ -12,7 +12,7 @@ from judged import composed
 
 from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import LINE, POINT
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.score import groups_of_steps, score
 from graphplan.marking.traces import StudentNumber, Submission, Trace

@@ -11,7 +11,7 @@ import pytest
 import graphplan as gp
 from graphplan.accuracy.survey.growth import chain
 from graphplan.errors import Refused
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.tape.blocks import BlockWriter
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.scene import packaged_names

@@ -19,7 +19,7 @@ from graphplan.errors import SceneError
 from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.scene import parse
 from graphplan.methods.construct import construct
-from graphplan.methods.styles import OF_PATHS
+from graphplan.methods.panels import OF_PATHS
 from graphplan.solver import solve
 
 FOUR_BAR = """

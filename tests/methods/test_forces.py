@@ -35,7 +35,7 @@ from graphplan.mechanism.model import (
 from graphplan.mechanism.scene import load
 from graphplan.mechanism.structure import bracing
 from graphplan.methods.construct import construct
-from graphplan.methods.styles import INERTIA
+from graphplan.methods.panels import INERTIA
 
 LOADED = those(lambda scene: scene.loads is not None)
 SOME = st.lists(st.sampled_from(sorted(GROUPS)), min_size=1, max_size=3)

@@ -17,7 +17,7 @@ from graphplan.errors import Refused, SingularPose
 from graphplan.mechanism.model import Balance, Find, Scene, TurningDrive
 from graphplan.mechanism.scene import load, parse
 from graphplan.mechanism.structure import bracing
-from graphplan.methods.styles import INERTIA
+from graphplan.methods.panels import INERTIA
 
 SOME = st.lists(st.sampled_from(sorted(GROUPS)), min_size=1, max_size=2)
 

@@ -7,7 +7,7 @@ import math
 import pytest
 
 import graphplan as gp
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import evaluate
 from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.positions import layout

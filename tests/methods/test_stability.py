@@ -40,7 +40,7 @@ from graphplan.check.arithmetics import Exact
 from graphplan.check.report import reference_solution
 from graphplan.check.trusted import report
 from graphplan.errors import SingularPose
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
 from graphplan.methods.construct import construct

@@ -18,7 +18,7 @@ from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import pencil
 from graphplan.check.trusted import report
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, TABLE
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import Panel, Program, evaluate
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM

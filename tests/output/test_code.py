@@ -17,7 +17,7 @@ import pytest
 
 import graphplan as gp
 from graphplan.errors import Undrawable
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.tape.blocks import Blocks
 from graphplan.kernel.tape.machine import LANES, Machine
 from graphplan.kernel.tape.written import places

@@ -11,7 +11,7 @@ from itertools import combinations
 import pytest
 
 from graphplan.kernel.drawing import Drawing, Values
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze, put_together
 from graphplan.kernel.program import Board, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage

@@ -15,7 +15,7 @@ from graphplan.errors import SingularPose
 from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.model import FRAME, Find
 from graphplan.methods.construct import construct
-from graphplan.methods.styles import OF_PATHS
+from graphplan.methods.panels import OF_PATHS
 from graphplan.solver import solve
 
 MECHANISMS, TOGETHER = sample((3, 3), (20, 5))

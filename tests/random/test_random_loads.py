@@ -17,8 +17,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 from graphplan.methods.construct import construct
 from graphplan.methods.forces.groups import pairs
-from graphplan.methods.panels import JointForce
-from graphplan.methods.styles import INERTIA
+from graphplan.methods.panels import INERTIA, JointForce
 from graphplan.solver import Reactions, reactions, with_friction
 
 LINKAGES = sample(4, 40)

@@ -14,8 +14,7 @@ from linkages import scenes
 from loads import loaded_scenes
 
 from graphplan.errors import ConstructionError, Refused
-from graphplan.kernel.numbers import Fractions
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats, Fractions
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 

@@ -11,7 +11,7 @@ import pytest
 from sheets import LOADED, drawing_of, outside, sheet_of
 
 import graphplan as gp
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.methods.panels import ForcePlan
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout

@@ -13,7 +13,7 @@ from sheets import SCENES, composition_of, drawing_of, outside, pages_of, sheet_
 import graphplan as gp
 from graphplan.cycle import follow
 from graphplan.errors import Refused
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.mechanism.sections import SIZES
 from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import MECHANISM

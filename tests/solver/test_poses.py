@@ -28,7 +28,8 @@ def test_each_pose_is_solved_as_alone(name: str) -> None:
         pytest.skip("its given motions do not turn with it")
     alone = gp.analytic.solve(scene)
     points = {name: complex(*map(float, at)) * TURNS for name, at in scene.points.items()}
-    guides = {pair.name: complex(*map(float, pair.direction)) * TURNS for pair in scene.guided if pair.direction}
+    guides = {pair.name: complex(*map(float, pair.direction)) * TURNS for pair in scene.directed_pairs
+              if pair.direction}
     turned = poses.scene_in_poses(scene, points, guides)
     rates = poses.solve(turned, len(TURNS))
     for one, many in (alone.velocity, rates.velocity), (alone.acceleration, rates.acceleration):

@@ -96,7 +96,7 @@ def test_parallel_bars_need_a_trial_figure() -> None:
 
 def _meet_of_bars() -> None:
     """Q by force: the meeting of two parallel bars."""
-    from graphplan.kernel.numbers.floats import Floats
+    from graphplan.kernel.numbers import Floats
     from graphplan.kernel.passes import freeze
     from graphplan.kernel.program import Board, evaluate
 

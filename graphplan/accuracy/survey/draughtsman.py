@@ -23,7 +23,7 @@ from graphplan.accuracy.survey.picture import (
     stairs,
 )
 from graphplan.mechanism.model import Scene
-from graphplan.methods.styles import MOTION_PLANS, motion_plans
+from graphplan.methods.panels import MOTION_PLANS, motion_plans
 from graphplan.sheet.plates.pens import BLUE, GREY, INK, RED
 
 PAPER = "A1"

@@ -39,7 +39,7 @@ from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
-from graphplan.methods.styles import MOTION_PLANS, motion_plans
+from graphplan.methods.panels import MOTION_PLANS, motion_plans
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED
 
 MOTION, FORCES = "motion", "motion and forces"

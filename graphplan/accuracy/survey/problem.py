@@ -20,9 +20,8 @@ from graphplan.check.compared import UNBOUNDED, components
 from graphplan.check.forces import force_truth
 from graphplan.check.report import ReferenceSolution, reference_solution
 from graphplan.errors import Refused
-from graphplan.kernel.numbers import Domain, Fractions
+from graphplan.kernel.numbers import Domain, Floats, Fractions
 from graphplan.kernel.numbers.arrays import Arrays
-from graphplan.kernel.numbers.floats import Floats
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.numbers import map_numbers
 from graphplan.methods import kinds

@@ -28,7 +28,7 @@ from graphplan.check.report import ReferenceSolution, reference_solution
 from graphplan.check.trusted import report
 from graphplan.errors import GraphplanError, Refused
 from graphplan.kernel.kinds import POINT, Movement, plain
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import evaluate
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct

@@ -12,6 +12,7 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.errors import Undrawable
+from graphplan.kernel.tolerances import ROUNDOFF_TOL
 
 
 class Domain(ABC):
@@ -70,3 +71,23 @@ class Fractions(Domain):
 
     def sign(self, value: Fraction, scale: Fraction) -> int:
         return (value > 0) - (value < 0)
+
+
+# A difference of two products is noise when it is within a few roundings of them.
+
+
+class Floats(Domain):
+    """One pose in double precision; what cannot be drawn raises."""
+
+    def sqrt(self, value: float, code: str, why: str) -> float:
+        if value < 0:
+            raise Undrawable(code, why)
+        return math.sqrt(value)
+
+    def nonzero(self, value: float, scale: float, code: str, why: str) -> float:
+        if abs(value) <= ROUNDOFF_TOL * scale or not math.isfinite(value):
+            raise Undrawable(code, why)
+        return value
+
+    def sign(self, value: float, scale: float) -> float:
+        return 0.0 if abs(value) <= ROUNDOFF_TOL * scale else math.copysign(1.0, value)

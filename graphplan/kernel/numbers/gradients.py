@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.kernel.numbers import Domain
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Domain, Floats
 
 
 class Gradient:

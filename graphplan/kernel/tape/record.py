@@ -14,8 +14,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-from graphplan.kernel.numbers import Domain
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Domain, Floats
 
 Entry = tuple[Any, ...]  # ("in", name), ("constant", value), or an operation and the places of its operands
 

@@ -19,7 +19,7 @@ import numpy as np
 
 from graphplan.cycle.diagrams import Axes, integrate
 from graphplan.errors import Refused
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage

@@ -20,7 +20,7 @@ from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import Quantity
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Program, evaluate
 from graphplan.kernel.stages import Stage

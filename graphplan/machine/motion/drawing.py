@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.cycle.diagrams import Axes, integrate
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage

@@ -29,8 +29,7 @@ from graphplan.methods.motion.acceleration import Normal
 from graphplan.methods.motion.alternatives import alternatives
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import JointForce, LeverPlan
-from graphplan.methods.styles import Style
+from graphplan.methods.panels import JointForce, LeverPlan, Style
 
 
 class LeverDraughtsman(Draughtsman):

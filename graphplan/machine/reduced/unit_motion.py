@@ -28,7 +28,7 @@ from graphplan.mechanism.units import METRES
 from graphplan.methods import kinds
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
-from graphplan.methods.styles import METHODS
+from graphplan.methods.panels import METHODS
 
 # ---- recordings -----------------------------------------------------------------------------------------------------
 

@@ -24,7 +24,7 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.kernel.kinds import Quantity
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 from graphplan.kernel.stages import Stage
 from graphplan.machine.rotors.rotor import PLANES, Eccentric, Rotor, Vector, direction

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from graphplan.accuracy.drafted import Drafted
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.marking.classroom.variants import ClassVariant, Draw
 from graphplan.mechanism.model import Scene, Units
 from graphplan.mechanism.scene import parse

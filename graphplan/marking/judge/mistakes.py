@@ -16,8 +16,7 @@ from typing import Any
 
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, DIVIDERS, LINE, POINT, Movement, Primitive, made_by
-from graphplan.kernel.numbers import Domain
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Domain, Floats
 from graphplan.kernel.program import Program, Step
 from graphplan.marking.judge import measures
 from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL

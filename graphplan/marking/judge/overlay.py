@@ -18,7 +18,7 @@ from shapely import Geometry, LineString, Point, STRtree
 
 from graphplan.kernel.elementary import foot
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.marking.files.drawing import circle_through
 from graphplan.marking.judge.findings import VERDICT_TITLE, LegendRow, Remarks, complaint, opinion, step_name
 from graphplan.marking.judge.score import Score

@@ -18,8 +18,7 @@ import numpy as np
 from graphplan.accuracy.hand import Errors
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
-from graphplan.kernel.numbers import Domain
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Domain, Floats
 from graphplan.kernel.program import Step
 from graphplan.kernel.stages import Known
 from graphplan.marking.judge import measures

@@ -37,9 +37,8 @@ from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.stages import beginning_stage
 from graphplan.methods.motion.time_scale import Tempo, round_number
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
-from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan
+from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan, Style
 from graphplan.methods.poses import Pose
-from graphplan.methods.styles import Style
 from graphplan.phrases import Said, said
 
 AXES: tuple[Pair, Pair] = (Fraction(1), Fraction(0)), (Fraction(0), Fraction(1))

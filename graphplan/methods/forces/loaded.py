@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import Any
 
 from graphplan.errors import ConstructionError, Refused
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze, needed_steps
 from graphplan.kernel.program import Board, Mark, evaluate
 from graphplan.mechanism.model import Find, Loads, Scene
@@ -41,8 +41,7 @@ from graphplan.methods.motion.alternatives import EQUAL, alternatives, growth
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import link_named, pair_text, slide_named
-from graphplan.methods.styles import Style
+from graphplan.methods.panels import Style, link_named, pair_text, slide_named
 from graphplan.methods.tolerances import REACTION_TOL, SHORT_FORCE
 from graphplan.phrases import Phrase, Said, phrase, said
 

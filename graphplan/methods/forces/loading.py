@@ -1,21 +1,30 @@
 """Loads on the drawing board: weights, given forces, inertia forces and couples of each link as drawn vectors.
 
 A force is drawn `phi` lengths of the mechanism plan long for each unit of force. The inertia force is -m a, from the
-acceleration plan; a couple becomes a pair of forces at two points of its link (Ozols 1974, 9-2 and 10-6).
+acceleration plan; a couple becomes a pair of forces at two points of its link (Ozols 1974, 9-2 and 10-6). Loads that
+change are given anew to the steps that lay them off.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
+from typing import Any
 
 from graphplan.kernel.kinds import Quantity
-from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import FRAME, Loads, Mass, Number, Scene
-from graphplan.mechanism.order import by_name, named_forces, named_moments, turning_drives, without_higher_pairs
+from graphplan.kernel.program import Board, Mark, Program
+from graphplan.mechanism.model import FRAME, Force, Loads, Mass, Number, Scene
+from graphplan.mechanism.order import (
+    by_name,
+    changing_loads,
+    named_forces,
+    named_moments,
+    turning_drives,
+    without_higher_pairs,
+)
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.forces import stages
 from graphplan.methods.motion.network import Network
@@ -265,3 +274,32 @@ def _inertia_sizes(scene: Scene, size: float) -> Iterator[float]:
     for mass in scene.loads.masses.values():
         if FRAME not in scene.links_of[mass.centre]:
             yield float(mass.mass * inertia(scene.units)) * rate * size / 4
+
+
+Given = dict[str | int, dict[str, Any]]
+"""Numbers of steps, by their places in the program."""
+
+
+def given_loads(program: Program, scene: Scene, phi: Number, loads: Mapping[str, Any]) -> Given:
+    """What the steps of a program are given where the loads of a scene, by their letters, have these values.
+
+    Forces are complex numbers or arrays of them, moments real ones; `phi` is how long a unit of force is drawn.
+    """
+    def components(value: Any, name: str) -> dict[str, Any]:
+        parts = drawn_components(scene, phi, name)
+        numbers = [value.real, value.imag] if len(parts) == 2 else [value]
+        return {part: number * times for (part, times), number in zip(parts.items(), numbers, strict=True)}
+
+    return {step: components(loads[name], name) for step, name in changing_steps(program).items() if name in loads}
+
+
+def changing_steps(program: Program) -> dict[int, str]:
+    """The steps that lay off loads that change, each with the load's letter."""
+    return {step.index: step.quantity.written for step in program.steps if step.quantity and step.quantity.changing}
+
+
+def drawn_components(scene: Scene, phi: Number, name: str) -> dict[str, float]:
+    """The parameters that lay off a load that changes, each with how long a unit of its component is drawn."""
+    if isinstance(changing_loads(scene.loads)[name], Force):
+        return {"dx": float(phi), "dy": float(phi)}
+    return {"moment": float(phi * metre(scene.units))}

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.kinds import Movement
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import Program
 from graphplan.methods.kinds import ACCELERATION, ORDER, VELOCITY
 from graphplan.methods.motion.network import Network

@@ -23,7 +23,7 @@ from functools import cached_property, partial
 from itertools import chain, combinations
 
 from graphplan.errors import ConstructionError, Refused
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, evaluate
 from graphplan.mechanism.model import FRAME, Scene, Slide
@@ -31,7 +31,8 @@ from graphplan.mechanism.order import sort_scene
 from graphplan.mechanism.replaced import RollingGuide, rolling_guides
 from graphplan.methods import kinds
 from graphplan.methods.motion.acceleration import Normal
-from graphplan.methods.motion.curve_stages import (
+from graphplan.methods.motion.plan import MotionPlan
+from graphplan.methods.motion.stages import (
     by_centres,
     by_rates,
     by_rolling,
@@ -40,7 +41,6 @@ from graphplan.methods.motion.curve_stages import (
     circle_of,
     pole_of,
 )
-from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.time_scale import point_distance
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, link_named

@@ -16,8 +16,7 @@ from itertools import combinations, product
 from typing import Any, NamedTuple
 
 from graphplan.errors import Refused, Undrawable
-from graphplan.kernel.numbers import Domain, Fractions
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Domain, Floats, Fractions
 from graphplan.kernel.passes import needed_steps
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Stage

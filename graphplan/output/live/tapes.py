@@ -19,7 +19,7 @@ from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides
 from graphplan.methods.construction import Construction
-from graphplan.methods.forces.changing import changing_steps, drawn_components
+from graphplan.methods.forces.loading import changing_steps, drawn_components
 from graphplan.methods.replay import coincidence_fault, guiding_steps
 
 SOLVED = ("check", "bounds", "arithmetic", "method", "steps")

@@ -15,7 +15,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.tape.record import Symbol, Tape
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer
 from graphplan.phrases import Said, UndecidedText, Unknown, arrange, figures, in_any_case

@@ -13,7 +13,7 @@ from graphplan.accuracy.drafted import Drafted
 from graphplan.commands import parser, steps
 from graphplan.commands.choices import on_paper
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import Step
 from graphplan.sheet.layout.composition import Composition
 

@@ -16,7 +16,7 @@ import pytest
 
 import graphplan as gp
 from graphplan.cycle import follow
-from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers import Floats
 from graphplan.output.live.texts import Telling, Texts
 from graphplan.phrases import Said, Unknown, arrange, digits, in_any_case, tenths
 from graphplan.sheet.cycle_frames import construction_in_pose

@@ -146,7 +146,7 @@ class Sketch:
         return P
 
 
-class Plans:
+class SidePositions:
     """Plans of one side in several positions: its bodies are placed from a bar that is turned."""
 
     def __init__(self, s: Any, joints: Sequence[Any], group: Closure, pose: Sequence[Attitude], side: Side):
@@ -165,7 +165,7 @@ class Plans:
     def curve(self) -> tuple[list[Any], float] | None:
         """Places of the joint in four positions near the known one, and its parameter there; none where arcs do not
         find them, or no curve through them is near enough to the path."""
-        sketch = Plans(Sketch(), [self.s.place(mark) for mark in self.joints], self.group, self.pose, self.side)
+        sketch = SidePositions(Sketch(), [self.s.place(mark) for mark in self.joints], self.group, self.pose, self.side)
         true = self.pose[self.side.body].place_point((float(self.side.at[0]), float(self.side.at[1])))
         for (pin, hinge), spacing in product(self._cranks(), SPACING):
             x, y = self.pose[pin.body].turn_vector((float(hinge[0] - pin.at[0]), float(hinge[1] - pin.at[1])))
@@ -244,7 +244,7 @@ def _angle(degrees: float, long: float) -> Angle:
 def _loci(s: Any, *joints: Any, group: Closure, joint: str) -> Any:
     """The crossing of the two curves."""
     pose = close_group(FLOATS, [s.place(mark) for mark in joints], group)
-    plans = [Plans(s, joints, group, pose, side) for side in sides(group, joint)]
+    plans = [SidePositions(s, joints, group, pose, side) for side in sides(group, joint)]
     if not plans:
         return None
     plans.sort(key=lambda one: len(one.side.bodies) == 1)

@@ -70,7 +70,7 @@ class Source:
 
 
 @dataclass(frozen=True)
-class Circle:
+class InflectionCircle:
     """A link's inflection circle: its pole, its inflection pole, and of two points the marks with their centres."""
 
     pole: Mark
@@ -135,7 +135,7 @@ class Curves:
         self.velocities, self.accelerations, self.method = velocities, accelerations, method
         self.ways: dict[Said, None] = {}
         self.special: list[Said] = []
-        self._circles: dict[str, Circle | None] = {}
+        self._circles: dict[str, InflectionCircle | None] = {}
 
     # ---- a link's circle ----------------------------------------------------------------------------------------
 
@@ -149,15 +149,15 @@ class Curves:
         """The links that roll on the frame; none where the rates are asked for."""
         return rolling(self.scene) if self.method != "accelerations" else {}
 
-    def circle(self, link: str) -> Circle | None:
+    def circle(self, link: str) -> InflectionCircle | None:
         """The link's inflection circle; None where its pole is at infinity in this pose."""
         if link not in self._circles:
             pivot = next((p for p in self.scene.links[link] if p in self.scene.links.get(FRAME, ())), "")
-            self._circles[link] = (Circle(self.point(pivot), self.point(pivot)) if pivot else
+            self._circles[link] = (InflectionCircle(self.point(pivot), self.point(pivot)) if pivot else
                                    self._first_drawable(self._circle_methods(link)))
         return self._circles[link]
 
-    def _circle_methods(self, link: str) -> Iterator[Callable[[], Circle]]:
+    def _circle_methods(self, link: str) -> Iterator[Callable[[], InflectionCircle]]:
         """How the circle may be drawn: from known centres, or else from the rates of two of the link's points."""
         if link in self.wheels:
             yield partial(self._by_rolling, link, self.wheels[link])
@@ -183,7 +183,7 @@ class Curves:
         found.sort(key=lambda two: (-len(own & {*two}), -point_distance(self.scene, *two)))
         return found[:MOST]
 
-    def _first_drawable(self, ways: Iterator[Callable[[], Circle]]) -> Circle | None:
+    def _first_drawable(self, ways: Iterator[Callable[[], InflectionCircle]]) -> InflectionCircle | None:
         """The first of these that can be drawn in this pose."""
         for way in ways:
             with suppress(ConstructionError, Refused):
@@ -193,7 +193,7 @@ class Curves:
                     return circle
         return None
 
-    def _by_rolling(self, link: str, guide: RollingGuide) -> Circle:
+    def _by_rolling(self, link: str, guide: RollingGuide) -> InflectionCircle:
         """P where the wheel touches, W_0 on the line of centres: its centre's third proportional, the centre itself on
         a straight rail; of a rail that rolls the point opposite the wheel's centre."""
         with self.board.on(MECHANISM, (link,), by_rolling(link)):
@@ -205,9 +205,9 @@ class Curves:
                 W0 = self.point(guide.base)
                 if guide.base not in self.scene.links[link]:
                     W0 = self.board.transfer(W0, P, P, name="W_0")
-            return Circle(P, W0, by=said("rolling"))
+            return InflectionCircle(P, W0, by=said("rolling"))
 
-    def _by_centres(self, link: str) -> Circle:
+    def _by_centres(self, link: str) -> InflectionCircle:
         """P where the rays cross, W_0 where the perpendiculars to them in W_1 and W_2 do."""
         with self.board.on(MECHANISM, (link,), by_centres(link)):
             two = self.known_sources[link]
@@ -220,10 +220,10 @@ class Curves:
             return replace(self._thales(P, rays, points), pins=self._pins(two, centres),
                            shown=link in self.scene.find.inflection)
 
-    def _thales(self, P: Mark, rays: list[Mark], points: list[Mark]) -> Circle:
+    def _thales(self, P: Mark, rays: list[Mark], points: list[Mark]) -> InflectionCircle:
         """The point opposite P on the circle through P and two points of its rays."""
         uprights = [self.board.perpendicular(ray, W) for ray, W in zip(rays, points, strict=True)]
-        return Circle(P, self.board.meet(*uprights, name="W_0"))
+        return InflectionCircle(P, self.board.meet(*uprights, name="W_0"))
 
     def _pins(self, two: tuple[Source, ...], centres: list[Mark | None]) -> tuple[Mark, ...]:
         """The points and their centres, where these are not at infinity."""
@@ -259,7 +259,7 @@ class Curves:
             return self.board.transfer(X, P, P, name=name)
         return X if centre is None else self.board.third(X, centre, X, P, name=name)
 
-    def _by_rates(self, link: str, two: tuple[str, str]) -> Circle:
+    def _by_rates(self, link: str, two: tuple[str, str]) -> InflectionCircle:
         """The same from the velocities and the accelerations of two points of the link."""
         with self.board.on(MECHANISM, (link,), by_rates(link)):
             ends = [self._orthogonal(link, X) for X in two]
@@ -339,7 +339,7 @@ class Curves:
         sliding = any({link, FRAME} == {*slide.links} and slide.turns_alike for slide in self.scene.slides)
         return 1 if sliding else 2 if link in self.known_sources or link in self.wheels else 3
 
-    def _by_circle(self, circle: Circle, point: str) -> tuple[kinds.ResultKind, tuple[Mark, ...]]:
+    def _by_circle(self, circle: InflectionCircle, point: str) -> tuple[kinds.ResultKind, tuple[Mark, ...]]:
         """By Euler and Savary, Bobillier or Hartmann."""
         marks = circle.pole, self.point(point), circle.inflection
         P, M, W0 = (complex(*place) for place in self.values(*marks))
@@ -361,7 +361,7 @@ class Curves:
         self.ways |= {BY_RATES: None}
         return kinds.CENTRE, (M, self.board.third(M, N, M, end, name=centre_name(point)))
 
-    def _curvature_centre(self, circle: Circle, point: str) -> Mark:
+    def _curvature_centre(self, circle: InflectionCircle, point: str) -> Mark:
         """The centre of curvature of a point's path, from its link's circle or from two points with known centres."""
         M, name = self.point(point), centre_name(point)
         if circle.pins and (not circle.shown or self.method in ("bobillier", "hartmann")):

@@ -80,11 +80,11 @@ class Centrode:
         now = [complex(*map(float, scene.points[name])) for name, _ in self.given]
         turn = (now[-1] - now[-2]) / (was[-1] - was[-2]) if len(was) > 1 else 1.0
 
-        def carried(spot: Spot) -> Spot:
+        def carry_spot(spot: Spot) -> Spot:
             place = now[0] + turn * (complex(*spot) - was[0])
             return place.real, place.imag
 
-        return carried
+        return carry_spot
 
 
 class StationaryCurve(Centrode):

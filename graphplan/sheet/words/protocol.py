@@ -210,11 +210,11 @@ def with_reason(sentence: Said, why: str) -> Said:
 
 def with_lengths(sentence: Said, measuring: Measuring) -> Said:
     """A sentence with its lengths behind it."""
-    def told() -> Said:
+    def sentence_with_lengths() -> Said:
         lengths = measuring()
         return arrange("{0} {1}.", sentence, join(length.text for length in lengths)) if lengths else sentence
 
-    return in_any_case(told)
+    return in_any_case(sentence_with_lengths)
 
 
 def _reason(step: SpokenStep, stage: Stage | None) -> str:

@@ -343,7 +343,7 @@ class Design:
             if wrong is not None:
                 (path, value), = values.items()
                 return Refused(f'{self.scene.name}: vary."{path}"',
-                               f"{few}; already at {decimal_text(value)} {wrong.told}",
+                               f"{few}; already at {decimal_text(value)} {wrong.text}",
                                "a narrower range, or a larger --paper")
         kind = Counter(wrong.kind for _, _, wrong in drawn_anew).most_common(1)[0][0]
         return Refused(f"{self.scene.name}: vary", f"{few}; mostly {kind}", "narrower ranges, or a larger --paper")

@@ -22,8 +22,8 @@ from graphplan.accuracy.preference import Constructing, constructions, form_name
 from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.judge import measures
+from graphplan.marking.judge.frames import Pair, agreed_units, best_fit, fit_frame
 from graphplan.marking.judge.readings import SheetReading, to_mm
-from graphplan.marking.judge.register import Pair, agreed_units, best_fit, fit_frame
 from graphplan.marking.judge.student_sheet import Fit
 from graphplan.marking.tolerances import LONGER
 from graphplan.marking.traces import PlanFrame, Submission, Trace, spell

@@ -19,12 +19,12 @@ from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained_traces, with_wobble
+from graphplan.marking.judge.frames import FrameFinder
 from graphplan.marking.judge.labels import is_sure, labelled_steps
 from graphplan.marking.judge.lettering import name_marks
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.numbers import judge_numbers
 from graphplan.marking.judge.readings import SheetReading, to_mm
-from graphplan.marking.judge.register import FrameFinder
 from graphplan.marking.judge.search import Search
 from graphplan.marking.judge.seen_pencil import assumed_pencil, blur_marks, seen_pencil, with_measured_points
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet

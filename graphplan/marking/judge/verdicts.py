@@ -52,11 +52,11 @@ class States:
     def __init__(self, matching: Matching, numbers: Iterable[NumberVerdict] = ()):
         self.matching = matching
         right = {(verdict.number.kind, verdict.number.of) for verdict in numbers if verdict.state in EARNED}
-        self.told, self.asked = set[int](), set[int]()  # the marks of results with such a number, and of others
+        self.answered, self.asked = set[int](), set[int]()  # the marks of results with such a number, and of others
         for reading in matching.sheet.drawing.readings:
             if reading.given is None:
                 marks = result_marks(matching.sheet.drawing, reading)
-                (self.told if (reading.kind, reading.of) in right else self.asked).update(marks)
+                (self.answered if (reading.kind, reading.of) in right else self.asked).update(marks)
 
     def state_of(self, match: Match) -> tuple[str, float]:
         """The state of a step, and how sure that is, from 0 to 1."""
@@ -119,7 +119,7 @@ class States:
         """What a step's own mark speaks for it; or a number, or the strokes that cross there."""
         if match.place is not None:
             return match.weight if match.state in EARNED else -math.inf
-        if match.step.index in self.told:
+        if match.step.index in self.answered:
             return measures.MAX_SURE_ODDS
         strokes = [self.matching.matches[arg] for arg in match.step.args]
         stroke_weights = [stroke.weight for stroke in strokes if stroke.place is not None and stroke.state in EARNED]
@@ -137,7 +137,7 @@ class States:
         strokes = [match.step.index for match in matches if match.place is not None and match.state in EARNED]
         legible = {mark for stroke in strokes for mark in sheet.marks_on.get(stroke, ())}
         seen_steps = {match.step.index for match in matches if match.place is not None}
-        return self.asked - self.told - legible - seen_steps - set(sheet.hidden)
+        return self.asked - self.answered - legible - seen_steps - set(sheet.hidden)
 
     @cached_property
     def drawn_steps(self) -> list[bool]:

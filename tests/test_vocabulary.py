@@ -28,13 +28,13 @@ class Limit(NamedTuple):
 
 
 LIMITS = {
-    "functions named by a bare participle or adverb, %": Limit(24.1, 4.0),
-    "assignments to names that say nothing, %": Limit(12.1, 3.0),
-    "class names in several files": Limit(67, 0),
-    "constants that name no quantity": Limit(150, 0),
-    "imports, % of the lines of code": Limit(11.7, 9.0),
+    "functions named by a bare participle or adverb, %": Limit(4.0, 4.0),
+    "assignments to names that say nothing, %": Limit(5.5, 3.0),
+    "class names in several files": Limit(13, 0),
+    "constants that name no quantity": Limit(55, 0),
+    "imports, % of the lines of code": Limit(11.1, 9.0),
     "lines of the longest file": Limit(400, 400),
-    "tokens": Limit(737_000, 660_000),
+    "tokens": Limit(727_500, 660_000),
 }
 SHARED_CLASS_NAMES: frozenset[str] = frozenset()  # may stand in several files, as they mean one thing
 

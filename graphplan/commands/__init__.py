@@ -88,7 +88,7 @@ class Parser(argparse.ArgumentParser):
     """A parser whose errors look like all others."""
 
     def error(self, message: str) -> NoReturn:
-        """Tell what is wrong with the words, and end."""
+        """Report a wrong command line, and exit."""
         error(f"{self.prog}: {message}; {self.prog} --help lists the options")
         raise SystemExit(2)
 

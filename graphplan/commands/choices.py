@@ -72,13 +72,13 @@ def add_travel(command: argparse.ArgumentParser) -> None:
     """The option that asks for another pose."""
     command.add_argument("--at", metavar="TRAVEL", help="construct the mechanism where its drive has gone so far from "
                          "the given pose, in degrees or in lengths of one that slides, and then its plans; of several "
-                         "drives the first one's, the others keep pace, or a list such as 60,-30; or outer or inner, "
-                         "an extreme position of the rocker or slider that its crank swings, of several such as 'outer "
-                         "3'")
+                         "drives it sets the first, the others follow in proportion, or a list such as 60,-30; or "
+                         "outer or inner, an extreme position of the rocker or slider that its crank swings, of "
+                         "several such as 'outer 3'")
 
 
 def add_language(command: argparse.ArgumentParser) -> None:
-    """The option that says in which language it is said; without it that is left to the scene."""
+    """The option that chooses the language; by default the scene's."""
     command.add_argument("--language", default="", choices=LANGUAGES,
                          help="the language of all words (without it the scene's, or en)")
 
@@ -124,7 +124,7 @@ def add_curves(command: argparse.ArgumentParser) -> None:
 
 
 def add_pencil(command: argparse.ArgumentParser) -> None:
-    """The option that says how well it is drawn."""
+    """The option that sets the accuracy of the pencil."""
     command.add_argument("--pencil", type=_pencil, metavar="SIZES",
                          help="how far off the pencil is, as standard deviations: such as point=0.1,edge=0.1,"
                          "opening=0.1 in mm of paper and angle=0.05 in degrees (the defaults)")
@@ -163,11 +163,11 @@ def load_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene
 
 
 def question(options: argparse.Namespace, scene: Scene) -> None:
-    """Tell what in a scene is perhaps a slip of the pen, though it may be meant."""
+    """Report what is probably a slip of the pen in a scene, though it is allowed."""
     from graphplan.mechanism.checks import questions
 
-    for asked in questions(scene):
-        Messages(options.quiet).remark(f"{scene.name}: {asked}")
+    for fault in questions(scene):
+        Messages(options.quiet).remark(f"{scene.name}: {fault}")
 
 
 def _travels(text: str) -> list[Fraction] | str:
@@ -175,21 +175,21 @@ def _travels(text: str) -> list[Fraction] | str:
     if text.strip()[:1].isalpha():
         return text
     try:
-        return [Fraction(part.strip()) for part in text.split(",")]
+        return [Fraction(travel.strip()) for travel in text.split(",")]
     except (ValueError, ZeroDivisionError):
         raise Refused(f"--at {text}", "not a travel", "degrees or lengths, such as 60, or 60,-30") from None
 
 
 def load_sheet_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
     """The same with its sheet as the options have it, where they say; its title in the sheet's language."""
-    scene, said = load_scene(options, scene), dict[str, Any]()
+    scene, wishes = load_scene(options, scene), dict[str, Any]()
     if options.curves:
-        said["curves"] = _movable(scene, options.curves)
+        wishes["curves"] = _movable(scene, options.curves)
     if options.centrodes:
-        said["centrodes"] = _rolling(scene, options.centrodes)
+        wishes["centrodes"] = _rolling(scene, options.centrodes)
     if options.faint:
-        said["positions"] = options.faint
-    return on_sheet(options, scene, **said)
+        wishes["positions"] = options.faint
+    return on_sheet(options, scene, **wishes)
 
 
 def on_sheet(options: argparse.Namespace, scene: Scene, **more: Any) -> Scene:
@@ -210,10 +210,10 @@ def make_report(options: argparse.Namespace, scene: Scene, **more: Any) -> Repor
     """The construction that the options ask for, compared with the solver; its notes say why a form is preferred."""
     from graphplan.check.trusted import report
 
-    how, told = drawn_by(options, scene)
-    found = report(scene, **how, **more)
-    found.drawing.notes.extend(told)
-    return found
+    how, reasons = drawn_by(options, scene)
+    result = report(scene, **how, **more)
+    result.drawing.notes.extend(reasons)
+    return result
 
 
 def drawable(options: argparse.Namespace) -> Report:
@@ -223,15 +223,15 @@ def drawable(options: argparse.Namespace) -> Report:
     from graphplan.check.json_results import reasons
     from graphplan.phrases import said
 
-    found, left_out = report_regular_part(load_sheet_scene(options),
-                                          lambda scene: make_report(options, scene)), dict[str, list[str]]()
-    if found.given_scene is not found.scene:
-        for named in reasons(found).values():
+    result, left_out = report_regular_part(load_sheet_scene(options),
+                                           lambda scene: make_report(options, scene)), dict[str, list[str]]()
+    if result.given_scene is not result.scene:
+        for named in reasons(result).values():
             for name, why in named.items():
                 left_out.setdefault(why, []).append(name)
-        found.drawing.notes.extend(said("not drawn: {0}: {1}", ", ".join(dict.fromkeys(names)), why)
-                                   for why, names in left_out.items())
-    return found
+        result.drawing.notes.extend(said("not drawn: {0}: {1}", ", ".join(dict.fromkeys(names)), why)
+                                    for why, names in left_out.items())
+    return result
 
 
 def drawn_by(options: argparse.Namespace, scene: Scene) -> tuple[dict[str, Any], tuple[str, ...]]:
@@ -246,21 +246,21 @@ def drawn_by(options: argparse.Namespace, scene: Scene) -> tuple[dict[str, Any],
     from graphplan.check.trusted import construct
 
     try:
-        found = preferred_form(scene, options.prefer, pencil(options), construct=construct, **how)
+        form = preferred_form(scene, options.prefer, pencil(options), construct=construct, **how)
     except (ConstructionError, Disagreement, Refused, SingularPose) as fault:
         if options.method:
             raise
         return how, (reason(fault),)
-    return {**how, "method": found.method}, found.remarks
+    return {**how, "method": form.method}, form.remarks
 
 
-def on_paper(options: argparse.Namespace, found: Report | None = None) -> Drafted:
+def on_paper(options: argparse.Namespace, result: Report | None = None) -> Drafted:
     """A construction on its sheet, drawn with the pencil and in the language that are asked for."""
     from graphplan.accuracy.drafted import draft
     from graphplan.words.tongue import tongue
 
-    found = found or drawable(options)
-    return draft(found.drawing, pencil(options), check=found.check, tongue=tongue(found.scene.sheet.language),
+    result = result or drawable(options)
+    return draft(result.drawing, pencil(options), check=result.check, tongue=tongue(result.scene.sheet.language),
                  protocol=options.protocol)
 
 
@@ -274,22 +274,22 @@ def pencil(options: argparse.Namespace) -> Pencil:
 def _movable(scene: Scene, text: str) -> tuple[str, ...]:
     """The points of an option, all of which must move."""
     movable = [point for point, links in scene.links_of.items() if links and FRAME not in links]
-    wanted = movable if text == "all" else text.replace(",", " ").split()
-    for point in wanted:
+    points = movable if text == "all" else text.replace(",", " ").split()
+    for point in points:
         if point not in movable:
             why = f"{point} does not move" if point in scene.points else f"there is no point {point}"
             raise Refused(f"--curves {text}", why, suggestion(point, movable, "point"))
-    return tuple(dict.fromkeys(wanted))
+    return tuple(dict.fromkeys(points))
 
 
 def _rolling(scene: Scene, text: str) -> tuple[str, ...]:
     """The pairs of links of an option, all of which the scene has; all those on the frame, if it is "all"."""
     if text == "all":
         return tuple(f"{link} {FRAME}" for link in scene.moving)
-    known = [f"{link} {on}" for link, on in permutations((FRAME, *scene.moving), 2)]
-    wanted = [" ".join(part.split()) for part in text.split(",")]
-    for links in wanted:
-        if links not in known:
+    choices = [f"{link} {on}" for link, on in permutations((FRAME, *scene.moving), 2)]
+    pairs = [" ".join(names.split()) for names in text.split(",")]
+    for links in pairs:
+        if links not in choices:
             why = f"there are no two links {links}" if links else "no links are named"
-            raise Refused(f"--centrodes {text}", why, suggestion(links, known, "pair of links"))
-    return tuple(dict.fromkeys(wanted))
+            raise Refused(f"--centrodes {text}", why, suggestion(links, choices, "pair of links"))
+    return tuple(dict.fromkeys(pairs))

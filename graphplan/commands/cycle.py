@@ -209,7 +209,7 @@ def write_animation(options: argparse.Namespace, span: tuple[float, float] | Non
 
 
 def _film(drawing: Construction, composition: Composition, moved: Loop, seconds: int, messages: Messages) -> Film:
-    """The sheets of a loop, in its order; where nothing can be drawn, which is told, the mechanism alone."""
+    """The sheets of a loop, in its order; where nothing can be drawn, which is reported, the mechanism alone."""
     from graphplan.accuracy.reach import constructions
     from graphplan.check.poses import points_where_sound
     from graphplan.mechanism.travel import travel_unit

@@ -87,7 +87,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _wants_stages(options: argparse.Namespace) -> bool:
-    """Whether the stages are asked for, as they are where nothing else is and set squares are not used."""
+    """Whether stages are drawn: on request, and by default without set squares."""
     return options.by == STAGED or (options.strict and not (options.by or options.until or options.steps))
 
 

@@ -85,7 +85,7 @@ def format_of(output: str, named: str | None) -> str:
 
 
 def _extra_options(name: str, options: argparse.Namespace) -> Mapping[str, Any]:
-    """What a back end reads besides the construction, of which it has a use for all that is given."""
+    """The options of a back end; fails with `Refused` where one does not apply to it."""
     given = {option: value for option in LATEX if (value := getattr(options, option))}
     if given and FORMATS[name].suffix != ".tex":
         raise Refused(f"--{next(iter(given))}", f"it does not apply to {name}", "leave it out, or export LaTeX, .tex")

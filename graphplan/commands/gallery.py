@@ -70,7 +70,7 @@ def _refuse_foreign_readme(folder: Path) -> None:
 
 
 def _report_differences(folder: Path, site: Mapping[str, str | bytes]) -> int:
-    """Say what in the folder is not as the site is now: what differs, and what is no part of it."""
+    """Report the files in the folder that differ from the site, and those that are no part of it."""
     stale = [f"{folder / name}: differs from what the scene gives now; run graphplan gallery {folder}"
              for name, content in site.items() if not _is(folder / name, content)]
     files = (path for subfolder in ("", *FOLDERS) for path in (folder / subfolder).glob("*") if path.is_file())

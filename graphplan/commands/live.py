@@ -43,7 +43,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def add_offer(command: argparse.ArgumentParser) -> None:
-    """The option that says what may be chosen on the page."""
+    """The option that lists what may be chosen on the page."""
     command.add_argument("--choices", type=_choices, metavar="WHAT",
                          help=f"what may be chosen on the page: {', '.join(CHOICES)}, some languages such as de,lv, or "
                          "none; without it plans, and besides its own English, or where that is small all languages")
@@ -108,7 +108,7 @@ def _alternatives(drawing: Construction) -> list[Construction]:
 
 
 def _plans_and_methods(options: argparse.Namespace) -> Iterator[tuple[str, str]]:
-    """Plan and method by their options: as they are given, and what else is wanted."""
+    """Pairs of plan and method: first as the options have them, then the alternatives that are wanted."""
     plan, method, offered = options.plan, options.method, options.choices or ("plans",) * (options.choices is None)
     forces = ",".join(word for word in plan.split(",") if word not in PLANS)
     plans = [plan, *(",".join(filter(None, (motion_plan, forces)))

@@ -1,4 +1,4 @@
-"""Output: where a command writes what it gives, and what it says on standard error. All commands write here.
+"""Output: where a command writes its results, and its messages on standard error. All commands write here.
 
 A regular file appears in one step, whole or not at all, also behind a symbolic link. A device or a pipe is written
 through and stays what it is. `-` is standard output.
@@ -64,7 +64,7 @@ def refuse_same_output(*paths: str | None) -> None:
 def folder_at(path: str | os.PathLike[str]) -> None:
     """Refuse a folder that is not there."""
     if not os.path.isdir(path):
-        raise Refused(f"{path}: folder", "there is no such folder", "make it first")
+        raise Refused(f"{path}: folder", "no such folder", "make it first")
 
 
 def new_folder(path: str) -> None:
@@ -287,7 +287,7 @@ def _unwritable(path: str | None, error: OSError | ValueError) -> Refused:
 
 
 def error(line: str) -> None:
-    """Tell what went wrong."""
+    """Report an error."""
     coloured = sys.stderr.isatty() and not os.environ.get("NO_COLOR")
     _say(line, *((RED, PLAIN) if coloured else ("", "")))
 
@@ -306,16 +306,16 @@ def _tell(text: str) -> None:
 
 @dataclass(frozen=True)
 class Messages:
-    """What a command says besides errors and its results."""
+    """The messages of a command besides errors and results."""
 
     quiet: bool
 
     def remark(self, line: str) -> None:
-        """Tell what is worth knowing, though nothing is wrong."""
+        """Report a remark."""
         if not self.quiet:
             _say(line)
 
     def progress(self, told: str) -> None:
-        """Say how far it is, over what was said before; nothing when it is done."""
+        """Report progress, in place of the message before; empty when it is done."""
         if not self.quiet and sys.stderr.isatty():
             _tell(f"\r{told:<{PROGRESS_WIDTH}}\r")

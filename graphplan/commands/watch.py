@@ -30,7 +30,7 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     path = Path(options.scene)
     if not path.is_file():
-        raise Refused(f"{path}: watch", "there is no such file", f"graphplan new {path} makes one")
+        raise Refused(f"{path}: watch", "no such file", f"graphplan new {path} makes one")
     options.output = options.output or str(path.with_suffix(".svg"))
     draw.requested_format(options)  # what no save would mend is refused at once
     for _ in _saves(path):

@@ -64,7 +64,7 @@ class Joint:
 
 @dataclass
 class Read:
-    """What a file says: joints, links that are welded together, the speed of all inputs, and the unit of length."""
+    """The content of a file: joints, links that are welded together, the speed of its inputs, the unit of length."""
 
     joints: list[Joint]
     welds: Sequence[Sequence[str]] = ()

@@ -57,7 +57,7 @@ class SketchDrive:
 
 @dataclass
 class LinkageSketch:
-    """What was read, and in `notes` what could not be told."""
+    """A linkage as it was read, and in `notes` what could not be determined."""
 
     program: str
     title: str = ""
@@ -103,7 +103,7 @@ class LinkageSketch:
         self.links[link] = [*dict.fromkeys([*self.links[link], *points])]
 
     def note(self, told: str) -> None:
-        """Note what could not be told, once."""
+        """Note what could not be determined, once."""
         if told not in self.notes:
             self.notes.append(told)
 
@@ -301,7 +301,7 @@ def _find_driven(sketch: LinkageSketch) -> None:
 
 
 def _drop_loose_pieces(sketch: LinkageSketch) -> None:
-    """Leave out what hangs on nothing: of several pieces that which has the frame stays, or else the largest."""
+    """Leave out unconnected pieces: the piece with the frame stays, or else the largest."""
     bodies = {key: points for key, points in sketch.bodies.items() if key != FRAME or points}
     beside: dict[str, set[str]] = {key: set() for key in bodies}
     at: dict[str, list[str]] = {}

@@ -1,4 +1,4 @@
-"""The text of a scene from a sketch: TOML, with comments on what was guessed and what could not be told."""
+"""The text of a scene from a sketch: TOML, with comments on what was guessed or could not be determined."""
 
 from __future__ import annotations
 

@@ -163,7 +163,7 @@ def _check_freedoms(scene: Scene, faults: Faults) -> Scene:
 
 
 def _in_its_pose(scene: Scene, given: int, told: str, faults: Faults) -> Scene | None:
-    """The scene where rank at the pose says more than the count, or says why it is none; None where it does not."""
+    """The scene with its redundant conditions, where special geometry makes it move; None where it does not."""
     from graphplan.mechanism.special import special  # few scenes need it
 
     geometry = special(scene)
@@ -253,7 +253,7 @@ MAX_FRICTION_COEFFICIENT = 2
 
 
 def questions(scene: Scene) -> Iterator[Fault]:
-    """What is to be looked at again, each with where it stands and what was perhaps meant."""
+    """Doubtful entries, each with its place and the probable intention."""
     for number, friction in enumerate(scene.loads.frictions if scene.loads else (), 1):
         if (coefficient := friction.coefficient) > MAX_FRICTION_COEFFICIENT:
             yield Fault(f"friction.{number}.coefficient", f"{number_text(coefficient)} is more than dry surfaces have",

@@ -158,7 +158,7 @@ Thing = tuple[str, str]
 """What moves: ("link", its name) or ("joint", its point)."""
 
 Unknown = tuple[Thing, str]
-"""A freedom of a thing: along x, along y, or its turning."""
+"""A freedom of a link or joint: along x, along y, or its rotation."""
 
 WAYS = ("x", "y", "turn")
 
@@ -263,7 +263,7 @@ class System:
 
 
 def stages(system: System) -> list[tuple[Thing, ...]]:
-    """The things that are solved together, those that others depend on first."""
+    """The links and joints that are solved together, in the order of their dependence."""
     owner = matching([tuple(equation.terms) for equation in system.equations])
     depends: dict[Thing, dict[Thing, None]] = {thing: {} for thing, _ in system.unknowns}
     for (thing, _), i in owner.items():

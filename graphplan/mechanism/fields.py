@@ -44,7 +44,7 @@ class SceneNames:
 
     @property
     def bodies(self) -> Collection[str]:
-        """The names of all links; the fixed ground may be spoken of where no link is it."""
+        """The names of all links, with the frame even where no link is called so."""
         return self.links if FRAME in self.links else (*self.links, FRAME)
 
     @property

@@ -22,11 +22,11 @@ MAX_PART_LENGTH = 300
 """Characters of one part of a fault line: a name may be a novel, an error line may not."""
 
 MAX_SUGGESTIONS = 50
-"""Only so many faults are given suggestions: guessing is slow, and nobody reads further."""
+"""Faults that get a suggestion; guessing is slow."""
 
 
 MAX_UNKNOWN_KEYS = 3
-"""More unknown keys than so many are told together: they belong to a table whose header is missing."""
+"""More unknown keys than this are reported as one fault: the header of their table is missing."""
 
 
 class Faults:
@@ -95,7 +95,7 @@ class SceneItem:
         return self.fault(*(self.slip() or (f"{describe(value)} where a number is wanted", "a number such as 12.5")))
 
     def slip(self) -> tuple[str, str] | None:
-        """What is wrong with a text that was meant as a number, and what to write; None where it is none."""
+        """The fault of a text that should be a number, and its correction; None where it is no such text."""
         if not isinstance(self.value, str):
             return None
         from graphplan.mechanism.slips import slip  # few scenes have faults
@@ -223,7 +223,7 @@ def describe(value: object) -> str:
 
 
 def suggestion(name: str, known: Iterable[str], kind: str) -> str:
-    """What was probably meant by `name`: the nearest known names, or else the whole choice."""
+    """The known names nearest to `name`, or else the whole choice, as the remedy of a fault."""
     from difflib import get_close_matches  # few scenes have faults
 
     from graphplan.mechanism.slips import with_frame

@@ -319,7 +319,7 @@ FRICTION = Rows(Either((Table("friction in a journal", (
 
 
 def loads_of(read: Mapping[str, Any]) -> Loads | None:
-    """The loads of a scene, from what is read of its tables; None where it has none of them."""
+    """The loads of a scene, from its tables; None where it has none of these."""
     if read.keys().isdisjoint(LOADS):
         return None
     return Loads(read.get("gravity", _STILL), read.get("masses", {}),

@@ -89,7 +89,7 @@ class OwnPose:
     travel: Fraction
 
     def value(self, table: LoadTable) -> tuple[Fraction, bool]:
-        """What a table says here, and whether that is exact."""
+        """The load of a table in this pose, and whether it is exact."""
         if table.over == SPEED:
             first = self.scene.drives[0] if self.scene.drives else None
             rate = first.rate if first else Fraction(0)
@@ -112,7 +112,7 @@ class OwnPose:
 
     @property
     def exact(self) -> bool:
-        """Whether its rates are told in fractions."""
+        """Whether its rates are fractions."""
         rates = [drive.rates for drive in self.scene.drives]
         return not self.scene.redundant and is_exact(*self.scene.points.values(), *rates)
 

@@ -58,7 +58,7 @@ class LoadTable:
 
     @property
     def over_position(self) -> bool:
-        """Whether it is over a slide's position, so that its two strokes are told apart."""
+        """Whether it is over a slide's position, so that its two strokes differ."""
         return bool(self.slide) and not self.over_speed
 
     @cached_property
@@ -172,7 +172,7 @@ class LoadTable:
         return places - turns * period
 
     def coverage_error(self, place: Number) -> Refused:
-        """The error that says that this place is not covered."""
+        """The error for a place outside the table."""
         low, high = (f"{float(end):.6g}" for end in (min(self.corners), max(self.corners)))
         table = f"its table {self.file}" if self.file else "its table"
         problem = f"{table} over {self.over} goes from {low} to {high}, and {float(place):.6g} is asked for"
@@ -289,8 +289,7 @@ class Loads:
 
     @cached_property
     def named_balances(self) -> dict[str, Balance]:
-        """The balances by their names in results: the link, or where several act on one, more of what tells them apart.
-        """
+        """The balances by name: that of the link, where several act on it with the point and the direction."""
         counts = Counter(name for balance in self.balances for name in dict.fromkeys(balance.spellings))
         return {next((name for name in balance.spellings if counts[name] == 1), balance.spellings[-1]): balance
                 for balance in self.balances}

@@ -34,7 +34,7 @@ __all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Ext
 
 @dataclass(frozen=True)
 class Presentation:
-    """How a scene wishes its sheet: texts that are empty, and scales that are None, are left to graphplan.
+    """The sheet that a scene asks for: texts that are empty, and scales that are None, are left to graphplan.
 
     `k_s`, `k_v`, `k_a` and `k_F` are what a millimetre of paper stands for, in the scene's units; `multiples` are by
     how much other plans are larger than the mechanism's; by `convention` scales are told as real per drawn, or as

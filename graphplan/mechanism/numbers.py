@@ -62,7 +62,7 @@ class Unusable:
 
 
 def decimal(text: str) -> Fraction | Unusable:
-    """The number that a TOML float says, exactly; 0.1 is one tenth."""
+    """The exact value of a TOML float; 0.1 is one tenth."""
     try:
         number = Decimal(text[: MAX_NUMERAL_LENGTH + 1])
     except InvalidOperation:
@@ -73,7 +73,7 @@ def decimal(text: str) -> Fraction | Unusable:
 
 
 def integer(value: int) -> Fraction | Unusable:
-    """The number that a TOML integer says, if it is of a usable size."""
+    """The value of a TOML integer, if it is of a usable size."""
     if value.bit_length() > MAX_DECADES * 10 // 3:
         return Unusable("an integer that is too large")
     return Fraction(value)
@@ -89,7 +89,7 @@ def root(square: Fraction, bits: int = ROOT_BITS) -> tuple[Fraction, bool]:
 
 
 def map_numbers(thing: Any, number: Callable[[Any], Any]) -> Any:
-    """The same thing with every float and every fraction in it, however deep, as `number` makes it."""
+    """A copy in which `number` is applied to every float and fraction, at any depth."""
     if isinstance(thing, Fraction | float):
         return number(thing)
     if isinstance(thing, tuple):
@@ -135,7 +135,7 @@ def number_text(number: Fraction | float) -> str:
 
 
 def distinct_texts(one: Fraction | float, other: Fraction | float) -> tuple[str, str]:
-    """Two numbers for an error line that says that they differ: to as many digits as show it."""
+    """Two different numbers for an error line, to as many digits as show the difference."""
     for digits in (6, 9, 12, 15, 17):
         texts = f"{float(one):.{digits}g}", f"{float(other):.{digits}g}"
         if texts[0] != texts[1]:

@@ -1,4 +1,4 @@
-"""The order in which a scene's things are taken, whatever the order in which they are written.
+"""The order of a scene's links, points and pairs, independent of the order in which they are written.
 
 Links by name, the frame last; a link's points as motion passes through them: those on the frame first, then joints with
 links before this one, joints with links after it, and the others, each by name; slides and drives by their links.

@@ -98,7 +98,7 @@ COORDINATES = Kind("coordinates [x, y]", _coordinates, VECTOR.schema)
 
 
 def _form(item: SceneItem) -> Value | None:
-    """The way to place a point of which the most keys are there; coordinates where it is no table."""
+    """The way to place a point with the most keys present; coordinates where the entry is no table."""
     if not isinstance(item.value, dict):
         return COORDINATES
     way = max(WAYS, key=lambda way: sum(key in way.keys for key in item.value))  # type: ignore[attr-defined]

@@ -239,7 +239,7 @@ def _rank(link: str) -> tuple[Any, ...]:
 
 
 def _free(name: str, taken: Iterable[str]) -> str:
-    """The name, with as many primes as it needs to be nobody else's."""
+    """The name, with as many primes as make it unique."""
     while name in taken:
         name += "'"
     return name

@@ -154,7 +154,7 @@ def tables_of(text: str, name: str) -> dict[str, object]:
 
 
 def _no_toml(text: str, message: str) -> Fault:
-    """What is wrong with a text that TOML refuses: a slip of the pen, a name given twice, or what TOML says itself."""
+    """The fault of a text that TOML refuses: a slip of the pen, a duplicate key, or TOML's own message."""
     from graphplan.mechanism.scene_text import doubled_key  # few scenes have faults
     from graphplan.mechanism.slips import slip_in_line
 
@@ -303,7 +303,7 @@ LOOK = "paper", "frame", "language", "convention", "owner", "number", "date", "d
 
 
 def _keep_fields(table: Table, *names: str) -> Table:
-    """A table of a scene, of which a task has these keys alone."""
+    """A table of a scene, reduced to these keys."""
     return table._replace(fields=tuple(field for field in table.fields if field.name in names))
 
 

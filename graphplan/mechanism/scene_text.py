@@ -151,7 +151,7 @@ Path = tuple[str, ...]
 
 
 def doubled_key(text: str, message: str, line: int) -> tuple[str, str, str] | None:
-    """The line of a text that says a thing again, what is wrong and what to write; None if nothing is said twice.
+    """The line with a duplicate key, the fault and its correction; None if there is no duplicate.
 
     TOML refuses the text with this message at this line, where a value may end that began earlier.
     """

@@ -73,7 +73,7 @@ HEAD, FORM, KEY = "head", "form", "key"
 
 
 def reference(whole: Table = SCENE) -> str:
-    """All keys of a scene, or of another file, as a table in Markdown: each with what it takes and what it says."""
+    """All keys of a scene, or of another file, as a table in Markdown: each with its kind of value and its meaning."""
     written = {HEAD: "| **`{}`** | {} | {} |", FORM: "| | *{}* | |", KEY: "| `{}` | {} | {} |"}
     rows = (written[row.level].format(row.key, row.takes, row.words.replace("|", r"\|")) for row in keys(whole))
     return "\n".join(["| key | takes | what it says |", "|---|---|---|", *rows, ""])

@@ -93,7 +93,7 @@ def _has_no_motion(point: object, item: SceneItem, names: SceneNames) -> bool:
 
 
 def _is_frame(name: object, item: SceneItem, names: SceneNames) -> bool:
-    """Whether it is the frame of which something is asked; that is a fault."""
+    """Whether results of the frame are asked for; that is a fault."""
     if name == FRAME:
         item.fault("the frame stands still", "a moving link")
     return name == FRAME
@@ -270,7 +270,7 @@ def _ratio(item: SceneItem, names: SceneNames) -> Fraction | None:
 
 
 def _plan(name: str, item: SceneItem, names: SceneNames) -> None:
-    """A fault where unknown plan; which force plans there are only the drawing tells."""
+    """A fault where there is no such plan; only the drawing tells which force plans there are."""
     if name not in PLANS and not name.startswith(("force plan ", "lever ")):
         item.fault("unknown plan", suggestion(name, (*PLANS, "force plan 2, 3"), "plan"))
 
@@ -299,7 +299,7 @@ def _count(item: SceneItem, names: SceneNames) -> int | None:
 
 
 def _presentation(row: TableRow) -> Presentation | None:
-    """How the scene wishes its sheet; all plans are drawn in lengths of the mechanism plan, so k_a is k_v^2/k_s."""
+    """The sheet that the scene asks for; all plans are drawn in lengths of the mechanism plan, so k_a is k_v^2/k_s."""
     values = {key: row[key] for key in row.items}
     if "scale" in values:
         if "k_s" in values:

@@ -55,7 +55,7 @@ def slips_in_vectors(text: str) -> Iterator[tuple[str, str, str]]:
 
 
 def _remedy(number: str, unit: str, key: str) -> str:
-    """The number alone, and how the scene says its unit."""
+    """The number alone, and how a scene gives its unit."""
     if unit in DEGREES:
         return f"{number}, as angles are in degrees"
     if unit in RADIANS:

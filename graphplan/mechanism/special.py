@@ -22,7 +22,7 @@ from graphplan.mechanism.equations import PIN, FreedomEquation, System, Thing, U
 from graphplan.mechanism.model import FRAME, Balance, Condition, Scene, Slide
 from graphplan.mechanism.numbers import Reckoning, exactly, heading, is_exact, root
 from graphplan.mechanism.order import Key, by_name
-from graphplan.mechanism.pairs.pair import LinkPose, Statement
+from graphplan.mechanism.pairs.pair import LinkAttitude, Statement
 from graphplan.mechanism.placements import placed_by
 from graphplan.mechanism.tolerances import SERIES_TOL
 from graphplan.mechanism.values import Misfit, vector
@@ -32,7 +32,7 @@ SERIES_ORDER = 4
 
 
 class Special(NamedTuple):
-    """What rank at the pose tells of a mechanism: its degrees of freedom, and the links that have a velocity.
+    """What the rank at the pose tells of a mechanism: its degrees of freedom, and the links that have a velocity.
 
     `moves` says whether these go beyond velocities. `redundant` are conditions without which the others say as much;
     `repeating` are all that follow from others of them, so that statics cannot tell their forces.
@@ -120,7 +120,7 @@ class _Course:
         bodies: list[Thing] = [("link", link) for link in (*scene.moving, FRAME)]
         bodies += [("joint", point) for point in scene.joints]
         unity, nothing = Decimal(1), Decimal(0)
-        self._attitudes = {body: LinkPose(*map(_Series, (nothing, nothing, unity, nothing))) for body in bodies}
+        self._attitudes = {body: LinkAttitude(*map(_Series, (nothing, nothing, unity, nothing))) for body in bodies}
 
     def continues(self, found: _Echelon, pairs: Sequence[FreedomEquation], unknowns: Iterable[Unknown]) -> bool:
         """Whether the motion can be continued beyond its velocities, what is free going any way it likes."""
@@ -181,7 +181,7 @@ class _Echelon:
         return sum(row.pivot is not None for row in self._rows)
 
     def add(self, equation: Mapping[Unknown, Decimal | int]) -> bool:
-        """Take in one more equation; whether it says something new."""
+        """Add one more equation; whether it is independent of those before."""
         terms, taken = {k: Decimal(c) for k, c in equation.items()}, {}
         for i, row in enumerate(self._rows):
             if row.pivot is not None and (excess := terms.get(row.pivot)):

@@ -1,6 +1,6 @@
 """Travel: how far the drives have gone from the given pose, each in its own sense, and how that moves their links.
 
-The first drive's travel is the one parameter of the motion, and the others keep pace with it. A drive moves in the
+The first drive's travel is the one parameter of the motion, and the others follow in proportion. A drive moves in the
 sense of its omega or speed; one that stands still counter-clockwise, or along its direction. Travel is printed in
 degrees, or in the scene's lengths of a drive that slides; inside it is in radians, or in the same lengths. A drive's
 own coordinate, counter-clockwise or along its direction, is its travel times its sense.
@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import Number, Pair, Reckoning
-from graphplan.mechanism.pairs.pair import LinkPose
+from graphplan.mechanism.pairs.pair import LinkAttitude
 from graphplan.phrases import said
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ def paces(scene: Scene) -> tuple[float, ...]:
 
 
 def kept_pace(scene: Scene, travel: Fraction) -> tuple[Fraction, ...]:
-    """The printed travel of each drive where the first has gone so far and the others keep pace."""
+    """The printed travel of each drive where the first has gone so far and the others follow in proportion."""
     first, *drives = scene.drives
     return travel, *(travel * _pace(first, drive) for drive in drives)
 
@@ -110,23 +110,23 @@ def moved_on(given: Scene, shifts: tuple[Fraction, ...], by: Reckoning) -> tuple
     return tuple(moves)
 
 
-STILL = LinkPose(0, 0, 1, 0)
+STILL = LinkAttitude(0, 0, 1, 0)
 
 
-def turned_about(at: Pair, cos: Number, sin: Number) -> LinkPose:
+def turned_about(at: Pair, cos: Number, sin: Number) -> LinkAttitude:
     """A turn about a point."""
     x, y = at
-    return LinkPose(x - cos * x + sin * y, y - sin * x - cos * y, cos, sin)
+    return LinkAttitude(x - cos * x + sin * y, y - sin * x - cos * y, cos, sin)
 
 
-def following(first: LinkPose, then: LinkPose) -> LinkPose:
+def following(first: LinkAttitude, then: LinkAttitude) -> LinkAttitude:
     """One after the other."""
     x, y = then.place_of((first.x, first.y))
-    return LinkPose(x, y, then.cos * first.cos - then.sin * first.sin,
-                    then.sin * first.cos + then.cos * first.sin)
+    return LinkAttitude(x, y, then.cos * first.cos - then.sin * first.sin,
+                        then.sin * first.cos + then.cos * first.sin)
 
 
-def undone(attitude: LinkPose, at: Pair) -> Pair:
+def undone(attitude: LinkAttitude, at: Pair) -> Pair:
     """The point that an attitude brings to a place."""
     x, y = at[0] - attitude.x, at[1] - attitude.y
     return attitude.cos * x + attitude.sin * y, attitude.cos * y - attitude.sin * x

@@ -21,7 +21,7 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Assembly, Extreme, Pair, Scene, Slide
 from graphplan.mechanism.numbers import minus
 from graphplan.mechanism.order import ordered_points
-from graphplan.mechanism.pairs.pair import LinkPose
+from graphplan.mechanism.pairs.pair import LinkAttitude
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.structure import structure
 from graphplan.mechanism.travel import undone
@@ -275,7 +275,7 @@ class Assembler(Placing):
         line = self._path(outer, two, at)
         two.heading = self._heads(outer, two), line
         within = next(lies for link, lies in two.lies.items() if link in inner.links)
-        turned = undone(LinkPose(0, 0, within.cos, within.sin), two.heading[0])
+        turned = undone(LinkAttitude(0, 0, within.cos, within.sin), two.heading[0])
         one.heading = next(lies for link, lies in one.lies.items() if link in inner.links).turn_vector(turned), line
         self.mark(A)
         crossing = self.board.meet(line, self._path(inner, two, at))

@@ -19,7 +19,7 @@ from graphplan.kernel.stages import Stage
 from graphplan.mechanism.model import FRAME, Assembly, Number, Pair, Scene, Slide
 from graphplan.mechanism.numbers import minus, plus, times
 from graphplan.mechanism.order import ordered_points
-from graphplan.mechanism.pairs.pair import LinkPose
+from graphplan.mechanism.pairs.pair import LinkAttitude
 from graphplan.mechanism.travel import STILL, following, turned_about, undone
 from graphplan.methods.motion.network import Network
 from graphplan.methods.panels import MECHANISM, list_links
@@ -65,7 +65,7 @@ class Body:
     """
 
     top: str
-    lies: dict[str, LinkPose]
+    lies: dict[str, LinkAttitude]
     spots: list[tuple[Pair, Mark]] = field(default_factory=list)
     heading: tuple[Pair, Mark] | None = None
 
@@ -86,14 +86,14 @@ class Placing:
 
     # ---- figures of bodies ------------------------------------------------------------------------------------------
 
-    def _lies(self, link: str) -> LinkPose:
+    def _lies(self, link: str) -> LinkAttitude:
         """How a link lies in its body, after what its drives have moved it."""
         if link not in self.net.welds:
             return STILL
         weld = self.net.welds[link]
         x, y = self.assembly.moves[self.given.drives.index(weld.drive)]
         here = (turned_about(self.given.points[weld.at], x, weld.sign * y) if weld.slide is None
-                else LinkPose(weld.sign * x, weld.sign * y, 1, 0))
+                else LinkAttitude(weld.sign * x, weld.sign * y, 1, 0))
         return following(here, self._lies(weld.to))
 
     def _first_body_with(self, point: str) -> Body:
@@ -175,7 +175,7 @@ class Placing:
             if weld.slide is None:
                 root = self._figure(body, weld.at)
                 return self.board.crank(self.mark(weld.at), angle=angle(minus(at, root)), name=name)
-            before = undone(LinkPose(weld.sign * self._move(weld)[0], weld.sign * self._move(weld)[1], 1, 0), at)
+            before = undone(LinkAttitude(weld.sign * self._move(weld)[0], weld.sign * self._move(weld)[1], 1, 0), at)
             line = self._line(body, before, weld.slide.direction)
             shift = self.assembly.shifts[self.given.drives.index(weld.drive)]
             start = self._mark_at(body, before)

@@ -147,7 +147,7 @@ def guide_steps(construction: ReadableDrawing, slide: Slide) -> list[int]:
     for name, neighbour in straight_guides(construction.scene).items():
         alike = neighbour.at == slide.at and neighbour.direction == slide.direction and neighbour.through is None
         if alike and neighbour.along not in construction.scene.turning_alike(slide.along):
-            raise Refused(f"guides {slide.name} and {name}", "they are drawn as one line, and turn apart",
+            raise Refused(f"guides {slide.name} and {name}", "they are drawn as one line but turn differently",
                           "two points of its link for the direction of each")
     return guiding_steps(construction.program, slide)
 

@@ -26,7 +26,7 @@ from graphplan.mechanism.pairs.pair import (
     TURNING,
     Along,
     KinematicPair,
-    LinkPose,
+    LinkAttitude,
     PairSide,
     PairSides,
     Rate,
@@ -63,10 +63,10 @@ def stated(scene: Scene) -> Iterator[tuple[KinematicPair, Statement]]:
             yield pair, replace(fact, to="") if isinstance(fact, Along) else fact
 
 
-def lying(rate: Rate, change: Rate, t: float) -> LinkPose:
+def lying(rate: Rate, change: Rate, t: float) -> LinkAttitude:
     """Where a link is after a time, from the origin, as its rates and their changes have it."""
     x, y, angle = (v * t + a * t * t / 2 for v, a in zip(rate, change, strict=True))
-    return LinkPose(x, y, math.cos(angle), math.sin(angle))
+    return LinkAttitude(x, y, math.cos(angle), math.sin(angle))
 
 
 @pytest.mark.parametrize("name", [*SCENES, *HIGHER])
@@ -176,7 +176,7 @@ def _left(group: ClosureGroup, known: list[closure.LinkPose], state: Any) -> tup
 
 def _stated(linkage: Linkage, group: ClosureGroup, bodies: dict[str, closure.LinkPose]) -> Iterator[float]:
     """What each statement on a group's links leaves, without its sign; of gears with 1 for the largest factor."""
-    lies = {link: LinkPose(*body.base, *(body.turn or (1.0, 0.0))) for link, body in bodies.items()}
+    lies = {link: LinkAttitude(*body.base, *(body.turn or (1.0, 0.0))) for link, body in bodies.items()}
     for bond in [bond for link in group.links for bond in linkage.bonds[link]]:
         if isinstance(bond, GearBond):
             turns = [lies[link] for link in (bond.link, bond.on, linkage.lines.carriers[bond.arm])]

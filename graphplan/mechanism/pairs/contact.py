@@ -121,7 +121,7 @@ PROFILES = Kind("two centres, or a direction in the place of one", _profiles,
 
 
 def _read(row: TableRow) -> Contact | None:
-    """A contact whose parts fit each other, before the point and where it is told beyond."""
+    """A contact whose parts fit each other, before the point and, where `next` is given, beyond it."""
     contact = _read_contact(row, "centres")
     if not contact or row.values.get("next") is None:
         return contact
@@ -132,7 +132,7 @@ def _read(row: TableRow) -> Contact | None:
 
 
 def _read_contact(row: TableRow, key: str) -> Contact | None:
-    """The contact of the profiles that a key tells of."""
+    """The contact of the profiles under a key."""
     links, profiles = row["links"], row[key]
     straight = [first for first in profiles if not isinstance(first, str)]
     if links[0] == links[1]:

@@ -1,4 +1,4 @@
-"""Drives: pairs of which a coordinate is prescribed, and points that move as they are told."""
+"""Drives: pairs of which a coordinate is prescribed, and points with a given motion."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ class Motion:
 
 @dataclass(frozen=True)
 class DrivenPoint(KinematicPair):
-    """A point with a given motion: its joints pass it on, so it is told of the first link that has the point."""
+    """A point with a given motion: its joints pass it on, so it is stated of the first link that has the point."""
 
     at: str
     link: str
@@ -85,7 +85,7 @@ class DrivenPoint(KinematicPair):
 
     @property
     def links(self) -> tuple[str, str]:
-        """The link that is told of it; it moves over the frame."""
+        """The link that has the point, and the frame."""
         return self.link, FRAME
 
     def states(self, scene: GivenPose) -> Iterator[Statement]:

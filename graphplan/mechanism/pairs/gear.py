@@ -43,7 +43,7 @@ from graphplan.mechanism.values import (
 from graphplan.phrases import phrase
 
 LOADS = ("forces", "moments", "friction", "masses", "balance")
-"""The tables that load a scene: without them nothing hangs on pressure angles."""
+"""The tables that load a scene: pressure angles matter only with them."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class Gear(KinematicPair):
         return minus(points[self.centres[1]], points[self.centres[0]])
 
     def pitch_radii(self, points: Mapping[str, Any]) -> tuple[float, ...] | None:
-        """The radii of the pitch circles; None of sprockets of which only the teeth are told."""
+        """The radii of the pitch circles; None of sprockets given by their teeth alone."""
         if self.direction is not None:
             return (float(self.radius),)
         if self.radii is not None:

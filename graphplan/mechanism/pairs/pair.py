@@ -56,7 +56,7 @@ class Condition(NamedTuple):
         return self.name or f"{self.link} {'at' if self.way in ('x', 'y') else 'along'} {self.on}"
 
 
-class LinkPose(NamedTuple):
+class LinkAttitude(NamedTuple):
     """How a link lies: where its origin is, and the cosine and the sine of its turn; in any numbers."""
 
     x: Any
@@ -137,7 +137,7 @@ def angle(x: Any, y: Any) -> Any:
     return x.angle(y) if hasattr(x, "angle") else math.atan2(y, x)
 
 
-def turning(link: LinkPose, on: LinkPose) -> Any:
+def turning(link: LinkAttitude, on: LinkAttitude) -> Any:
     """The angle by which a link has turned on another."""
     return angle(link.cos * on.cos + link.sin * on.sin, link.sin * on.cos - link.cos * on.sin)
 
@@ -163,7 +163,7 @@ class Turning:
         """The statement by its name."""
         return Condition(self.link, self.on, self.way)
 
-    def residual(self, pose: dict[str, LinkPose], arms: tuple[Any, Any]) -> Any:
+    def residual(self, pose: dict[str, LinkAttitude], arms: tuple[Any, Any]) -> Any:
         """The sine of the angle by which one link has turned on the other."""
         link, on = pose[self.link], pose[self.on]
         return link.sin * on.cos - link.cos * on.sin
@@ -207,12 +207,12 @@ class Along:
         """The statement by its name."""
         return Condition(self.link, self.at if self.way in ("x", "y") else self.on, self.way, self.name)
 
-    def residual(self, pose: dict[str, LinkPose], arms: tuple[Any, Any]) -> Any:
+    def residual(self, pose: dict[str, LinkAttitude], arms: tuple[Any, Any]) -> Any:
         """How far the point has gone from its place on the other link, of which `arms` are its places in the two."""
         gone = dot(pose[self.to or self.on].turn_vector(self.direction), self._displacement(pose, arms))
         return gone + self.lever * turning(pose[self.link], pose[self.on]) if self.lever else gone
 
-    def _displacement(self, pose: dict[str, LinkPose], arms: tuple[Any, Any]) -> Any:
+    def _displacement(self, pose: dict[str, LinkAttitude], arms: tuple[Any, Any]) -> Any:
         """From the place on the other link to the point."""
         return minus(pose[self.link].place_of(arms[0]), pose[self.on].place_of(arms[1]))
 
@@ -236,7 +236,7 @@ class OnRack(Along):
 
     radius: Number = 0
 
-    def residual(self, pose: dict[str, LinkPose], arms: tuple[Any, Any]) -> Any:
+    def residual(self, pose: dict[str, LinkAttitude], arms: tuple[Any, Any]) -> Any:
         """How far the wheel's centre has gone further than the wheel has rolled."""
         return self.with_lever(lambda square: square ** type(square)(0.5)).residual(pose, arms)
 
@@ -270,7 +270,7 @@ class Touching(Along):
         share = dot(self.arm, self.direction) / dot(self.direction, self.direction)
         return Fraction(share) if isinstance(share, float) and is_exact(self.direction) else share
 
-    def residual(self, pose: dict[str, LinkPose], arms: tuple[Any, Any]) -> Any:
+    def residual(self, pose: dict[str, LinkAttitude], arms: tuple[Any, Any]) -> Any:
         """How far the centre has left the curve parallel to the other profile: a line, or half of what the squared
         distance from its centre has grown by."""
         gone, radius = self._displacement(pose, arms), pose[self.on].turn_vector(self.direction)
@@ -322,7 +322,7 @@ class Rolling:
         """The statement by its name."""
         return Condition(self.link, self.on, self.way, self.name)
 
-    def residual(self, pose: dict[str, LinkPose], arms: tuple[Any, Any]) -> Any:
+    def residual(self, pose: dict[str, LinkAttitude], arms: tuple[Any, Any]) -> Any:
         """The angles by which the links have turned on the line of centres, times the factors and its squared length.
         """
         link, on, still = pose[self.link], pose[self.on], self.line

@@ -48,7 +48,7 @@ class Slide(KinematicPair):
 
     @property
     def turns_alike(self) -> bool:
-        """Whether its links turn alike, so that any points of theirs tell what its own do."""
+        """Whether its links turn alike, so that any points of theirs show the sliding."""
         return TURNING in self.passes
 
     @property

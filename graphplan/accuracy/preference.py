@@ -164,11 +164,11 @@ def choose_form(all_forms: Sequence[Form], prefer: str) -> Preference:
     return Preference(best.methods[0], (head, *(form.verdict for form in all_forms)))
 
 
-def _on_one_paper(found: list[Form]) -> list[Form]:
+def _on_one_paper(all_forms: list[Form]) -> list[Form]:
     """The same forms, all on the largest of their sheets: a larger one would make any form more accurate."""
-    papers = [form.drafted.paper for form in found if form.drafted is not None]
+    papers = [form.drafted.paper for form in all_forms if form.drafted is not None]
     largest = max(papers, key=lambda paper: sheet_size(paper)[0] * sheet_size(paper)[1], default="")
-    return [_redraft_on(form, form.drafted, largest) if form.drafted is not None else form for form in found]
+    return [_redraft_on(form, form.drafted, largest) if form.drafted is not None else form for form in all_forms]
 
 
 def _redraft_on(form: Form, one: Drafted, paper: str) -> Form:

@@ -212,7 +212,7 @@ def _with_inertia_loads_only(scene: Scene) -> Scene:
     return replace(scene, loads=Loads((0, 0), masses, (), (), tuple(map(scene.balance_of, scene.drives))))
 
 
-def _frame_reactions(scene: Scene, found: statics.Reactions, points: Mapping[str, Any], about: complex,
+def _frame_reactions(scene: Scene, reactions: statics.Reactions, points: Mapping[str, Any], about: complex,
                      count: int) -> list[tuple[Any, Any]] | None:
     """What the frame bears by the reactions of its pairs and the balances: the forces in N, each with its moment in
     N m; none where reactions are statically indeterminate."""
@@ -225,19 +225,19 @@ def _frame_reactions(scene: Scene, found: statics.Reactions, points: Mapping[str
     bearing: list[tuple[Any, Any]] = []
     for joint in scene.revolutes:
         for link in joint.links[1:] if FRAME in joint.links else ():
-            if (joint.at, link) not in found.joints:
+            if (joint.at, link) not in reactions.joints:
                 return None
             if FRAME in (link, joint.links[0]):
-                bearing.append(reaction(times(1 if link == FRAME else -1, found.joints[joint.at, link]), joint.at))
+                bearing.append(reaction(times(1 if link == FRAME else -1, reactions.joints[joint.at, link]), joint.at))
     for slide in (slide for slide in scene.slides if FRAME in slide.links):
-        if slide.name not in found.slides:
+        if slide.name not in reactions.slides:
             return None
-        force, couple = found.slides[slide.name]
+        force, couple = reactions.slides[slide.name]
         sign = 1 if slide.link == FRAME else -1
         bearing.append(reaction(times(sign, force), slide.at, sign * couple))
     if any(FRAME in pair.links for pair in (*scene.gears, *scene.contacts)):
         return None
-    for balance, value in zip(statics.required_loads(scene).balances, found.balances, strict=True):
+    for balance, value in zip(statics.required_loads(scene).balances, reactions.balances, strict=True):
         if balance.on != FRAME:
             continue
         bearing.append(reaction(times(-1, value), balance.at) if isinstance(value, tuple)

@@ -145,15 +145,15 @@ def _construct_or_none(scene: Scene, method: str, plan: str, inertia: str) -> Co
         return None
 
 
-def _enter_results(found: Cycle, part: PoseBatch, results: Results, apart: Mapping[str, Any],
+def _enter_results(over_cycle: Cycle, part: PoseBatch, results: Results, apart: Mapping[str, Any],
                    kept: Any) -> None:
     """Enter the results of some poses among all."""
     places = part.places[kept]
     for kind, named in results.items():
         for name, z in named.items():
-            found.results[kind][name][places] = z[kept]
+            over_cycle.results[kind][name][places] = z[kept]
     for kind, gap in apart.items():
-        found.gaps[kind][places] = gap[kept]
+        over_cycle.gaps[kind][places] = gap[kept]
 
 
 # ---- curves: the motion of a link, of a slide or of a point's coordinate, with its rates from the plans --------------
@@ -199,13 +199,13 @@ def scene_asking_for(scene: Scene, wanted: Sequence[PlotQuantity]) -> Scene:
     return replace(scene, find=replace(find, velocity=velocity, acceleration=acceleration, links=links, slides=slides))
 
 
-def curves(found: Cycle, wanted: Sequence[PlotQuantity]) -> list[KinematicCurve]:
+def curves(over_cycle: Cycle, wanted: Sequence[PlotQuantity]) -> list[KinematicCurve]:
     """The curves of these quantities over the cycle, which was asked for them."""
-    drive = found.scene.drives[0]
-    period = TURN if found.turn.closed and not found.faults else None
-    unit = found.scene.units.length if drive.slides else "rad"
-    return [curve_over_travel(quantity.label, quantity.unit, found.turn.travel, float(drive.rate),
-                              *_ordinates(found, quantity),
+    drive = over_cycle.scene.drives[0]
+    period = TURN if over_cycle.turn.closed and not over_cycle.faults else None
+    unit = over_cycle.scene.units.length if drive.slides else "rad"
+    return [curve_over_travel(quantity.label, quantity.unit, over_cycle.turn.travel, float(drive.rate),
+                              *_ordinates(over_cycle, quantity),
                               period=period, travel_unit=unit) for quantity in wanted]
 
 
@@ -240,11 +240,11 @@ def _side(scene: Scene, link: str) -> tuple[str, str]:
     return max(combinations(places, 2), key=lambda pair: abs(places[pair[0]] - places[pair[1]]))
 
 
-def _ordinates(found: Cycle, quantity: PlotQuantity) -> tuple[Any, Any, Any]:
+def _ordinates(over_cycle: Cycle, quantity: PlotQuantity) -> tuple[Any, Any, Any]:
     """The quantity, its rate, and the rate's rate in each pose."""
-    points, results = found.turn.points, found.results
+    points, results = over_cycle.turn.points, over_cycle.results
     if quantity.slide is not None:
-        return _slide_ordinates(found, quantity.slide)
+        return _slide_ordinates(over_cycle, quantity.slide)
     if quantity.unit == "rad":
         P, R = quantity.points
         return np.angle(points[R] - points[P]), results["omega"][quantity.name], results["alpha"][quantity.name]
@@ -254,11 +254,11 @@ def _ordinates(found: Cycle, quantity: PlotQuantity) -> tuple[Any, Any, Any]:
     return s, v, a
 
 
-def _slide_ordinates(found: Cycle, slide: Slide) -> tuple[Any, Any, Any]:
+def _slide_ordinates(over_cycle: Cycle, slide: Slide) -> tuple[Any, Any, Any]:
     """How far a slide's point has slid along its guide from the given pose, with its rates there."""
-    points, guides, results = found.turn.points, found.turn.guides, found.results
+    points, guides, results = over_cycle.turn.points, over_cycle.turn.guides, over_cycle.results
     along = guide_direction(slide, points, guides)
-    carrier = next(iter(found.scene.links.get(slide.along, ())), "")
+    carrier = next(iter(over_cycle.scene.links.get(slide.along, ())), "")
     seat = points[slide.at] - (points[carrier] if carrier else 0.0)
     vectors = seat, results["slide velocity"][slide.name], results["slide acceleration"][slide.name]
     s, v, a = ((z / along).real for z in vectors)

@@ -107,54 +107,54 @@ def _sense(number: Any, by: Bounds) -> int:
 # ---- by the kinds and names of a construction's results -------------------------------------------------------------
 
 
-def force_truth(scene: Scene, results: Results, found: Reactions,
+def force_truth(scene: Scene, results: Results, smooth: Reactions,
                 rough: Reactions | None = None) -> Readings:
     """What the solver says of the forces that a construction gives, with friction among them, and of the power balance.
     """
-    arms = {s.name: _arm(s, scene, found) for s in scene.slides if s.name in results.get(kinds.SLIDE_ARM, {})}
-    truth = _reactions(found, smooth_forces(found))
+    arms = {s.name: _arm(s, scene, smooth) for s in scene.slides if s.name in results.get(kinds.SLIDE_ARM, {})}
+    truth = _reactions(smooth, smooth_forces(smooth))
     truth[kinds.SLIDE_ARM] = arms
     if rough is not None:
         truth |= {kinds.WITH_FRICTION[kind]: named for kind, named in _reactions(rough, contact_forces(rough)).items()}
     named = required_loads(scene).named_balances
     for kind_of_way in kinds.BY_PLANS, kinds.BY_LEVER, kinds.RUBBED:
-        last = found if kind_of_way != kinds.RUBBED else rough
+        last = smooth if kind_of_way != kinds.RUBBED else rough
         for (name, balance), value in zip(named.items(), last.balances, strict=True) if last else ():
             truth.setdefault(kinds.balance_kind(kind_of_way, balance), {})[name] = value
-    return truth | powers(found.balances)
+    return truth | powers(smooth.balances)
 
 
-def smooth_forces(found: Reactions) -> dict[str, Any]:
+def smooth_forces(reactions: Reactions) -> dict[str, Any]:
     """The forces in slides, gears and contacts, each on its first link, without friction."""
-    scene = found.equations.scene
+    scene = reactions.equations.scene
     pairs: list[Gear | Contact] = [*scene.gears, *scene.contacts]
-    higher = {pair.name: force(found.equations, pair, found.higher[pair.name])
-              for pair in pairs if pair.name in found.higher}
-    return {name: sides[0] for name, sides in found.slides.items()} | higher
+    higher = {pair.name: force(reactions.equations, pair, reactions.higher[pair.name])
+              for pair in pairs if pair.name in reactions.higher}
+    return {name: sides[0] for name, sides in reactions.slides.items()} | higher
 
 
-def _reactions(found: Reactions, borne: dict[str, Any]) -> Readings:
+def _reactions(reactions: Reactions, borne: dict[str, Any]) -> Readings:
     """The reactions by kind and name, those of slides, gears and contacts as they are `borne`."""
-    scene = found.equations.scene
+    scene = reactions.equations.scene
     pairs: dict[str, tuple[Slide | Gear | Contact, ...]] = {
         kinds.SLIDE_REACTION: scene.slides, kinds.GEAR_REACTION: scene.gears, kinds.CONTACT_REACTION: scene.contacts}
-    return {kinds.REACTION: {JointForce(point, link).name: force for (point, link), force in found.joints.items()},
-            kinds.SLIDE_MOMENT: {name: moment for name, (_, moment) in found.slides.items()},
+    return {kinds.REACTION: {JointForce(point, link).name: force for (point, link), force in reactions.joints.items()},
+            kinds.SLIDE_MOMENT: {name: moment for name, (_, moment) in reactions.slides.items()},
             **{kind: {pair.name: borne[pair.name] for pair in pairs_of_kind if pair.name in borne}
                for kind, pairs_of_kind in pairs.items()}}
 
 
-def powers(found: Iterable[Any]) -> Readings:
+def powers(balances: Iterable[Any]) -> Readings:
     """Balances in their order as readings of the power balance."""
     readings: Readings = {kinds.POWER: {}, kinds.POWER_MOMENT: {}}
-    for number, value in enumerate(found, 1):
+    for number, value in enumerate(balances, 1):
         readings[kinds.POWER if isinstance(value, tuple) else kinds.POWER_MOMENT][str(number)] = value
     return readings
 
 
-def _arm(slide: Slide, scene: Scene, found: Reactions) -> Any:
+def _arm(slide: Slide, scene: Scene, reactions: Reactions) -> Any:
     """From a slide's point to where its reaction has no moment, square to it."""
-    (x, y), moment = found.slides[slide.name]
+    (x, y), moment = reactions.slides[slide.name]
     reach = moment * metre(scene.units) / (x * x + y * y)
     return y * reach, -x * reach
 

@@ -25,89 +25,89 @@ TRANSLATES = "the link does not turn: its pole is at infinity"
 OPPOSITE = "pole", "inflection_pole"  # of an inflection circle
 
 
-def result_data(found: Report, each: bool = False) -> dict[str, Any]:
+def result_data(report: Report, each: bool = False) -> dict[str, Any]:
     """What `graphplan solve` prints, with the bound of each number where that is asked for."""
-    scene = found.given_scene
+    scene = report.given_scene
     return {
         "title": scene.title,
         "units": {"length": scene.units.length, "force": scene.units.force, "mass": scene.units.mass},
-        **_pose(found),
-        "points": _merge_readings(found, "points", scene.points, velocity=kinds.VELOCITY,
+        **_pose(report),
+        "points": _merge_readings(report, "points", scene.points, velocity=kinds.VELOCITY,
                                   acceleration=kinds.ACCELERATION),
-        "links": _merge_readings(found, "links", scene.moving, omega=kinds.OMEGA, alpha=kinds.ALPHA),
-        "slides": _merge_readings(found, "slides", (s.name for s in scene.slides), velocity=kinds.SLIDE_VELOCITY,
+        "links": _merge_readings(report, "links", scene.moving, omega=kinds.OMEGA, alpha=kinds.ALPHA),
+        "slides": _merge_readings(report, "slides", (s.name for s in scene.slides), velocity=kinds.SLIDE_VELOCITY,
                                   acceleration=kinds.SLIDE_ACCELERATION),
-        **_poles(found),
-        **_paths(found),
+        **_poles(report),
+        **_paths(report),
         **({"redundant": scene.redundant_pairs} if scene.redundant else {}),
-        **force_data(found),
-        **({"reasons": missing} if (missing := reasons(found)) else {}),
-        **_protocol(found, each),
+        **force_data(report),
+        **({"reasons": missing} if (missing := reasons(report)) else {}),
+        **_protocol(report, each),
     }
 
 
-def reasons(found: Report) -> Reasons:
+def reasons(report: Report) -> Reasons:
     """Why what is asked for is null, by the printed key and the name of the thing."""
-    results, find = found.results, found.scene.find
+    results, find = report.results, report.scene.find
     poles_drawn = {name for kind in (kinds.POLE, kinds.POLE_HEADING) for name in results.get(kind, {})}
     named_reasons = {
         "poles": {name: AT_REST for name in find.poles if name not in poles_drawn},
         "inflection": {link: TRANSLATES for link in find.inflection if link in results.get(kinds.TRANSLATION, {})},
-        **force_reasons(found),
+        **force_reasons(report),
     }
-    keys = dict.fromkeys((*found.missing, *named_reasons))
-    every = {key: {**named_reasons.get(key, {}), **found.missing.get(key, {})} for key in keys}
+    keys = dict.fromkeys((*report.missing, *named_reasons))
+    every = {key: {**named_reasons.get(key, {}), **report.missing.get(key, {})} for key in keys}
     return {key: named for key, named in every.items() if named}
 
 
-def _poles(found: Report) -> dict[str, Any]:
+def _poles(report: Report) -> dict[str, Any]:
     """The instant centres, if any are asked for: each where it is, or which way it lies at infinity; none of links that
     do not move relative to each other."""
-    requested = found.given_scene.find.poles
-    poles = _merge_readings(found, "", requested, at=kinds.POLE, direction=kinds.POLE_HEADING)
+    requested = report.given_scene.find.poles
+    poles = _merge_readings(report, "", requested, at=kinds.POLE, direction=kinds.POLE_HEADING)
     return {"poles": {name: poles.get(name, {"at": None}) for name in requested}} if requested else {}
 
 
-def _pose(found: Report) -> dict[str, Any]:
+def _pose(report: Report) -> dict[str, Any]:
     """The travel of a constructed pose, of each drive where there are several, and where its points are."""
-    if found.scene.assembly is None:
+    if report.scene.assembly is None:
         return {}
-    travels = [float(travel) for travel in found.scene.assembly.travels]
+    travels = [float(travel) for travel in report.scene.assembly.travels]
     points = {name: [json_number(coordinate) for coordinate in map(float, at)]
-              for name, at in found.scene.points.items()}
-    extreme = found.scene.assembly.extreme
+              for name, at in report.scene.points.items()}
+    extreme = report.scene.assembly.extreme
     extreme_data = {} if extreme is None else {"extreme": extreme.way, "link": extreme.link,
                                                "time_ratio": extreme.time_ratio}
     return {"pose": {"travel": travels[0] if len(travels) == 1 else travels, **extreme_data, "points": points}}
 
 
-def _paths(found: Report) -> dict[str, Any]:
+def _paths(report: Report) -> dict[str, Any]:
     """Centres of curvature and inflection circles, where they are asked for."""
-    find, results, missing = found.given_scene.find, found.results, found.missing
+    find, results, missing = report.given_scene.find, report.results, report.missing
     tables = {
         "curvature": {name: None if name in missing.get("curvature", {})
-                      else _curvature(found, name, found.scene.points[point])
+                      else _curvature(report, name, report.scene.points[point])
                       for name, (point, _) in find.curvature_points.items()},
-        "inflection": {link: None if link in missing.get("inflection", {}) else _inflection(results, link, found.exact)
+        "inflection": {link: None if link in missing.get("inflection", {}) else _inflection(results, link, report.exact)
                        for link in find.inflection},
     }
     return {key: named for key, named in tables.items() if named}
 
 
-def _curvature(found: Report, name: str, point: Any) -> dict[str, Any]:
+def _curvature(report: Report, name: str, point: Any) -> dict[str, Any]:
     """The centre and the radius of curvature; none where the path is straight, the point itself at a cusp."""
-    results = found.results
-    at = tuple(coordinate if found.exact or not isinstance(coordinate, Fraction) else float(coordinate)
+    results = report.results
+    at = tuple(coordinate if report.exact or not isinstance(coordinate, Fraction) else float(coordinate)
                for coordinate in point)
     centre = at if name in results.get(kinds.CUSP, {}) else results.get(kinds.CENTRE, {}).get(name)
     if centre is None:
         x, y = results[kinds.STRAIGHT][name]
         square = x * x + y * y
-        numbers = found.numbers.get(kinds.STRAIGHT, {}).get(name, ())
+        numbers = report.numbers.get(kinds.STRAIGHT, {}).get(name, ())
         if all(abs(number.value) <= number.bound for number in numbers):
             return {"centre": None, "radius": None}
         centre = at[0] + x / square, at[1] + y / square
-    return {"centre": json_number(centre), **_lengths("radius", centre, at, found.exact)}
+    return {"centre": json_number(centre), **_lengths("radius", centre, at, report.exact)}
 
 
 def _inflection(results: Results, link: str, exact: bool) -> dict[str, Any]:
@@ -128,19 +128,19 @@ def _lengths(key: str, one: Any, two: Any, exact: bool) -> dict[str, Any]:
     return {**({key: json_number(root)} if rational else {}), f"{key}_squared": json_number(square)}
 
 
-def _protocol(found: Report, each: bool) -> dict[str, Any]:
+def _protocol(report: Report, each: bool) -> dict[str, Any]:
     """How it is drawn, how well that agrees, and in how many steps; only how well where no pencil could draw it."""
-    bounds = _plain(found.bounds) | ({"each": _number_bounds(found)} if each else {})
-    proof = {"check": _plain(found.check), "bounds": bounds, "arithmetic": found.arithmetic}
-    if found.fault is not None:
-        why = f"analytic solver alone, as nothing can be drawn in this pose: {found.fault.why}"
-        return {"method": {kind: [why] for kind in found.bounds}, **proof, "check": {}}
+    bounds = _plain(report.bounds) | ({"each": _number_bounds(report)} if each else {})
+    proof = {"check": _plain(report.check), "bounds": bounds, "arithmetic": report.arithmetic}
+    if report.fault is not None:
+        why = f"analytic solver alone, as nothing can be drawn in this pose: {report.fault.why}"
+        return {"method": {kind: [why] for kind in report.bounds}, **proof, "check": {}}
     try:
-        steps = len(found.drawing.drawn) - found.drawing.drawn.givens
+        steps = len(report.drawing.drawn) - report.drawing.drawn.givens
     except ConstructionError:
         return proof
-    method = found.drawing.method
-    if more := solver_only_notes(found):
+    method = report.drawing.method
+    if more := solver_only_notes(report):
         method = method | {kinds.FORCES: [*method.get(kinds.FORCES, ()), *more]}
     return {"method": method, **proof, "steps": steps}
 
@@ -149,22 +149,22 @@ def _plain(values: dict[Any, Any]) -> dict[Any, Any]:
     return {kind: json_number(value) if value else 0 for kind, value in values.items()}
 
 
-def _number_bounds(found: Report) -> dict[str, Any]:
+def _number_bounds(report: Report) -> dict[str, Any]:
     """The bounds of all printed numbers, by kind and name; those of a vector's components as a list."""
     def bounds(value: Any, vector: tuple[ComparedNumber, ...]) -> Any:
         relative_bounds = list(_plain(dict(enumerate(number.relative("bound") for number in vector))).values())
         return relative_bounds if isinstance(value, tuple) else relative_bounds[0]
 
-    return {kind: {name: bounds(value, found.numbers[kind][name]) for name, value in named.items()}
-            for kind, named in found.results.items() if kind in found.numbers}
+    return {kind: {name: bounds(value, report.numbers[kind][name]) for name, value in named.items()}
+            for kind, named in report.results.items() if kind in report.numbers}
 
 
-def _merge_readings(found: Report, key: str, names: Iterable[str], **kinds: str) -> dict[str, Any]:
+def _merge_readings(report: Report, key: str, names: Iterable[str], **kinds: str) -> dict[str, Any]:
     """Readings of several kinds by name, as JSON takes them; null what is asked for and missing under this key."""
-    table, missing, find = {}, found.missing.get(key, {}), found.given_scene.find
+    table, missing, find = {}, report.missing.get(key, {}), report.given_scene.find
     for name in names:
-        entry = {k: json_number(found.results[kind][name]) for k, kind in kinds.items()
-                 if name in found.results.get(kind, {})}
+        entry = {k: json_number(report.results[kind][name]) for k, kind in kinds.items()
+                 if name in report.results.get(kind, {})}
         if name in missing:
             entry = dict.fromkeys(k for k in kinds if key != "points" or name in getattr(find, k))
         if entry:
@@ -189,32 +189,32 @@ def json_number(value: Any) -> Any:
 INDETERMINATE = "statically indeterminate: more holds these links than their equilibrium can tell"
 
 
-def force_data(found: Report) -> dict[str, Any]:
+def force_data(report: Report) -> dict[str, Any]:
     """Balances and reactions, and where something rubs those without friction; nothing where there are no loads."""
-    if found.given_scene.loads is None:
+    if report.given_scene.loads is None:
         return {}
-    smooth, indeterminate = _ForceTable(found, found.forces, False), _indeterminate(found.given_scene)
-    if found.forces is None or not found.forces.has_friction:
+    smooth, indeterminate = _ForceTable(report, report.forces, False), _indeterminate(report.given_scene)
+    if report.forces is None or not report.forces.has_friction:
         return {**smooth.data, **indeterminate}
-    rough = _ForceTable(found, found.forces, True)
-    return {**rough.data, **indeterminate, "without_friction": smooth.data, **_friction(found, found.forces)}
+    rough = _ForceTable(report, report.forces, True)
+    return {**rough.data, **indeterminate, "without_friction": smooth.data, **_friction(report, report.forces)}
 
 
-def force_reasons(found: Report) -> Reasons:
+def force_reasons(report: Report) -> Reasons:
     """Why balances and reactions are null, by their names."""
-    if found.forces is None:
+    if report.forces is None:
         return {}
-    printed = _ForceTable(found, found.forces, found.forces.has_friction)
+    printed = _ForceTable(report, report.forces, report.forces.has_friction)
     balances = dict(printed.missing_balances)
     reactions = dict(printed.missing_reactions)
     return {key: named for key, named in (("balance", balances), ("reactions", reactions)) if named}
 
 
-def solver_only_notes(found: Report) -> list[str]:
+def solver_only_notes(report: Report) -> list[str]:
     """The forces that are the analytic solver's alone, as they are not drawn."""
-    if found.forces is None:
+    if report.forces is None:
         return []
-    names = found.forces.alone
+    names = report.forces.alone
     return [f"analytic solver alone: {', '.join(names)}"] if names else []
 
 
@@ -320,13 +320,13 @@ def _indeterminate(scene: Scene) -> dict[str, Any]:
     return {"indeterminate": names} if names else {}
 
 
-def _friction(found: Report, forces: Forces) -> dict[str, Any]:
+def _friction(report: Report, forces: Forces) -> dict[str, Any]:
     """The efficiency with friction, in how many rounds it is drawn, and where further rounds stand."""
     if forces.locks:
         return {}
     friction_data = {"efficiency": json_number(forces.efficiency), "rounds": forces.rounds}
     if not forces.bounded:
-        printed, standing = _ForceTable(found, forces, True), forces.by_balance(forces.standing.balances)
+        printed, standing = _ForceTable(report, forces, True), forces.by_balance(forces.standing.balances)
         balances = [printed.balance(name, value) for name, value in standing.items()]
         friction_data["stands"] = {"balance": balances, "efficiency": json_number(forces.standing.efficiency)}
     return {"friction": friction_data}

@@ -45,10 +45,10 @@ def reduction_gaps(reduction: Reduction, travel: Any, side: int = 1) -> Gaps:
     return {quantity: np.concatenate(gaps) for quantity, gaps in blocks.items()}
 
 
-def frictionless(found: Reduced, what: str) -> Any:
+def frictionless(reduced: Reduced, quantity: str) -> Any:
     """Inertia, moment or slope as it is without friction, which is compared by itself."""
-    value = getattr(found, what)
-    return value - found.by[M_F] if what == "moment" and M_F in found.by else value
+    value = getattr(reduced, quantity)
+    return value - reduced.by[M_F] if quantity == "moment" and M_F in reduced.by else value
 
 
 def check_reduction(reduction: Reduction, travel: Any, side: int = 1) -> dict[str, float]:

@@ -24,21 +24,21 @@ from graphplan.machine.rotors.trial_runs import Effect, angle_of
 Pair = tuple[tuple[Eccentric, ...], Answer]  # unbalances, and what balances them
 
 
-def check_rotor(found: BalancedRotor) -> dict[str, float]:
+def check_rotor(balanced: BalancedRotor) -> dict[str, float]:
     """By how much the independent results differ, relative to the sizes of what they are made of.
 
     Fails with `BrokenClaim` where a drawn step breaks a claim, and with `Disagreement` where they differ.
     """
-    require_claims(found.task.name, found.drawing)
-    pairs = [*zip(found.unbalances, found.answers, strict=True)]
-    gaps = {"corrections": max(_correction_gap(found.task.rotor, *pair) for pair in pairs),
+    require_claims(balanced.task.name, balanced.drawing)
+    pairs = [*zip(balanced.unbalances, balanced.answers, strict=True)]
+    gaps = {"corrections": max(_correction_gap(balanced.task.rotor, *pair) for pair in pairs),
             "residual_force": max(map(_residual_force, pairs))}
-    if found.task.rotor.dynamic:
+    if balanced.task.rotor.dynamic:
         gaps["residual_moment"] = max(map(_residual_moment, pairs))
-    if found.effects:
+    if balanced.effects:
         gaps["trials"] = max(_trial_gap(one, -vector(mass)) for masses, _ in pairs
-                             for one, mass in zip(found.effects, masses, strict=True))
-    require_agreement(found.task.name, {quantity.replace("_", " "): gap for quantity, gap in gaps.items()}, SUM_TOL,
+                             for one, mass in zip(balanced.effects, masses, strict=True))
+    require_agreement(balanced.task.name, {quantity.replace("_", " "): gap for quantity, gap in gaps.items()}, SUM_TOL,
                       by="by the independent check")
     return gaps
 

@@ -125,25 +125,25 @@ def _paths(options: argparse.Namespace) -> str:
     return svg(layout(composition))
 
 
-def _table(found: Cycle, ending: str) -> str | bytes:
+def _table(results: Cycle, ending: str) -> str | bytes:
     """The table of all poses as a file of this kind."""
     from graphplan.output import tables as columns
 
-    columns_data = found.scene, found.turn.travel, found.requested_points, found.results, found.faults
+    columns_data = results.scene, results.turn.travel, results.requested_points, results.results, results.faults
     if ending == ".npz":
         return columns.archive(*columns_data)
     return columns.json(*columns_data) if ending == ".json" else columns.text(*columns_data)
 
 
-def _report_poses(found: Cycle, messages: Messages) -> None:
+def _report_poses(results: Cycle, messages: Messages) -> None:
     """What there is to say of the poses, on standard error."""
-    otherwise = {k: f"drawn by {how}" for k, how in found.otherwise.items()}
-    tell = error if len(found.faults) == len(found.turn.travel) else messages.remark
-    for line in (*_note_lines(found.faults), *_note_lines(otherwise)):
+    otherwise = {k: f"drawn by {how}" for k, how in results.otherwise.items()}
+    tell = error if len(results.faults) == len(results.turn.travel) else messages.remark
+    for line in (*_note_lines(results.faults), *_note_lines(otherwise)):
         tell(line)
-    checked = ", ".join(f"{kind} {gap:.2g}" for kind, gap in found.check.items())
-    count = len(found.turn.travel)
-    messages.remark(f"{count - len(found.faults)} of {count} poses; "
+    checked = ", ".join(f"{kind} {gap:.2g}" for kind, gap in results.check.items())
+    count = len(results.turn.travel)
+    messages.remark(f"{count - len(results.faults)} of {count} poses; "
                     f"largest difference from the analytic solver: {checked}")
 
 

@@ -279,10 +279,10 @@ class KinematicDiagram:
     traces: Mapping[FoundCurve, list[list[Ray[Spot]]]]
     errors: tuple[Error, ...]
 
-    def points(self, found: FoundCurve) -> list[list[Spot]]:
+    def points(self, curve_drawn: FoundCurve) -> list[list[Spot]]:
         """The points of a curve that was found, stretch by stretch, in mm; an integral's begins with its given one."""
-        starts = [[rays[0].start] if found.method == INTEGRATED else [] for rays in self.traces[found]]
-        return [start + part for start, part in zip(starts, _spots(found, self.traces[found]), strict=True)]
+        starts = [[rays[0].start] if curve_drawn.method == INTEGRATED else [] for rays in self.traces[curve_drawn]]
+        return [start + part for start, part in zip(starts, _spots(curve_drawn, self.traces[curve_drawn]), strict=True)]
 
 
 def diagram(curve: KinematicCurve, strips: int | None = None) -> KinematicDiagram:
@@ -312,9 +312,9 @@ def _even_places(positions: int, count: int) -> Places:
     return places
 
 
-def _spots(found: FoundCurve, stretches: list[list[Ray[Spot]]]) -> list[list[Spot]]:
+def _spots(curve_drawn: FoundCurve, stretches: list[list[Ray[Spot]]]) -> list[list[Spot]]:
     """What was found with each ray: the ordinate, or the end of the chord."""
-    return [[ray.end if found.method == INTEGRATED else ray.ordinate for ray in rays] for rays in stretches]
+    return [[ray.end if curve_drawn.method == INTEGRATED else ray.ordinate for ray in rays] for rays in stretches]
 
 
 class _Misses(NamedTuple):

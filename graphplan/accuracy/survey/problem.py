@@ -96,11 +96,11 @@ class Problem:
         return (float(number.real), float(number.imag)) if np.iscomplexobj(number) else float(number)
 
 
-def largest_error(found: Results, true: Results) -> float:
+def largest_error(results: Results, true: Results) -> float:
     """The largest error of any number, relative to the largest of its kind; of an enclosure that of its farther bound.
     """
     worst = 0.0
-    for kind, named in found.items():
+    for kind, named in results.items():
         true_numbers = {name: components(true[kind][name]) for name in named}
         largest = max((abs(_middle(number)) for numbers in true_numbers.values() for number in numbers), default=0)
         gap = max((abs(_middle(ours) - _middle(number)) + getattr(ours, "error", 0) for name, value in named.items()
@@ -265,9 +265,9 @@ def _join_blocks(parts: Sequence[Results], sizes: Sequence[int]) -> Results:
             for kind, named in parts[0].items()}
 
 
-def _requested_results(scene: Scene, found: Rates | Reactions) -> Results:
+def _requested_results(scene: Scene, answer: Rates | Reactions) -> Results:
     """What a scene asks of the solver's answer."""
-    motion, forces = (found, {}) if isinstance(found, Rates) else (found.rates, force_truth(scene, {}, found))
+    motion, forces = (answer, {}) if isinstance(answer, Rates) else (answer.rates, force_truth(scene, {}, answer))
     return {kinds.VELOCITY: {name: motion.velocity[name] for name in scene.find.velocity},
             kinds.ACCELERATION: {name: motion.acceleration[name] for name in scene.find.acceleration},
             **{kind: named for kind, named in forces.items() if kind not in UNBOUNDED}}

@@ -29,7 +29,7 @@ from graphplan.mechanism.model import FRAME, Condition, Find, Loads, Scene
 from graphplan.mechanism.structure import bracing, structure
 from graphplan.methods.panels import JointForce
 from graphplan.solver import solve
-from graphplan.solver.instant_centres import relative
+from graphplan.solver.instant_centres import relative_motion
 
 EXTRAS = "poles", "curvature", "inflection"
 
@@ -87,7 +87,7 @@ def reasons_at_rest(scene: Scene) -> Reasons:
         rates = solve(scene, exact=True)
         for name in scene.find.poles:
             try:
-                relative(rates, *scene.link_pair(name))
+                relative_motion(rates, *scene.link_pair(name))
             except SingularPose as singular:
                 reasons.setdefault("poles", {})[name] = singular.why
         for link in scene.find.inflection:

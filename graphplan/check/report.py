@@ -20,7 +20,7 @@ from graphplan.methods.controls import Control
 from graphplan.methods.kinds import FORCES, MOTION, ORDER, POLE, POLE_HEADING, POLES, kind_of
 from graphplan.solver import Rates, solve
 from graphplan.solver import instant_centres as solved
-from graphplan.solver.instant_centres import relative
+from graphplan.solver.instant_centres import relative_motion
 
 if TYPE_CHECKING:
     from graphplan.check.forces import Forces
@@ -127,7 +127,7 @@ def rates_by_kind(rates: Rates, results: Results) -> dict[str, Any]:
 
 def _pole(rates: Rates, name: str, ours: Any, near: bool) -> Any:
     """The instant centre of two links, or the heading to it on the side of ours."""
-    centre = relative(rates, *rates.equations.scene.link_pair(name))
+    centre = relative_motion(rates, *rates.equations.scene.link_pair(name))
     if near:
         return centre.centre
     return centre.heading(ours if isinstance(ours, tuple) else (ours.real, ours.imag))
@@ -237,7 +237,7 @@ class Report:
         with_pole = {name for kind in (POLE, POLE_HEADING) for name in self.results.get(kind, ())}
         for name in self.scene.find.poles if self.fault is None else ():
             with suppress(SingularPose):  # so do fractions tell that they rest
-                if name not in with_pole and relative(self.rates, *self.scene.link_pair(name)).moves:
+                if name not in with_pole and relative_motion(self.rates, *self.scene.link_pair(name)).moves:
                     return f"links {name}: they move relative to each other, and have a pole"
         return ""
 
@@ -294,7 +294,7 @@ OF_POINTS: dict[str, Callable[[Rates, str, str], Any]] = {
 }
 OF_LINKS: dict[str, Callable[[Rates, str], Any]] = {
     kinds.INFLECTION: solved.inflection_pole,
-    kinds.MOTION_POLE: lambda rates, link: relative(rates, link, FRAME).centre,
+    kinds.MOTION_POLE: lambda rates, link: relative_motion(rates, link, FRAME).centre,
     kinds.TRANSLATION: lambda rates, link: rates.omega[link],
 }
 

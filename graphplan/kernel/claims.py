@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from graphplan.kernel.closures import close_group
-from graphplan.kernel.curvature_claims import CURVED
+from graphplan.kernel.curvature_claims import CURVATURE_CLAIMS
 from graphplan.kernel.drawn import Drawn, Vector, component_along, cross, cross3, dot, roundings, short, sideways, unit
 from graphplan.kernel.kinds import LINE, POINT, Claim
 from graphplan.kernel.loci import cubic_direction, cubic_point
@@ -301,7 +301,7 @@ CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "fair": (_fair, "not on the curve"),
     "closes": (_closes, "no joint of links whose lengths close"),
     "sighted": (_sight_error, "it passes {0} at another distance"),
-    **CURVED,
+    **CURVATURE_CLAIMS,
 }
 
 

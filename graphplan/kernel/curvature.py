@@ -17,14 +17,14 @@ from graphplan.phrases import phrase
 EULER = "Euler-Savary"
 
 
-def _semicircle(s: Any, K: Any, A: Any, m: Any, w: Any) -> Any:
+def _third_by_semicircle(s: Any, K: Any, A: Any, m: Any, w: Any) -> Any:
     """mw < KA: it is a leg, KA the hypotenuse; the leg's projection on KA is the third proportional."""
     M = s.midpoint(K, A)
     D = s.circles_meet(s.circle(M, s.opening(M, A)), s.circle(K, s.opening(m, w)), side="left", name="D")
     return s.foot(s.side(K, A), D)
 
 
-def _right_triangle(s: Any, K: Any, A: Any, m: Any, w: Any) -> Any:
+def _third_by_right_triangle(s: Any, K: Any, A: Any, m: Any, w: Any) -> Any:
     """mw > KA: it is a leg, KA its projection; the hypotenuse is the third proportional."""
     KA, arc = s.side(K, A), s.circle(K, s.opening(m, w))
     D = s.line_meets_circle(s.perpendicular(KA, A), arc, way="on", name="D")
@@ -38,8 +38,8 @@ def _right_triangle(s: Any, K: Any, A: Any, m: Any, w: Any) -> Any:
            fails=("points-coincide",), afar=((2, 3),), where=0, source="Ozols 1974, 5-1, (5.3)", forms={
                "no length": lambda s, K, A, m, w: K if s.points_coincide(m, w) else None,
                "equal lengths": lambda s, K, A, m, w: A if s.equal(K, A, m, w) else None,
-               "semicircle": _semicircle,
-               "right triangle": _right_triangle})
+               "semicircle": _third_by_semicircle,
+               "right triangle": _third_by_right_triangle})
 def third(d: Any, K: Any, A: Any, m: Any, w: Any) -> Any:
     """The third proportional to KA and the length mw, laid off from K towards A."""
     u, v = require_apart(d, K, A, "the two points coincide, so the third proportional is at infinity"), vector(m, w)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from graphplan.kernel.drawn import Drawn, cross3, dot, unit
 
 
-def _third(d: Drawn, K: int, A: int, m: int, w: int) -> float:
+def _third_error(d: Drawn, K: int, A: int, m: int, w: int) -> float:
     """The length mw is the mean proportional of KA and what is laid off."""
     KA, mean, found = abs(d[A] - d[K]), abs(d[w] - d[m]), abs(d[-1] - d[K])
     return (found * KA - mean * mean) / KA / (d.size + found)
@@ -21,7 +21,7 @@ def _curvature_error(d: Drawn, P: int, M: int, W: int) -> float:
     return (mean * mean - foot * found) / d.size / (d.size + abs(found))
 
 
-def _conjugate(d: Drawn, P: int, A: int, A0: int, B: int, B0: int, M: int) -> float:
+def _conjugate_error(d: Drawn, P: int, A: int, A0: int, B: int, B0: int, M: int) -> float:
     """On each ray lay off 1/PX - 1/PX_0 from the pole: the ends lie on one line, the inverse of the inflection circle.
     """
     rows = []
@@ -36,8 +36,8 @@ def _conjugate(d: Drawn, P: int, A: int, A0: int, B: int, B0: int, M: int) -> fl
     return (far * (across + w * near / d.size) - near * across) / (d.size + abs(far))
 
 
-CURVED: dict[str, tuple[Callable[..., float], str]] = {
-    "third": (_third, "the length from {2} to {3} is no mean proportional"),
+CURVATURE_CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
+    "third": (_third_error, "the length from {2} to {3} is no mean proportional"),
     "curved": (_curvature_error, "not the centre of curvature that the inflection pole {2} gives {1}"),
-    "conjugate": (_conjugate, "no centre of curvature of {5} by Euler and Savary"),
+    "conjugate": (_conjugate_error, "no centre of curvature of {5} by Euler and Savary"),
 }

@@ -34,18 +34,18 @@ def blocks(rows: Sequence[Mapping[int, Any]], width: int, together: int = TOGETH
     """The blocks of a system, one after the other; all of it, where it is no larger than what is taken together."""
     if width <= together:
         return [Block(tuple(range(len(rows))), tuple(range(width)))]
-    found = list(_rings(rows, width))
     joined: list[list[int]] = []
-    for ring in found:
+    for ring in _rings(rows, width):
         if joined and len(joined[-1]) + len(ring) <= together:
             joined[-1] += ring
         else:
             joined.append([*ring])
     place = {column: k for k, columns in enumerate(joined) for column in columns}
-    own: list[list[int]] = [[] for _ in joined]
+    block_rows: list[list[int]] = [[] for _ in joined]
     for i, row in enumerate(rows):
-        own[max((place[column] for column in row), default=0)].append(i)
-    return [Block(tuple(mine), tuple(sorted(columns))) for mine, columns in zip(own, joined, strict=True)]
+        block_rows[max((place[column] for column in row), default=0)].append(i)
+    return [Block(tuple(rows_of_block), tuple(sorted(columns))) for rows_of_block,
+            columns in zip(block_rows, joined, strict=True)]
 
 
 def _rings(rows: Sequence[Mapping[int, Any]], width: int) -> Iterator[tuple[int, ...]]:
@@ -53,28 +53,28 @@ def _rings(rows: Sequence[Mapping[int, Any]], width: int) -> Iterator[tuple[int,
     owner = matching([tuple(row) for row in rows])
     depends: dict[int, list[int]] = {column: [] for column in range(width)}
     for column, i in owner.items():
-        depends[column] += (other for other in rows[i] if other != column)
+        depends[column] += (neighbour for neighbour in rows[i] if neighbour != column)
     for i in set(range(len(rows))).difference(owner.values()):
         for column in rows[i]:
-            depends[column] += (other for other in rows[i] if other != column)
+            depends[column] += (neighbour for neighbour in rows[i] if neighbour != column)
     return rings(depends)
 
 
 def by_blocks(rows: Sequence[Mapping[int, Any]], ready: Callable[[Sequence[Mapping[int, Any]]], Callable[..., Any]],
               ) -> Callable[[Sequence[Any]], list[Any]]:
     """What solves a square system for a right-hand side, in any numbers, by what is made `ready` for each block."""
-    parts = []
+    prepared_blocks = []
     for block in blocks(rows, len(rows)):
         local = {column: k for k, column in enumerate(block.columns)}
-        own = [{local[j]: value for j, value in rows[i].items() if j in local} for i in block.rows]
-        before = [[(j, value) for j, value in rows[i].items() if j not in local] for i in block.rows]
-        parts.append((block, before, ready(own)))
+        local_rows = [{local[j]: value for j, value in rows[i].items() if j in local} for i in block.rows]
+        earlier_terms = [[(j, value) for j, value in rows[i].items() if j not in local] for i in block.rows]
+        prepared_blocks.append((block, earlier_terms, ready(local_rows)))
 
     def solve_for(right: Sequence[Any]) -> list[Any]:
         values: list[Any] = [0] * len(rows)
-        for block, before, solve in parts:
-            sides = [sum((-(value * values[j]) for j, value in known), right[i])
-                     for i, known in zip(block.rows, before, strict=True)]
+        for block, earlier_terms, solve in prepared_blocks:
+            sides = [sum((-(value * values[j]) for j, value in terms), right[i])
+                     for i, terms in zip(block.rows, earlier_terms, strict=True)]
             for column, value in zip(block.columns, solve(sides), strict=True):
                 values[column] = value
         return values

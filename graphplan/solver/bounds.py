@@ -123,4 +123,4 @@ PI = Bounded(math.pi, 2.0**-52)
 
 def heading(degrees: Fraction) -> tuple[Bounded, Bounded]:
     """Cosine and sine of an angle in degrees: each is within four roundings of one."""
-    return tuple(Bounded(float(part), 4 * ROUNDOFF) for part in exact_heading(degrees)[:2])  # type: ignore[return-value]
+    return tuple(Bounded(float(coordinate), 4 * ROUNDOFF) for coordinate in exact_heading(degrees)[:2])  # type: ignore[return-value]

@@ -81,8 +81,8 @@ class Equations:
 
     def _row(self, fact: Statement) -> Row:
         row: Row = {}
-        one, other = (self.arm(*end) for end in fact.ends)
-        for (link, point), weights in zip(fact.ends, fact.weights((one, other), self.root), strict=True):
+        first_arm, second_arm = (self.arm(*end) for end in fact.ends)
+        for (link, point), weights in zip(fact.ends, fact.weights((first_arm, second_arm), self.root), strict=True):
             if link != FRAME:
                 column = self.columns[link] if link != PIN else self.pins[point]
                 row |= {column + k: weight for k, weight in enumerate(weights if link != PIN else weights[:2])
@@ -117,7 +117,7 @@ class Equations:
     @cached_property
     def reach(self) -> float:
         """The characteristic length: the longest coordinate of an arm, or 1 where every arm vanishes."""
-        return max((abs(float(part)) for arm in self.arms for part in arm), default=0.0) or 1.0
+        return max((abs(float(coordinate)) for arm in self.arms for coordinate in arm), default=0.0) or 1.0
 
     @cached_property
     def prescribed_rates(self) -> list[Pair]:
@@ -137,9 +137,9 @@ class Equations:
         return [change + fact.left_over(sides[fact.ends])
                 for fact, (_, change) in zip(self.facts, self.prescribed_rates, strict=True)]
 
-    def sides(self, one: tuple[str, str], other: tuple[str, str], rates: dict[str, Rate]) -> PairSides:
+    def sides(self, first: tuple[str, str], second: tuple[str, str], rates: dict[str, Rate]) -> PairSides:
         """Two links, each at a point, with these rates."""
-        return PairSides(self.side(*one, rates), self.side(*other, rates))
+        return PairSides(self.side(*first, rates), self.side(*second, rates))
 
     def side(self, link: str, point: str, rates: dict[str, Rate]) -> PairSide:
         """One link at one point, with these rates."""
@@ -181,8 +181,8 @@ class Solution:
 def require_fractions(scene: Scene, used: Iterable[Number]) -> None:
     """Fails with `Refused` where the scene is irrational, or a number in use is rounded."""
     if scene.irrational or any(isinstance(number, float) for number in used):
-        known = sorted(scene.irrational, key=by_name)
-        why = "; ".join(known) or "a coordinate, a drive, a given motion or a load is not a fraction"
+        reasons = sorted(scene.irrational, key=by_name)
+        why = "; ".join(reasons) or "a coordinate, a drive, a given motion or a load is not a fraction"
         raise Refused("exact numbers", why, "ask for floats, without --exact")
 
 
@@ -195,7 +195,8 @@ def force_equations(scene: Scene) -> Equations:
     """The equations of what holds the links against forces: the pairs, and the balances in the place of the drives."""
     balances = scene.loads.balances if scene.loads else ()
     return Equations(scene,
-                     (*_statements(scene, scene.binding), *(fact for one in balances for fact in one.states(scene))))
+                     (*_statements(scene, scene.binding),
+                      *(fact for balance in balances for fact in balance.states(scene))))
 
 
 def bound(scene: Scene) -> int:

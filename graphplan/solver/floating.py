@@ -33,8 +33,8 @@ class Entries:
     @classmethod
     def from_rows(cls, sparse: Sparse, width: int) -> Entries:
         """The numbers of sparse rows as floats."""
-        found = [(i, j, float(value)) for i, row in enumerate(sparse) for j, value in row.items()]
-        rows, columns, values = zip(*found, strict=True) if found else ((), (), ())
+        entries = [(i, j, float(value)) for i, row in enumerate(sparse) for j, value in row.items()]
+        rows, columns, values = zip(*entries, strict=True) if entries else ((), (), ())
         return cls(np.array(rows, np.intp), np.array(columns, np.intp), np.array(values, float), (len(sparse), width))
 
     @property
@@ -69,10 +69,10 @@ class Decomposed:
         place[before] = np.arange(before.size) + self.columns.size
         dense = np.zeros((self.rows.size, self.columns.size + before.size))
         dense[np.searchsorted(self.rows, entries.rows), place[entries.columns]] = entries.values
-        own, self._known, self._before = dense[:, : self.columns.size], dense[:, self.columns.size :], before
-        self._play, self.matrix = play, np.hstack([own, self._known @ play[before]])
+        square, self._known, self._before = dense[:, : self.columns.size], dense[:, self.columns.size :], before
+        self._play, self.matrix = play, np.hstack([square, self._known @ play[before]])
         self._left, self.sigma, self._right = np.linalg.svd(self.matrix)
-        least = max(own.shape, default=0) * SINGULAR_TOL * self.sigma.max(initial=0.0)
+        least = max(square.shape, default=0) * SINGULAR_TOL * self.sigma.max(initial=0.0)
         self._rank = int(np.sum(self.sigma > least))
         self.blur = float(self.sigma[0] / self.sigma[self._rank - 1]) if self._rank else 1.0
 
@@ -91,20 +91,20 @@ class Decomposed:
 
         Whether rows contradict each other; sides made of computed velocities carry their error: hence the blur.
         """
-        rest = sides[self.rows] - self._known @ values[self._before]
-        parts = (self._left[:, : self._rank].T @ rest) / self.sigma[: self._rank]
-        found = self._right[: self._rank].T @ parts
+        remainder = sides[self.rows] - self._known @ values[self._before]
+        coordinates = (self._left[:, : self._rank].T @ remainder) / self.sigma[: self._rank]
+        solution = self._right[: self._rank].T @ coordinates
         if self._play.shape[1]:
-            values += self._play @ found[self.columns.size :]
-        values[self.columns] = found[: self.columns.size]
+            values += self._play @ solution[self.columns.size :]
+        values[self.columns] = solution[: self.columns.size]
         outside = self._left[:, self._rank :]
-        missed = np.abs(outside @ (outside.T @ rest))
-        return bool(np.any(missed > tolerance * self.blur * max(np.linalg.norm(rest), np.linalg.norm(sides))))
+        missed = np.abs(outside @ (outside.T @ remainder))
+        return bool(np.any(missed > tolerance * self.blur * max(np.linalg.norm(remainder), np.linalg.norm(sides))))
 
     def solve_transposed(self, sides: Array, values: Array) -> None:
         """The same for the transposed system, from the last block to the first, of a system that is regular."""
-        parts = (self._right @ sides[self.columns])[: self._rank] / self.sigma[: self._rank]
-        values[self.rows] = self._left[:, : self._rank] @ parts
+        coordinates = (self._right @ sides[self.columns])[: self._rank] / self.sigma[: self._rank]
+        values[self.rows] = self._left[:, : self._rank] @ coordinates
         sides[self._before] -= self._known.T @ values[self.rows]
 
 
@@ -116,12 +116,12 @@ class Floating:
 
     def __init__(self, sparse: Sparse, scales: Sequence[float], forces: bool = False):
         entries, rows, columns = equilibrate(sparse, scales)
-        found = blocks(sparse, len(scales))
+        system_blocks = blocks(sparse, len(scales))
         if forces:
             entries, rows, columns = entries.transpose, columns, rows
-            found = [block.transpose for block in reversed(found)]
-        self._entries, self._rows, self._columns, self._blocks = entries, rows, columns, found
-        self._parts, self._free = decompose(entries, found)
+            system_blocks = [block.transpose for block in reversed(system_blocks)]
+        self._entries, self._rows, self._columns, self._blocks = entries, rows, columns, system_blocks
+        self._parts, self._free = decompose(entries, system_blocks)
         self._tolerance = max(entries.shape, default=0) * SINGULAR_TOL
 
     @property
@@ -153,15 +153,15 @@ class Floating:
     def _inverse(self, sides: Array) -> tuple[Array, bool]:
         """A solution, and whether rows contradict each other."""
         values, contradicted = np.zeros(self._entries.shape[1]), False
-        for part in self._parts:
-            contradicted |= part.solve(sides, values, self._tolerance)
+        for block in self._parts:
+            contradicted |= block.solve(sides, values, self._tolerance)
         return values, contradicted
 
     def _solve_transposed(self, sides: Array) -> Array:
         """A solution of the transposed system."""
-        values, rest = np.zeros(self._entries.shape[0]), sides.copy()
-        for part in reversed(self._parts):
-            part.solve_transposed(rest, values)
+        values, remainder = np.zeros(self._entries.shape[0]), sides.copy()
+        for block in reversed(self._parts):
+            block.solve_transposed(remainder, values)
         return values
 
     @property
@@ -172,27 +172,28 @@ class Floating:
 
     def conflict(self, right: Sequence[Number]) -> frozenset[int]:
         """The rows that contradict each other with this right-hand side."""
-        sides, across = self._sides(right), [block.transpose for block in reversed(self._blocks)]
-        parts, free = decompose(self._entries.transpose, across)
-        outside, blur = np.linalg.qr(free)[0], max(part.blur for part in parts)
+        sides, across = self._sides(right), [entries_block.transpose for entries_block in reversed(self._blocks)]
+        decomposed, free = decompose(self._entries.transpose, across)
+        outside, blur = np.linalg.qr(free)[0], max(block.blur for block in decomposed)
         missed = np.abs(outside @ (outside.T @ sides))
         return frozenset(int(i) for i in np.flatnonzero(missed > self._tolerance * blur * np.linalg.norm(sides)))
 
 
-def decompose(entries: Entries, found: Sequence[Block]) -> tuple[list[Decomposed], Array]:
+def decompose(entries: Entries, system_blocks: Sequence[Block]) -> tuple[list[Decomposed], Array]:
     """The blocks by singular values, and the vectors that they leave undetermined."""
     home = np.zeros(entries.shape[0], np.intp)
-    for k, block in enumerate(found):
+    for k, block in enumerate(system_blocks):
         home[list(block.rows)] = k
     order = np.argsort(home[entries.rows], kind="stable")
-    ends = np.searchsorted(home[entries.rows][order], np.arange(len(found) + 1))
-    parts, play = list[Decomposed](), np.zeros((entries.shape[1], 0))
-    for k, block in enumerate(found):
-        own = order[ends[k] : ends[k + 1]]
-        some = Entries(entries.rows[own], entries.columns[own], entries.values[own], entries.shape)
-        parts.append(Decomposed(block, some, play))
-        play = parts[-1].free
-    return parts, play
+    ends = np.searchsorted(home[entries.rows][order], np.arange(len(system_blocks) + 1))
+    decomposed, play = list[Decomposed](), np.zeros((entries.shape[1], 0))
+    for k, block in enumerate(system_blocks):
+        entry_places = order[ends[k] : ends[k + 1]]
+        block_entries = Entries(entries.rows[entry_places], entries.columns[entry_places], entries.values[entry_places],
+                                entries.shape)
+        decomposed.append(Decomposed(block, block_entries, play))
+        play = decomposed[-1].free
+    return decomposed, play
 
 
 def _growth(step: Callable[[Array], Array], width: int) -> float:
@@ -207,21 +208,21 @@ def _growth(step: Callable[[Array], Array], width: int) -> float:
 def independent(sparse: Sparse, scales: Sequence[float]) -> list[int]:
     """As many rows as there are unknowns, none following from others: of each block those that come first."""
     entries, *_ = equilibrate(sparse, scales)
-    parts, _ = decompose(entries, blocks(sparse, len(scales)))
-    return sorted(int(part.rows[i]) for part in parts for i in _independent_rows(part.matrix))
+    decomposed, _ = decompose(entries, blocks(sparse, len(scales)))
+    return sorted(int(block.rows[i]) for block in decomposed for i in _independent_rows(block.matrix))
 
 
 def _independent_rows(matrix: Array) -> list[int]:
     """The rows that do not follow from those before them, in a matrix of rows near unit length."""
-    kept: list[int] = []
-    known = np.zeros((0, matrix.shape[1]))
+    independent_rows: list[int] = []
+    basis = np.zeros((0, matrix.shape[1]))
     for i, row in enumerate(matrix):
-        rest = row - known.T @ (known @ row)
-        rest -= known.T @ (known @ rest)  # once more, for orthogonality to the last digit
-        if np.linalg.norm(rest) > NULL_VECTOR_TOL:
-            kept.append(i)
-            known = np.vstack([known, rest / np.linalg.norm(rest)])
-    return kept
+        remainder = row - basis.T @ (basis @ row)
+        remainder -= basis.T @ (basis @ remainder)  # once more, for orthogonality to the last digit
+        if np.linalg.norm(remainder) > NULL_VECTOR_TOL:
+            independent_rows.append(i)
+            basis = np.vstack([basis, remainder / np.linalg.norm(remainder)])
+    return independent_rows
 
 
 def equilibrate(sparse: Sparse, scales: Sequence[float]) -> tuple[Entries, Array, Array]:

@@ -135,40 +135,40 @@ def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
         yield from balance.states(scene)
 
 
-def forces(found: Reactions) -> list[Pair]:
+def forces(solution: Reactions) -> list[Pair]:
     """The forces in all pairs."""
-    scene = found.equations.scene
-    return [*found.joints.values(), *(force for force, _ in found.slides.values()),
-            *(force(found.equations, pair, found.higher[pair.name]) for pairs in (scene.gears, scene.contacts)
-              for pair in pairs if pair.name in found.higher)]
+    scene = solution.equations.scene
+    return [*solution.joints.values(), *(force for force, _ in solution.slides.values()),
+            *(force(solution.equations, pair, solution.higher[pair.name]) for pairs in (scene.gears, scene.contacts)
+              for pair in pairs if pair.name in solution.higher)]
 
 
-def contact_forces(found: Reactions) -> dict[str, Pair]:
+def contact_forces(solution: Reactions) -> dict[str, Pair]:
     """The forces in slides, gears and contacts, each on its first link, with what leans in them."""
-    scene, facts, whole = found.equations.scene, iter(found.equations.facts), dict[str, Pair]()
+    scene, facts, forces_on_first_links = solution.equations.scene, iter(solution.equations.facts), dict[str, Pair]()
     for pair in scene.binding:
-        own = [next(facts) for _ in pair.states(scene)]
-        if isinstance(pair, Slide) and pair.name in found.slides:
-            across, normal = next(fact for fact in own if isinstance(fact, Along)), quarter_turn(pair.direction)
-            size = dot(normal, found.slides[pair.name][0]) / dot(normal, normal)
-            whole[pair.name] = times(size, across.direction)
-        elif isinstance(pair, Gear | Contact) and pair.name in found.higher:
+        pair_facts = [next(facts) for _ in pair.states(scene)]
+        if isinstance(pair, Slide) and pair.name in solution.slides:
+            across, normal = next(fact for fact in pair_facts if isinstance(fact, Along)), quarter_turn(pair.direction)
+            size = dot(normal, solution.slides[pair.name][0]) / dot(normal, normal)
+            forces_on_first_links[pair.name] = times(size, across.direction)
+        elif isinstance(pair, Gear | Contact) and pair.name in solution.higher:
             total: Pair = (0, 0)
-            for fact, size in zip(own, found.higher[pair.name], strict=True):
-                x, y, _ = held_at(found.equations, fact)
+            for fact, size in zip(pair_facts, solution.higher[pair.name], strict=True):
+                x, y, _ = held_at(solution.equations, fact)
                 total = plus(total, times(size if fact.link == pair.links[0] else -size, (x, y)))
-            whole[pair.name] = total
-    return whole
+            forces_on_first_links[pair.name] = total
+    return forces_on_first_links
 
 
-def largest(found: Reactions) -> float:
+def largest(solution: Reactions) -> float:
     """The largest of the forces, and of the moments at the mechanism's reach: what is nothing beside it is nothing."""
-    arm = found.equations.reach / metre(found.equations.scene.units)
-    pushes = forces(found)
-    moments = [moment for _, moment in found.slides.values()]
-    for balance in found.balances:
-        (pushes if isinstance(balance, tuple) else moments).append(balance)  # type: ignore[arg-type]
-    return max((*(math.hypot(*force) for force in pushes), *(abs(float(m)) / arm for m in moments)), default=0.0)
+    arm = solution.equations.reach / metre(solution.equations.scene.units)
+    pair_forces = forces(solution)
+    moments = [moment for _, moment in solution.slides.values()]
+    for balance in solution.balances:
+        (pair_forces if isinstance(balance, tuple) else moments).append(balance)  # type: ignore[arg-type]
+    return max((*(math.hypot(*force) for force in pair_forces), *(abs(float(m)) / arm for m in moments)), default=0.0)
 
 
 def self_locking_error(scene: Scene) -> SingularPose:
@@ -288,16 +288,16 @@ def sign(value: float, least: float) -> int:
 # --- the efficiency, from the powers of the balances ----------------------------------------------------------------
 
 
-def delivered_power(found: Reactions) -> Number:
+def delivered_power(solution: Reactions) -> Number:
     """The power that the balances give, in force * length/s."""
-    scene, rates = found.equations.scene, found.rates
+    scene, rates = solution.equations.scene, solution.rates
     power: Number = Fraction(0)
-    for balance, value in zip(required_loads(scene).balances, found.balances, strict=True):
-        (one, other), omega = balance.links, {**rates.omega, FRAME: 0}
+    for balance, value in zip(required_loads(scene).balances, solution.balances, strict=True):
+        (driven, counter), omega = balance.links, {**rates.omega, FRAME: 0}
         if isinstance(value, tuple):
-            power += dot(value, minus(moved_with(rates, one, balance.at), moved_with(rates, other, balance.at)))
+            power += dot(value, minus(moved_with(rates, driven, balance.at), moved_with(rates, counter, balance.at)))
         else:
-            power += value * metre(scene.units) * (omega[one] - omega[other])
+            power += value * metre(scene.units) * (omega[driven] - omega[counter])
     return power
 
 

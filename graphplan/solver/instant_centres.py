@@ -17,7 +17,7 @@ from graphplan.mechanism.numbers import Pair, dot, plus, quarter_turn, times
 from graphplan.solver.rates import Rates
 
 
-class Relative(NamedTuple):
+class RelativeMotion(NamedTuple):
     """How a link moves relative to another: `across` is the velocity of its point O, a quarter ahead."""
 
     O: Pair
@@ -27,7 +27,7 @@ class Relative(NamedTuple):
     @property
     def moves(self) -> bool:
         """Whether it certainly moves."""
-        return any(map(_certain, (self.turning, *self.across)))
+        return any(map(_is_certainly_not_zero, (self.turning, *self.across)))
 
     @property
     def centre(self) -> Pair:
@@ -38,42 +38,43 @@ class Relative(NamedTuple):
     def heading(self, like: Pair) -> Pair:
         """The heading to an instant centre at infinity, in the size and sense of one `like` it; nothing where it is
         certainly not at infinity."""
-        if _certain(self.turning):
+        if _is_certainly_not_zero(self.turning):
             return 0 * like[0], 0 * like[1]
         return times(dot(self.across, like) / dot(self.across, self.across), self.across)
 
 
-def relative(rates: Rates, one: str, two: str) -> Relative:
-    """How link `one` moves relative to link `two`, in numbers of any kind.
+def relative_motion(rates: Rates, link: str, reference: str) -> RelativeMotion:
+    """The motion of a `link` relative to a `reference` link, in numbers of any kind.
 
     What they share tells it where they happen to stand still: a pin, or a guide. Fails with `SingularPose` where
     nothing does.
     """
     scene, zero = rates.equations.scene, 0 * next(iter(rates.omega.values()))
     for joint in scene.revolutes:
-        if {one, two} <= {*joint.links}:
-            return Relative(scene.points[joint.at], (zero, zero), 1)
+        if {link, reference} <= {*joint.links}:
+            return RelativeMotion(scene.points[joint.at], (zero, zero), 1)
     for slide in scene.slides:
-        if {one, two} == {*slide.links} and slide.turns_alike:
+        if {link, reference} == {*slide.links} and slide.turns_alike:
             x, y = slide.direction
-            return Relative(scene.points[slide.at], (zero - y, zero + x), zero)
-    at, off = one if one != FRAME else two, 1 if one != FRAME else -1
-    O = rates.equations.bases[at]
-    (x, y), turning = rates.velocity[O], rates.omega[at]
-    other = two if at == one else one
-    if other != FRAME:
-        base = rates.equations.bases[other]
+            return RelativeMotion(scene.points[slide.at], (zero - y, zero + x), zero)
+    based_link, sense = link if link != FRAME else reference, 1 if link != FRAME else -1
+    O = rates.equations.bases[based_link]
+    (x, y), turning = rates.velocity[O], rates.omega[based_link]
+    second_link = reference if based_link == link else link
+    if second_link != FRAME:
+        base = rates.equations.bases[second_link]
         (bx, by), (vx, vy) = scene.points[base], rates.velocity[base]
         ox, oy = scene.points[O][0] - bx, scene.points[O][1] - by
-        x, y = x - vx + rates.omega[other] * oy, y - vy - rates.omega[other] * ox
-        turning = turning - rates.omega[other]
+        x, y = x - vx + rates.omega[second_link] * oy, y - vy - rates.omega[second_link] * ox
+        turning = turning - rates.omega[second_link]
     if isinstance(turning, Fraction) and not any((x, y, turning)):
-        raise SingularPose("they do not move relative to each other here, so any point is a pole of theirs", (one, two))
-    return Relative(scene.points[O], (-y * off, x * off), turning * off)
+        raise SingularPose("they do not move relative to each other here, so any point is a pole of theirs",
+                           (link, reference))
+    return RelativeMotion(scene.points[O], (-y * sense, x * sense), turning * sense)
 
 
-def _certain(number: Any) -> bool:
-    """Whether a number is known not to be nothing."""
+def _is_certainly_not_zero(number: Any) -> bool:
+    """Whether a number is certainly different from zero."""
     if hasattr(number, "overlaps"):
         return not number.overlaps(type(number)(0.0))
     return isinstance(number, Fraction) and number != 0
@@ -89,8 +90,8 @@ def centre(rates: Rates, point: str, link: str) -> Pair:
     try:
         return plus(scene.points[point], times(dot(v, v) / dot(quarter_turn(v), a), quarter_turn(v)))
     except ArithmeticError:
-        links = sorted(scene.links_of[point], key=lambda one: (one != link, by_name(one)))
-        pivots = [p for one in links for p in scene.links[one] if FRAME in scene.links_of[p]]
+        links = sorted(scene.links_of[point], key=lambda link_name: (link_name != link, by_name(link_name)))
+        pivots = [p for link_name in links for p in scene.links[link_name] if FRAME in scene.links_of[p]]
         if not pivots:
             raise
         return plus(scene.points[pivots[0]], times(0, v))

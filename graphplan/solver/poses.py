@@ -103,8 +103,9 @@ def solve(scene: Scene, n: int, sizes: bool = False) -> rates.Rates:
     equations = motion_equations(scene, np.sqrt)
     zero: Any = Sized(np.zeros(n)) if sizes else np.zeros(n)
     scales = [1.0, 1.0, _reach(equations)] * len(equations.columns) + [1.0, 1.0] * len(equations.pins)
-    found = blocks(equations.rows, equations.width, TOGETHER)
-    return rates.motion(equations, lambda right: _solve_unknowns(equations.rows, right, n, scales, sizes, found), zero)
+    system_blocks = blocks(equations.rows, equations.width, TOGETHER)
+    return rates.motion(equations,
+                        lambda right: _solve_unknowns(equations.rows, right, n, scales, sizes, system_blocks), zero)
 
 
 def reactions(scene: Scene, motion: rates.Rates, n: int, sizes: bool = False) -> statics.Reactions:
@@ -119,26 +120,26 @@ def reactions(scene: Scene, motion: rates.Rates, n: int, sizes: bool = False) ->
         values = _solve_unknowns(rows, right, n, scales, sizes, blocked)
         return statics.read(equations, values, statics.repeating(equations), motion)
 
-    found = solve()
-    apart = tuple(pushes(equations, found.higher))
-    return solve(apart) if apart else found
+    smooth = solve()
+    apart = tuple(pushes(equations, smooth.higher))
+    return solve(apart) if apart else smooth
 
 
 def _reach(equations: Equations) -> float:
     """The longest coordinate of an arm in any pose, or 1 where every arm vanishes."""
-    parts = (np.max(np.abs(np.asarray(part, float))) for arm in equations.arms for part in arm)
-    return max(map(float, parts), default=0.0) or 1.0
+    coordinates = (np.max(np.abs(np.asarray(coordinate, float))) for arm in equations.arms for coordinate in arm)
+    return max(map(float, coordinates), default=0.0) or 1.0
 
 
 def _solve_unknowns(rows: Sequence[Row], right: Sequence[Any], n: int, scales: Sequence[float], sizes: bool,
-            found: Sequence[Block]) -> Sequence[Any]:
+            system_blocks: Sequence[Block]) -> Sequence[Any]:
     """The unknowns, which `scales` make comparable, each over all poses; with `sizes` they know theirs."""
     values: list[Any] = [0.0] * len(scales)
     side: Any
-    for block in found:
+    for block in system_blocks:
         place = {column: k for k, column in enumerate(block.columns)}
         matrix, sides = np.zeros((n, len(block.rows), len(place))), np.empty((n, len(block.rows), 1))
-        terms, known = np.empty_like(sides), np.zeros((n, 1, 1))
+        terms, known_size = np.empty_like(sides), np.zeros((n, 1, 1))
         for k, i in enumerate(block.rows):
             side = with_size(right[i]) if sizes else right[i]
             for j, value in rows[i].items():
@@ -146,45 +147,46 @@ def _solve_unknowns(rows: Sequence[Row], right: Sequence[Any], n: int, scales: S
                     matrix[:, k, place[j]] = value
                 else:
                     side = side - value * values[j]
-                    known[:, 0, 0] = np.maximum(known[:, 0, 0], scales[j] * values[j].size if sizes else 0.0)
+                    known_size[:, 0, 0] = np.maximum(known_size[:, 0, 0], scales[j] * values[j].size if sizes else 0.0)
             sides[:, k, 0], terms[:, k, 0] = (side.value, side.size) if sizes else (side, 0)
         if sizes:
-            own = _with_sizes(matrix, sides, terms, np.reshape([scales[j] for j in block.columns], (-1, 1)), known)
+            solutions = _with_sizes(matrix, sides, terms, np.reshape([scales[j] for j in block.columns], (-1, 1)),
+                                    known_size)
         else:
             solve = np.linalg.solve if len(block.rows) == len(place) else _shortest
-            own = list(_everywhere(solve, matrix, sides)[:, :, 0].T)
-        for j, solution in zip(block.columns, own, strict=True):
+            solutions = list(_everywhere(solve, matrix, sides)[:, :, 0].T)
+        for j, solution in zip(block.columns, solutions, strict=True):
             values[j] = solution
     return values
 
 
-def _with_sizes(matrix: Any, sides: Any, terms: Any, scales: Any, known: Any) -> list[Sized]:
+def _with_sizes(matrix: Any, sides: Any, terms: Any, scales: Any, known_size: Any) -> list[Sized]:
     """The unknowns with the size of what cancels in each: its share of all terms, of which the unknowns are left.
 
-    `known` is the largest size among the unknowns that they hang on, which are left as well.
+    `known_size` is the largest size among the unknowns that they depend on, which are left as well.
     """
     square = matrix.shape[1] == matrix.shape[2]
     inverse = (_everywhere(np.linalg.inv, matrix) if square
                else _shortest(matrix, np.broadcast_to(np.eye(matrix.shape[1]), (*matrix.shape[:2], matrix.shape[1]))))
     values = inverse @ sides
     values += inverse @ (sides - matrix @ values)  # wins the last digits back
-    left = np.abs(values)
-    terms = np.abs(inverse) @ (np.abs(matrix) @ left + terms)
-    whole, most = (np.max(part * scales, axis=1, keepdims=True, initial=0.0) for part in (terms, left))
-    share = np.minimum(np.maximum(most, known) / np.where(whole > 0, whole, 1.0), 1.0)
-    own = np.maximum(left, terms * share)
-    return [Sized(value, size) for value, size in zip(values[:, :, 0].T, own[:, :, 0].T, strict=True)]
+    magnitudes = np.abs(values)
+    terms = np.abs(inverse) @ (np.abs(matrix) @ magnitudes + terms)
+    whole, most = (np.max(numbers * scales, axis=1, keepdims=True, initial=0.0) for numbers in (terms, magnitudes))
+    share = np.minimum(np.maximum(most, known_size) / np.where(whole > 0, whole, 1.0), 1.0)
+    cancelling_sizes = np.maximum(magnitudes, terms * share)
+    return [Sized(value, size) for value, size in zip(values[:, :, 0].T, cancelling_sizes[:, :, 0].T, strict=True)]
 
 
 def _shortest(matrix: Any, sides: Any) -> Any:
     """A solution by least squares in each pose, its columns and rows equilibrated; nan where the rank is too small."""
     columns = _lengths(matrix, 1)
     rows = _lengths(matrix / columns, 2)
-    left, sigma, right = np.linalg.svd(matrix / columns / rows, full_matrices=False)
+    U, sigma, Vt = np.linalg.svd(matrix / columns / rows, full_matrices=False)
     regular = sigma[:, -1:] > POSE_SINGULAR_TOL * sigma[:, :1]
     weights = np.divide(1.0, sigma, out=np.full_like(sigma, np.nan), where=regular)
-    found = right.swapaxes(1, 2) @ (weights[:, :, None] * (left.swapaxes(1, 2) @ (sides / rows)))
-    return found / columns.swapaxes(1, 2)
+    solution = Vt.swapaxes(1, 2) @ (weights[:, :, None] * (U.swapaxes(1, 2) @ (sides / rows)))
+    return solution / columns.swapaxes(1, 2)
 
 
 def _lengths(matrix: Any, axis: int) -> Any:

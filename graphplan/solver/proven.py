@@ -53,26 +53,28 @@ class Proven:
             raise Unproven("the system is not square")
         entries = [{j: bounded_number(number) for j, number in row.items()} for row in rows]
         self._parts = [_Part(entries, block, np.array(scales)) for block in blocks(rows, width)]
-        home = {column: k for k, part in enumerate(self._parts) for column in part.columns.tolist()}
-        self._sources = [sorted({home[column] for column in part.before.tolist()}) for part in self._parts]
-        used = {column for part in self._parts for column in part.before.tolist()}
-        for part in self._parts:
-            part.outlets = np.flatnonzero([column in used for column in part.columns.tolist()])
+        home = {column: k for k, block_system in enumerate(self._parts) for column in block_system.columns.tolist()}
+        self._sources = [sorted({home[column] for column in block_system.before.tolist()})
+                         for block_system in self._parts]
+        used = {column for block_system in self._parts for column in block_system.before.tolist()}
+        for block_system in self._parts:
+            block_system.outlets = np.flatnonzero([column in used for column in block_system.columns.tolist()])
 
     def solve(self, right: Sequence[Any]) -> list[Bounded]:
         """The unknowns; fails with `Unproven` where no bound holds."""
-        given = [bounded_number(number) for number in right]
-        sides = Found(*(np.array([getattr(number, part) for number in given]) for part in ("value", "error", "size")))
-        found = Found(*np.zeros((3, len(given))))
+        numbers = [bounded_number(number) for number in right]
+        sides = Found(*(np.array([getattr(number, field) for number in numbers])
+                        for field in ("value", "error", "size")))
+        unknowns = Found(*np.zeros((3, len(numbers))))
         passed: list[Array] = []
-        for part, sources in zip(self._parts, self._sources, strict=True):
-            coming = [part.coming(self._parts[k], passed[k]) for k in sources]
-            own, vectors = part.solve(sides.select_columns(part.rows), found.select_columns(part.before),
-                                      np.hstack([np.zeros((part.before.size, 0)), *coming]))
+        for block, sources in zip(self._parts, self._sources, strict=True):
+            coming = [block.coming(self._parts[k], passed[k]) for k in sources]
+            solution, vectors = block.solve(sides.select_columns(block.rows), unknowns.select_columns(block.before),
+                                      np.hstack([np.zeros((block.before.size, 0)), *coming]))
             passed.append(vectors)
-            for whole, some in zip(found, own, strict=True):
-                whole[part.columns] = some
-        return [Bounded(float(x), float(e), float(s)) for x, e, s in zip(*found, strict=True)]
+            for all_unknowns, block_unknowns in zip(unknowns, solution, strict=True):
+                all_unknowns[block.columns] = block_unknowns
+        return [Bounded(float(x), float(e), float(s)) for x, e, s in zip(*unknowns, strict=True)]
 
 
 class _Part:
@@ -83,8 +85,8 @@ class _Part:
 
     def __init__(self, entries: Sequence[Mapping[int, Bounded]], block: Block, scales: Array):
         self.rows, self.columns = np.array(block.rows, dtype=np.intp), np.array(block.columns, dtype=np.intp)
-        width, own = len(block.columns), frozenset(block.columns)
-        before = sorted({j for i in block.rows for j in entries[i]} - own)
+        width, block_columns = len(block.columns), frozenset(block.columns)
+        before = sorted({j for i in block.rows for j in entries[i]} - block_columns)
         self.before, self.outlets = np.array(before, dtype=np.intp), np.array([], dtype=np.intp)
         place = {column: k for k, column in enumerate([*block.columns, *before])}
         value, off = np.zeros((2, width, len(place)))
@@ -108,31 +110,31 @@ class _Part:
     def coming(self, source: _Part, vectors: Array) -> Array:
         """What an earlier block hands on, for the unknowns before this one."""
         place = {int(column): k for k, column in enumerate(source.columns[source.outlets])}
-        found = np.zeros((self.before.size, vectors.shape[1]))
+        passed = np.zeros((self.before.size, vectors.shape[1]))
         for k, column in enumerate(self.before.tolist()):
             if column in place:
-                found[k] = vectors[place[column]]
-        return found
+                passed[k] = vectors[place[column]]
+        return passed
 
     @np.errstate(over="ignore", invalid="ignore")  # a bound beyond all numbers proves nothing, as is found then
-    def solve(self, sides: Found, known: Found, vectors: Array) -> tuple[Found, Array]:
+    def solve(self, sides: Found, earlier: Found, vectors: Array) -> tuple[Found, Array]:
         """The unknowns of the block, and the vectors of what their errors hand on."""
-        given = sides.values - self._known @ known.values
-        values = self._inverse @ given
+        remainders = sides.values - self._known @ earlier.values
+        values = self._inverse @ remainders
         for _ in range(2):  # wins the last digits back
-            values = values + self._inverse @ (given - self._matrix @ values)
-        parts = self._sizes @ np.abs(values)
-        rounded = self._slack * (parts + self._known_sizes @ np.abs(known.values) + np.abs(sides.values))
-        residual = (np.abs(given - self._matrix @ values) + rounded + self._off @ np.abs(values) + sides.errors
-                    + self._known_off @ (np.abs(known.values) + known.errors))
+            values = values + self._inverse @ (remainders - self._matrix @ values)
+        absolute_terms = self._sizes @ np.abs(values)
+        rounded = self._slack * (absolute_terms + self._known_sizes @ np.abs(earlier.values) + np.abs(sides.values))
+        residual = (np.abs(remainders - self._matrix @ values) + rounded + self._off @ np.abs(values) + sides.errors
+                    + self._known_off @ (np.abs(earlier.values) + earlier.errors))
         shaken, lost = self._propagate_errors(vectors)
         up = 1 + float(_roundings(np.array(2 * values.size + vectors.shape[1])))  # of the sums that make a bound
         errors = self._errors(up * (self._far @ residual + np.abs(shaken).sum(axis=1) + lost) + MIN_BOUND, up)
-        terms = self._far @ (parts + self._known_sizes @ known.sizes + sides.sizes)
-        own = Found(values, errors, self._cancelling_sizes(values, terms, known.sizes * self._known_scales))
+        terms = self._far @ (absolute_terms + self._known_sizes @ earlier.sizes + sides.sizes)
+        unknowns = Found(values, errors, self._cancelling_sizes(values, terms, earlier.sizes * self._known_scales))
         box = np.diag(up * (self._miss @ errors + lost) + MIN_BOUND)
         passed = np.hstack([shaken, self._inverse * (up * residual), box])[self.outlets]
-        return own, _enclosing_box(passed, self._scales[self.outlets])
+        return unknowns, _enclosing_box(passed, self._scales[self.outlets])
 
     def _propagate_errors(self, vectors: Array) -> tuple[Array, Array]:
         """By how much the errors of earlier unknowns move those of the block, and the rounding of this."""

@@ -76,12 +76,13 @@ def reason(scene: Scene, possible: bool, play: bool) -> str:
     """Why a pose is singular, in words: whether the prescribed motion is possible, and whether anything has play."""
     if not scene.drives and not scene.motions:
         return "nothing drives the mechanism: these links can move freely"
-    one = len(scene.drives) == 1 and not scene.motions
-    given = "the drive" if one else "the given motions" if scene.motions else "the drives"
-    still, do_not = ("stands still", "does not") if one else ("stand still", "do not")
+    single = len(scene.drives) == 1 and not scene.motions
+    input_motion = "the drive" if single else "the given motions" if scene.motions else "the drives"
+    still, do_not = ("stands still", "does not") if single else ("stand still", "do not")
     if possible:
-        return f"{given} {do_not} determine the motion: these links can move while {given} {still}"
-    cause = f"these links move only while {given} {still}" if play else "it asks these links for two motions at once"
+        return f"{input_motion} {do_not} determine the motion: these links can move while {input_motion} {still}"
+    cause = (f"these links move only while {input_motion} {still}" if play
+             else "it asks these links for two motions at once")
     return f"the prescribed motion is impossible here: {cause}"
 
 

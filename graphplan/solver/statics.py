@@ -115,9 +115,9 @@ def reactions(scene: Scene, exact: bool = False) -> Reactions:
     Fails with `Refused` where the scene has no loads or fractions are asked of an irrational one, and with
     `SingularPose`, which names the links, where its motion or its forces are not determined.
     """
-    found = equilibrium(force_equations(scene), solve(scene, exact), exact)
-    apart = tuple(pushes(found.equations, found.higher))
-    return equilibrium(found.equations, found.rates, exact, apart) if apart else found
+    tangential = equilibrium(force_equations(scene), solve(scene, exact), exact)
+    separating = tuple(pushes(tangential.equations, tangential.higher))
+    return equilibrium(tangential.equations, tangential.rates, exact, separating) if separating else tangential
 
 
 def equilibrium(equations: Equations, rates: Rates, exact: bool, more: tuple[Force, ...] = ()) -> Reactions:
@@ -150,8 +150,8 @@ def not_held(equations: Equations, exact: bool) -> SingularPose:
     if not play:
         twice = bound_by(equations, equations.ready(exact, forces=True).free)
         return SingularPose("statically indeterminate: more holds these links than their equilibrium can tell", twice)
-    one = len(balance_unknowns(equations)) == 1
-    balance, does = ("the balance", "it does") if one else ("the balances", "they do")
+    single = len(balance_unknowns(equations)) == 1
+    balance, does = ("the balance", "it does") if single else ("the balances", "they do")
     why = f"{balance} cannot hold the motion in this pose: these links can move while {does} no work"
     return SingularPose(why, moved_by(equations, play))
 
@@ -167,23 +167,24 @@ def read(equations: Equations, values: Iterable[Number], free: Container[int], r
     linked = [(fact.at, fact.link) for fact in equations.facts if fact.way == "x"]
     joints = {joint: (next(unknown), next(unknown)) for joint in linked}
     for pair in scene.binding:
-        found: dict[str, Any] = {} if isinstance(pair, Revolute) else {
+        reaction: dict[str, Any] = {} if isinstance(pair, Revolute) else {
             fact.way: next(unknown) for fact in pair.states(scene)}
-        if any(value is None for value in found.values()):
+        if any(value is None for value in reaction.values()):
             continue
         if isinstance(pair, Slide):
-            across = found["across"]
+            across = reaction["across"]
             slides[pair.name] = times(across, quarter_turn(pair.direction)), scale_number(1 / unit,
-                                                                                          found.get("turn", 0 * across))
+                                                                                          reaction.get("turn",
+                                                                                                       0 * across))
         elif isinstance(pair, Gear | Contact):
-            higher[pair.name] = tuple(found.values())
+            higher[pair.name] = tuple(reaction.values())
     for balance, value in zip(required_loads(scene).balances, unknown, strict=True):
         if value is not None:
             balances.append(scale_number(1 / unit, value) if balance.direction is None
                             else times(value, balance.direction))
-    whole = {(at, link): (x, y) for (at, link), (x, y) in joints.items()
+    determinate_joints = {(at, link): (x, y) for (at, link), (x, y) in joints.items()
              if x is not None and y is not None and link != scene.links_of[at][0]}
-    return Reactions(equations, whole, slides, higher, tuple(balances), rates)
+    return Reactions(equations, determinate_joints, slides, higher, tuple(balances), rates)
 
 
 # --- what acts on the links besides each other -----------------------------------------------------------------------
@@ -199,8 +200,8 @@ def required_loads(scene: Scene) -> Loads:
 def acting(scene: Scene, rates: Rates) -> tuple[Load, ...]:
     """Every load on a link, in the scene's units of force and force * m."""
     loads = required_loads(scene)
-    own = (load for link, mass in loads.masses.items() for load in inertia_loads(scene, link, mass, rates))
-    return (*loads.forces, *loads.moments, *own)
+    mass_loads = (load for link, mass in loads.masses.items() for load in inertia_loads(scene, link, mass, rates))
+    return (*loads.forces, *loads.moments, *mass_loads)
 
 
 def inertia_loads(scene: Scene, link: str, mass: Mass, rates: Rates) -> Iterator[Load]:
@@ -254,9 +255,9 @@ def power(scene: Scene, exact: bool = False) -> tuple[Pair | Number, ...]:
     rows, values = force_equations(scene), system.solve(right)
     if values is None or system.free or rows.ready(exact).free:
         raise not_held(rows, exact)
-    found: Iterable[Number] = values if exact else map(float, values)
+    sizes: Iterable[Number] = values if exact else map(float, values)
     return tuple(v if one.direction is None else times(v, one.direction)
-                 for v, one in zip(found, balances, strict=True))
+                 for v, one in zip(sizes, balances, strict=True))
 
 
 def virtual(rates: Rates, exact: bool) -> Iterator[dict[str, Rate]]:

@@ -110,8 +110,8 @@ def _judge_answer(one: TrueNumber, expected: Sequence[TrueNumber], answer: Table
 def _hint(one: TrueNumber, expected: Sequence[TrueNumber], value: float) -> str:
     """What may have gone wrong: a unit, a sense, or another's number."""
     def is_near(rival: TrueNumber, number: float) -> bool:
-        return rival.gap(number) <= TOLERANCE_FACTOR * max(rival.off,
-                                                           0.01 * abs(rival.value) if rival.dimension else 0.5)
+        least = 0.01 * abs(rival.value) if rival.dimension else 0.5
+        return rival.gap(number) <= TOLERANCE_FACTOR * max(rival.off, least)
 
     alike = next((rival for rival in expected if rival is not one and rival.written == one.written
                   and is_near(rival, value)), None)

@@ -350,8 +350,8 @@ def replace_failed(found: Sequence[PlacedPage], failed: Collection[str]) -> Iter
             counts.setdefault(_owner_key(page), page)
     for page in found:
         if counts.get(_owner_key(page)) is page:
-            yield replace(page, fate=COUNTS, notes=(*page.notes[:-1], said("page {0} cannot be judged",
-                                                                           gone[_owner_key(page)].seen_page.page.name)))
+            note = said("page {0} cannot be judged", gone[_owner_key(page)].seen_page.page.name)
+            yield replace(page, fate=COUNTS, notes=(*page.notes[:-1], note))
         elif page.fate == COUNTS and _owner_key(page) in counts:
             yield replace(page, fate=AGAIN)
         else:

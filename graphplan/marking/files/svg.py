@@ -77,8 +77,8 @@ def length(written: str | None, whole: float = 0.0, otherwise: float = 0.0) -> f
     number_and_unit = LENGTH.fullmatch(written)
     if number_and_unit is None:
         raise ValueError(f"{written[:40]!r} is not a length")
-    sizes = {"": 1.0, "%": whole / 100, "em": 16.0, "rem": 16.0, "ex": 8.0} | {u: mm / MM_PER_UNIT["px"]
-                                                                               for u, mm in MM_PER_UNIT.items()}
+    sizes = {"": 1.0, "%": whole / 100, "em": 16.0, "rem": 16.0, "ex": 8.0}
+    sizes |= {name: mm / MM_PER_UNIT["px"] for name, mm in MM_PER_UNIT.items()}
     if (unit := number_and_unit[2].lower()) not in sizes:
         raise ValueError(f"{unit!r} is not a unit of length")
     return float(number_and_unit[1]) * sizes[unit]

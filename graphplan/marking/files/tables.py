@@ -209,9 +209,8 @@ class _CsvReader(_Reader):
             raise Refused(f"{self.path}", "its first line names no known columns",
                           "quantity,of,value,unit for answers")
         for where, row in rows:
-            decimal = row if self.separator == "," else {name: cell.replace(",", ".", 1) if name in NUMBER_COLUMNS
-                                                         else cell
-                                                         for name, cell in row.items()}
+            decimal = row if self.separator == "," else {
+                name: cell.replace(",", ".", 1) if name in NUMBER_COLUMNS else cell for name, cell in row.items()}
             yield f"{self.path}: {where}", defaultdict(str, decimal)
 
     def _table(self) -> tuple[list[str], Iterator[tuple[str, Mapping[str, str]]]]:

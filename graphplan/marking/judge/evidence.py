@@ -102,9 +102,9 @@ class Evidence:
     def nearby_traces(self, kind: str, panel: str, value: Sequence[float]) -> tuple[list[int], Any]:
         """The traces of a kind that may lie on a plan, and how far each is from a value in mm at most."""
         places = self.unlabelled_of(kind)
-        return places, distance_apart(kind, value,
-                                      self._spots_on_plan(kind,
-                                                          panel)) * self.sheet.mm(panel) if places else np.zeros(0)
+        if not places:
+            return places, np.zeros(0)
+        return places, distance_apart(kind, value, self._spots_on_plan(kind, panel)) * self.sheet.mm(panel)
 
     def _spots_on_plan(self, kind: str, panel: str) -> Any:
         """The spots of all traces of a kind in the units of a plan; nowhere where they are said to be on another."""

@@ -318,8 +318,8 @@ class Remarks(SheetWords):
         yield self._heading(said("Results"))
         table = [[self._runs(text) for text in ("", said("handed in"), said("true"), OFF(), ALLOWED())]]
         for verdict in judgement.numbers:
-            cells = number_words(verdict.number), *map(number_text,
-                                                       (verdict.true, (verdict.off,), (verdict.tolerance,)))
+            sizes = verdict.true, (verdict.off,), (verdict.tolerance,)
+            cells = number_words(verdict.number), *map(number_text, sizes)
             result_name = result_named(judgement, verdict.number.kind, verdict.number.of)
             table.append([self._runs(result_name), *map(self._runs, cells)])
         yield from table_rows(table)

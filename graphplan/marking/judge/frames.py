@@ -189,8 +189,8 @@ class FrameFinder:
 
         def met(spots: Any) -> Any:
             """Which spots have an unlabelled one near."""
-            return np.abs(spots[:, None] - unlabelled[None,
-                                                      :]).min(axis=1) < 2 * measures.VOTE_SIGMAS * self.pencil.point
+            nearest = np.abs(spots[:, None] - unlabelled[None, :]).min(axis=1)
+            return nearest < 2 * measures.VOTE_SIGMAS * self.pencil.point
 
         votes = np.max([sum(met(origins + unit * mark) for mark in plan) for plan in marks], axis=0)
         return [complex(origins[k]) for k in np.argsort(-votes, kind="stable")[:measures.MAX_ORIGINS]]

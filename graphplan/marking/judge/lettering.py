@@ -217,8 +217,8 @@ class Letters:
         if self.traces[place].kind != POINT or POINT not in one.steps or found.count(place) > 1 or (
                 place >= len(self.submission.traces)):
             return False
-        if one.names[0].isdigit() and self._distance_off(one.steps[POINT],
-                                                         self.traces[place]) > 2 * measures.HALF_COST_MM:
+        off = self._distance_off(one.steps[POINT], self.traces[place])
+        if one.names[0].isdigit() and off > 2 * measures.HALF_COST_MM:
             return False
         least = min((cost for rival, cost in one.wish.items() if rival != place and self.traces[rival].kind == POINT),
                     default=math.inf)
@@ -299,8 +299,8 @@ def agreed_frame(marks: Sequence[Candidates], units: Sequence[complex], within: 
     return _refine_frame(at, owner, spots, best[1], best[2], within)
 
 
-def _propose_frames(at: Any, owner: Any, spots: Any, units: Sequence[complex]) -> tuple[tuple[Any, Any],
-                                                                                        tuple[Any, Any]]:
+def _propose_frames(at: Any, owner: Any, spots: Any, units: Sequence[complex]
+                    ) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
     """Units and origins of frames: with the expected unit through every spot, and any through two of two marks."""
     tied = np.repeat(np.array(units, dtype=complex), len(spots))
     origins = np.tile(spots, len(units)) - tied * np.tile(at[owner], len(units))

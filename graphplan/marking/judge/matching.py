@@ -198,8 +198,8 @@ class Matching:
                 break
             residual = self.residual(step, expected, places[k], drawn)
             if residual.fits(self.chance):  # rather one that is free yet, and that reaches its marks
-                candidate = places[k] in self.used, not self._reaches_points(step,
-                                                                             places[k]), residual.square, places[k]
+                misses = not self._reaches_points(step, places[k])
+                candidate = places[k] in self.used, misses, residual.square, places[k]
                 best = min(best, candidate) if best else candidate
             elif step.op.gives == POINT and off[k] > measures.MAX_TOLERANCES_OFF * residual.tolerance(self.chance):
                 break

@@ -56,8 +56,8 @@ class Mistake:
             return *result[:2], result[2] * abs(self.factor) ** 2
         root = self.step.root if self.start is None else self.start
         assert root is not None, f"{self.step.op.name} lays nothing off"
-        start, ratio = values[root], _distance_ratio(domain,
-                                                     *(values[mark] for mark in self.radii)) if self.radii else 1.0
+        start = values[root]
+        ratio = _distance_ratio(domain, *(values[mark] for mark in self.radii)) if self.radii else 1.0
         dx, dy, c, s = result[0] - start[0], result[1] - start[1], self.factor.real * ratio, self.factor.imag * ratio
         return start[0] + c * dx - s * dy, start[1] + s * dx + c * dy
 

@@ -53,14 +53,14 @@ class ExpectedNumber:
         return (PointResidual if len(steady) == 2 else Residual)(np.array(value) - steady, covariance)
 
 
-def judge_numbers(matching: Matching, numbers: Sequence[StudentNumber]) -> tuple[tuple[NumberVerdict, ...],
-                                                                                 tuple[StudentNumber, ...]]:
+def judge_numbers(matching: Matching, numbers: Sequence[StudentNumber]
+                  ) -> tuple[tuple[NumberVerdict, ...], tuple[StudentNumber, ...]]:
     """What is said of every number of a table, once of each: one that is written again is told beside the first; and
     the numbers that are not asked for."""
     if not numbers:
         return (), ()
-    own_numbers, true_numbers = _expected_numbers(matching, matching.own), _expected_numbers(matching,
-                                                                                             matching.sheet.drawing.values)
+    own_numbers, true_numbers = (_expected_numbers(matching, values)
+                                 for values in (matching.own, matching.sheet.drawing.values))
     plainly = {key: plain_value(expected.parts) for key, expected in true_numbers.items()}
     written: dict[Key | None, list[StudentNumber]] = {}
     for number in numbers:
@@ -83,9 +83,8 @@ def _expected_numbers(matching: Matching, values: Sequence[Any]) -> dict[Key, Ex
     drawing, numbers = matching.sheet.drawing, dict[Key, ExpectedNumber]()
     for reading, marks, value in readings(drawing, values, matching.sheet.domain):
         components = value if isinstance(value, tuple) else (value,)
-        numbers[reading.kind, reading.of] = ExpectedNumber(components,
-                                                           _reading_error(matching, reading,
-                                                                          [plain_value(mark) for mark in marks]))
+        error = _reading_error(matching, reading, [plain_value(mark) for mark in marks])
+        numbers[reading.kind, reading.of] = ExpectedNumber(components, error)
     return numbers
 
 

@@ -218,8 +218,8 @@ class QuickScore:
                 if not self._differs_visibly(step, value):
                     continue
                 moved_steps.add(step.index)
-                weight, values[step.index] = self._visible_weight(step, value,
-                                                                  KnownMarks(values[:step.index], self.mistakes))
+                known_marks = KnownMarks(values[:step.index], self.mistakes)
+                weight, values[step.index] = self._visible_weight(step, value, known_marks)
                 gain, seen_weight = gain + weight - matching.matches[step.index].weight, seen_weight + weight
                 if matching.evidence.is_beyond_panel(step, value):
                     dead.add(step.index)
@@ -243,8 +243,9 @@ class QuickScore:
         elif step.op.gives == OPENING:
             return True
         else:
-            off = math.dist(own_value[:2], made[:2]) + abs(math.sqrt(max(own_value[2], 0)) - math.sqrt(max(made[2], 0))
-                                                           if step.op.gives == CIRCLE else 0.0)
+            off = math.dist(own_value[:2], made[:2])
+            if step.op.gives == CIRCLE:
+                off += abs(math.sqrt(max(own_value[2], 0)) - math.sqrt(max(made[2], 0)))
         return off * self.matching.sheet.mm(home) > measures.DIFFERENT_MM
 
     @cached_property
@@ -264,8 +265,8 @@ class QuickScore:
         if share is None:
             return 0.0, value
         if kind != POINT:
-            return measures.QUICK_SHARE * weigh_mark(evidence.most[kind], measures.ABSENT_ODDS[kind], None,
-                                                     share), value
+            weight = weigh_mark(evidence.most[kind], measures.ABSENT_ODDS[kind], None, share)
+            return measures.QUICK_SHARE * weight, value
         trace = evidence.find_trace(step, value, known, measures.DRIFT_MM)
         if trace is None:
             return measures.QUICK_SHARE * measures.ABSENT_ODDS[kind], value

@@ -179,9 +179,8 @@ def exchanged_pairs(matching: Matching) -> Iterator[Pair]:
         if match.state != WRONG or match.step.op.gives != POINT or labels.get(step) != match.place:
             continue
         for rival in labels:
-            if paired.isdisjoint((step, rival)) and rival != step and _bears_letters_of(matching, step,
-                                                                                        rival) and _bears_letters_of(
-                    matching, rival, step):
+            if paired.isdisjoint((step, rival)) and rival != step and all(
+                    _bears_letters_of(matching, *pair) for pair in ((step, rival), (rival, step))):
                 paired |= {step, rival}
                 yield min(step, rival), max(step, rival)
 

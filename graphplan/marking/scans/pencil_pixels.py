@@ -266,12 +266,10 @@ def _fit_ring(ink: PencilInk, middle: Spots, radius: float, usual: float) -> Rin
         middle = middle + np.clip([u, v], -measures.RING_CELL_MM, measures.RING_CELL_MM)
     if radius < measures.MIN_RING_RADIUS_MM:
         return None
-    rim = _darkness(ink,
-                    middle + np.multiply.outer(radius + np.array([-measures.RING_OFF_MM, 0.0, measures.RING_OFF_MM]),
-                                               directions)).max(axis=0)
-    beside = _darkness(ink, middle + np.multiply.outer(radius + np.array([-measures.RING_BESIDE_MM,
-                                                                          measures.RING_BESIDE_MM]),
-                                                       directions)).max(axis=0)
+    across = np.array([-1.0, 0.0, 1.0])
+    on_rim, off_rim = radius + across * measures.RING_OFF_MM, radius + across[::2] * measures.RING_BESIDE_MM
+    rim, beside = (_darkness(ink, middle + np.multiply.outer(radii, directions)).max(axis=0)
+                   for radii in (on_rim, off_rim))
     is_open = rim >= 0
     is_drawn = is_open & (rim > measures.RING_PENCIL_SHARE * usual)
     crest = float((beside[is_drawn] < measures.RING_LIGHTER_RATIO * rim[is_drawn]).mean()) if is_drawn.any() else 0.0

@@ -22,7 +22,7 @@ from shapely import LineString, STRtree, points
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.scans import measures, strokes
-from graphplan.marking.scans.image import Grey, Light, Places, Sizes, read_pictures, require_contrast, shrink
+from graphplan.marking.scans.image import Flags, Grey, Light, Places, Sizes, read_pictures, require_contrast, shrink
 from graphplan.marking.scans.pencil_pixels import (
     PencilInk,
     Ridges,
@@ -366,8 +366,10 @@ def _short_arc(page: PencilPage, centre: Sizes, radius: float, aim: float, along
     across = np.array([-side[1], side[0]])
     moved_centre = centre + across * radius * math.sin(turned) + side * radius * (1 - math.cos(turned))
 
-    stretches = strokes.crest_stretches(along, lambda at: page.ink.are_hidden_or_dark(strokes.rim_spots(centre, radius
-                                                                                                   + level, aim, at)))
+    def are_hidden(at: Sizes) -> Flags:
+        return page.ink.are_hidden_or_dark(strokes.rim_spots(centre, radius + level, aim, at))
+
+    stretches = strokes.crest_stretches(along, are_hidden)
     clear_stretches = [stretch for stretch in stretches if stretch.seen_share >= measures.MIN_FAINT_SHARE]
     if not clear_stretches:
         return None

@@ -86,8 +86,8 @@ def crests_near_line(found: Ridges, left: Places, angle: float, shift: float) ->
     normal = np.array([math.cos(angle), math.sin(angle)])
     at, which = normal * shift, left
     for reach in measures.ROW_REACHES_MM:
-        near = (np.abs((found.spots[which] - at) @ normal) < reach) & (np.abs(found.normals[which] @ normal)
-                                                                       > measures.MIN_NORMAL_COSINE)
+        near = np.abs((found.spots[which] - at) @ normal) < reach
+        near &= np.abs(found.normals[which] @ normal) > measures.MIN_NORMAL_COSINE
         if near.sum() < measures.MIN_CRESTS:
             return None
         chosen = which[near]
@@ -201,8 +201,8 @@ class Vote:
         self.count = round(math.pi / measures.VOTE_TURN_RAD)
         self.reach = int(np.hypot(*np.abs(found.spots).max(axis=0, initial=1.0)) / measures.VOTE_SHIFT_MM) + 2
         angle = np.arctan2(found.normals[:, 1], found.normals[:, 0])
-        cells = np.rint(angle / measures.VOTE_TURN_RAD).astype(int)[:, None] + np.arange(-measures.NORMAL_CELLS,
-                                                                                         measures.NORMAL_CELLS + 1)
+        unsure = np.arange(-measures.NORMAL_CELLS, measures.NORMAL_CELLS + 1)
+        cells = np.rint(angle / measures.VOTE_TURN_RAD).astype(int)[:, None] + unsure
         turn = cells % self.count * measures.VOTE_TURN_RAD
         shift = found.spots[:, :1] * np.cos(turn) + found.spots[:, 1:] * np.sin(turn)
         level = np.rint(shift / measures.VOTE_SHIFT_MM).astype(int) + self.reach

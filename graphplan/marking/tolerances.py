@@ -17,7 +17,8 @@ PARALLEL_TOL = 2.0**-50  # sine of the angle between lines: a smaller one is rou
 # ---- numbers --------------------------------------------------------------------------------------------------------
 
 FIGURE_TOL = 1e-3  # of a number: the part that may be lost by rounding it to three figures
-LONGER = 1 + Fraction(1, 10**9)  # times a length: a vector that ends just in a point has a mark of its own then
+# times a length: a vector that ends just in a point has a mark of its own then
+VECTOR_END_RATIO = 1 + Fraction(1, 10**9)
 VARIANCE_TOL = 1e-9  # of the largest variance: a smaller one is none, as a covariance has half of a float's digits
 BOUND_TOL = 1e-6  # of one square of a normal deviate: how closely a bound of their sum is searched
 VARIANCE_FLOOR = 1e-9  # mm²: is added to variances, that a covariance has an inverse where spots have no error

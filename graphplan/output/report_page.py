@@ -14,8 +14,8 @@ from importlib.resources import files
 
 from graphplan.marking.classroom.results import NOT_JUDGED, Classroom, MarkedDrawing, mistake_words
 from graphplan.marking.judge.findings import (
-    ALLOWED,
-    OFF,
+    ALLOWED_WORD,
+    OFF_WORD,
     SIGNIFICANT_DIGITS,
     look_at_lines,
     number_text,
@@ -186,7 +186,7 @@ class _Report(HtmlPage):
     def _numbers(self) -> Iterator[str]:
         if not self.judgement.numbers:
             return
-        heads = (said("Result"), said("handed in"), said("true"), said("Verdict"), OFF(), ALLOWED(),
+        heads = (said("Result"), said("handed in"), said("true"), said("Verdict"), OFF_WORD(), ALLOWED_WORD(),
                  said("Likely mistake"))
         rows = [(verdict.state, self._number(verdict)) for verdict in self.judgement.numbers]
         yield from self.table(said("Results"), said("In the units of the scene."), heads, rows)

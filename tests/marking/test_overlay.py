@@ -22,7 +22,7 @@ from graphplan.marking.judge.overlay import (
     overlay,
 )
 from graphplan.marking.judge.score import score
-from graphplan.marking.judge.verdict import RIGHT, UNSURE, WRONG, Judgement, NumberVerdict
+from graphplan.marking.judge.verdict import RIGHT, UNCLEAR, WRONG, Judgement, NumberVerdict
 from graphplan.marking.traces import StudentNumber
 from graphplan.phrases import said
 from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Text
@@ -167,7 +167,7 @@ def test_what_cannot_be_told_is_ringed_where_it_should_be() -> None:
     """A teacher is led to each place at which there is nothing to judge by: about a point, or the middle of a line."""
     found = judgement("four-bar")
     point, line = wrong_step(found, "meet"), wrong_step(found, "parallel")
-    verdicts = tuple(replace(v, state=UNSURE, trace=None) if v.step in (point, line) else v for v in found.verdicts)
+    verdicts = tuple(replace(v, state=UNCLEAR, trace=None) if v.step in (point, line) else v for v in found.verdicts)
     student = StudentStrokes(replace(found, verdicts=verdicts))
     rings = {item.step: item for item in student.items() if isinstance(item, Circle) and item.pen.colour == GOLD}
     plans = found.composition.plans

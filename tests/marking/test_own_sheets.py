@@ -11,7 +11,7 @@ import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.score import score
-from graphplan.marking.judge.verdict import MISSING, UNSURE, WRONG
+from graphplan.marking.judge.verdict import MISSING, UNCLEAR, WRONG
 from graphplan.marking.submission import read_submission
 from graphplan.marking.traces import PlanFrame
 from graphplan.output.dxf import dxf
@@ -40,5 +40,5 @@ def test_own_sheets_are_faultless(name: str, other: str, tmp_path: Path) -> None
                                      size=(arrangement.width, arrangement.height))
         found = judge(drawing, composition, submission, Pencil())
         assert not [(kind, drawing.drawn.text(verdict.step), verdict.state) for verdict in found.verdicts
-                    if verdict.state in (WRONG, MISSING, UNSURE)]
+                    if verdict.state in (WRONG, MISSING, UNCLEAR)]
         assert (kind, score(found).total, str(found.reading)) == (kind, 100, "")

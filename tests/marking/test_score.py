@@ -16,8 +16,8 @@ from graphplan.marking.judge.verdict import (
     IMPLIED,
     MISSING,
     RIGHT,
+    UNCLEAR,
     UNSEEN,
-    UNSURE,
     WRONG,
     Judgement,
     NumberVerdict,
@@ -173,6 +173,6 @@ def test_what_is_implied_earns_and_what_cannot_be_told_does_not() -> None:
     """A step that a right mark bears out earns as if it were drawn; one that cannot be told earns nothing."""
     found = judgement("four-bar")
     implied, unsure = (replace(found, verdicts=tuple(replace(v, state=state) for v in found.verdicts))
-                       for state in (IMPLIED, UNSURE))
+                       for state in (IMPLIED, UNCLEAR))
     assert score(implied, parse_weights("missing=0.5")).total == 100.0
     assert score(unsure, parse_weights("missing=0.5")).total == 0.0

@@ -12,7 +12,7 @@ import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge.judge import judge
-from graphplan.marking.judge.verdict import EARNED, IMPLIED, MISSING, RIGHT, UNSURE, WRONG, Judgement
+from graphplan.marking.judge.verdict import EARNED, IMPLIED, MISSING, RIGHT, UNCLEAR, WRONG, Judgement
 from graphplan.marking.judge.verdicts import sureness
 from graphplan.marking.traces import StudentNumber, Submission, Trace
 
@@ -62,7 +62,7 @@ def test_ink_beside_a_missing_mark_is_to_be_looked_at() -> None:
     """An unlabelled dot that is no step's, some mm beside where a result should be, may be it: nobody can tell."""
     assert states(four_bar("M_1", kinds=(POINT,), letters=False))["M_1"] == MISSING
     found = four_bar(kinds=(POINT,), letters=False, moved={"M_1": 4.5})
-    assert states(found)["M_1"] in (UNSURE, WRONG)
+    assert states(found)["M_1"] in (UNCLEAR, WRONG)
     shown = next(verdict for verdict in found.verdicts if found.drawing.drawn.steps[verdict.step].name == "M_1")
     assert shown.trace is not None
 

@@ -23,7 +23,7 @@ from graphplan.marking.judge.overlay import (
     plan_remarks,
 )
 from graphplan.marking.judge.score import Score
-from graphplan.marking.judge.verdict import EARNED, UNSURE, WRONG, Judgement, Verdict
+from graphplan.marking.judge.verdict import EARNED, UNCLEAR, WRONG, Judgement, Verdict
 from graphplan.marking.traces import Trace
 from graphplan.phrases import join
 from graphplan.sheet.layout.composition import Composition
@@ -87,8 +87,8 @@ class ScanStrokes(StudentStrokes):
             for item in items:
                 yield from clip_item(item, rect)
         for verdict in self.judgement.verdicts:
-            if verdict.state == UNSURE and verdict.trace is None and (spot := self.doubtful(verdict)):
-                yield Circle(PENS[UNSURE], LAYER, verdict.step, spot, HALF_SIZES_MM[UNSURE])
+            if verdict.state == UNCLEAR and verdict.trace is None and (spot := self.doubtful(verdict)):
+                yield Circle(PENS[UNCLEAR], LAYER, verdict.step, spot, HALF_SIZES_MM[UNCLEAR])
 
 
 @dataclass(frozen=True)

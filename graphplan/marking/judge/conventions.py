@@ -25,7 +25,7 @@ from graphplan.marking.judge import measures
 from graphplan.marking.judge.frames import Pair, agreed_units, best_fit, fit_frame
 from graphplan.marking.judge.readings import SheetReading, to_mm
 from graphplan.marking.judge.student_sheet import Fit
-from graphplan.marking.tolerances import LONGER
+from graphplan.marking.tolerances import VECTOR_END_RATIO
 from graphplan.marking.traces import PlanFrame, Submission, Trace, spell
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
@@ -39,7 +39,7 @@ SENSES: Mapping[int, tuple[tuple[Said, ...], float]] = {  # by the quarter turns
     0: ((), 0.0), 2: ((said("velocities turned clockwise"),), measures.TURNED_ODDS),
     3: ((said("true velocities at their points"),), measures.AT_JOINTS_ODDS),
 }
-WRITTEN: Mapping[ResultKind, tuple[str, ...]] = {  # how the ends of a point's vectors are called
+END_NAME_PATTERNS: Mapping[ResultKind, tuple[str, ...]] = {  # how the ends of a point's vectors are called
     VELOCITY: ("v{0}", "{0}"), ACCELERATION: ("a{0}", "j{0}", "w{0}", "{0}'", "{0}1"),
 }
 
@@ -168,7 +168,7 @@ class Proposer:
     def at_tempo(self, size: Fraction, submission: Submission) -> Construction | None:
         """The construction with velocities so many times as long; every one that is marked ends in a mark of its own.
         """
-        for tempo in (size, size * LONGER):
+        for tempo in (size, size * VECTOR_END_RATIO):
             with suppress(GraphplanError):
                 drawing = self._construct(_scene_at_tempo(self.task.drawing, tempo))
                 if not find_orphans(drawing, submission):
@@ -239,7 +239,7 @@ class Proposer:
             if reading.kind == kind:
                 start, end = (drawing.drawn.wanted[mark] for mark in reading.marks[-2:])
                 ends[reading.of] = start, end
-        for written in WRITTEN[kind] if ends else ():
+        for written in END_NAME_PATTERNS[kind] if ends else ():
             marks = {place: end for point, (_, end) in ends.items()
                      if (place := self._find_mark(point, written)) is not None}
             pole = next(iter(ends.values()))[0]

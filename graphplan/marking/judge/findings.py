@@ -16,7 +16,7 @@ from graphplan.marking.judge.verdict import (
     NOT_NEEDED,
     RIGHT,
     STATES,
-    UNSURE,
+    UNCLEAR,
     WRONG,
     Judgement,
     NumberVerdict,
@@ -32,7 +32,7 @@ from graphplan.sheet.words.rows import Cell, TextRow, table_rows
 from graphplan.sheet.words.texts import SheetWords
 
 SIGNIFICANT_DIGITS = 2  # of a distance on paper
-OFF, ALLOWED = phrase("off"), phrase("allowed")
+OFF_WORD, ALLOWED_WORD = phrase("off"), phrase("allowed")
 VERDICT_TITLE = said("Verdict")
 LEGEND_WORDS_MM = 11.0  # mm: where the words of the legend begin
 
@@ -123,7 +123,7 @@ def first_wrong_sentence(judgement: Judgement) -> list[Said]:
 def look_at_lines(judgement: Judgement) -> list[Said]:
     """The steps of which nothing can be told, and those missing, and the results; nothing where there are none."""
     lines = []
-    if unsure := step_numbers(judgement, UNSURE):
+    if unsure := step_numbers(judgement, UNCLEAR):
         lines.append(said("Unclear steps, to be looked at: {0}.", unsure))
     if missing := step_numbers(judgement, MISSING):
         lines.append(arrange("{0:capital}: {1}.", STATES[MISSING](), missing))
@@ -186,7 +186,7 @@ def wrong_number(judgement: Judgement, verdict: NumberVerdict) -> Said:
     """What is wrong with a number: by how much, in the scene's units, and what was probably done."""
     sizes = digits(verdict.off, SIGNIFICANT_DIGITS), digits(verdict.tolerance, SIGNIFICANT_DIGITS)
     result_name = result_named(judgement, verdict.number.kind, verdict.number.of)
-    phrases = [result_name, arrange("{0} {1}", OFF(), sizes[0]), arrange("{0} {1}", ALLOWED(), sizes[1])]
+    phrases = [result_name, arrange("{0} {1}", OFF_WORD(), sizes[0]), arrange("{0} {1}", ALLOWED_WORD(), sizes[1])]
     return said("Wrong result: {0}.", join(phrases if verdict.mistake is None else [*phrases, verdict.mistake]))
 
 
@@ -295,7 +295,7 @@ class Remarks(SheetWords):
 
     def _legend(self, wide: float) -> Iterator[TextRow]:
         yield self._heading(said("Legend"))
-        for state in (RIGHT, FOLLOWS, WRONG, UNSURE, None):
+        for state in (RIGHT, FOLLOWS, WRONG, UNCLEAR, None):
             state_text = NOT_NEEDED() if state is None else STATES[state]()
             yield LegendRow((Cell(LEGEND_WORDS_MM, sentence_runs(self.plans.tongue(state_text))),), gap=0.6,
                             state=state)
@@ -316,7 +316,7 @@ class Remarks(SheetWords):
         if not judgement.numbers:
             return
         yield self._heading(said("Results"))
-        table = [[self._runs(text) for text in ("", said("handed in"), said("true"), OFF(), ALLOWED())]]
+        table = [[self._runs(text) for text in ("", said("handed in"), said("true"), OFF_WORD(), ALLOWED_WORD())]]
         for verdict in judgement.numbers:
             sizes = verdict.true, (verdict.off,), (verdict.tolerance,)
             cells = number_words(verdict.number), *map(number_text, sizes)

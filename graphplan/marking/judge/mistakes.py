@@ -99,7 +99,7 @@ def _distance_ratio(domain: Domain, P: Any, Q: Any, R: Any, S: Any) -> Any:
 NORMAL_VECTOR = phrase("the normal acceleration of {0} about {1}")
 CORIOLIS_VECTOR = phrase("the Coriolis acceleration of {0} relative to {1}")
 STAGE_VECTOR, VECTOR = phrase("the vector {0}"), phrase("the vector")
-THINGS = {NORMAL_VECTOR: phrase("normal acceleration"), CORIOLIS_VECTOR: phrase("Coriolis acceleration")}
+LAW_VECTOR_WORDS = {NORMAL_VECTOR: phrase("normal acceleration"), CORIOLIS_VECTOR: phrase("Coriolis acceleration")}
 
 
 @dataclass(frozen=True)
@@ -268,18 +268,18 @@ DEEDS: dict[str, tuple[Phrase, tuple[complex, ...]]] = {
 def _enter_deed(words: Phrase | None, deed: str) -> None:
     """Enter in the table what may be done to the vectors of a law, or to those of none."""
     deed_phrase, factors = DEEDS[deed]
-    thing = THINGS[words] if words else phrase("a vector")
+    thing = LAW_VECTOR_WORDS[words] if words else phrase("a vector")
 
     def rule(at: Occasion) -> Iterable[Mistake]:
         assert at.vector is not None
-        if (at.vector.words if at.vector.words in THINGS else None) is words:
+        if (at.vector.words if at.vector.words in LAW_VECTOR_WORDS else None) is words:
             for factor in factors:
                 yield at.mistaken_step(deed_phrase(at.vector.text), factor, start=at.vector.start)
 
     enter_mistake(f"{thing()} {deed}" if words else deed, lambda: deed_phrase(thing()), lays_off_vector)(rule)
 
 
-for _words in (*THINGS, None):
+for _words in (*LAW_VECTOR_WORDS, None):
     for _deed in DEEDS:
         _enter_deed(_words, _deed)
 

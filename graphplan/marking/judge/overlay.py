@@ -22,7 +22,7 @@ from graphplan.kernel.numbers import Floats
 from graphplan.marking.files.drawing import circle_through
 from graphplan.marking.judge.findings import VERDICT_TITLE, LegendRow, Remarks, complaint, opinion, step_name
 from graphplan.marking.judge.score import Score
-from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNSURE, WRONG, Judgement, Verdict
+from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNCLEAR, WRONG, Judgement, Verdict
 from graphplan.marking.traces import Trace
 from graphplan.sheet.frames.frame import BORDER
 from graphplan.sheet.layout.layout import layout, title_items
@@ -41,11 +41,11 @@ from graphplan.sheet.words.texts import RESULTS
 LAYER = "student"
 BLUE, GREEN, RED, GOLD, PLUM, DARK = "#0072b2", "#00785a", "#d04a00", "#8f6a00", "#8a5a7a", "#333333"
 PENS: dict[str | None, Pen] = {RIGHT: Pen(0.3, BLUE), FOLLOWS: Pen(0.35, GREEN, (2.2, 0.9)), WRONG: Pen(0.7, RED),
-                               UNSURE: Pen(0.5, GOLD, (0.8, 0.8))}
+                               UNCLEAR: Pen(0.5, GOLD, (0.8, 0.8))}
 SPARE_PEN = Pen(0.3, PLUM, (0.3, 0.8))
 TOLERANCE_PEN = Pen(0.13, DARK)
 WANTED_PEN = Pen(0.3, RED, (1.2, 0.8))  # where a wrong mark should be
-HALF_SIZES_MM: dict[str | None, float] = {RIGHT: 0.45, FOLLOWS: 0.6, WRONG: 1.3, UNSURE: 3.2}  # half of a mark, in mm
+HALF_SIZES_MM: dict[str | None, float] = {RIGHT: 0.45, FOLLOWS: 0.6, WRONG: 1.3, UNCLEAR: 3.2}  # half of a mark, in mm
 WANTED_LINE_MM = 12.0  # mm of a line past the mark that it should have been, each way
 ELLIPSE_CORNERS = 36  # of an ellipse
 DIAMETER_SHARE = 0.99  # of a diameter: spots farther apart are opposite each other
@@ -269,8 +269,8 @@ class StudentStrokes:
         for mark in self.marks:
             yield from _clip_items(mark.tolerance(), mark.expected_step.view)
         for verdict in self.judgement.verdicts:
-            if verdict.state == UNSURE and verdict.trace is None:
-                yield from _point_items(self.expected_spot(verdict), UNSURE, verdict.step)
+            if verdict.state == UNCLEAR and verdict.trace is None:
+                yield from _point_items(self.expected_spot(verdict), UNCLEAR, verdict.step)
 
     def panel(self, verdict: Verdict) -> str:
         """The plan of a step."""
@@ -322,8 +322,8 @@ def legend_sample(state: str | None, spot: Spot) -> Iterator[Item]:
     """How marks of a verdict look, for a legend: a stroke with a point on it; what is spare without a verdict."""
     x, y = spot
     yield Polyline(PENS.get(state, SPARE_PEN), LAYER, None, ((x - 4.0, y), (x + 4.0, y)))
-    if state == UNSURE:  # its ring is wider than a row is high
-        yield Circle(PENS[UNSURE].with_fill("none"), LAYER, None, spot, HALF_SIZES_MM[WRONG])
+    if state == UNCLEAR:  # its ring is wider than a row is high
+        yield Circle(PENS[UNCLEAR].with_fill("none"), LAYER, None, spot, HALF_SIZES_MM[WRONG])
     else:
         yield from _point_items(spot, state, None)
 
@@ -347,7 +347,7 @@ def _point_items(spot: Spot, state: str | None, step: int | None) -> Iterator[It
         yield from (Polyline(firm.with_fill("none"), LAYER, step, ends) for ends in (corners[::2], corners[1::2]))
     elif state == FOLLOWS:
         yield Polygon(firm, LAYER, step, corners)
-    elif state == UNSURE:
+    elif state == UNCLEAR:
         yield Circle(pen.with_fill("none"), LAYER, step, spot, half_size)
     else:
         yield Circle(firm, LAYER, step, spot, half_size)

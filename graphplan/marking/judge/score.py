@@ -14,7 +14,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.mistakes import MISTAKES
-from graphplan.marking.judge.verdict import IMPLIED, UNSEEN, UNSURE, WRONG, Judgement, asked_results
+from graphplan.marking.judge.verdict import IMPLIED, UNCLEAR, UNSEEN, WRONG, Judgement, asked_results
 from graphplan.marking.judge.verdicts import EXCHANGED_KIND, EXCHANGED_WORDS
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
@@ -50,7 +50,7 @@ class Weights:
 
     def earned_by(self, state: str) -> float:
         """What is implied earns as if it were drawn; what cannot be told earns nothing."""
-        return 0.0 if state == UNSURE else float(getattr(self, "right" if state == IMPLIED else state))
+        return 0.0 if state == UNCLEAR else float(getattr(self, "right" if state == IMPLIED else state))
 
 
 WEIGHT_NAMES = "right", "follows", "missing", "wrong", "numbers"

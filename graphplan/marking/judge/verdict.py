@@ -15,7 +15,7 @@ from graphplan.methods.recorded import Reading
 from graphplan.phrases import Said, join, phrase
 from graphplan.sheet.layout.composition import Composition
 
-RIGHT, FOLLOWS, IMPLIED, WRONG, MISSING, UNSURE, UNSEEN = (
+RIGHT, FOLLOWS, IMPLIED, WRONG, MISSING, UNCLEAR, UNSEEN = (
     "right", "follows", "implied", "wrong", "missing", "unsure", "unseen")
 STATES = {
     RIGHT: phrase("correct"),
@@ -23,7 +23,7 @@ STATES = {
     IMPLIED: phrase("implied by a correct mark"),  # by a right mark that rests on it
     WRONG: phrase("wrong"),
     MISSING: phrase("missing"),
-    UNSURE: phrase("unclear: look here"),  # something is there, or should be: the teacher has the word
+    UNCLEAR: phrase("unclear: look here"),  # something is there, or should be: the teacher has the word
     UNSEEN: phrase("not visible"),  # of a kind that the drawing does not show, and nothing that is right rests on it
 }
 EARNED = frozenset({RIGHT, FOLLOWS, IMPLIED})  # what was done as it should be
@@ -183,5 +183,5 @@ def asked_results(judgement: Judgement) -> Iterator[AskedResult]:
 
 def _state_of_marks(states: Collection[str]) -> str:
     """What marks say together; that one of them is wrong was held against it already."""
-    worst = next((state for state in (MISSING, UNSURE, UNSEEN) if state in states), None if states else UNSEEN)
+    worst = next((state for state in (MISSING, UNCLEAR, UNSEEN) if state in states), None if states else UNSEEN)
     return worst or (RIGHT if {WRONG, FOLLOWS}.isdisjoint(states) else FOLLOWS)

@@ -32,8 +32,8 @@ from graphplan.marking.judge.verdict import (
     IMPLIED,
     MISSING,
     RIGHT,
+    UNCLEAR,
     UNSEEN,
-    UNSURE,
     WRONG,
     Ellipse,
     NumberVerdict,
@@ -69,10 +69,10 @@ class States:
             state = match.state if match.place is not None else IMPLIED
             # it could be seen, and something else is there
             elsewhere = match.weight < 0.0 and self.unexplained_near(match)
-            return UNSURE if odds < 0.0 or elsewhere else state, sureness(odds)
+            return UNCLEAR if odds < 0.0 or elsewhere else state, sureness(odds)
         if self.drawn_steps[match.step.index] and match.step.index not in self.unreadable_marks:
             return UNSEEN, sureness(-match.weight)
-        return UNSURE if self._is_hidden(match) or self.unexplained_near(match) else MISSING, sureness(-match.weight)
+        return UNCLEAR if self._is_hidden(match) or self.unexplained_near(match) else MISSING, sureness(-match.weight)
 
     def _is_unasked(self, match: Match) -> bool:
         """Whether nobody asks for a step's mark: it is too small to draw, or there are but numbers."""
@@ -300,7 +300,7 @@ def verdicts(matching: Matching, numbers: Iterable[NumberVerdict] = ()) -> Itera
         state, confidence = states.state_of(match)
         verdict = replace(_verdict_on(matching, match, state), confidence=confidence)
         yield replace(verdict,
-                      trace=states.unexplained_near(match)) if state == UNSURE and not verdict.trace else verdict
+                      trace=states.unexplained_near(match)) if state == UNCLEAR and not verdict.trace else verdict
 
 
 def _verdict_on(matching: Matching, match: Match, state: str) -> Verdict:

@@ -11,7 +11,7 @@ know later, or what was measured on paper: what reads them need not know which.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -23,11 +23,9 @@ from graphplan.phrases import Phrase, Said
 
 
 class PlanScale(NamedTuple):
-    """How a plan is drawn: `on_paper` in mm of paper, else in the lengths of the scene; its velocities `turned` by a
-    quarter or not."""
+    """How a plan is drawn: `on_paper` in mm of paper, else in the lengths of the scene."""
 
     on_paper: bool = False
-    turned: bool = False
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -42,12 +40,12 @@ class Drawing:
         """Whether a plan is drawn in mm of paper."""
         return panel in self.plans and self.plans[panel].on_paper
 
-    def mark_values(self, domain: Domain | None = None, given: Mapping[Any, Mapping[str, Any]] | None = None,
-                    after: Callable[[Step], None] | None = None) -> Values:
+    def mark_values(self, domain: Domain | None = None,
+                    given: Mapping[Any, Mapping[str, Any]] | None = None) -> Values:
         """The values of all marks in a number domain, floats by default; see :func:`graphplan.kernel.program.evaluate`.
         """
         domain = domain or Floats()
-        return Values(self, evaluate(self.program, domain, given, after), domain)
+        return Values(self, evaluate(self.program, domain, given), domain)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

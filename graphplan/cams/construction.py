@@ -13,16 +13,14 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 from graphplan.cams.follower import CamPair, FlatOscillating, Oscillating, Translating
 from graphplan.cams.profile import Cam
 from graphplan.cams.tolerances import DIRECTION_TOL, ZERO_LENGTH
+from graphplan.kernel.drawing import Values, record_drawing
 from graphplan.kernel.kinds import Quantity
-from graphplan.kernel.numbers import Floats
-from graphplan.kernel.passes import freeze
-from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
+from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.phrases import digits, said
 
@@ -31,30 +29,21 @@ FACE_REACH = 1.1  # of the farthest contact from the pivot: where a face is mark
 
 
 @dataclass(frozen=True)
-class Division:
-    """One position of the turn: its angle in degrees, and its marks by their wanted places; some kinds lack some."""
-
-    angle: float
-    marks: dict[str, int]
-
-
-@dataclass(frozen=True)
 class CamDrawing:
-    """The program that constructs a cam, and where the marks of each division are found in it."""
+    """The construction of a cam with the values of its marks: a role has one mark at each division, or stands once."""
 
     cam: Cam
-    program: Program
-    divisions: tuple[Division, ...]
-    common: dict[str, int]
+    values: Values
 
-    @cached_property
-    def values(self) -> list[Any]:
-        """The value of each step."""
-        return evaluate(self.program, Floats())
+    @property
+    def angles(self) -> list[float]:
+        """The angles of the divisions, in degrees."""
+        count = self.cam.task.cam.divisions
+        return [360.0 * k / count for k in range(count)]
 
     def positions(self, name: str) -> list[complex]:
         """The points of a name at all divisions, such as A or K."""
-        return [complex(*self.values[one.marks[name]]) for one in self.divisions]
+        return [complex(*point) for point in self.values.values_of_role(name)]
 
 
 def draw_cam(cam: Cam) -> CamDrawing:
@@ -69,7 +58,7 @@ class _CamRecorder:
         self.cam, self.pair, self.board = cam, cam.pair, Board()
         self.count = cam.task.cam.divisions
         self.common: dict[str, Mark] = {}
-        self.found: list[dict[str, Mark]] = [{} for _ in range(self.count)]
+        self.marks: list[dict[str, Mark]] = [{} for _ in range(self.count)]
 
     @property
     def drawing(self) -> CamDrawing:
@@ -85,13 +74,9 @@ class _CamRecorder:
         for title, law, draw in stages:
             with self.board.on(CAM_PLAN, stage=Stage(title, law)):
                 draw()
-        names = [*self.common.items()], [[*marks.items()] for marks in self.found]
-        program = freeze(self.board, [mark for _, mark in (*names[0], *(pair for marks in names[1] for pair in marks))])
-        places = iter(program.wanted)
-        common = {name: next(places) for name, _ in names[0]}
-        divisions = tuple(Division(360.0 * k / self.count, {name: next(places) for name, _ in marks})
-                          for k, marks in enumerate(names[1]))
-        return CamDrawing(self.cam, program, divisions, common)
+        roles = {name: [mark] for name, mark in self.common.items()}
+        roles |= {name: [marks[name] for marks in self.marks] for name in self.marks[0]}
+        return CamDrawing(self.cam, record_drawing(self.board, roles).mark_values())
 
     # ---- what all kinds share --------------------------------------------------------------------------------------
 
@@ -131,7 +116,7 @@ class _CamRecorder:
         elif self.oscillates:
             self.A = self.arm_end(0, self.base)
         else:
-            self.A = self.board.line_meets_circle(self.found[0]["path"], self.base, way="on", name="A_0")
+            self.A = self.board.line_meets_circle(self.marks[0]["path"], self.base, way="on", name="A_0")
 
     @property
     def oscillates(self) -> bool:
@@ -149,7 +134,7 @@ class _CamRecorder:
 
     def place_follower(self, k: int) -> None:
         """The path or the pivot where it has gone."""
-        board, ray, marks = self.board, self.rays[k], self.found[k]
+        board, ray, marks = self.board, self.rays[k], self.marks[k]
         if self.oscillates:
             marks["B"] = board.line_meets_circle(ray, self.pivots, way="on", name=f"B_{k}", why=said("the pivot"))
             marks["arc"] = board.circle(marks["B"], self.arm, why=said("the arm about it"))
@@ -161,7 +146,7 @@ class _CamRecorder:
 
     def arm_end(self, k: int, circle: Mark) -> Mark:
         """The end of the arm on a circle about O."""
-        return self.board.circles_meet(circle, self.found[k]["arc"], side="left", name=f"A_{k}")
+        return self.board.circles_meet(circle, self.marks[k]["arc"], side="left", name=f"A_{k}")
 
     def _lifts(self) -> None:
         """The lifts at the first position."""
@@ -173,16 +158,16 @@ class _CamRecorder:
     def lifted_mark(self, k: int, s: float) -> Mark:
         """The follower lifted by so much where it stands at first."""
         if not self.oscillates:
-            return self.board.lay_along(self.found[0]["path"], self.A, length=s, name=f"S_{k}", quantity=_length("s"),
+            return self.board.lay_along(self.marks[0]["path"], self.A, length=s, name=f"S_{k}", quantity=_length("s"),
                                         why=said("the lift at {0}°", digits(self._angle(k))))
         pair: Any = self.pair
-        arm = self._guide(self.found[0]["B"], 180 - math.degrees(pair.angle + s),
+        arm = self._guide(self.marks[0]["B"], 180 - math.degrees(pair.angle + s),
                           why=said("lifted by {0}° at {1}°", digits(math.degrees(s)), digits(self._angle(k))))
-        return self.board.line_meets_circle(arm, self.found[0]["arc"], way="on", name=f"S_{k}" if k else "A_0")
+        return self.board.line_meets_circle(arm, self.marks[0]["arc"], way="on", name=f"S_{k}" if k else "A_0")
 
     def _round(self) -> None:
         """The follower at all divisions."""
-        self.found[0]["A"] = self.A
+        self.marks[0]["A"] = self.A
         for k in range(1, self.count):
             self.rays.append(self._ray(k))
             self.place_follower(k)
@@ -190,16 +175,16 @@ class _CamRecorder:
             arc = self.base if lowest else self.board.circle(
                 self.O, self.board.opening(self.O, self.lifted[k]), why=said("the lift is carried round"))
             if self.oscillates:
-                self.found[k]["A"] = self.arm_end(k, arc)
+                self.marks[k]["A"] = self.arm_end(k, arc)
             else:
-                self.found[k]["A"] = self.board.line_meets_circle(self.found[k]["path"], arc, way="on", name=f"A_{k}")
+                self.marks[k]["A"] = self.board.line_meets_circle(self.marks[k]["path"], arc, way="on", name=f"A_{k}")
 
     def _profile(self) -> None:
         """Roller or face at all divisions, and where the profile touches it."""
         if self.cam.roller:
             o = self.board.radius(length=self.cam.roller, quantity=_length("r"), why=said("the radius of the roller"))
         for k in range(self.count):
-            marks = self.found[k]
+            marks = self.marks[k]
             if self.cam.task.follower.flat:
                 marks["face"] = self._face(k)
                 marks["K"] = self.board.foot(marks["face"], self._pole(k), name=f"K_{k}")
@@ -221,7 +206,7 @@ class _CamRecorder:
 
     def _face(self, k: int) -> Mark:
         """The flat face."""
-        board, marks = self.board, self.found[k]
+        board, marks = self.board, self.marks[k]
         if not self.oscillates:
             return board.perpendicular(marks["path"], marks["A"], why=said("the flat face"))
         arm = board.line(marks["B"], marks["A"])

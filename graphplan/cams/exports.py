@@ -32,7 +32,7 @@ LAW_COLUMNS = ("lift", "velocity", "acceleration", "jerk")
 def numbers(drawing: CamDrawing, count: int, tolerance: float, check: Mapping[str, float]) -> dict[str, Any]:
     """All of it, plain data for JSON: lengths in the task's unit, angles in degrees, s; of an oscillating follower
     degrees, rad/s, rad/s^2, rad/s^3. What is infinite is null."""
-    cam, program = drawing.cam, drawing.program
+    cam, program = drawing.cam, drawing.values.drawing.program
     task = cam.task
     turns = next(word for word, sense in TURNS.items() if sense == cam.pair.sense)
     found: dict[str, Any] = {

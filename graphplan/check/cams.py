@@ -28,8 +28,8 @@ def check_cam(drawing: CamDrawing) -> dict[str, float]:
     than rounding or numerical differentiation.
     """
     cam = drawing.cam
-    require_claims(cam.task.name, drawing)
-    angles = np.array([division.angle for division in drawing.divisions])
+    require_claims(cam.task.name, drawing.values)
+    angles = np.array(drawing.angles)
     gaps = {"points": float(max(abs(np.array(drawing.positions("K")) - cam.on_cam(angles)))) / cam.pair.base,
             "motion": max(_motion_gap(cam, float(angle)) for angle in angles),
             "curvature": _curvature_gap(cam), "law": _law_gap(cam)}
@@ -42,8 +42,8 @@ def _motion_gap(cam: Cam, angle: float) -> float:
     """By how much the solver's velocity and acceleration of the follower differ from the law's, relative to those of a
     point of the cam as far out as the base circle, or the cam's turning, or relative to the largest where that is
     larger."""
-    rates, by_law, omega = solve(parse(scene_text(cam, angle), cam.task.name)), law_motion(cam,
-                                                                                           angle), cam.task.cam.omega
+    rates, by_law = solve(parse(scene_text(cam, angle), cam.task.name)), law_motion(cam, angle)
+    omega = cam.task.cam.omega
     if cam.task.follower.oscillates:
         radius, solved = 1.0, (rates.omega[FOLLOWER], rates.alpha[FOLLOWER])
     else:

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 from graphplan.check.tolerances import PROVEN_TOL, PROVEN_ZERO, ROUNDING_TOL
 from graphplan.errors import BrokenClaim, Disagreement
 from graphplan.kernel.claims import broken_claims
+from graphplan.kernel.drawing import Values
 from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
@@ -187,9 +188,9 @@ def printed_results(results: Results, numbers: Numbers, plain: Callable[[Any], A
 # ---- what every subject's check asks of its results ------------------------------------------------------------------
 
 
-def require_claims(name: str, drawing: Any) -> None:
+def require_claims(name: str, values: Values) -> None:
     """Fail with `BrokenClaim` where a drawn step breaks one of its claims."""
-    if fault := next(broken_claims(drawing.program, drawing.values), ""):
+    if fault := next(broken_claims(values.drawing.program, values.numbers), ""):
         raise BrokenClaim(name, fault)
 
 

@@ -63,7 +63,7 @@ def check_motion(run: MachineMotion, drawing: MotionDrawing | None = None) -> di
     """
     name, motion, machine = run.scene.name, run.motion, run.machine
     if drawing is not None:
-        require_claims(name, drawing)
+        require_claims(name, drawing.values)
     last = min(motion.last_travel, motion.start + COMPARED_CYCLES * machine.period)
     places = np.linspace(motion.start, last, COMPARED_TRAVELS)
     gaps = check_reduction(run.reduction, _wrap_to_cycle(run.reduction, places[1:-1] / run.reduction.unit))
@@ -88,7 +88,7 @@ def check_flywheel(result: FlywheelResult) -> dict[str, float]:
     another one, or methods that neglect nothing find different flywheels.
     """
     name, wheel, cycle = result.scene.name, result.wheel, result.cycle
-    require_claims(name, result.drawing)
+    require_claims(name, result.drawing.values)
     poses = np.linspace(*cycle.ends, FLYWHEEL_POSES, endpoint=False)
     reduced = {f"reduced {quantity}": gap for quantity, gap in check_reduction(result.reduction, poses).items()}
     gaps = _flywheel_motion_gaps(result)

@@ -29,7 +29,7 @@ def check_rotor(balanced: BalancedRotor) -> dict[str, float]:
 
     Fails with `BrokenClaim` where a drawn step breaks a claim, and with `Disagreement` where they differ.
     """
-    require_claims(balanced.task.name, balanced.drawing)
+    require_claims(balanced.task.name, balanced.drawing.values)
     pairs = [*zip(balanced.unbalances, balanced.answers, strict=True)]
     gaps = {"corrections": max(_correction_gap(balanced.task.rotor, *pair) for pair in pairs),
             "residual_force": max(map(_residual_force, pairs))}

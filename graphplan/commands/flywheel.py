@@ -110,9 +110,9 @@ def pencil_errors(result: FlywheelResult, pencil: Pencil) -> tuple[float, float]
     from graphplan.accuracy.first_order import deviation
     from graphplan.accuracy.hand import program_hand
 
-    drawing = result.drawing
-    hand = program_hand(drawing.program, drawing.values, lambda step: 1.0, pencil)
-    (m,), (n,), (mean,) = (drawing.marks[role] for role in ("m", "n", "mean"))
+    drawing, values = result.drawing, result.drawing.values
+    hand = program_hand(values.drawing.program, values.numbers, lambda step: 1.0, pencil)
+    (m,), (n,), (mean,) = (values.drawing.roles[role] for role in ("m", "n", "mean"))
     intercept = deviation(hand, lambda values: values[m][1] - values[n][1]) * drawing.frames["energy"].y.unit
     return (intercept * drawing.change(result.given),
             deviation(hand, lambda values: values[mean][1]) * drawing.frames["moment"].y.unit)

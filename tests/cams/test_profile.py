@@ -151,7 +151,7 @@ def test_drawn_steps_keep_their_claims() -> None:
 
     for name, turns in EVERYWHERE:
         found = draw_cam(cam(name, turns))
-        assert not list(broken_claims(found.program, found.values, FORM_TOL))
+        assert not list(broken_claims(found.values.drawing.program, found.values.numbers, FORM_TOL))
 
 
 def test_a_pose_is_a_scene_with_a_contact() -> None:

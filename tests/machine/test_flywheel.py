@@ -23,9 +23,9 @@ class Yoke:
     """The scotch yoke of Ozols 1974, 13-6: I = 10 + 4 sin^2 phi, a resisting moment of 200 |sin phi|."""
 
     closed, ends, breaks, unit = True, (0.0, TURN), (math.pi,), 1.0
-    size = MachineSize(14.0, 225.0, 14.0)
+    machine_size = MachineSize(14.0, 225.0, 14.0)
 
-    def at(self, travel, side=None):
+    def reduce_at(self, travel, side=None):
         resisting = -200 * np.abs(np.sin(travel))
         return SimpleNamespace(inertia=10 + 4 * np.sin(travel) ** 2, slope=4 * np.sin(2 * travel), moment=resisting,
                                by={"F_1": resisting, "M_1": np.full(len(travel), 25.0)}, speed_loads=())
@@ -42,7 +42,7 @@ def test_closing_moment_and_energy(cycle):
     phi = np.array([0.3, 1.5, 3.0])
     assert cycle.energy.at(phi) == pytest.approx(400 / math.pi * phi - 200 * (1 - np.cos(phi)), abs=1e-10)
     assert cycle.energy.at(TURN) == pytest.approx(0, abs=1e-10)
-    (low, least), (high, most) = cycle.energy.extremes(cycle.whole)
+    (low, least), (high, most) = cycle.energy.extremes(cycle.closed_moment)
     assert (math.degrees(low) % 180, math.degrees(high) % 180) == pytest.approx((140.46, 39.54), abs=0.005)
     assert most - least == pytest.approx(84.205, abs=5e-4)
 
@@ -110,8 +110,8 @@ def test_cycles_that_do_not_close():
     """A machine that does not come back is refused, and a weight that does work over the cycle."""
     with pytest.raises(Refused, match="does not close"):
         steady_cycle(SimpleNamespace(closed=False, ends=(0.0, 1.0), unit=1.0), SPEED)
-    falling = Yoke()
-    falling.at = lambda travel: SimpleNamespace(**{**vars(Yoke().at(travel)), "by": {"G_2": 1 + np.sin(travel)}})
+    falling, reduce_at = Yoke(), Yoke().reduce_at
+    falling.reduce_at = lambda travel: SimpleNamespace(**{**vars(reduce_at(travel)), "by": {"G_2": 1 + np.sin(travel)}})
     with pytest.raises(Refused, match="G_2"):
         steady_cycle(falling, SPEED)
 
@@ -121,7 +121,7 @@ def test_drawn_construction(cycle):
     wheel, gaps = size_flywheel(cycle, UNEVENNESS), []
     for positions in (12, 24, 48, 96):
         drawing = draw_flywheel(cycle, wheel, positions)
-        assert not [*broken_claims(drawing.program, drawing.values)]
+        assert not [*broken_claims(drawing.values.drawing.program, drawing.values.numbers)]
         gaps.append(abs(drawing.inertia / wheel.inertia - 1))
     assert gaps == sorted(gaps, reverse=True)
     assert gaps[1] < 5e-3
@@ -137,11 +137,11 @@ def test_drawn_scales(cycle):
     assert energy.y.unit == pytest.approx(drawing.pole * moment.y.unit * math.radians(moment.x.unit))
     assert np.transpose(moment.position(drawing.travels,
                                         cycle.moment.at(np.radians(drawing.travels)))) == pytest.approx(
-        np.array(drawing.spots("moments")), abs=1e-6)
+        np.array(drawing.values.values_of_role("moments")), abs=1e-6)
     levels = energy.position(drawing.travels, cycle.energy.at(np.radians(drawing.travels)))[1]
-    assert np.array(drawing.spots("energies"))[:, 1] == pytest.approx(levels, abs=0.5)
-    assert np.array(drawing.spots("points"))[:, 0] == pytest.approx(
-        np.array(drawing.spots("inertias"))[:-1, 0])
+    assert np.array(drawing.values.values_of_role("energies"))[:, 1] == pytest.approx(levels, abs=0.5)
+    assert np.array(drawing.values.values_of_role("points"))[:, 0] == pytest.approx(
+        np.array(drawing.values.values_of_role("inertias"))[:-1, 0])
     assert inertia.x == drawing.frames["energy-mass"].x
 
 

@@ -31,15 +31,15 @@ def test_principal_vectors_of_a_four_bar() -> None:
     assert lengths == pytest.approx([0.0911111, 0.2222222, 0.0533333], abs=5e-8)
     assert not any(vector.across for vector in found.vectors)
     aside = mass_centre(four_bar(OFFSET))
-    assert aside.values[aside.program.wanted[0]] == pytest.approx((0.257904, 0.139965), abs=5e-7)
+    assert aside.values.values_of_role("S")[0] == pytest.approx((0.257904, 0.139965), abs=5e-7)
 
 
 @pytest.mark.parametrize("scene", [four_bar(OFFSET), slider_crank(OFFSET)], ids=["four-bar", "slider-crank"])
 def test_steps_keep_their_claims(scene: object) -> None:
     """Each step of the construction is what it says, and each link's principal point is marked on it."""
     found = mass_centre(scene)  # type: ignore[arg-type]
-    assert not [*broken_claims(found.program, found.values)]
-    assert {step.name for step in found.program.steps} >= {"H_1", "H_2", "H_3", "S"}
+    assert not [*broken_claims(found.drawing.program, found.values.numbers)]
+    assert {step.name for step in found.drawing.program.steps} >= {"H_1", "H_2", "H_3", "S"}
 
 
 @pytest.mark.parametrize("scene", [four_bar(OFFSET), slider_crank(OFFSET)], ids=["four-bar", "slider-crank"])

@@ -13,7 +13,7 @@ from graphplan.machine.motion.true_motion import require_within_span
 
 def machine(begin: float, period: float) -> Any:
     """A machine that does not turn and is known over a period from its beginning."""
-    return SimpleNamespace(closed=False, begin=begin, period=period, told=str)
+    return SimpleNamespace(closed=False, begin=begin, period=period, travel_text=str)
 
 
 @pytest.mark.parametrize("begin", [-200.0, -100.0, 0.0, 300.0])

@@ -65,14 +65,14 @@ def test_every_step_is_drawn_and_told(result: FlywheelResult, pages: list[Sheet]
     """The steps of the lever and of the diagrams are numbered one after the other; each has its ink and its sentence,
     lengths of the diagrams being mm of paper."""
     sheet = FlywheelSheet("A2", result)
-    lever, diagrams = sheet.levers.drawing.drawn, sheet.drawing.program
+    lever, diagrams = sheet.levers.drawing.drawn, sheet.drawing.values.drawing.program
     steps = len(lever) - lever.givens + len(diagrams) - diagrams.givens
     assert len(pages[0].sentences) - pages[0].givens == steps
     text = svg(pages[0])
     drawn = sum(f'data-step="{k}"' in text for k in range(1, steps + 1))
     assert drawn > 0.97 * steps  # what is laid off on what is drawn already has no ink of its own
     words = " ".join(plain(item.runs) for page in pages for item in page.items if isinstance(item, Text))
-    mean = sheet.drawing.spots("mean")[0][1]
+    mean = sheet.drawing.values.values_of_role("mean")[0][1]
     assert f"{abs(mean):.1f} mm" in words
 
 

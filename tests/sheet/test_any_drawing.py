@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import graphplan as gp
-from graphplan.kernel.drawing import Drawing, Values, record_drawing
+from graphplan.kernel.drawing import Values, record_drawing
 from graphplan.kernel.panel import Panel
 from graphplan.kernel.program import Board
 from graphplan.kernel.stages import Stage
@@ -48,8 +48,7 @@ def test_the_drawing_of_a_motion_is_lettered_as_any_other() -> None:
     """Every named point of a machine's motion has its letter in the window of its plan."""
     scene = gp.load("ozols-13-7")
     motion = draw_motion(motion_of_scene(scene, None, None, False).motion, 24)
-    values = motion.values if isinstance(motion.values, Values) else Values(Drawing(motion.program), motion.values)
-    plans = Plans.of_values(values, scene)
+    plans = Plans.of_values(motion.values, scene)
     _, views = windows({panel: Rect(0.0, 0.0, 380.0, 270.0) for panel in plans.panels}, plans)
     for plate in letter_plates(Plates(plans, views)).values():
         names = {mark.name for mark in plate.plate.steps if mark.name and plate.plate.is_on_panel(mark)}

@@ -13,15 +13,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from graphplan.cycle.diagrams import Axes, integrate
 from graphplan.errors import Refused
-from graphplan.kernel.numbers import Floats
-from graphplan.kernel.passes import freeze
-from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
+from graphplan.kernel.drawing import PlanScale, Values, record_drawing
+from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.machine.flywheel.diagram_layout import DiagramSizes, lay_out, plans_of
 from graphplan.machine.flywheel.steady_cycle import FlywheelSpeeds, SteadyCycle, Tangency
@@ -36,7 +34,7 @@ MIN_POSITIONS, MAX_POSITIONS = 6, 720  # plans, those included with which the er
 
 @dataclass(frozen=True, eq=False)
 class FlywheelDrawing:
-    """The program that draws the flywheel, its diagrams by name, and its marks by their role, in steps of the program.
+    """The drawing of the flywheel, in mm of paper, with the values of its marks, and its diagrams by name.
 
     `travels` are those of the plans, in degrees, and those at which the moment jumps. `pole` is its distance
     in mm: k_E = pole k_M k_phi. The tangents are cut at the inertia `axis`; their intercept is off by `strip_error` J
@@ -45,22 +43,12 @@ class FlywheelDrawing:
 
     cycle: SteadyCycle
     wheel: FlywheelSpeeds
-    program: Program
+    values: Values
     travels: Reals
     frames: dict[str, Frame]
     pole: float
     axis: float
     strip_error: float
-    marks: dict[str, tuple[int, ...]]
-
-    @cached_property
-    def values(self) -> list[Any]:
-        """The value of each step, in mm."""
-        return evaluate(self.program, Floats())
-
-    def spots(self, role: str) -> list[tuple[float, float]]:
-        """The points of a role, in mm."""
-        return [self.values[index] for index in self.marks[role]]
 
     @property
     def extent(self) -> tuple[float, float, float, float]:
@@ -75,12 +63,12 @@ class FlywheelDrawing:
     def mean(self) -> float:
         """The mean moment of the loads, as it is drawn."""
         frame = self.frames["moment"]
-        return float(frame.y.value(self.spots("mean")[0][1] - frame.origin[1]))
+        return float(frame.y.value(self.values.values_of_role("mean")[0][1] - frame.origin[1]))
 
     @cached_property
     def intercept(self) -> float:
         """The length mn on the axis that is drawn, in J."""
-        (m,), (n,) = self.spots("m"), self.spots("n")
+        (m,), (n,) = self.values.values_of_role("m"), self.values.values_of_role("n")
         return float(m[1] - n[1]) * self.frames["energy"].y.unit
 
     @property
@@ -110,7 +98,7 @@ class FlywheelDrawing:
     def touching(self, which: str) -> float:
         """The travel at which the `upper` or the `lower` tangent touches, as it is read off."""
         first, last = self.travels[[0, -1]]
-        read = float(self.frames["energy"].x.value(self.spots(f"{which} apex")[0][0]))
+        read = float(self.frames["energy"].x.value(self.values.values_of_role(f"{which} apex")[0][0]))
         return float(first + (read - first) % (last - first))
 
 
@@ -130,7 +118,7 @@ class _FlywheelRecorder:
         self.cycle, self.wheel, self.plans = cycle, wheel, plans_of(cycle, positions)
         self.scales = lay_out(cycle, wheel, self.plans, room)
         self.frames, self.board = self.scales.frames, Board()
-        self.found: dict[str, list[Mark]] = {}
+        self.marks: dict[str, list[Mark]] = {}
         self.told = np.degrees(self.plans.travels)
         even = (self.plans.travels - cycle.ends[0]) / cycle.span * positions
         self.numbers = np.floor(even + PLAN_TOL).astype(int).tolist()  # a corner has that of the plan before it, primed
@@ -143,11 +131,9 @@ class _FlywheelRecorder:
             for title, law, draw in self._stages():
                 with self.board.on(FLYWHEEL, stage=Stage(title, law)):
                     draw()
-        program = freeze(self.board, [mark for marks in self.found.values() for mark in marks])
-        places = iter(program.wanted)
-        marks = {role: tuple(next(places) for _ in found) for role, found in self.found.items()}
-        return FlywheelDrawing(self.cycle, self.wheel, program, self.told, self.frames, self.scales.pole,
-                               self.scales.axis, self._strip_error, marks)
+        drawing = record_drawing(self.board, self.marks, {FLYWHEEL: PlanScale(on_paper=True)})
+        return FlywheelDrawing(self.cycle, self.wheel, drawing.mark_values(), self.told, self.frames, self.scales.pole,
+                               self.scales.axis, self._strip_error)
 
     @property
     def _strip_error(self) -> float:
@@ -179,9 +165,9 @@ class _FlywheelRecorder:
             self.after.append(one)
             two = 0 < k < last and plans.jumps(k)
             self.before.append(self._mark("moment", x, plans.left[k], f"M_{self.numbers[k]}") if two else one)
-        self.found["moments"] = [mark for pair in zip(self.before, self.after, strict=True)
+        self.marks["moments"] = [mark for pair in zip(self.before, self.after, strict=True)
                                  for mark in dict.fromkeys(pair)]
-        self.found["inertias"] = [self._mark("inertia", I, x, f"I_{k}")
+        self.marks["inertias"] = [self._mark("inertia", I, x, f"I_{k}")
                                   for k, x, I in zip(self.numbers, self.told, plans.inertias, strict=True)]
 
     def _closing(self) -> None:
@@ -197,7 +183,7 @@ class _FlywheelRecorder:
         H = board.lay_off(Z, dx=-self.scales.pole, dy=0, name="H", why=said("the pole"))
         zero = board.parallel(self.level, Z, why=said("from this level the moments count, closed"))
         self.rates = Axes(O, self.level, self.upright, H)
-        self.found |= {"mean": [Z], "ray origin": [H], "closed": [zero], "means": self.means}
+        self.marks |= {"mean": [Z], "ray origin": [H], "closed": [zero], "means": self.means}
 
     def _energy(self) -> None:
         """The string of chords."""
@@ -206,17 +192,17 @@ class _FlywheelRecorder:
         rays = integrate(board, self.means, start, self.after, self.rates,
                          [f"E_{k}" for k in self.numbers[1:]])
         self.energies = [start, *(ray.end for ray in rays)]
-        self.found |= {"energies": self.energies, "cuts": [ray.cut for ray in rays]}
+        self.marks |= {"energies": self.energies, "cuts": [ray.cut for ray in rays]}
 
     def _points(self) -> None:
         """The energy-mass diagram."""
         board, points = self.board, list[Mark]()
-        for k, E, I in zip(self.numbers[:-1], self.energies, self.found["inertias"], strict=False):
+        for k, E, I in zip(self.numbers[:-1], self.energies, self.marks["inertias"], strict=False):
             across = board.parallel(self.level, E, why=said("carry the energy across"))
             down = board.parallel(self.upright, I, why=said("and the inertia down"))
             points.append(board.meet(across, down, name=f"P_{k}"))
         self.points = [*points, points[0]]
-        self.found["points"] = points
+        self.marks["points"] = points
 
     def _tangents(self) -> None:
         """Both tangents, and where they cut the axis."""
@@ -224,13 +210,13 @@ class _FlywheelRecorder:
         A = board.lay_off(self.energies[0], dx=frame.origin[0], dy=0, name="A",
                           why=said("where the inertia is {0}", digits(self.scales.axis)))
         self.axis = board.parallel(self.upright, A, why=said("the axis on which the tangents are cut"))
-        self.found["axis"] = [self.axis]
+        self.marks["axis"] = [self.axis]
         for which, letter, touch in (("upper", "m", self.wheel.upper), ("lower", "n", self.wheel.lower)):
             slope = touch.slope * frame.x.unit / frame.y.unit
             guide = board.guide(A, dx=1, dy=slope, why=said("the slope of the speed that is largest") if letter == "m"
                                 else said("the slope of the speed that is least"))
             cut, apex = self._outermost(guide, touch, letter)
-            self.found |= {which: [board.parallel(guide, cut, why=said("the tangent"))], letter: [cut],
+            self.marks |= {which: [board.parallel(guide, cut, why=said("the tangent"))], letter: [cut],
                            f"{which} apex": [apex]}
 
     def _outermost(self, guide: Mark, touch: Tangency, letter: str) -> tuple[Mark, Mark]:

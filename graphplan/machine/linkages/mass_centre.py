@@ -12,17 +12,16 @@ Source: Ozols 1974, 16-2, (16.1) to (16.9), figs. 16-4, 16-5 (Fischer's method);
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from graphplan.errors import Refused
+from graphplan.kernel.drawing import Drawing, Values, record_drawing
 from graphplan.kernel.kinds import Quantity
-from graphplan.kernel.numbers import Floats
-from graphplan.kernel.passes import freeze
-from graphplan.kernel.program import Board, Mark, Program, evaluate
+from graphplan.kernel.program import Board, Mark, Step
 from graphplan.kernel.stages import Stage
 from graphplan.machine.linkages.spanning import SpanningTree, as_multiple, moments_of_mass, spanning_tree
 from graphplan.machine.tolerances import VECTOR_TOL
@@ -49,8 +48,8 @@ class PrincipalVector:
 @dataclass(frozen=True)
 class MassCentre:
     """The construction of a scene's mass centre: `mass` of the moving links in the scene's unit, from which point on
-    vectors are laid off, and the program, whose wanted marks are S, then of each vector its head H and the end of the
-    polygon behind it.
+    vectors are laid off, and the drawing, whose roles are S, the heads H of the vectors, and the ends of the polygon
+    behind them.
     """
 
     scene: Scene
@@ -58,7 +57,7 @@ class MassCentre:
     mass: Number
     base: str
     vectors: tuple[PrincipalVector, ...]
-    program: Program
+    drawing: Drawing
 
     @property
     def masses(self) -> dict[str, Mass]:
@@ -69,28 +68,28 @@ class MassCentre:
     @property
     def points(self) -> tuple[str, ...]:
         """The points that the construction is drawn from, and the mass centres of the links."""
-        given = (step.name for step in self.program.steps[:self.program.givens])
+        given = (step.name for step in self._given_steps)
         return tuple(dict.fromkeys((*given, *(mass.centre for mass in self.masses.values()))))
 
+    @property
+    def _given_steps(self) -> Sequence[Step]:
+        return self.drawing.program.steps[:self.drawing.program.givens]
+
     @cached_property
-    def values(self) -> list[Any]:
-        """The value of each step in the scene's pose."""
-        return evaluate(self.program, Floats())
+    def values(self) -> Values:
+        """The values of the marks in the scene's pose."""
+        return self.drawing.mark_values()
 
     def position_from(self, places: Mapping[str, Any]) -> Any:
         """The mass centre where the points are so: complex arrays of shape (n,) by name.
 
         Of the velocities of the points it is the velocity of the mass centre, of their accelerations its acceleration.
         """
-        return self._ends(places)[0]
-
-    def _ends(self, places: Mapping[str, Any]) -> list[Any]:
         from graphplan.kernel.numbers.arrays import Arrays
 
-        given = {step.name: {"x": z.real, "y": z.imag} for step in self.program.steps[:self.program.givens]
-                 for z in [places[step.name]]}
-        values = evaluate(self.program, Arrays(), given)
-        return [values[index][0] + 1j * values[index][1] for index in self.program.wanted]
+        given = {step.name: {"x": z.real, "y": z.imag} for step in self._given_steps for z in [places[step.name]]}
+        (x, y), = self.drawing.mark_values(Arrays(), given).values_of_role("S")
+        return x + 1j * y
 
 
 def mass_centre(scene: Scene) -> MassCentre:
@@ -104,7 +103,7 @@ def mass_centre(scene: Scene) -> MassCentre:
     tree = spanning_tree(scene)
     mass = sum(tree.mass_beyond(root.link) for root in tree.roots)
     vectors = tuple(_vectors(tree, mass))
-    return MassCentre(scene, tree, mass, tree.base, vectors, _program(scene, tree.base, vectors))
+    return MassCentre(scene, tree, mass, tree.base, vectors, _draw_vectors(scene, tree.base, vectors))
 
 
 def _vectors(tree: SpanningTree, mass: Number) -> Iterator[PrincipalVector]:
@@ -124,7 +123,7 @@ def _vectors(tree: SpanningTree, mass: Number) -> Iterator[PrincipalVector]:
             yield PrincipalVector(hanging.link, start, end, along, across)
 
 
-def _program(scene: Scene, base: str, vectors: tuple[PrincipalVector, ...]) -> Program:
+def _draw_vectors(scene: Scene, base: str, vectors: tuple[PrincipalVector, ...]) -> Drawing:
     """The drawing steps: the principal point of each link, and the vectors to them, head to tail."""
     board = Board()
     needed = {base, *(point for vector in vectors for point in (vector.start, vector.end))}
@@ -139,7 +138,7 @@ def _program(scene: Scene, base: str, vectors: tuple[PrincipalVector, ...]) -> P
     for vector, head, end in zip(vectors, heads, ends[1:], strict=True):
         board.give_name(head, f"H_{vector.link}" if vector.link else f"H_{vector.end}")
         board.give_name(end, f"S_{vector.link}" if vector.link else f"S_{vector.end}")
-    return freeze(board, [ends[-1], *(mark for pair in zip(heads, ends[1:], strict=True) for mark in pair)])
+    return record_drawing(board, {"S": ends[-1:], "heads": heads, "ends": ends[1:]})
 
 
 def _head(board: Board, vector: PrincipalVector, points: Mapping[str, Mark]) -> Mark:

@@ -15,14 +15,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
 from graphplan.cycle.diagrams import Axes, integrate
-from graphplan.kernel.numbers import Floats
-from graphplan.kernel.passes import freeze
-from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
+from graphplan.kernel.drawing import PlanScale, Values, record_drawing
+from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Reals
@@ -43,26 +41,24 @@ class MotionDrawing:
     """The recorded construction of a motion and what it finds at its divisions.
 
     `travel` are the divisions in SI, `first` the place of the first whose time is integrated. `frames` are the
-    diagrams, by name; `marks` the steps that draw something, by what it is.
+    diagrams, by name; what is drawn at the divisions has the role of its name.
     """
 
     motion: TrueMotion
-    program: Program
-    values: list[Any]
+    values: Values
     frames: dict[str, Frame]
-    marks: dict[str, list[int]]
     travel: Reals
     first: int
 
     def read(self, name: str) -> Reals:
         """What the drawing says at the divisions: `energy`, `omega` or `time`, nan where it says nothing."""
-        frame, found = self.frames[name], np.full(len(self.travel), np.nan)
-        heights = [self.values[step][1] for step in self.marks[name]]
+        frame, values = self.frames[name], np.full(len(self.travel), np.nan)
+        heights = [y for _, y in self.values.values_of_role(name)]
         start = len(self.travel) - len(heights)
-        found[start:] = frame.y.value(np.array(heights) - frame.origin[1])
+        values[start:] = frame.y.value(np.array(heights) - frame.origin[1])
         if start and name != "slowness":
-            found[0] = 0.0
-        return found
+            values[0] = 0.0
+        return values
 
     @cached_property
     def errors(self) -> dict[str, float]:
@@ -114,9 +110,9 @@ class _MotionRecorder:
         inertias, first = motion.machine.inertia(travel), 0 if energies[0] > 0 else 2
         omegas = np.sqrt(2 * energies / inertias)
         self.lay = MotionLayout(self.x, moments, energies, inertias, omegas, first, motion.last_travel - motion.start,
-                          motion.machine.degree, room)
+                                motion.machine.degree, room)
         self.first, self.frames = first, self.lay.frames
-        self.board, self.found = Board(), dict[str, list[Mark]]()
+        self.board, self.marks = Board(), dict[str, list[Mark]]()
 
     # ---- drawing ---------------------------------------------------------------------------------------------------
 
@@ -138,13 +134,8 @@ class _MotionRecorder:
         for title, law, draw in stages:
             with self.board.on(MOTION, stage=Stage(title, law)):
                 draw()
-        names = [(name, mark) for name, marks in self.found.items() for mark in marks]
-        program = freeze(self.board, [mark for _, mark in names])
-        found: dict[str, list[int]] = {name: [] for name in self.found}
-        for (name, _), step in zip(names, program.wanted, strict=True):
-            found[name].append(step)
-        return MotionDrawing(self.motion, program, evaluate(program, Floats()), self.frames, found, self.travel,
-                             self.first)
+        drawing = record_drawing(self.board, self.marks, {MOTION: PlanScale(on_paper=True)})
+        return MotionDrawing(self.motion, drawing.mark_values(), self.frames, self.travel, self.first)
 
     def mark_value(self, frame: str, x: float, y: float, name: str = "") -> Mark:
         """A mark at values of a diagram."""
@@ -160,9 +151,9 @@ class _MotionRecorder:
         self.start = self.mark_value("energy", 0.0, float(lay.energies[0]), "E_0")
         self.divisions = [self.mark_value("moment", float(x[k]), 0.0, f"D_{k}") for k in range(count)]
         middles = (x[1:] + x[:-1]) / 2
-        self.found["moment"] = [self.mark_value("moment", float(at), float(moment), f"M_{k}")
+        self.marks["moment"] = [self.mark_value("moment", float(at), float(moment), f"M_{k}")
                                 for k, (at, moment) in enumerate(zip(middles, lay.moments, strict=True), 1)]
-        self.found["inertia"] = [self.mark_value("inertia", float(lay.inertias[k]), float(x[k]), f"I_{k}")
+        self.marks["inertia"] = [self.mark_value("inertia", float(lay.inertias[k]), float(x[k]), f"I_{k}")
                                  for k in range(count)]
 
     def _axes(self, frame: str, letter: str, pole: float) -> Axes:
@@ -176,18 +167,18 @@ class _MotionRecorder:
     def _energy(self) -> None:
         board, self.rate = self.board, self._axes("moment", "M", self.lay.poles[0])
         names = [f"E_{k}" for k in range(1, len(self.travel))]
-        rays = integrate(board, self.found["moment"], self.start, self.divisions, self.rate, names)
-        self.found["energy"] = [self.start, *(ray.end for ray in rays)]
-        self.found["energy rays"] = [ray.cut for ray in rays]
+        rays = integrate(board, self.marks["moment"], self.start, self.divisions, self.rate, names)
+        self.marks["energy"] = [self.start, *(ray.end for ray in rays)]
+        self.marks["energy rays"] = [ray.cut for ray in rays]
 
     def _mass(self) -> None:
         board = self.board
         self.O = self.origins["energy-mass"]
-        self.found["energy-mass"] = []
-        for k, (energy, inertia) in enumerate(zip(self.found["energy"], self.found["inertia"], strict=True)):
+        self.marks["energy-mass"] = []
+        for k, (energy, inertia) in enumerate(zip(self.marks["energy"], self.marks["inertia"], strict=True)):
             level = board.parallel(self.rate.abscissas, energy, why=said("carry the energy across"))
             upright = board.parallel(self.rate.ordinates, inertia, why=said("carry the inertia down"))
-            self.found["energy-mass"].append(board.meet(level, upright, name=f"W_{k}"))
+            self.marks["energy-mass"].append(board.meet(level, upright, name=f"W_{k}"))
 
     def lay_off_computed(self) -> None:
         """Speeds and their reciprocals laid off as they are computed: the rays' origin is off the paper."""
@@ -197,10 +188,10 @@ class _MotionRecorder:
         heights = low.y.mm(omegas), self.frames["slowness"].y.mm(1 / omegas)
         axes = base, self.under.abscissas
         for (name, letter), axis, rows in zip((("omega", "omega"), ("slowness", "u")), axes, heights, strict=True):
-            self.found[name] = []
+            self.marks[name] = []
             for k, height in enumerate(rows):
                 told = said("from the point {0}: omega = {1}", k, digits(float(omegas[k])))
-                self.found[name].append(self.board.lay_off(self._foot(k, axis), dx=0, dy=float(height),
+                self.marks[name].append(self.board.lay_off(self._foot(k, axis), dx=0, dy=float(height),
                                                            name=f"{letter}_{k}", why=told))
 
     def _foot(self, k: int, axis: Mark) -> Mark:
@@ -215,18 +206,18 @@ class _MotionRecorder:
         C = board.lay_off(self.O, dx=self.lay.c, dy=0, name="C", why=said("c: its length sets the scale"))
         P = board.lay_off(C, dx=0, dy=-self.lay.d, name="P", why=said("d = 2 k_E/(k_I c k_ω²)"))
         self.cutting = board.parallel(self.rate.ordinates, C, why=said("on it the rays cut off c tan psi"))
-        self.found["omega"] = []
+        self.marks["omega"] = []
         base = board.parallel(self.rate.abscissas, self.base, why=said("the axis of travel"))
-        self.found["rays"], self.found["roots"] = [], []
+        self.marks["rays"], self.marks["roots"] = [], []
         for k in range(1 if self.first else 0, len(self.travel)):
-            ray = board.line(self.O, self.found["energy-mass"][k], why=said("its slope is that of omega²/2"))
+            ray = board.line(self.O, self.marks["energy-mass"][k], why=said("its slope is that of omega²/2"))
             T = board.meet(ray, self.cutting, name=f"T_{k}")
             middle = board.midpoint(P, T)
             half = board.circle(middle, board.opening(middle, T), why=said("the half circle over d and c tan psi"))
             R = board.line_meets_circle(axis, half, way="on", name=f"R_{k}", why=said("the mean proportional"))
             self.carry_length(k, base, C, R, "omega", f"omega_{k}")
-            self.found["rays"].append(T)
-            self.found["roots"].append(R)
+            self.marks["rays"].append(T)
+            self.marks["roots"].append(R)
 
     def carry_length(self, k: int, base: Mark, one: Mark, other: Mark, what: str, name: str) -> None:
         """A length laid off upwards at a division of an axis."""
@@ -234,7 +225,7 @@ class _MotionRecorder:
         foot = self._foot(k, base)
         arc = board.circle(foot, board.opening(one, other), why=said("carried there with dividers"))
         upright = board.parallel(self.rate.ordinates, self.divisions[k])
-        self.found[what].append(board.line_meets_circle(upright, arc, way="on", name=name))
+        self.marks[what].append(board.line_meets_circle(upright, arc, way="on", name=name))
 
     def _slowness(self) -> None:
         board = self.board
@@ -243,39 +234,39 @@ class _MotionRecorder:
         above = board.lay_off(corner, dx=0, dy=self.lay.q, name="S", why=said("q upwards"))
         wall = board.parallel(self.rate.ordinates, right, why=said("to it the speeds are projected"))
         ceiling = board.parallel(self.rate.abscissas, above, why=said("on it the rays cut off q²/omega"))
-        self.found["slowness"], self.found["reciprocals"] = [], []
+        self.marks["slowness"], self.marks["reciprocals"] = [], []
         self.under = self._axes("slowness", "u", self.lay.poles[1])
         for k, omega in self._from_first():
             level = board.parallel(self.rate.abscissas, omega, why=said("carry the speed across"))
             ray = board.line(corner, board.meet(level, wall), why=said("the ray of this speed"))
             cut = board.meet(ray, ceiling, name=f"U_{k}")
             self.carry_length(k, self.under.abscissas, above, cut, "slowness", f"u_{k}")
-            self.found["reciprocals"].append(cut)
+            self.marks["reciprocals"].append(cut)
 
     def _from_first(self) -> list[tuple[int, Mark]]:
         """The divisions from which on the time is integrated, and the speeds there."""
-        omegas = dict(enumerate(self.found["omega"], 1 if self.first else 0))
+        omegas = dict(enumerate(self.marks["omega"], 1 if self.first else 0))
         return [(k, omegas[k]) for k in range(self.first, len(self.travel))]
 
     def _means(self) -> None:
         self.means = [self.board.midpoint(P, Q, why=said("the mean 1/omega of the strip"))
-                      for P, Q in pairwise(self.found["slowness"])]
+                      for P, Q in pairwise(self.marks["slowness"])]
 
     def _time(self) -> None:
-        starts = self.found.get("time") or [self.origins["time"]]
+        starts = self.marks.get("time") or [self.origins["time"]]
         names = [f"t_{k}" for k in range(self.first + 1, len(self.x))]
         rays = integrate(self.board, self.means, starts[-1], self.divisions[self.first:], self.under, names)
-        self.found["time"] = [*starts, *(ray.end for ray in rays)]
-        self.found["time rays"] = [ray.cut for ray in rays]
+        self.marks["time"] = [*starts, *(ray.end for ray in rays)]
+        self.marks["time rays"] = [ray.cut for ray in rays]
 
     def draw_first_strips(self) -> None:
         """The first points of the diagram of time, from rest: those of the parabola."""
         curve, x, board = parabola(self.x, self.lay.omegas), self.x, self.board
         axis = board.parallel(self.rate.abscissas, self.origins["time"], why=said("the axis of travel"))
-        self.found["time"] = []
+        self.marks["time"] = []
         for k in (1, 2):
             spent = curve.time * float(x[k] / x[2]) ** (1 - curve.n)
             told = said("the first two strips as a parabola omega = {0} phi^{1}: {2} s", digits(curve.k),
                         digits(curve.n), digits(spent))
             length = float(self.frames["time"].y.mm(spent))
-            self.found["time"].append(board.lay_off(self._foot(k, axis), dx=0, dy=length, name=f"t_{k}", why=told))
+            self.marks["time"].append(board.lay_off(self._foot(k, axis), dx=0, dy=length, name=f"t_{k}", why=told))

@@ -23,9 +23,9 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import Quantity
-from graphplan.kernel.numbers import Floats
-from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
+from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.machine.rotors.rotor import PLANES, Eccentric, Rotor, Vector, direction
 from graphplan.machine.tolerances import CLOSING_TOL
@@ -121,15 +121,14 @@ class Correction:
 
 @dataclass(frozen=True)
 class RotorDrawing:
-    """The program that draws polygons, and its marks by their names."""
+    """The drawing of polygons and trials, a role for each name of a mark, with the values of its marks."""
 
-    program: Program
-    marks: dict[str, int]
+    values: Values
 
     @cached_property
-    def values(self) -> list[Any]:
-        """The value of each step."""
-        return evaluate(self.program, Floats())
+    def marks(self) -> dict[str, int]:
+        """The steps of the marks, by their names."""
+        return {name: step for name, (step,) in self.values.drawing.roles.items()}
 
     def position(self, name: str) -> complex:
         """Where a mark is, on its plan."""

@@ -15,7 +15,7 @@ from functools import cached_property
 from itertools import product
 from typing import Any
 
-from graphplan.kernel.passes import freeze
+from graphplan.kernel.drawing import record_drawing
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Board, Mark
 from graphplan.machine.rotors.polygons import (
@@ -138,7 +138,7 @@ def _by_polygons(task: RotorTask, effects: tuple[Effect, ...], masses: list[tupl
         marks |= draw_trial(board, one, index)
     recorder.draw()
     drawing = rotor_drawing(board, marks | recorder.marks)
-    sides = closing_sides(drawing, task.rotor, recorder.sums, drawing.values)
+    sides = closing_sides(drawing, task.rotor, recorder.sums, drawing.values.numbers)
     first = tuple(correction_of(task.rotor, k, side) for k, side in enumerate(sides))
     others = (compute_corrections(task.rotor, found) for found in masses[1:])
     return BalancedRotor(task, effects, tuple(masses), drawing, (first, *others))
@@ -159,7 +159,7 @@ def _by_trials(task: RotorTask, effects: tuple[Effect, ...], masses: list[tuple[
             for k, side in enumerate(one.balancing if one.ratio else ()):
                 recorder.place_correction(index, _ray(board, recorder.marks["O"], one, k, side), prime="'" * k)
     drawing = rotor_drawing(board, marks | recorder.marks)
-    found = [read_corrections(drawing, one, index, drawing.values) for index, one in enumerate(effects)]
+    found = [read_corrections(drawing, one, index, drawing.values.numbers) for index, one in enumerate(effects)]
     answers = tuple(tuple(correction_of(task.rotor, index, side) for index, side in enumerate(sides))
                     for sides in product(*found))
     return BalancedRotor(task, effects, tuple(masses), drawing, answers)
@@ -174,8 +174,7 @@ def _ray(board: Board, O: Mark, one: Effect, k: int, side: complex) -> Mark:
 
 def rotor_drawing(board: Board, marks: dict[str, Mark]) -> RotorDrawing:
     """The finished program."""
-    program = freeze(board, marks.values())
-    return RotorDrawing(program, dict(zip(marks, program.wanted, strict=True)))
+    return RotorDrawing(record_drawing(board, {name: [mark] for name, mark in marks.items()}).mark_values())
 
 
 def compute_corrections(rotor: Rotor, masses: tuple[Eccentric, ...]) -> Answer:

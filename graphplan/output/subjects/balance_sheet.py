@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.balance import Balancing, MassMotion
-from graphplan.kernel.drawing import Drawing, Values
+from graphplan.kernel.drawing import Values
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM
@@ -72,13 +72,13 @@ class BalanceSheet(Panelled):
 
     @property
     def description(self) -> Said:
-        program = self.given_motion.centre.program
+        program = self.given_motion.centre.drawing.program
         return said("Mass centre by principal vectors in {0} steps, and the shaking force over the cycle.",
                     len(program) - program.givens)
 
     @property
     def values(self) -> Values:
-        return Values(Drawing(self.given_motion.centre.program), self.given_motion.centre.values)
+        return self.given_motion.centre.values
 
     @property
     def scales(self) -> Scales:
@@ -132,8 +132,8 @@ class BalanceSheet(Panelled):
         """What the plan of the mechanism must hold: its points, the paths of the mass centre, and counterweights."""
         paths = [complex(z) for motion, _ in self.motions for z in motion.path[np.isfinite(motion.path)]]
         weights = [weight.place(self.scene) for weight in self.balancing.weights if weight.radius <= self.scene.extent]
-        program = self.given_motion.centre.program
-        ends = [self.given_motion.centre.values[index][:2] for index in program.wanted]
+        values = self.given_motion.centre.values
+        ends = [point[:2] for role in values.drawing.roles for point in values.values_of_role(role)]
         places = [*((z.real, z.imag) for z in (*paths, *weights)), *ends]
         return bounding_box([*places, *((float(x), float(y)) for x, y in self.scene.points.values())])
 
@@ -156,7 +156,7 @@ class BalanceSheet(Panelled):
         """The principal vectors head to tail."""
         program, base = self.values.drawing.program, self.given_motion.centre.base
         first = next(step.index for step in program.steps if step.name == base)
-        for start, end in pairwise([first, *program.wanted[2::2]]):
+        for start, end in pairwise([first, *self.values.drawing.roles["ends"]]):
             tail, tip = (ink.plates.steps[mark].spot for mark in (start, end))
             yield Arrow(VECTOR, "plates", end, tail, tip, min(HEAD_MM, 0.6 * math.dist(tail, tip)))
 

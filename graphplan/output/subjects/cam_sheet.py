@@ -14,7 +14,7 @@ from graphplan.cams.construction import CAM_PLAN, CamDrawing
 from graphplan.cams.exports import scene_text
 from graphplan.cams.follower import FlatOscillating, Rolled, Translating
 from graphplan.cams.law import DWELL
-from graphplan.kernel.drawing import Drawing, Values
+from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
@@ -37,6 +37,7 @@ from graphplan.words.tongue import ENGLISH
 # ---- the plan -------------------------------------------------------------------------------------------------------
 
 
+CIRCLES = "base", "offsets", "pivots"  # roles of circles about the cam's centre
 PIN = 1.3  # mm: radius of fixed pins
 MIN_LETTER_MM = 12.0  # mm from the cam's centre: a letter there would be on others
 FACE_BEYOND_MM = 7.0  # mm of a flat face beyond its marks
@@ -58,11 +59,12 @@ class CamPlan:
     @cached_property
     def ink(self) -> Plate:
         """What the steps draw: the circles that are rolled on are drawn whole, faces go beyond their marks."""
-        rollers = [one.marks["roller"] for one in self.drawing.divisions if "roller" in one.marks]
-        whole = {**dict.fromkeys(self.drawing.common.values(), BASE), **dict.fromkeys(rollers, ROLLER)}
-        faces = {one.marks["face"]: FACE_BEYOND_MM for one in self.drawing.divisions if "face" in one.marks}
-        values = Values(Drawing(self.drawing.program), self.drawing.values)
-        return plate_of_values(values, CAM_PLAN, self.view, self.scene, self.letters, whole=whole, beyond=faces)
+        roles = self.drawing.values.drawing.roles
+        whole = {step: BASE for name in CIRCLES for step in roles.get(name, ())}
+        whole |= dict.fromkeys(roles.get("roller", ()), ROLLER)
+        faces = dict.fromkeys(roles.get("face", ()), FACE_BEYOND_MM)
+        return plate_of_values(self.drawing.values, CAM_PLAN, self.view, self.scene, self.letters, whole=whole,
+                               beyond=faces)
 
     def items(self) -> Iterator[Item]:
         """All of it."""
@@ -121,7 +123,7 @@ class CamPlan:
             yield Circle(pens.PAIR, "pairs", None, B, PIN)
             yield from self.frame_hatching(B, (0.0, -1.0), PIN)
             return
-        highest = max(float(cam.law.value_at(one.angle)) for one in drawing.divisions) + cam.roller
+        highest = max(float(cam.law.value_at(angle)) for angle in drawing.angles) + cam.roller
         top = A[0], A[1] + STEM + highest * self.view.scale
         yield Polyline(FIRST, "blocks", None, (A, top))
         if cam.task.follower.flat:
@@ -151,7 +153,7 @@ class CamPlan:
         shown = self.lettered_division
         for name, (dx, dy) in {"A": (1.2, 1.0), "K": (1.0, -3.4), "P": (0.8, 1.0), "T": (0.8, 1.0),
                                "B": (2.0, 1.4), "S": (2.0, 0.0)}.items():
-            step = next((step for step in drawing.program.steps if step.name == f"{name}_{shown}"), None)
+            step = next((step for step in drawing.values.drawing.program.steps if step.name == f"{name}_{shown}"), None)
             if step is not None:
                 x, y = self.ink.plates.steps[step.index].spot
                 if math.dist((x, y), O) > MIN_LETTER_MM:
@@ -160,19 +162,17 @@ class CamPlan:
     @property
     def lettered_division(self) -> int:
         """The division of which the letters stand: where the follower rises fastest."""
-        cam, divisions = self.drawing.cam, self.drawing.divisions
-        rates = cam.law.value_at([one.angle for one in divisions], 1)
-        return max(range(len(divisions)), key=lambda k: float(rates[k]))
+        rates = self.drawing.cam.law.value_at(self.drawing.angles, 1)
+        return max(range(len(rates)), key=lambda k: float(rates[k]))
 
 
 def extent(drawing: CamDrawing) -> Rect:
     """What the plan takes up, in lengths, from its marks, circles and curves."""
     cam = drawing.cam
     spots = [(z.real, z.imag) for curve in (cam.outline, cam.pitch_curve) for z in curve]
-    spots += [drawing.values[step.index] for step in drawing.program.steps if step.op.gives == POINT]
-    for name in ("base", "offsets", "pivots"):
-        if name in drawing.common:
-            x, y, square = drawing.values[drawing.common[name]]
+    spots += [drawing.values[step.index] for step in drawing.values.drawing.program.steps if step.op.gives == POINT]
+    for name in CIRCLES:
+        for x, y, square in drawing.values.values_of_role(name) if name in drawing.values.drawing.roles else ():
             r = math.sqrt(square)
             spots += [(x - r, y - r), (x + r, y + r)]
     box = bounding_box(spots)
@@ -208,12 +208,12 @@ class CamSheet(Panelled):
 
     @property
     def description(self) -> Said:
-        program = self.drawing.program
+        program = self.drawing.values.drawing.program
         return said("Cam by inversion in {0} steps.", len(program) - program.givens)
 
     @property
     def values(self) -> Values:
-        return Values(Drawing(self.drawing.program), self.drawing.values)
+        return self.drawing.values
 
     @property
     def scales(self) -> Scales:

@@ -117,7 +117,7 @@ class FlywheelFigure:
     def graphs(self) -> dict[str, Graph]:
         """The diagrams by name."""
         found = {name: Graph.framed(frame, self.window) for name, frame in self.drawing.frames.items()}
-        energy, spots = found["energy"], self.drawing.spots("energies")
+        energy, spots = found["energy"], self.drawing.values.values_of_role("energies")
         low = self.window(min(spots, key=lambda spot: spot[1]))[1] - FREE  # m and n may lie far below
         return found | {"energy": replace(energy, rect=replace(energy.rect, bottom=max(low, energy.rect.bottom)))}
 
@@ -134,7 +134,7 @@ class FlywheelFigure:
 
     def _steps(self, role: str) -> list[int]:
         """The steps of a role, by their places on the sheet."""
-        return [self.places[index] for index in self.drawing.marks[role]]
+        return [self.places[index] for index in self.drawing.values.drawing.roles[role]]
 
     @cached_property
     def ink(self) -> Plate:
@@ -149,7 +149,7 @@ class FlywheelFigure:
 
     def _level(self) -> Iterator[Item]:
         """The level from which the closed moment counts, from the pole through the whole diagram."""
-        (place,), pole = self._steps("closed"), self.window(self.drawing.spots("ray origin")[0])
+        (place,), pole = self._steps("closed"), self.window(self.drawing.values.values_of_role("ray origin")[0])
         yield Polyline(LEVEL, "plates", place, (pole, (self.graphs["moment"].rect.right + BEYOND / 2, pole[1])))
 
     def _tangents(self) -> Iterator[Item]:
@@ -157,7 +157,7 @@ class FlywheelFigure:
         graph = self.graphs["energy-mass"]
         for which, letter in (("upper", "m"), ("lower", "n")):
             (place,), pen = self._steps(which), TANGENTS[which]
-            cut, touch = self.window(self.drawing.spots(letter)[0]), getattr(self.result.wheel, which)
+            cut, touch = self.window(self.drawing.values.values_of_role(letter)[0]), getattr(self.result.wheel, which)
             slope, far = touch.slope * graph.k_x / graph.k_y, graph.rect.right + BEYOND - cut[0]
             line = Polyline(pen, "plates", place, (cut, (cut[0] + far, cut[1] + far * slope)))
             rect = self.rect
@@ -169,7 +169,7 @@ class FlywheelFigure:
         O = self.graphs["energy-mass"].at(-wheel.inertia, wheel.origin)
         if self.rect.holds(O):
             for which, letter in (("upper", "m"), ("lower", "n")):
-                (place,), cut = self._steps(which), self.window(self.drawing.spots(letter)[0])
+                (place,), cut = self._steps(which), self.window(self.drawing.values.values_of_role(letter)[0])
                 yield Polyline(TANGENTS[which], "plates", place, (O, cut))
             yield from self.paper.marked(O, "O", (-1.2, 0.8))
 
@@ -240,14 +240,14 @@ class FlywheelFigure:
         """The numbers of the plans along the energy-mass curve and over the abscissa, and the letters of angles."""
         told = self.result.travels_in_degrees
         every = 1 + self.result.positions // NUMBERED
-        for spot, travel in zip(self.drawing.spots("points"), self.drawing.travels, strict=False):
+        for spot, travel in zip(self.drawing.values.values_of_role("points"), self.drawing.travels, strict=False):
             k = int(np.argmin(abs(told - travel)))
             if k % every == 0 and abs(told[k] - travel) < TRAVEL_TOL * np.ptp(told):  # others are corners of the loads
                 yield Wish(sentence_runs(str(k)), (self.window(spot),), 0.5, minor=True, pen=pens.FAINT, label=f"P {k}")
         graph, bounds = self.graphs["energy-mass"], self.rect
         for which, name in (("upper", "psi_max"), ("lower", "psi_min")):
             touch = getattr(self.result.wheel, which)
-            cut = self.window(self.drawing.spots("m" if which == "upper" else "n")[0])
+            cut = self.window(self.drawing.values.values_of_role("m" if which == "upper" else "n")[0])
             end = graph.at(touch.inertia, touch.energy)
             spots = tuple(spot for t in (0.25, 0.4, 0.15, 0.6, 0.8)
                           if bounds.holds(spot := (cut[0] + t * (end[0] - cut[0]), cut[1] + t * (end[1] - cut[1]))))

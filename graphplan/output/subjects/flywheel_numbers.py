@@ -101,13 +101,13 @@ def speed_numbers(result: FlywheelResult, wheel: FlywheelSpeeds | None) -> dict[
 
 def drawing_numbers(result: FlywheelResult) -> dict[str, Any]:
     """How it is drawn: scales for one mm, the pole in mm, the axis on which the tangents are cut, and the steps."""
-    drawing = result.drawing
+    drawing, program = result.drawing, result.drawing.values.drawing.program
     moment, energy, inertia = (drawing.frames[name] for name in ("moment", "energy", "inertia"))
     return {"scales": {"travel": moment.x.unit, "moment": moment.y.unit, "energy": energy.y.unit,
                        "inertia": inertia.x.unit},
             "pole_distance": drawing.pole, "axis": drawing.axis, "closing_moment": -drawing.mean,
             "omega_max_at": drawing.touching("upper"), "omega_min_at": drawing.touching("lower"),
-            "positions": result.positions, "steps": len(drawing.program) - drawing.program.givens}
+            "positions": result.positions, "steps": len(program) - program.givens}
 
 
 def in_degrees(result: FlywheelResult, travel: float) -> float:

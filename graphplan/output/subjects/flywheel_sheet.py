@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
-from graphplan.kernel.drawing import Drawing, PlanScale, Values
+from graphplan.kernel.drawing import Drawing, Values
 from graphplan.kernel.passes import put_together
 from graphplan.kernel.program import Panel
 from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing, draw_flywheel
@@ -100,10 +100,10 @@ class FlywheelSheet(Panelled):
     @cached_property
     def combined_drawing(self) -> tuple[Values, list[list[int]]]:
         """The lever and the diagrams as one construction, and where the steps of both are in it."""
-        lever, diagrams = self.levers.drawing, self.drawing
-        program, places = put_together([lever.drawn, diagrams.program])
-        values = dict(zip(places[0], lever.values, strict=True)) | dict(zip(places[1], diagrams.values, strict=True))
-        drawing = Drawing(program, plans={FLYWHEEL: PlanScale(on_paper=True)})
+        lever, diagrams = self.levers.drawing, self.drawing.values
+        program, places = put_together([lever.drawn, diagrams.drawing.program])
+        values = dict(zip(places[0], lever.values, strict=True)) | dict(zip(places[1], diagrams.numbers, strict=True))
+        drawing = Drawing(program, plans=diagrams.drawing.plans)
         return Values(drawing, [values[index] for index in range(len(program))]), places
 
     @property
@@ -191,8 +191,8 @@ class FlywheelSheet(Panelled):
     @property
     def _intercept(self) -> float:
         """How far apart m and n are on paper, in mm."""
-        (_, m), (_, n) = self.drawing.spots("m")[0], self.drawing.spots("n")[0]
-        return m - n
+        ((_, m),), ((_, n),) = map(self.drawing.values.values_of_role, "mn")
+        return float(m - n)
 
     def _methods(self) -> Iterator[Words]:
         """What each method finds, and what it neglects."""

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.kernel.drawing import Drawing, PlanScale, Values
+from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import CIRCLE, LINE
 from graphplan.kernel.program import Panel
 from graphplan.machine.motion.diagram_layout import POLE_ROOM_MM, PanelSize
@@ -90,11 +90,12 @@ class MotionFigure:
     @cached_property
     def ink(self) -> Plate:
         """What the steps draw: fine lines, chords by themselves."""
-        drawing, steps = self.drawing, self.drawing.program.steps
+        values = self.drawing.values
+        steps, roles = values.drawing.program.steps, values.drawing.roles
         fine = {step.index: FINE for step in steps if step.op.gives in (LINE, CIRCLE)}
-        chords = {steps[Q].args[1]: CHORD for name in ("energy", "time") for Q in drawing.marks[name]
+        chords = {steps[Q].args[1]: CHORD for name in ("energy", "time") for Q in roles[name]
                   if len(steps[Q].args) == 2}
-        return plate_of_values(Values(Drawing(drawing.program), drawing.values), MOTION, self.window, self.found.scene,
+        return plate_of_values(values, MOTION, self.window, self.found.scene,
                                self.paper.letters, pens={**fine, **chords}, beyond=dict.fromkeys(chords, 0.0))
 
     def _curves(self) -> Iterator[Item]:
@@ -163,7 +164,7 @@ class MotionFigure:
 
     def _wishes(self) -> Iterator[Wish]:
         """The numbers of some divisions along the energy-mass curve and the curve of speeds."""
-        marks, count = self.drawing.marks, len(self.drawing.travel)
+        marks, count = self.drawing.values.drawing.roles, len(self.drawing.travel)
         for what in ("energy-mass", "omega"):
             first, every = count - len(marks[what]), -(-count // MAX_NUMBERED)
             for k, step in enumerate(marks[what], first):
@@ -217,7 +218,7 @@ class MotionSheet(Panelled):
 
     @property
     def values(self) -> Values:
-        return Values(Drawing(self.drawing.program, plans={MOTION: PlanScale(on_paper=True)}), self.drawing.values)
+        return self.drawing.values
 
     def figure(self, panel: Panel, rect: Rect) -> list[Item]:
         """The diagrams."""

@@ -254,7 +254,7 @@ class RotorFigures(RotorViews):
         if abs(corners[0] - corners[-1]) > RANGE_TOL * max(map(abs, corners)):
             index, closing = (1, "m_II·a·r_II") if letter == "M" else (0, "m_I·r_I")
             ends = drawing.marks[names[-1]], drawing.marks[names[0]]
-            step = next((step.index for step in drawing.program.steps if step.args == ends), None)
+            step = next((step.index for step in drawing.values.drawing.program.steps if step.args == ends), None)
             sides.append((corners[-1], corners[0], closing, CORRECTIONS[index], step))
         shown = names if len(names) <= MAX_LETTERED_CORNERS else [names[0], names[-1]]
         lettered = {name: (drawing.position(name), drawing.marks[name]) for name in shown}

@@ -21,7 +21,7 @@ def numbers(sheet: RotorSheet) -> dict[str, Any]:
     has them. `answers` are there where trials leave a choice, of which `corrections` is the first; `drawn_error` are
     two standard deviations of what a pencil draws of these; steps speak lengths of paper of this sheet."""
     found = sheet.balanced
-    task, program, sums = found.task, found.drawing.program, found.sums
+    task, program, sums = found.task, found.drawing.values.drawing.program, found.sums
     kg_m, metres = float(task.kg_m), float(task.metres)
     drawn = [{"mass_radius": 2 * error.mass_radius * kg_m, "angle": 2 * error.angle} for error in sheet.errors]
     data: dict[str, Any] = {

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from graphplan.accuracy.first_order import deviation
 from graphplan.accuracy.hand import Pencil, program_hand
 from graphplan.check.rotors import bearing_reactions
-from graphplan.kernel.drawing import Drawing, Values
+from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Panel
 from graphplan.machine.rotors.polygons import END_VIEW, FORCES, MOMENTS, Correction
@@ -84,7 +84,7 @@ class RotorSheet(Panelled):
 
     @property
     def description(self) -> Said:
-        program = self.balanced.drawing.program
+        program = self.balanced.drawing.values.drawing.program
         return said("Balancing of a rotor in {0} steps.", len(program) - program.givens)
 
     @cached_property
@@ -93,7 +93,7 @@ class RotorSheet(Panelled):
 
     @property
     def values(self) -> Values:
-        return Values(Drawing(self.balanced.drawing.program), self.balanced.drawing.values)
+        return self.balanced.drawing.values
 
     @cached_property
     def scales(self) -> Scales:
@@ -121,8 +121,7 @@ class RotorSheet(Panelled):
     @cached_property
     def errors(self) -> list[PencilError]:
         """How far off the corrections of the first answer are drawn, in first order."""
-        drawing = self.balanced.drawing
-        hand = program_hand(drawing.program, drawing.values,
+        hand = program_hand(self.values.drawing.program, self.values.numbers,
                             lambda step: self.scales.lengths_per_mm(step.panel), self.pencil)
         found = []
         for k, one in enumerate(self.balanced.corrections):

@@ -48,7 +48,7 @@ from graphplan.commands.choices import add_diagrams, add_language, count, with_p
 from graphplan.commands.output import STANDARD, Messages
 from graphplan.commands.subjects import JSON, PNG, SCENE, Subject, add_steps, run_subject
 from graphplan.errors import Refused
-from graphplan.output import loaded
+from graphplan.output import load_writer
 
 if TYPE_CHECKING:
     from graphplan.output.subjects.cam_sheet import CamSheet
@@ -101,7 +101,7 @@ def construct_cam(options: argparse.Namespace, ending: str, messages: Messages) 
 
     return Subject(sheet, lambda: numbers(drawing, options.positions or POSITIONS, tolerance, check), task.sheet.paper,
                    files={".toml": lambda: scene_text(cam, options.at or 0.0),
-                          ".dxf": lambda: loaded("dxf", "cad.profile").profile_dxf(cam, tolerance)},
+                          ".dxf": lambda: load_writer("dxf", "cad.profile").profile_dxf(cam, tolerance)},
                    remarks=[f"{task.name}: {note}" for note in cam.notes], rows=False)
 
 

@@ -65,7 +65,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.accuracy.survey.picture import table
-    from graphplan.output.charts import drawn
+    from graphplan.output.charts import draw_chart
 
     for name in options.names:
         if name not in CHARTS:
@@ -83,7 +83,7 @@ def run(options: argparse.Namespace) -> int:
         arguments = (hand.description,) if name in ("draughtsman", "stability") else ()
         for picture in PICTURES:
             if hasattr(module, picture):
-                write(drawn(getattr(module, picture)(rows, *arguments)),
+                write(draw_chart(getattr(module, picture)(rows, *arguments)),
                       str(options.folder / f"{name}{PICTURES[picture]}.svg"))
         write(table(getattr(module, CHARTS[name].row), rows), str(options.folder / f"{name}.csv"))
     return 0

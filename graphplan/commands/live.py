@@ -25,7 +25,7 @@ from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
-    from graphplan.output.live.page import Variant
+    from graphplan.output.live.page import PageVariant
 
 ENDINGS = (".html",)
 CHOICES = "plans", "methods", "languages"
@@ -75,10 +75,10 @@ def page(options: argparse.Namespace, *, steps_first: bool = False, shared: str 
     return live(variants, languages, scene.title, steps_first=steps_first, shared=shared)
 
 
-def _variants(options: argparse.Namespace) -> Iterator[Variant]:
+def _variants(options: argparse.Namespace) -> Iterator[PageVariant]:
     """The ways to draw the scene that may be chosen: first as the options have it, then by other plans and methods,
     those that can be drawn, each once."""
-    from graphplan.output.live.page import Variant, on_one_sheet
+    from graphplan.output.live.page import PageVariant, on_one_sheet
     from graphplan.sheet.layout.composition import compose
 
     earlier: list[list[str]] = []
@@ -96,7 +96,7 @@ def _variants(options: argparse.Namespace) -> Iterator[Variant]:
         with suppress(*(() if first else (Refused,))):
             composition = compose(drawing, protocol="none")
             alternatives = _alternatives(drawing)
-            yield Variant(drawing.plan, method,
+            yield PageVariant(drawing.plan, method,
                           on_one_sheet(composition, alternatives if first else alternatives[:MAX_ALTERNATIVES]))
 
 

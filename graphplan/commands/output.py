@@ -135,16 +135,16 @@ def page_names(path: str | None, count: int, more: str = "") -> list[str | None]
 def write_sheets(pages: Sequence[Any], path: str | None, ending: str, dpi: int | None = None) -> None:
     """Write the pages of a sheet of diagrams, by its ending: the words that stand apart follow it as further pages, or
     as files of their own."""
-    from graphplan.output import loaded
+    from graphplan.output import load_writer
 
     if ending == "pdf":
-        write(loaded("pdf", "pdf_png").pdf(pages), path)
+        write(load_writer("pdf", "pdf_png").pdf(pages), path)
     elif ending == "dxf":
-        write(loaded("dxf", "dxf").dxf(pages), path)
+        write(load_writer("dxf", "dxf").dxf(pages), path)
     else:
         module, function = {"png": ("pdf_png", "png"), "tex": ("exports.ink_tikz", "sheet_tikz")}.get(
             ending, (ending, ending))
-        write_out, look = getattr(loaded(ending, module),
+        write_out, look = getattr(load_writer(ending, module),
                                   function), {"dpi": dpi or DEFAULT_DPI} if ending == "png" else {}
         names = page_names(path, len(pages), PROTOCOL)
         write_all([(name, write_out(page, **look)) for name, page in zip(names, pages, strict=False)])

@@ -165,9 +165,9 @@ def _judge_file(desk: Desk, path: Path) -> Findings:
         if ending != ".html":
             write_out = back_end(ending[1:])
             return [write_out(sheets)] if ending == ".pdf" else list(map(write_out, sheets))
-        from graphplan.output.report_page import marked
+        from graphplan.output.report_page import report_page
 
-        return [marked(drawing.judgement, drawing.score, sheets)]
+        return [report_page(drawing.judgement, drawing.score, sheets)]
 
     return Findings(judgement_record(drawing.judgement, drawing.score), _lines(drawing), pages)
 

@@ -47,11 +47,11 @@ def back_end(name: str) -> Callable[..., Any]:
     format = FORMATS[name]
     if not format.module:
         return str
-    function: Callable[..., Any] = getattr(loaded(name, format.module), format.function)
+    function: Callable[..., Any] = getattr(load_writer(name, format.module), format.function)
     return function
 
 
-def loaded(name: str, module: str) -> Any:
+def load_writer(name: str, module: str) -> Any:
     """A module of this folder that writes a format; fails as :func:`back_end` does."""
     try:
         return importlib.import_module(f"graphplan.output.{module}")

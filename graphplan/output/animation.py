@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 from xml.etree.ElementTree import Element, SubElement, tostring
 
-from graphplan.output.svg import groups, rounded
+from graphplan.output.svg import groups, round_mm
 from graphplan.sheet.lettering.lettering import FONTS, TextRun
 from graphplan.sheet.plates.display import Sheet, Text, move_item
 from graphplan.sheet.plates.pens import LETTERS, PAPER
@@ -49,13 +49,13 @@ class Film:
 
     def pictures(self) -> Iterator[Sheet]:
         """The plans from their corner on, with what is told of each."""
-        for sheet, told in zip(self.sheets, self.told, strict=True):
+        for sheet, caption in zip(self.sheets, self.told, strict=True):
             rects = sheet.panels.values()
             left, top = min(rect.left for rect in rects) - MARGIN, max(rect.top for rect in rects) + MARGIN
             right, low = max(rect.right for rect in rects) + MARGIN, min(rect.bottom for rect in rects) - FOOT
-            kept = [move_item(item, -left, -low) for item in sheet.items]
-            kept.append(Text(LETTERS, "travel", None, (right - left - MARGIN, 2.0), (TextRun(told),), TOLD, "end"))
-            yield replace(sheet, width=right - left, height=top - low, items=tuple(kept))
+            items = [move_item(item, -left, -low) for item in sheet.items]
+            items.append(Text(LETTERS, "travel", None, (right - left - MARGIN, 2.0), (TextRun(caption),), TOLD, "end"))
+            yield replace(sheet, width=right - left, height=top - low, items=tuple(items))
 
 
 # ---- GIF -------------------------------------------------------------------------------------------------------------
@@ -67,9 +67,9 @@ def gif(film: Film, width: int) -> bytes:
 
     sheets, written = list(film.pictures()), io.BytesIO()
     palette = _palette([_image(sheet, width) for sheet in sheets[:: math.ceil(len(sheets) / SAMPLE)]])
-    first, *rest = (_image(sheet, width).quantize(palette=palette, dither=Dither.NONE) for sheet in sheets)
+    first, *frames = (_image(sheet, width).quantize(palette=palette, dither=Dither.NONE) for sheet in sheets)
     each = max(2, round(100 * film.seconds / len(sheets)))  # hundredths of a second; less is slowed down by browsers
-    first.save(written, "GIF", save_all=True, append_images=rest, duration=10 * each, loop=0, optimize=False)
+    first.save(written, "GIF", save_all=True, append_images=frames, duration=10 * each, loop=0, optimize=False)
     return written.getvalue()
 
 
@@ -97,7 +97,7 @@ def _palette(images: Sequence[Image]) -> Image:
 def svg(film: Film, width: int) -> str:
     """The film as one SVG of so many pixels in width, which begins again when it is over."""
     sheets = list(film.pictures())
-    wide, high = rounded(sheets[0].width), rounded(sheets[0].height)
+    wide, high = round_mm(sheets[0].width), round_mm(sheets[0].height)
     picture = Element("svg", {
         "xmlns": "http://www.w3.org/2000/svg", "viewBox": f"0 0 {wide} {high}", "width": str(width),
         "height": str(round(width * high / wide)), "font-family": FONTS, "stroke-linecap": "round",
@@ -108,12 +108,12 @@ def svg(film: Film, width: int) -> str:
     SubElement(picture, "rect", {"width": str(wide), "height": str(high), "fill": PAPER})
     poses = [dict(_groups(sheet)) for sheet in sheets]
     clock = _Clock(len(sheets), film.seconds)
-    for key in _merged(poses):
+    for key in _merge_orders(poses):
         first = next(pose[key] for pose in poses if key in pose)
         group = SubElement(picture, "g", first.attrib)
         group.extend([child for child in first if child.tag in WORDS])
         for track in _tracks([pose.get(key, ()) for pose in poses]):
-            group.extend([*clock.shown(track)])
+            group.extend([*clock.animate_element(track)])
     return f'<?xml version="1.0" encoding="utf-8"?>\n{tostring(picture, encoding="unicode")}\n'
 
 
@@ -126,16 +126,16 @@ def _groups(sheet: Sheet) -> Iterator[tuple[str, Element]]:
 def _tracks(poses: Sequence[Iterable[Element]]) -> list[Track]:
     """What is drawn in a group, from back to front: each element by the poses in which it is there."""
     kinds: dict[Hashable, list[list[Element]]] = {}
-    drawn = [[part for part in pose if part.tag not in WORDS] for pose in poses]
-    for k, pose in enumerate(drawn):
+    elements = [[child for child in pose if child.tag not in WORDS] for pose in poses]
+    for k, pose in enumerate(elements):
         for element in pose:
             kinds.setdefault(_kind(element), [[] for _ in poses])[k].append(element)
-    tracks = [track for of_kind in kinds.values() for track in _followed(of_kind)]
+    tracks = [track for of_kind in kinds.values() for track in _follow_elements(of_kind)]
     names = {element: name for name, track in enumerate(tracks) for element in track.values()}
-    return [tracks[name] for name in _merged([[names[element] for element in pose] for pose in drawn])]
+    return [tracks[name] for name in _merge_orders([[names[element] for element in pose] for pose in elements])]
 
 
-def _followed(poses: Sequence[Sequence[Element]]) -> list[Track]:
+def _follow_elements(poses: Sequence[Sequence[Element]]) -> list[Track]:
     """Elements that differ by nothing but their places, each followed from pose to pose: in their order where there are
     always as many, else to where they have the shortest ways."""
     if len({*map(len, poses)}) == 1:
@@ -144,10 +144,11 @@ def _followed(poses: Sequence[Sequence[Element]]) -> list[Track]:
     last: list[complex] = []
     for k, elements in enumerate(poses):
         spots = [_middle(element) for element in elements]
-        ways = sorted((abs(here - spot), name, i) for name, here in enumerate(last) for i, spot in enumerate(spots))
+        distances = sorted((abs(place - spot), name, i) for name, place in enumerate(last) for i,
+                           spot in enumerate(spots))
         free, new = {*range(len(tracks))}, {*range(len(elements))}
-        for way, name, i in ways:
-            if way <= FAR and name in free and i in new:
+        for distance, name, i in distances:
+            if distance <= FAR and name in free and i in new:
                 free.discard(name)
                 new.discard(i)
                 tracks[name][k], last[name] = elements[i], spots[i]
@@ -158,8 +159,8 @@ def _followed(poses: Sequence[Sequence[Element]]) -> list[Track]:
 
 def _middle(element: Element) -> complex:
     """About where an element is, in mm."""
-    numbers = [float(number) for part in element.iter() for name in ("points", "d", "x", "cx", "y", "cy")
-               for number in NUMBER.findall(part.get(name, ""))]
+    numbers = [float(number) for child in element.iter() for name in ("points", "d", "x", "cx", "y", "cy")
+               for number in NUMBER.findall(child.get(name, ""))]
     if "d" in element.attrib:  # of an arc the ends
         numbers = numbers[:2] + numbers[-2:]
     return complex(sum(numbers[::2]), sum(numbers[1::2])) / max(1, len(numbers) // 2)
@@ -177,7 +178,7 @@ def _form(value: str) -> Hashable:
     return len(NUMBER.findall(value)), tuple(FLAGS.findall(value))
 
 
-def _merged(orders: Sequence[Iterable[Hashable]]) -> list[Any]:
+def _merge_orders(orders: Sequence[Iterable[Hashable]]) -> list[Any]:
     """All names of some lists in one, each behind those that it stands behind."""
     merged: list[Hashable] = []
     places: set[Hashable] = set()
@@ -198,42 +199,42 @@ class _Clock:
     poses: int
     seconds: float
 
-    def shown(self, element: Track) -> Iterator[Element]:
+    def animate_element(self, element: Track) -> Iterator[Element]:
         """An element by the poses in which it is there: as it stands still in the first, and as it moves."""
         places = sorted(element)
         first = element[places[0]]
-        made = self._moving([element[k] for k in places], places)
+        moving = self._moving([element[k] for k in places], places)
         if len(places) < self.poses:
-            made.insert(0, self._display(places))
-        if made.find(".//animate") is not None:
+            moving.insert(0, self._display(places))
+        if moving.find(".//animate") is not None:
             if places[0] == 0:
                 yield _plain(first, {"class": "still", "display": "none"})
             else:
-                made.set("display", "none")
-            made.set("class", f"{made.get('class', '')} moving".strip())
-        yield made
+                moving.set("display", "none")
+            moving.set("class", f"{moving.get('class', '')} moving".strip())
+        yield moving
 
     def _moving(self, elements: Sequence[Element], places: Sequence[int]) -> Element:
         """An element with what moves it: how its places change, and those of what is in it."""
-        made = _plain(elements[0], {}, deep=False)
+        moving = _plain(elements[0], {}, deep=False)
         for name in sorted(MOVES.intersection(elements[0].attrib)):
             values = [element.attrib[name] for element in elements]
             if len({*values}) > 1:
-                made.append(self._animate(name, *self._track(values, places)))
-        for parts in zip(*elements, strict=True):
-            made.append(self._moving(parts, places))
-        return made
+                moving.append(self._animate(name, *self._track(values, places)))
+        for children in zip(*elements, strict=True):
+            moving.append(self._moving(children, places))
+        return moving
 
     def _track(self, values: Sequence[str], places: Sequence[int]) -> tuple[list[str], list[float]]:
         """The values with their times; one that is not there in the next pose is held until then."""
         if len(values) == self.poses:
             return [*values, values[0]], []
         track: list[tuple[float, str]] = []
-        there = dict(zip(places, values, strict=True))
-        for k, value in there.items():
+        value_at = dict(zip(places, values, strict=True))
+        for k, value in value_at.items():
             track.append((k, value))
-            if k + 1 not in there:
-                track.append((k + 1, there[0] if k + 1 == self.poses and 0 in there else value))
+            if k + 1 not in value_at:
+                track.append((k + 1, value_at[0] if k + 1 == self.poses and 0 in value_at else value))
         if track[0][0] > 0:
             track.insert(0, (0, track[0][1]))
         if track[-1][0] < self.poses:
@@ -242,21 +243,22 @@ class _Clock:
 
     def _display(self, places: Sequence[int]) -> Element:
         """In which poses an element is shown."""
-        there = [k in {*places} for k in range(self.poses)]
-        turns = [k for k in range(self.poses) if k == 0 or there[k] != there[k - 1]]
-        return self._animate("display", ["inline" if there[k] else "none" for k in turns],
+        is_visible = [k in {*places} for k in range(self.poses)]
+        turns = [k for k in range(self.poses) if k == 0 or is_visible[k] != is_visible[k - 1]]
+        return self._animate("display", ["inline" if is_visible[k] else "none" for k in turns],
                              [k / self.poses for k in turns], calcMode="discrete")
 
     def _animate(self, name: str, values: Sequence[str], times: Sequence[float], **more: str) -> Element:
-        timed = {"keyTimes": ";".join(f"{rounded(time, PLACES):g}" for time in times)} if times else {}
+        timed = {"keyTimes": ";".join(f"{round_mm(time, PLACES):g}" for time in times)} if times else {}
         return Element("animate", {"attributeName": name, "values": ";".join(values), **timed, **more,
-                                   "dur": f"{rounded(self.seconds):g}s", "repeatCount": "indefinite"})  # fmt: skip
+                                   "dur": f"{round_mm(self.seconds):g}s", "repeatCount": "indefinite"})  # fmt: skip
 
 
 def _plain(element: Element, look: dict[str, str], deep: bool = True) -> Element:
     """A copy of an element, which says nothing of where vectors end, as that moves."""
-    made = Element(element.tag, {name: value for name, value in element.attrib.items() if name not in ENDS} | look)
-    made.text = element.text
+    element_copy = Element(element.tag,
+                           {name: value for name, value in element.attrib.items() if name not in ENDS} | look)
+    element_copy.text = element.text
     if deep:
-        made.extend(element)
-    return made
+        element_copy.extend(element)
+    return element_copy

@@ -36,7 +36,7 @@ READINGS = 8, 5  # at most, along the first and the second axis
 FRAME, DIVISION, EDGE = Pen(0.18), Pen(0.13, "#c4c4c4"), Pen(0.18, GREY)
 
 
-def drawn(chart: Chart) -> str:
+def draw_chart(chart: Chart) -> str:
     """The chart as SVG text: title and remarks at the top, the key at the foot, and the pictures between them."""
     canvas, (wide, high), columns = Canvas(), chart.panel_mm, min(chart.columns, len(chart.panels) or 1)
     rows, breadth = math.ceil(len(chart.panels) / columns), 2 * MARGIN + columns * (LEFT + wide + RIGHT)
@@ -60,8 +60,8 @@ def drawn(chart: Chart) -> str:
 
 def _set(words: str) -> Runs:
     """Words with powers raised, such as 10^-3."""
-    parts = re.split(r"\^(-?[\d.]*\d)", words)
-    return tuple(TextRun(text.replace("-", "−") if k % 2 else text, k % 2) for k, text in enumerate(parts) if text)
+    pieces = re.split(r"\^(-?[\d.]*\d)", words)
+    return tuple(TextRun(text.replace("-", "−") if k % 2 else text, k % 2) for k, text in enumerate(pieces) if text)
 
 
 def _key_rows(chart: Chart, end: float) -> Iterable[list[tuple[float, str, Look]]]:
@@ -128,9 +128,9 @@ class _Scale:
     def ticks(self) -> list[tuple[float, Runs]]:
         """Readings along the axis: decades or round numbers; rails by their labels. Those that
         would run into the one before are left out."""
-        kept = [(self.rails[name], _set(label)) for name, label in (*self.axis.before, *self.axis.after) if label]
+        ticks = [(self.rails[name], _set(label)) for name, label in (*self.axis.before, *self.axis.after) if label]
         if self.high == self.low:
-            return kept
+            return ticks
         low, high = sorted(-end if self.axis.falling else end for end in (self.low, self.high))
         decades = self.axis.log and high - low >= 2
         if self.axis.log and not decades:
@@ -142,9 +142,9 @@ class _Scale:
             words = _set(digits(10.0 ** (k * step) if decades else k * step) if plain else f"10^{k * step}")
             at = self(10.0 ** (k * step) if decades else k * step)
             if abs(at - last) > width(words, SMALL) + 1.5:
-                kept.append((at, words))
+                ticks.append((at, words))
                 last = at
-        return kept
+        return ticks
 
 
 def _draw(canvas: Canvas, panel: SubChart, rect: Rect) -> None:
@@ -170,8 +170,8 @@ def _frame(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) ->
     for at, words in y.ticks():
         canvas.line([(rect.left, at), (rect.right, at)], DIVISION)
         canvas.text((rect.left - 1.2, at - 0.36 * SMALL), words, SMALL, "end")
-    for place, told in panel.y.beside:
-        canvas.text((rect.right + 1.2, y(place) - 0.36 * SMALL), _set(told), SMALL)
+    for place, reading in panel.y.beside:
+        canvas.text((rect.right + 1.2, y(place) - 0.36 * SMALL), _set(reading), SMALL)
     for at in x.edges:
         canvas.line([(at, rect.bottom), (at, rect.top)], EDGE)
     for at in y.edges:
@@ -187,7 +187,7 @@ def _line(canvas: Canvas, series: ChartSeries, x: _Scale, y: _Scale) -> None:
     look = series.look
     for (a, b), ((left, low), (right, high)) in zip(series.spots, series.spreads, strict=bool(series.spreads)):
         for ends in ((left, b), (right, b)), ((a, low), (a, high)):
-            canvas.line([(x(one), y(other)) for one, other in ends], Pen(0.18, look.colour))
+            canvas.line([(x(x_place), y(y_place)) for x_place, y_place in ends], Pen(0.18, look.colour))
     if look.area:
         (start, rail), (end, _) = series.spots
         half = 0.4 * y.pitch
@@ -195,14 +195,14 @@ def _line(canvas: Canvas, series: ChartSeries, x: _Scale, y: _Scale) -> None:
         words, room = _set(series.label), x(end) - x(start) - 0.6
         if series.label and width(words, SMALL) <= room:
             canvas.text(((x(start) + x(end)) / 2, y(rail) - 0.36 * SMALL), words, SMALL, "middle")
-    for railed, part in groupby(series.spots, key=lambda spot: not series.through and str in map(type, spot)):
+    for railed, spots in groupby(series.spots, key=lambda spot: not series.through and str in map(type, spot)):
         if look.width and not railed:
-            canvas.line([(x(a), y(b)) for a, b in part], Pen(look.width, look.colour, look.dash))
+            canvas.line([(x(a), y(b)) for a, b in spots], Pen(look.width, look.colour, look.dash))
 
 
 def _labels(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) -> None:
     """The words of each series at its last spot, where least is amiss with them; from afar a line leads to them."""
-    taken = [covered for series in panel.series for covered in _covered(series, x, y)]
+    taken = [covered for series in panel.series for covered in _covered_boxes(series, x, y)]
     for series in panel.series:
         if not series.label or not series.spots or series.look.area:
             continue
@@ -211,7 +211,7 @@ def _labels(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) -
         boxes = {_box((spot[0] + h * (off + wide / 2), spot[1] + v * (off + LABEL / 2)), wide, LABEL): abs(v)
                  for h, v in SIDES}
         best = min([box for box in boxes if all(map(rect.holds, box.corners))] or boxes, key=lambda box: (
-            AWAY * boxes[box] + sum(amiss for other, amiss in taken if box.meets(other))))
+            AWAY * boxes[box] + sum(amiss for box_taken, amiss in taken if box.meets(box_taken))))
         taken.append((best, ON_WORDS))
         if boxes[best] > FAR:
             near = min(max(spot[0], best.left), best.right), min(max(spot[1], best.bottom), best.top)
@@ -219,7 +219,7 @@ def _labels(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) -
         canvas.text((best.left, best.bottom + 0.14 * LABEL), words, LABEL)
 
 
-def _covered(series: ChartSeries, x: _Scale, y: _Scale) -> Iterable[tuple[Rect, float]]:
+def _covered_boxes(series: ChartSeries, x: _Scale, y: _Scale) -> Iterable[tuple[Rect, float]]:
     """What a series covers, and how bad words are there: its marks, its line, and the spreads of its spots."""
     spots = [(x(a), y(b)) for a, b in series.spots]
     if series.look.marker:

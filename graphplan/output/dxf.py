@@ -36,7 +36,7 @@ LOCKED, SHEET = 0x4000, said("Sheet")  # a viewport of which the scale stays; wh
 
 def dxf(sheets: Sequence[Sheet], plates: Plates | None = None) -> bytes:
     """The pages of a sheet, and the mechanism that is drawn on them if it is told, as a DXF document."""
-    with undated():
+    with without_date():
         text = io.StringIO()
         document = _Drawing(sheets, plates).document
         declare_classes(document)
@@ -52,7 +52,7 @@ def declare_classes(document: ezdxf.document.Drawing) -> None:
 
 
 @contextmanager
-def undated() -> Iterator[None]:
+def without_date() -> Iterator[None]:
     """Without the date and a chance identity; what others asked of ezdxf stays as it was."""
     before = ezdxf.options.write_fixed_meta_data_for_testing
     ezdxf.options.write_fixed_meta_data_for_testing = True
@@ -112,10 +112,10 @@ class _Drawing:
 
     def _layouts(self, sheets: Sequence[Sheet], places: Sequence[Spot]) -> None:
         """A layout for each page, of the size of its paper, on which model space is seen 1:1 where the page is."""
-        document, told = self.document, self.told
-        document.layouts.rename("Layout1", f"{told} 1")
+        document, sheet_name = self.document, self.told
+        document.layouts.rename("Layout1", f"{sheet_name} 1")
         for number, (sheet, place) in enumerate(zip(sheets, places, strict=True), 1):
-            name, size = f"{told} {number}", (sheet.width, sheet.height)
+            name, size = f"{sheet_name} {number}", (sheet.width, sheet.height)
             layout = document.layouts.get(name) if number == 1 else document.layouts.new(name)
             layout.page_setup(size, (0, 0, 0, 0), "mm", name=_paper(size))
             middle, box = (sheet.width / 2, sheet.height / 2), self._box(place, sheet)
@@ -138,5 +138,5 @@ class _Drawing:
 
 def _paper(size: tuple[float, float]) -> str:
     """What printers call a paper of this size, before its measures."""
-    name = next((name for name, known in SIZES.items() if sorted(known) == sorted(size)), "")
+    name = next((name for name, size_mm in SIZES.items() if sorted(size_mm) == sorted(size)), "")
     return f"ISO_full_bleed_{name}" if name else "User"

@@ -26,7 +26,7 @@ class OnPaper:
     plan: Callable[[int], Panel]
     per_mm: Callable[[Panel], float]
 
-    def told(self, step: Step) -> dict[str, Any]:
+    def step_data(self, step: Step) -> dict[str, Any]:
         """The operands by their places among the steps, the parameters, and the factor from another plan."""
         return {"operands": list(step.args), "parameters": self.parameters(step), "factor": self.factor(step)}
 
@@ -36,15 +36,15 @@ class OnPaper:
 
     def factor(self, step: Step) -> float | None:
         """How many mm are drawn for one that is taken on another plan; nothing where all is taken on its own."""
-        op, own = step.op, step.index
+        op, index = step.op, step.index
         sized = op.movement in (Movement.LAID_OFF, Movement.TURNED, Movement.STRUCK)
-        source = step.args[TAKEN[op.sizing]] if op.sizing in TAKEN else step.args[op.afar[0][0]] if sized else own
-        own = step.args[LIKE[op.sizing]] if op.sizing in LIKE else own
-        return None if self.plan(source) == self.plan(own) else self.per(source) / self.per(own)
+        source = step.args[TAKEN[op.sizing]] if op.sizing in TAKEN else step.args[op.afar[0][0]] if sized else index
+        index = step.args[LIKE[op.sizing]] if op.sizing in LIKE else index
+        return None if self.plan(source) == self.plan(index) else self.per(source) / self.per(index)
 
     def parameters(self, step: Step) -> Parameters:
         """What the operation is given, but the place of what stands where it is put."""
-        params, own = step.params, self.per(step.index)
+        params, per_mm = step.params, self.per(step.index)
         match step.op.movement, step.op.sizing:
             case (Movement.GIVEN | Movement.BEGUN), _:
                 return {}
@@ -52,18 +52,18 @@ class OnPaper:
                 dx, dy = float(params["dx"]), float(params["dy"])
                 return {"direction": [dx / math.hypot(dx, dy), -dy / math.hypot(dx, dy) + 0.0]}
             case Movement.LAID_BY_COMPONENTS, _:
-                return {"vector": [float(params["dx"]) / own, -float(params["dy"]) / own + 0.0]}
+                return {"vector": [float(params["dx"]) / per_mm, -float(params["dy"]) / per_mm + 0.0]}
             case Movement.PICKED, _:
-                return {"ahead": self._ahead(step) / own}
+                return {"ahead": self._distance_along(step) / per_mm}
             case _, Sizing.COUPLE:
-                return {"moment": float(params["moment"]) / own / self.per(step.args[0])}
+                return {"moment": float(params["moment"]) / per_mm / self.per(step.args[0])}
             case _, Sizing.INERTIA:
                 link, motion = self.per(step.args[0]), self.per(step.args[2])
-                return {"ratio": float(params["ratio"]) * motion / link**2 / own}
-        return {name: float(value) / own if name in ("length", "radius") else _plain(value)
+                return {"ratio": float(params["ratio"]) * motion / link**2 / per_mm}
+        return {name: float(value) / per_mm if name in ("length", "radius") else _plain(value)
                 for name, value in params.items()}
 
-    def _ahead(self, step: Step) -> float:
+    def _distance_along(self, step: Step) -> float:
         """How far along its line a point is chosen, from the foot of another."""
         (a, b, _), (x, y), (u, v) = (map(float, self.values[index][:3]) for index in (step.args[0], step.args[1],
                                                                                       step.index))

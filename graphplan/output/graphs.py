@@ -50,8 +50,9 @@ def divisions(low: float, high: float, most: float, turns: bool = False) -> list
         return [low]
     power = 10.0 ** math.floor(math.log10(step))
     steps = [power * times for times in (1, 2, 5, 10)]
-    step = next(one for one in ([15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, *steps] if turns and 5 < step <= 360
-                                else steps) if one >= step * (1 - STEP_TOL))
+    step = next(candidate
+                for candidate in ([15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, *steps] if turns and 5 < step <= 360
+                                else steps) if candidate >= step * (1 - STEP_TOL))
     first, last = math.ceil(low / step - STEP_TOL), math.floor(high / step + STEP_TOL)
     return [k * step for k in range(first, last + 1)]
 
@@ -66,7 +67,7 @@ class Graph:
     k_y: float
 
     @classmethod
-    def fitted(cls, rect: Rect, x: Span, y: Span, k_y: float = 0.0) -> Graph:
+    def fit_rect(cls, rect: Rect, x: Span, y: Span, k_y: float = 0.0) -> Graph:
         """The diagram that fills a rectangle from left to right, its ordinates in a round scale or one that is given.
         """
         k_x = (x[1] - x[0]) / rect.width
@@ -74,20 +75,20 @@ class Graph:
         return cls(rect, (rect.left - x[0] / k_x, rect.bottom - y[0] / k_y), k_x, k_y)
 
     @classmethod
-    def framed(cls, frame: Frame, window: Callable[[Spot], Spot]) -> Graph:
+    def from_frame(cls, frame: Frame, window: Callable[[Spot], Spot]) -> Graph:
         """The diagram of a frame that a construction has, through a window that leaves it as large."""
         x, y = window(frame.origin)
         rect = Rect(x + frame.level[0], y + frame.upright[0], x + frame.level[1], y + frame.upright[1])
         zero = x - frame.x.datum / frame.x.unit, y - frame.y.datum / frame.y.unit
         return cls(rect, zero, frame.x.unit, frame.y.unit)
 
-    def at(self, x: float, y: float) -> Spot:
+    def spot(self, x: float, y: float) -> Spot:
         """Where a value lies on paper."""
         return self.origin[0] + x / self.k_x, self.origin[1] + y / self.k_y
 
     def spots(self, xs: Iterable[Any], ys: Iterable[Any]) -> list[Spot]:
         """Where values lie."""
-        return [self.at(float(x), float(y)) for x, y in zip(xs, ys, strict=True)]
+        return [self.spot(float(x), float(y)) for x, y in zip(xs, ys, strict=True)]
 
     @property
     def x(self) -> Span:
@@ -111,7 +112,7 @@ class Graph:
     def smooth(self, xs: Iterable[Any], ys: Iterable[Any], pen: Pen = CURVES[0]) -> Iterator[Item]:
         """A smooth curve through few points (Catmull and Rom)."""
         for stretch in _unbroken(self.spots(xs, ys)):
-            yield from self.line(smoothed(stretch), pen)
+            yield from self.line(smooth_line(stretch), pen)
 
     def points(self, xs: Iterable[Any], ys: Iterable[Any], pen: Pen = pens.DOT, radius: float = 0.5) -> Iterator[Item]:
         """A mark at each value."""
@@ -122,33 +123,33 @@ class Graph:
     def uprights(self, xs: Iterable[Any], pen: Pen = DIVISION) -> Iterator[Item]:
         """Thin lines through the whole diagram."""
         for x in xs:
-            at = self.at(float(x), 0.0)[0]
+            at = self.spot(float(x), 0.0)[0]
             yield Polyline(pen, "ruling", None, ((at, self.rect.bottom), (at, self.rect.top)))
 
 
-def stacked(room: Rect, x: Span, ordinates: Sequence[Span], shares: Sequence[float] = (), left: float = LEFT,
+def stack_graphs(room: Rect, x: Span, ordinates: Sequence[Span], shares: Sequence[float] = (), left: float = LEFT,
             right: float = ON, between: float = HEADED, foot: float = FOOT) -> list[Graph]:
     """Diagrams under each other over the same abscissae, as high as their shares; room for numbers is left about them.
     """
     shares = shares or [1.0] * len(ordinates)
     inner = room.inset(left, foot, right, 0.0)
-    free, top, found = inner.height - len(ordinates) * between, inner.top, list[Graph]()
+    free, top, graphs = inner.height - len(ordinates) * between, inner.top, list[Graph]()
     for span, share in zip(ordinates, shares, strict=True):
         low = top - between - free * share / sum(shares)
-        found.append(Graph.fitted(Rect(inner.left, low, inner.right, top - between), x, span))
+        graphs.append(Graph.fit_rect(Rect(inner.left, low, inner.right, top - between), x, span))
         top = low
-    return found
+    return graphs
 
 
-def through(graphs: Sequence[Graph], xs: Iterable[Any], pen: Pen = DIVISION) -> Iterator[Item]:
+def lines_through(graphs: Sequence[Graph], xs: Iterable[Any], pen: Pen = DIVISION) -> Iterator[Item]:
     """Thin lines through diagrams that stand under each other, from the lowest to the highest."""
     for x in xs:
-        at = graphs[0].at(float(x), 0.0)[0]
+        at = graphs[0].spot(float(x), 0.0)[0]
         yield Polyline(pen, "ruling", None, ((at, graphs[-1].rect.bottom), (at, graphs[0].rect.top)))
 
 
 @dataclass(frozen=True)
-class Polar:
+class PolarGraph:
     """A diagram of vectors from one middle: where that is, and what a mm stands for."""
 
     rect: Rect
@@ -156,20 +157,20 @@ class Polar:
     k: float
 
     @classmethod
-    def fitted(cls, rect: Rect, xs: Sequence[float], ys: Sequence[float]) -> Polar:
+    def fit_vectors(cls, rect: Rect, xs: Sequence[float], ys: Sequence[float]) -> PolarGraph:
         """The diagram that has room for vectors with these components and for its middle, in a round scale."""
-        (low, high), (foot, top) = ((min(0.0, *part), max(0.0, *part)) for part in (xs, ys))
+        (low, high), (foot, top) = ((min(0.0, *components), max(0.0, *components)) for components in (xs, ys))
         k = float(round_up(max((high - low) / rect.width, (top - foot) / rect.height)))
         (x, y) = rect.centre
         return cls(rect, (x - (low + high) / 2 / k, y - (foot + top) / 2 / k), k)
 
-    def at(self, x: float, y: float) -> Spot:
+    def end_of(self, x: float, y: float) -> Spot:
         """Where a vector ends."""
         return self.centre[0] + x / self.k, self.centre[1] + y / self.k
 
     def curve(self, xs: Iterable[Any], ys: Iterable[Any], pen: Pen = CURVES[0]) -> Iterator[Item]:
         """The curve of the ends of vectors."""
-        spots = [self.at(float(x), float(y)) for x, y in zip(xs, ys, strict=True)]
+        spots = [self.end_of(float(x), float(y)) for x, y in zip(xs, ys, strict=True)]
         yield from clip_item(Polyline(pen, "links", None, tuple(spots)), self.rect)
 
 
@@ -190,17 +191,17 @@ class Figures:
                  scale: str = "") -> Text:
         """What a diagram shows, its unit and its scale; the scale is called by another letter where that is told."""
         name = scale or letter
-        told = self.tongue(arrange("{0}, {1};  ", letter, unit(measure)))
+        heading = self.tongue(arrange("{0}, {1};  ", letter, unit(measure)))
         k_told = self.tongue(scale_words(name, abs(k), measure, convention))
-        return self.text(at, (*sentence_runs(told, (letter,)), *sentence_runs(k_told, (f"k_{name}", f"mu_{name}"))),
+        return self.text(at, (*sentence_runs(heading, (letter,)), *sentence_runs(k_told, (f"k_{name}", f"mu_{name}"))),
                          anchor)
 
-    def marked(self, at: Spot, words: str, off: Spot = (1.2, 0.8)) -> Iterator[Item]:
+    def draw_point(self, at: Spot, words: str, off: Spot = (1.2, 0.8)) -> Iterator[Item]:
         """A point with its letter."""
         yield Circle(pens.DOT, "plates", None, at, 0.6)
         yield self.text((at[0] + off[0], at[1] + off[1]), words, "start" if off[0] > 0 else "end", self.letters.mark)
 
-    def backed(self, at: Spot, words: str | Runs, size: float = 0.0, middle: bool = False) -> Iterator[Item]:
+    def backed_text(self, at: Spot, words: str | Runs, size: float = 0.0, middle: bool = False) -> Iterator[Item]:
         """Lettering that breaks the lines under it, from its base line up, or in the middle of a spot."""
         size = size or self.letters.text
         if isinstance(words, str):
@@ -217,7 +218,7 @@ class Figures:
     def abscissa(self, graph: Graph, words: str = "", level: float = 0.0) -> Iterator[Item]:
         """The axis to the right at an ordinate, or at the edge beyond which it lies, with its quantity at its head."""
         rect, end = graph.rect, graph.rect.right + ON
-        y = min(max(graph.at(0.0, level)[1], rect.bottom), rect.top)
+        y = min(max(graph.spot(0.0, level)[1], rect.bottom), rect.top)
         yield Arrow(AXIS, "ruling", None, (graph.rect.left, y), (end, y), HEAD)
         if words:
             yield self.text((end, y + 1.2), words, "end")
@@ -228,7 +229,7 @@ class Figures:
         foot, top = (x, graph.rect.bottom), (x, graph.rect.top + (0.5 * ON if head else 0.0))
         yield Arrow(AXIS, "ruling", None, foot, top, HEAD) if head else Polyline(AXIS, "ruling", None, (foot, top))
 
-    def headed(self, graph: Graph, words: str | Runs, names: tuple[str, ...] = (), off: float = 0.0) -> Item:
+    def heading(self, graph: Graph, words: str | Runs, names: tuple[str, ...] = (), off: float = 0.0) -> Item:
         """What a diagram shows, and its scale, over its left end."""
         return self.text((graph.rect.left + off, graph.rect.top + 1.6), words, names=names)
 
@@ -240,7 +241,7 @@ class Figures:
             widest = max(width(sentence_runs(digits(value)), size) for value in values)
             values = divisions(*graph.x, graph.rect.width / max(APART, 1.6 * widest), turns)
         for x in values:
-            at = graph.at(x, 0.0)[0]
+            at = graph.spot(x, 0.0)[0]
             yield Polyline(AXIS, "ruling", None, ((at, y), (at, y - TICK)))
             yield self.text((at, y - TICK - 0.6 - CAPS * size), digits(x), "middle")
 
@@ -248,14 +249,14 @@ class Figures:
                    level: float = 0.0) -> Iterator[Item]:
         """Round ordinates, with their numbers left of the diagram, or right of it but for where the head of the
         abscissa and its last number stand."""
-        size, x, way = self.letters.text, graph.rect.right if right else graph.rect.left, 1.0 if right else -1.0
+        size, x, outwards = self.letters.text, graph.rect.right if right else graph.rect.left, 1.0 if right else -1.0
         for value in divisions(*graph.y, graph.rect.height / (0.8 * APART), turns):
-            y = graph.at(0.0, value)[1]
-            if right and min(abs(y - graph.at(0.0, level)[1]), y - graph.rect.bottom) < size:
+            y = graph.spot(0.0, value)[1]
+            if right and min(abs(y - graph.spot(0.0, level)[1]), y - graph.rect.bottom) < size:
                 continue
-            yield Polyline(AXIS, "ruling", None, ((x + way * TICK, y), (x, y)))
-            at = x + way * (TICK + 0.8), y - CAPS * size / 2
-            yield from self.backed(at, digits(value)) if right else (self.text(at, digits(value), "end"),)
+            yield Polyline(AXIS, "ruling", None, ((x + outwards * TICK, y), (x, y)))
+            at = x + outwards * (TICK + 0.8), y - CAPS * size / 2
+            yield from self.backed_text(at, digits(value)) if right else (self.text(at, digits(value), "end"),)
 
     def axes(self, graph: Graph, x_words: str, y_words: str, *, numbers: bool = True, turns: bool = False
              ) -> Iterator[Item]:
@@ -266,9 +267,9 @@ class Figures:
         yield from self.numbered_y(graph)
         if numbers:
             yield from self.numbered_x(graph, turns=turns)
-        yield self.headed(graph, y_words, off=2.0)
+        yield self.heading(graph, y_words, off=2.0)
 
-    def rings(self, polar: Polar, measure: str) -> Iterator[Item]:
+    def rings(self, polar: PolarGraph, measure: str) -> Iterator[Item]:
         """The round divisions of a polar diagram, with their numbers, and its axes."""
         (x, y), rect = polar.centre, polar.rect
         for ends in (((rect.left, y), (rect.right, y)), ((x, rect.bottom), (x, rect.top))):
@@ -280,35 +281,35 @@ class Figures:
             around = [(x + mm * math.cos(t), y + mm * math.sin(t)) for k in range(91) for t in (math.radians(4 * k),)]
             yield from clip_item(Polyline(DIVISION, "ruling", None, tuple(around)), rect)
             if x + mm < rect.right - 2.0:
-                told = arrange("{0} {1}", digits(radius), unit(measure)) if radius == radii[0] else digits(radius)
-                yield from self.backed((x + mm, y + 0.8), told)
+                text = arrange("{0} {1}", digits(radius), unit(measure)) if radius == radii[0] else digits(radius)
+                yield from self.backed_text((x + mm, y + 0.8), text)
 
 
-def smoothed(spots: Sequence[Spot], pieces: int = 16) -> list[Spot]:
+def smooth_line(spots: Sequence[Spot], pieces: int = 16) -> list[Spot]:
     """A smooth line through spots, each piece of it in so many strokes."""
     if len(spots) < 3:
         return list(spots)
-    ends = [_mirrored(spots[0], spots[1]), *spots, _mirrored(spots[-1], spots[-2])]
-    found = [spots[0]]
+    ends = [_mirror_spot(spots[0], spots[1]), *spots, _mirror_spot(spots[-1], spots[-2])]
+    curve = [spots[0]]
     for P, Q, R, S in zip(ends, ends[1:], ends[2:], ends[3:], strict=False):
         for k in range(1, pieces + 1):
             t = k / pieces
-            found.append(tuple(0.5 * (2 * q + (r - p) * t + (2 * p - 5 * q + 4 * r - s) * t**2  # type: ignore[arg-type]
+            curve.append(tuple(0.5 * (2 * q + (r - p) * t + (2 * p - 5 * q + 4 * r - s) * t**2  # type: ignore[arg-type]
                                       + (3 * q - p - 3 * r + s) * t**3) for p, q, r, s in zip(P, Q, R, S, strict=True)))
-    return found
+    return curve
 
 
-def _mirrored(end: Spot, inner: Spot) -> Spot:
+def _mirror_spot(end: Spot, inner: Spot) -> Spot:
     return 2 * end[0] - inner[0], 2 * end[1] - inner[1]
 
 
 def _unbroken(spots: Iterable[Spot]) -> Iterator[list[Spot]]:
     """The stretches without nan of two spots or more."""
-    found: list[Spot] = []
+    stretch: list[Spot] = []
     for spot in (*spots, (math.nan, math.nan)):
         if all(map(math.isfinite, spot)):
-            found.append(spot)
+            stretch.append(spot)
             continue
-        if len(found) > 1:
-            yield found
-        found = []
+        if len(stretch) > 1:
+            yield stretch
+        stretch = []

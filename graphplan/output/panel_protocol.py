@@ -29,9 +29,9 @@ def protocol(sheet: Panelled) -> dict[str, Any]:
             "operation": step.op.name, "instrument": step.op.instrument,
             "reads": [say(program.text(arg)) for arg in step.args], "plan": step.panel,
             "sentence": say(sheet.sentence_with_lengths(step) if number else program.sentence_with_reason(step.index)),
-            "lengths": [{"mm": one.mm, "marks": list(one.marks)} for length in _lengths(sheet, step) if number
-                        for one in length.measures],
-            "stage": stages.get(step.index), "why": say(step.why), **on_paper.told(step),
+            "lengths": [{"mm": measure.mm, "marks": list(measure.marks)} for length in _lengths(sheet, step) if number
+                        for measure in length.measures],
+            "stage": stages.get(step.index), "why": say(step.why), **on_paper.step_data(step),
             "value": list(map(float, sheet.values[step.index])),
             "paper": place(step, sheet.values[step.index], on_paper.per(step.index)),
         })  # fmt: skip
@@ -50,7 +50,7 @@ def place(step: Step, value: Sequence[Any], per_mm: float) -> list[float]:
         return [numbers[0] / per_mm, -numbers[1] / per_mm + 0.0]
     if step.op.gives == LINE:
         a, b, c = numbers
-        size = math.hypot(a, b)
-        return [-a / size + 0.0, b / size + 0.0, -c / size / per_mm + 0.0]
+        normal_length = math.hypot(a, b)
+        return [-a / normal_length + 0.0, b / normal_length + 0.0, -c / normal_length / per_mm + 0.0]
     radius = math.sqrt(max(numbers[-1], 0.0)) / per_mm
     return [radius] if step.op.gives == OPENING else [numbers[0] / per_mm, -numbers[1] / per_mm + 0.0, radius]

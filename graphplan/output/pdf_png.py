@@ -126,10 +126,10 @@ class _PdfFile(PdfFile):
         else:
             if not (self.tags and self.tags[-1][0] == tag):
                 self.tags.append((tag, self.file.reserveObject("tag"), []))
-            _, told, parts = self.tags[-1]
-            parts.append((self.page, len(self.owners[-1])))
+            _, children, page_parts = self.tags[-1]
+            page_parts.append((self.page, len(self.owners[-1])))
             self.file.write(f"/{tag.kind} <</MCID {len(self.owners[-1])}>> BDC\n".encode())
-            self.owners[-1].append(told)
+            self.owners[-1].append(children)
         self.open = tag
 
     def untag(self) -> None:
@@ -145,8 +145,9 @@ class _PdfFile(PdfFile):
         root, whole, parents = (file.reserveObject(name) for name in ("tags", "document", "parents"))
         for tag, told, parts in self.tags:
             marked = [{"Type": Name("MCR"), "Pg": page, "MCID": number} for page, number in parts]
-            said = {"Alt": tag.said} if tag.said else {}
-            file.writeObject(told, {"Type": Name("StructElem"), "S": Name(tag.kind), "P": whole, "K": marked, **said})
+            alternative = {"Alt": tag.said} if tag.said else {}
+            file.writeObject(told,
+                             {"Type": Name("StructElem"), "S": Name(tag.kind), "P": whole, "K": marked, **alternative})
         file.writeObject(whole, {"Type": Name("StructElem"), "S": Name("Document"), "P": root,
                                  "K": [told for _, told, _ in self.tags]})
         file.writeObject(parents, {"Nums": [part for page in enumerate(self.owners) for part in page]})
@@ -255,7 +256,7 @@ class _Painter:
             gc = self.renderer.new_gc()
             gc.set_foreground(pen.colour)
             gc.set_linewidth(pen.width * POINTS)
-            gc.set_dashes(0, [part * POINTS for part in pen.dash] or None)
+            gc.set_dashes(0, [stretch * POINTS for stretch in pen.dash] or None)
             gc.set_capstyle("round")
             gc.set_joinstyle("round")
             gc.set_snap(False)

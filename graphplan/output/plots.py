@@ -45,7 +45,7 @@ METHODS = {  # what a way to find a curve is called, what its points are, and ho
 
 def diagrams(drawn: Sequence[KinematicDiagram], title: str, tongue: Tongue = ENGLISH) -> str:
     """The sheet of these diagrams as SVG text: a column each, and after four columns a new row."""
-    rows = [[_Column(one, tongue) for one in drawn[i : i + COLUMNS]] for i in range(0, len(drawn), COLUMNS)]
+    rows = [[_Column(diagram, tongue) for diagram in drawn[i : i + COLUMNS]] for i in range(0, len(drawn), COLUMNS)]
     breadth = max(sum(column.width + GAP for column in row) for row in rows) - GAP + 2 * MARGIN
     heights = [HEAD + FOOT + sum(depth + ABOVE + BELOW for depth in _depths(row).values()) for row in rows]
     heads = wrap(sentence_runs(title), TITLE, breadth - 2 * MARGIN)
@@ -106,11 +106,11 @@ class _Column:
     def _extent(self, quantity: str) -> tuple[float, float]:
         """What was found and the plans at the divisions count; between these the plans' curve is followed a little
         further, then it is cut off."""
-        spots = [spot for found in self.diagram.traces if found.quantity == quantity
-                 for part in self.diagram.points(found) for spot in part]
+        spots = [spot for trace in self.diagram.traces if trace.quantity == quantity
+                 for spots_found in self.diagram.points(trace) for spot in spots_found]
         plans = self._plans(quantity)
-        held = np.array([0.0, *(y for _, y in spots), *plans[self.diagram.places]])
-        low, high = max(np.nanmin(held), -HIGHEST), min(np.nanmax(held), HIGHEST)
+        ordinates = np.array([0.0, *(y for _, y in spots), *plans[self.diagram.places]])
+        low, high = max(np.nanmin(ordinates), -HIGHEST), min(np.nanmax(ordinates), HIGHEST)
         return max(low - BEYOND, min(low, np.nanmin(plans))), min(high + BEYOND, max(high, np.nanmax(plans)))
 
     def _plans(self, quantity: str) -> Any:
@@ -120,7 +120,7 @@ class _Column:
     def _set(self, words: str) -> Runs:
         """Words with the letters of quantities, scales and poles set."""
         letters = self.diagram.curve.letters.values()
-        names = *letters, *(f"{what}_{letter}" for what in ("mu", "O", "H") for letter in letters), "mu_t"
+        names = *letters, *(f"{prefix}_{letter}" for prefix in ("mu", "O", "H") for letter in letters), "mu_t"
         return sentence_runs(words, names)
 
     def draw(self, canvas: Canvas, left: float, top: float, tops: dict[str, float], bottom: float) -> None:
@@ -135,9 +135,9 @@ class _Column:
             self._frame(axes, quantity)
             self._curves(axes, quantity)
             self._rays(axes, quantity)
-            for found in self.diagram.traces:
-                for part in self.diagram.points(found) if found.quantity == quantity else ():
-                    axes.found(found.method, part)
+            for trace in self.diagram.traces:
+                for trace_spots in self.diagram.points(trace) if trace.quantity == quantity else ():
+                    axes.draw_curve(trace.method, trace_spots)
         self._numbers(canvas, left + self.axis, bottom)
         self._errors(canvas, left, bottom - 16)
         self._key(canvas, left + 88, bottom - 16)
@@ -175,18 +175,19 @@ class _Column:
 
     def _by_chords(self, rate: str) -> list[list[Ray[Spot]]]:
         """The rays that gave a rate by chords, stretch by stretch."""
-        return [part for found, parts in self.diagram.traces.items() if found == (rate, "by chords") for part in parts]
+        return [stretch for trace, stretches in self.diagram.traces.items() if trace == (rate, "by chords")
+                for stretch in stretches]
 
     def _rays(self, axes: _Axes, quantity: str) -> None:
         """The pole with the rays that gave this diagram, and chords that give the next, some of them picked out."""
-        for ray in _picked(self._by_chords(NEXT.get(quantity, ""))):
-            axes.line(_produced(ray.start, ray.end), CHORD)
+        for ray in _pick_rays(self._by_chords(NEXT.get(quantity, ""))):
+            axes.line(_produce_chord(ray.start, ray.end), CHORD)
         if quantity not in self.diagram.scales.poles:
             return
         pole, stretches = (-float(self.diagram.scales.poles[quantity]), 0.0), self._by_chords(quantity)
         for ray in chain(*stretches):
             axes.line([pole, ray.cut], RAY)
-        for ray in _picked(stretches):
+        for ray in _pick_rays(stretches):
             axes.line([pole, ray.cut], CHORD)
             axes.line([ray.cut, ray.ordinate], LEVEL)
         axes.mark(CIRCLE, pole, 1.0, POLE)
@@ -195,8 +196,8 @@ class _Column:
     def _curves(self, axes: _Axes, quantity: str) -> None:
         """The steps of the chords' rates, each cut off at the end of the period, and over them the curve of the plans,
         each stretch by itself."""
-        for part in self._by_chords(quantity):
-            ends = [((max(ray.start[0], 0.0), min(ray.end[0], self.length)), ray.ordinate[1]) for ray in part]
+        for stretch in self._by_chords(quantity):
+            ends = [((max(ray.start[0], 0.0), min(ray.end[0], self.length)), ray.ordinate[1]) for ray in stretch]
             axes.line([(x, y) for strip, y in ends for x in strip], STEP)
         curve, scales = self.diagram.curve, self.diagram.scales
         for times in self._smooth():
@@ -207,8 +208,8 @@ class _Column:
         """The times of each stretch of positions, close enough for a smooth curve."""
         time = self.diagram.curve.time
         between = -(-SMOOTH // len(time))
-        for part in self.diagram.curve.stretches(np.arange(len(time))):
-            yield np.interp(np.arange(between * (len(part) - 1) + 1) / between, part - part[0], time[part])
+        for stretch in self.diagram.curve.stretches(np.arange(len(time))):
+            yield np.interp(np.arange(between * (len(stretch) - 1) + 1) / between, stretch - stretch[0], time[stretch])
 
     def _numbers(self, canvas: Canvas, axis: float, level: float) -> None:
         """The numbers of the divisions and the drive's travel at them, as many as have room; the scale of time."""
@@ -218,8 +219,8 @@ class _Column:
         drive = said("drive") if angle else join((said("drive"), unit(curve.travel_unit)))
         rows = {said("position"): [str(k) for k in range(len(xs))],
                 drive: [self.say(digits(value)) + ("°" if angle else "") for value in travel]}
-        for y, (what, words) in zip((level - 3, level - 3 - LINE), rows.items(), strict=True):
-            canvas.text((axis - 8, y), sentence_runs(self.say(what)), anchor="end")
+        for y, (heading, words) in zip((level - 3, level - 3 - LINE), rows.items(), strict=True):
+            canvas.text((axis - 8, y), sentence_runs(self.say(heading)), anchor="end")
             room = max(width((TextRun(word),), SIZE) for word in words) + 0.7 * SIZE
             for x, word in list(zip(xs, words, strict=True))[:: int(np.ceil(room * (len(xs) - 1) / self.length))]:
                 canvas.text((axis + x, y), (TextRun(word),), anchor="middle")
@@ -232,10 +233,10 @@ class _Column:
         """How far what was found is from the plans, in parts of the largest ordinate."""
         table = [[self.say(head) for head in (said("errors in %"), said("largest"), said("rms"), said("order"))]]
         for error in self.diagram.errors:
-            letter, way = self.diagram.curve.letters[error.curve.quantity], METHODS[error.curve.method][0]
+            letter, name = self.diagram.curve.letters[error.curve.quantity], METHODS[error.curve.method][0]
             order = "–" if error.order is None else self.say(digits(round(error.order, 2)))
             sizes = [self.say(digits(100 * size, 2)) for size in (error.largest, error.rms)]
-            table.append([f"{letter} {self.say(way())}", *sizes, order])
+            table.append([f"{letter} {self.say(name())}", *sizes, order])
         table.append([self.say(said("of the plans' largest ordinate at the same abscissas"))])
         for k, row in enumerate(table, 1):
             for stop, word in zip((0.0, 46.0, 60.0, 74.0), row, strict=False):
@@ -244,26 +245,26 @@ class _Column:
 
     def _key(self, canvas: Canvas, left: float, level: float) -> None:
         """What each kind of line and mark says, of those that are drawn."""
-        drawn = {found.method for found in self.diagram.traces}
-        methods = {method: meaning() for method, (_, meaning, *_) in METHODS.items() if method in drawn}
-        told = {"": said("from the plans"), **methods, "chord": said("a chord, and the ray parallel to it")}
-        for k, (method, meaning) in enumerate(told.items(), 1):
+        methods_drawn = {trace.method for trace in self.diagram.traces}
+        methods = {method: meaning() for method, (_, meaning, *_) in METHODS.items() if method in methods_drawn}
+        meanings = {"": said("from the plans"), **methods, "chord": said("a chord, and the ray parallel to it")}
+        for k, (method, meaning) in enumerate(meanings.items(), 1):
             axes = _Axes(canvas, (left, level - k * LINE + 0.36 * SIZE), Rect(left, 0.0, left + 10, level))
             ends = [(0.0, 0.0), (8.0, 0.0)]
             if method in methods:
-                axes.found(method, ends if method == "integrated" else [(4.0, 0.0)])
+                axes.draw_curve(method, ends if method == "integrated" else [(4.0, 0.0)])
             else:
                 axes.line(ends, CHORD if method else PLANS["s"])
             canvas.text((left + 10, level - k * LINE), sentence_runs(self.say(meaning)))
 
 
-def _picked(stretches: list[list[Ray[Spot]]]) -> list[Ray[Spot]]:
+def _pick_rays(stretches: list[list[Ray[Spot]]]) -> list[Ray[Spot]]:
     """Some rays, far from each other."""
     rays = list(chain(*stretches))
     return rays[1 :: max(1, len(rays) // SHOWN)][:SHOWN]
 
 
-def _produced(start: Spot, end: Spot) -> list[Spot]:
+def _produce_chord(start: Spot, end: Spot) -> list[Spot]:
     """A chord, produced at both ends so that it can be told from its curve."""
     x, y = np.subtract(end, start) * PRODUCED / np.hypot(*np.subtract(end, start))
     return [(start[0] - x, start[1] - y), (end[0] + x, end[1] + y)]
@@ -277,23 +278,24 @@ class _Axes:
     origin: Spot
     room: Rect
 
-    def _at(self, spot: Spot) -> Spot:
+    def _spot_on_paper(self, spot: Spot) -> Spot:
         return self.origin[0] + spot[0], self.origin[1] + spot[1]
 
     def line(self, spots: Iterable[Spot], pen: Pen) -> None:
-        self.canvas.line(map(self._at, spots), pen, self.room)
+        self.canvas.line(map(self._spot_on_paper, spots), pen, self.room)
 
     def mark(self, mark: str, spot: Spot, size: float, pen: Pen) -> None:
-        if self.room.holds(self._at(spot)):
-            self.canvas.mark(mark, self._at(spot), size, pen)
+        if self.room.holds(self._spot_on_paper(spot)):
+            self.canvas.mark(mark, self._spot_on_paper(spot), size, pen)
 
     def arrow(self, end: Spot, start: Spot = (0.0, 0.0)) -> None:
-        self.canvas.items.append(Arrow(AXIS, LAYER, None, self._at(start), self._at(end), 2.6))
+        self.canvas.items.append(Arrow(AXIS, LAYER, None, self._spot_on_paper(start), self._spot_on_paper(end), 2.6))
 
     def text(self, x: float, y: float, words: str | Runs, anchor: str = "start") -> None:
-        self.canvas.text(self._at((x, y)), (TextRun(words),) if isinstance(words, str) else words, anchor=anchor)
+        self.canvas.text(self._spot_on_paper((x, y)), (TextRun(words),) if isinstance(words, str) else words,
+                         anchor=anchor)
 
-    def found(self, method: str, spots: Iterable[Spot]) -> None:
+    def draw_curve(self, method: str, spots: Iterable[Spot]) -> None:
         """The points that a method found, or the line through them."""
         *_, mark, size, pen = METHODS[method]
         if not mark:

@@ -57,7 +57,7 @@ class HtmlCell:
 Rows = Iterable[tuple[str, Sequence[HtmlCell]]]  # each with its class; the first cell of a row names it
 
 
-def marked(judgement: Judgement, score: Score, sheets: Sequence[Sheet]) -> str:
+def report_page(judgement: Judgement, score: Score, sheets: Sequence[Sheet]) -> str:
     """The page of a judgement, with its overlay, in the tongue of its sheet."""
     report = _Report(judgement.composition.plans.tongue, judgement, score)
     return report.page(f"{judgement.drawing.scene.title}: {judgement.name}", report.body(sheets))
@@ -81,9 +81,9 @@ class HtmlPage:
 
     def page(self, title: str, body: Iterable[str], pictures: str = "") -> str:
         """The whole page; the body is HTML, with `pictures` of the kind that is said."""
-        parts = {"language": self.tongue.code, "title": escape(title), "body": "\n".join(body), "pictures": pictures}
+        fields = {"language": self.tongue.code, "title": escape(title), "body": "\n".join(body), "pictures": pictures}
         text = files(__package__).joinpath("report_page.html").read_text("utf-8")
-        return re.sub(r"\{\{(\w+)\}\}", lambda slot: parts[slot[1]], text)
+        return re.sub(r"\{\{(\w+)\}\}", lambda slot: fields[slot[1]], text)
 
     def table(self, title: str, caption: str, heads: Sequence[str], rows: Rows) -> Iterator[str]:
         """A table under its title, with its caption and heads; a head without words heads nothing."""
@@ -130,7 +130,7 @@ class _Report(HtmlPage):
         for line in reading_lines(self.judgement):
             yield f'<p class="reading">{self.set(line)}</p>'
         yield f'<p class="opinion{wrong}">{self.set(opinion(self.judgement))}</p>'
-        yield from (f"<p>{self.set(told)}</p>" for told in summary_lines(self.judgement))
+        yield from (f"<p>{self.set(summary_line)}</p>" for summary_line in summary_lines(self.judgement))
         yield from (f"<p>{self.set(told)}</p>" for told in look_at_lines(self.judgement))
         yield from self._score()
         for sheet in sheets:
@@ -141,11 +141,11 @@ class _Report(HtmlPage):
     def _score(self) -> Iterator[str]:
         if self.score.total is None:
             return
-        told = [(GROUPS[group](), percent) for group, percent in self.score.groups.items()]
-        told += [(KINDS[kind](), -cost) for kind, cost in self.score.costs.items()]
-        told.append((said("in all, of 100"), self.score.total))
+        groups = [(GROUPS[group](), percent) for group, percent in self.score.groups.items()]
+        groups += [(KINDS[kind](), -cost) for kind, cost in self.score.costs.items()]
+        groups.append((said("in all, of 100"), self.score.total))
         rows = [("", (HtmlCell(self.say(name)), HtmlCell(self.say(digits(round(percent))), FIGURE)))
-                for name, percent in told]
+                for name, percent in groups]
         yield from self.table(said("Score"), said("What was earned, of 100."), ("", said("Score")), rows)
 
     # ---- steps -----------------------------------------------------------------------------------------------------
@@ -159,14 +159,14 @@ class _Report(HtmlPage):
         yield from self.table(said("Steps"), EACH(), heads, rows)
 
     def _step(self, verdict: Verdict) -> tuple[HtmlCell, ...]:
-        drawn, plans = self.judgement.drawing.drawn, self.judgement.composition.plans
-        seen = self.judgement.is_measured(verdict)
-        sizes = [self.say(digits(size, SIGNIFICANT_DIGITS)) if seen else ""
+        program, plans = self.judgement.drawing.drawn, self.judgement.composition.plans
+        is_seen = self.judgement.is_measured(verdict)
+        sizes = [self.say(digits(size, SIGNIFICANT_DIGITS)) if is_seen else ""
                  for size in (verdict.off, verdict.tolerance)]
         return (
-            HtmlCell(self.set(step_name(drawn, verdict.step).short), FIGURE),
+            HtmlCell(self.set(step_name(program, verdict.step).short), FIGURE),
             HtmlCell(self.say(plans.plan_of_step[verdict.step].words)),
-            HtmlCell(self.set(drawn.sentence(verdict.step))),
+            HtmlCell(self.set(program.sentence(verdict.step))),
             HtmlCell(self.say(STATES[verdict.state]()), STATE),
             *(HtmlCell(size, FIGURE) for size in sizes),
             HtmlCell(f"{100 * verdict.confidence:.0f}", FIGURE),
@@ -192,9 +192,9 @@ class _Report(HtmlPage):
         yield from self.table(said("Results"), said("In the units of the scene."), heads, rows)
 
     def _number(self, verdict: NumberVerdict) -> tuple[HtmlCell, ...]:
-        what = result_named(self.judgement, verdict.number.kind, verdict.number.of)
+        name = result_named(self.judgement, verdict.number.kind, verdict.number.of)
         return (
-            HtmlCell(self.set(what)), HtmlCell(self.say(number_words(verdict.number)), FIGURE),
+            HtmlCell(self.set(name)), HtmlCell(self.say(number_words(verdict.number)), FIGURE),
             HtmlCell(self.say(number_text(verdict.true)), FIGURE), HtmlCell(self.say(STATES[verdict.state]()), STATE),
             *(HtmlCell(self.say(digits(size, SIGNIFICANT_DIGITS)), FIGURE)
               for size in (verdict.off, verdict.tolerance)),
@@ -220,7 +220,7 @@ class _ClassList(HtmlPage):
     def body(self) -> Iterator[str]:
         """What stands on the page."""
         yield f"<h1>{escape(self.found.title)}</h1>"
-        yield from (f"<p>{self.say(told)}</p>" for told in self.found.findings())
+        yield from (f"<p>{self.say(line)}</p>" for line in self.found.findings())
         first = {self.say(step.words_with_mark): count for step, count in self.found.histogram.items()}
         yield from self.bars(said("First wrong step"), first, len(self.found.marked))
         kinds = {self.say(mistake_words(kind)): count for kind, count in self.found.mistakes.items()}
@@ -230,7 +230,7 @@ class _ClassList(HtmlPage):
 
     def _drawings(self) -> Iterator[str]:
         heads = (said("Drawing"), said("Score"), said("First wrong step"), said("Likely mistake"), said("Verdict"))
-        rows = [("" if one.guilty is None else "wrong", self._row(one)) for one in self.found.marked]
+        rows = [("" if drawing.guilty is None else "wrong", self._row(drawing)) for drawing in self.found.marked]
         yield from self.table(said("Drawings"), EACH(), heads, rows)
 
     def _row(self, one: MarkedDrawing) -> tuple[HtmlCell, ...]:
@@ -242,6 +242,6 @@ class _ClassList(HtmlPage):
 
     def _unread(self) -> Iterator[str]:
         if self.found.unread:
-            rows = [("", (HtmlCell(escape(one.file)), HtmlCell(escape(one.why)))) for one in self.found.unread]
+            rows = [("", (HtmlCell(escape(file.file)), HtmlCell(escape(file.why)))) for file in self.found.unread]
             yield from self.table(NOT_JUDGED(), said("Files that could not be read, or show no such drawing."),
                                   (said("Drawing"), said("Reason")), rows)

@@ -37,30 +37,31 @@ class _ResultsPage(HtmlPage):
     def body(self) -> Iterator[str]:
         """What stands on the page."""
         yield f"<h1>{escape(self.found.title)}</h1>"
-        yield from (f"<p>{self.say(told)}</p>" for told in self.found.findings())
-        yield from self._left()
+        yield from (f"<p>{self.say(line)}</p>" for line in self.found.findings())
+        yield from self._unassigned_pages()
         yield from self._sheets()
         if self.found.scores:
             yield from self.bars(said("Scores"), self.found.histogram, len(self.found.scores))
         yield from self._mistakes()
         yield from self._no_scans()
 
-    def _left(self) -> Iterator[str]:
+    def _unassigned_pages(self) -> Iterator[str]:
         """The pages that the teacher has to name, as pictures."""
-        left = self.found.with_status(UNASSIGNED, FAILED)
-        if left:
+        unnamed = self.found.with_status(UNASSIGNED, FAILED)
+        if unnamed:
             yield f"<h2>{self.say(said('To be looked at'))}</h2><div class=\"pictures\">"
-            for one in left:
-                why = f"{one.page}: {one.look_text}"
-                shown = (f'<img src="data:image/jpeg;base64,{escape(one.thumbnail)}" alt="{escape(one.page)}">'
-                         if one.thumbnail else "")
-                yield f"<figure>{shown}<figcaption>{escape(why)}</figcaption></figure>"
+            for sheet in unnamed:
+                why = f"{sheet.page}: {sheet.look_text}"
+                picture = (f'<img src="data:image/jpeg;base64,{escape(sheet.thumbnail)}" alt="{escape(sheet.page)}">'
+                         if sheet.thumbnail else "")
+                yield f"<figure>{picture}<figcaption>{escape(why)}</figcaption></figure>"
             yield "</div>"
 
     def _sheets(self) -> Iterator[str]:
         heads = (said("Student"), said("Variant"), said("Page"), said("Score"), said("First wrong step"),
                  said("Verdict"), said("Certainty"), said("Look here"))
-        rows = [("wrong" if one.first else "", self._row(one)) for one in self.found.sheets if one.status != UNASSIGNED]
+        rows = [("wrong" if sheet.first else "", self._row(sheet)) for sheet in self.found.sheets
+                if sheet.status != UNASSIGNED]
         caption = said("Each step is judged from the student's own earlier marks.")
         yield from self.table(said("Sheets of the class"), caption, heads, rows)
 
@@ -68,32 +69,32 @@ class _ResultsPage(HtmlPage):
         name = escape(one.student)
         if one.corrected:
             name = f'<a href="{escape(one.corrected)}">{name or escape(one.corrected)}</a>'
-        told = one.words if one.status == JUDGED else self.tongue(STATUS[one.status]())
+        words = one.words if one.status == JUDGED else self.tongue(STATUS[one.status]())
         sure = "" if one.confidence is None else f"{100 * one.confidence:.0f} %"
         return (
             HtmlCell(name), HtmlCell("" if one.variant is None else str(one.variant), FIGURE),
             HtmlCell(escape(one.page)), HtmlCell("" if one.score is None else f"{one.score:.0f}", FIGURE),
-            HtmlCell(escape(one.first), FIGURE), HtmlCell(escape(told)),
+            HtmlCell(escape(one.first), FIGURE), HtmlCell(escape(words)),
             HtmlCell(sure if one.status != ABSENT else "", FIGURE), HtmlCell(escape(one.look_text)),
         )  # fmt: skip
 
     def _mistakes(self) -> Iterator[str]:
         """The most frequent mistakes, with the places of some of them."""
-        found = self.found.mistakes
-        kinds = {self.say(mistake_words(kind)): len(sheets) for kind, sheets in found.items()}
+        mistakes = self.found.mistakes
+        kinds = {self.say(mistake_words(kind)): len(sheets) for kind, sheets in mistakes.items()}
         yield from self.bars(said("Mistakes"), kinds, len(self.found.with_status(JUDGED)))
-        for kind, sheets in list(found.items())[:MISTAKES_SHOWN]:
-            shown = [one for one in sheets if one.detail][:MISTAKES_SHOWN]
-            if not shown:
+        for kind, sheets in list(mistakes.items())[:MISTAKES_SHOWN]:
+            first_sheets = [one for one in sheets if one.detail][:MISTAKES_SHOWN]
+            if not first_sheets:
                 continue
             yield f"<h3>{self.say(mistake_words(kind))}</h3><div class=\"pictures\">"
-            for one in shown:
-                yield f"<figure>{one.detail}<figcaption>{escape(one.student or one.page)}: {escape(one.words)}"
+            for sheet in first_sheets:
+                yield f"<figure>{sheet.detail}<figcaption>{escape(sheet.student or sheet.page)}: {escape(sheet.words)}"
                 yield "</figcaption></figure>"
             yield "</div>"
 
     def _no_scans(self) -> Iterator[str]:
         if self.found.unread:
-            rows = [("", (HtmlCell(escape(one.file)), HtmlCell(escape(one.why)))) for one in self.found.unread]
+            rows = [("", (HtmlCell(escape(file.file)), HtmlCell(escape(file.why)))) for file in self.found.unread]
             yield from self.table(said("No scans"), said("Files that are left out."), (said("File"), said("Reason")),
                                   rows)

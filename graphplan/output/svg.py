@@ -53,7 +53,7 @@ def svg(sheet: Sheet, *, alone: bool = True, **look: Any) -> str:
 
     One that is not `alone`, but a part of a page, has no identifiers and no names of layers.
     """
-    wide, high = rounded(sheet.width), rounded(sheet.height)
+    wide, high = round_mm(sheet.width), round_mm(sheet.height)
     document = _Document(
         size=(f"{wide}mm", f"{high}mm"), viewBox=f"0 0 {wide} {high}", font_family=FONTS, stroke_linecap="round",
         stroke_linejoin="round", debug=False,
@@ -83,35 +83,35 @@ def groups(sheet: Sheet, number: Callable[[int], int] = int) -> Iterator[tuple[s
 
     Steps that `number` gives the same one, as those of the pose's own points have 0, are one group.
     """
-    for key, items in parted(sheet, number):
-        yield str(key), inked(sheet, key, items)
+    for key, items in split_groups(sheet, number):
+        yield str(key), ink_group(sheet, key, items)
 
 
-def parted(sheet: Sheet, number: Callable[[int], int] = int) -> Iterator[tuple[str | int, list[Item]]]:
+def split_groups(sheet: Sheet, number: Callable[[int], int] = int) -> Iterator[tuple[str | int, list[Item]]]:
     """The items of each group."""
     for key, items in groupby(sheet.items, lambda item: item.layer if item.step is None else number(item.step)):
         yield key, list(items)
 
 
-def inked(sheet: Sheet, key: str | int, items: Sequence[Item]) -> Element:
+def ink_group(sheet: Sheet, key: str | int, items: Sequence[Item]) -> Element:
     """A group of these items."""
     writer, steps = _SheetWriter(sheet.height), dict.fromkeys(item.step for item in items if item.step is not None)
-    made = group(key, " ".join(sheet.sentences[step] for step in steps))
+    element = group(key, " ".join(sheet.sentences[step] for step in steps))
     for item in items:
-        made.add(writer.item(item))
-    return made
+        element.add(writer.item(item))
+    return element
 
 
 def group(key: str | int, sentence: str) -> Element:
     """A group with nothing in it yet: a layer, or a step by its number with its sentence."""
     if isinstance(key, str):
         return MAKE.g(class_=f"layer-{key}")
-    made = MAKE.g(class_="step", data_step=key)
-    made.set_desc(sentence)
-    return made
+    element = MAKE.g(class_="step", data_step=key)
+    element.set_desc(sentence)
+    return element
 
 
-def rounded(number: float, places: int = 2) -> float:
+def round_mm(number: float, places: int = 2) -> float:
     """To 0.01 mm, or to more places, and never -0."""
     value = round(number, places) + 0.0
     return int(value) if value == int(value) else value
@@ -121,10 +121,10 @@ class _Document(svgwrite.Drawing):  # type: ignore[misc]
     """A document of SVG 2, which states no version: in 1.1, of which the writer is, there are no data attributes."""
 
     def get_xml(self) -> Element:
-        made = super().get_xml()
+        element = super().get_xml()
         for former in ("version", "baseProfile"):
-            del made.attrib[former]
-        return made
+            del element.attrib[former]
+        return element
 
 
 class _Metadata(TSpan):  # type: ignore[misc]
@@ -148,7 +148,7 @@ class _SheetWriter:
             case Polygon():
                 return MAKE.polygon(self._spots(item.spots), **look(item.pen))
             case Circle():
-                return MAKE.circle(self._spot(item.centre), rounded(item.radius, FINE), **look(item.pen))
+                return MAKE.circle(self._spot(item.centre), round_mm(item.radius, FINE), **look(item.pen))
             case Arc():
                 return self._arc(item)
             case Arrow():
@@ -162,33 +162,33 @@ class _SheetWriter:
     def _outline(self, item: Outline) -> Element:
         (left, bottom), (right, top) = self._spots((item.spots[0], item.spots[2]))
         named = {"class_": "panel", "data_plan": item.plan} if item.plan else {"class_": "frame"}
-        return MAKE.rect((left, top), (rounded(right - left), rounded(bottom - top)), **named, **look(item.pen))
+        return MAKE.rect((left, top), (round_mm(right - left), round_mm(bottom - top)), **named, **look(item.pen))
 
     def _line(self, spots: Iterable[Spot], pen: Pen) -> Element:
         return MAKE.polyline(self._spots(spots), **look(pen) | {"fill": "none"})
 
     def _arc(self, arc: Arc) -> Element:
-        (x, y), (u, v), r = self._spot(arc.spot_at(arc.start)), self._spot(arc.spot_at(arc.end)), rounded(arc.radius,
+        (x, y), (u, v), r = self._spot(arc.spot_at(arc.start)), self._spot(arc.spot_at(arc.end)), round_mm(arc.radius,
                                                                                                           FINE)
         large = int(arc.end - arc.start > 180)
         if math.isclose(arc.end - arc.start, 180):  # SVG: what is too small for its chord has that for a diameter
-            r = rounded(math.dist((x, y), (u, v)) / 2 - 0.1**FINE, FINE)
+            r = round_mm(math.dist((x, y), (u, v)) / 2 - 0.1**FINE, FINE)
         return MAKE.path(f"M {x} {y} A {r} {r} 0 {large} 0 {u} {v}", **look(arc.pen) | {"fill": "none"})
 
     def _photograph(self, item: Photograph) -> Element:
-        size = rounded(item.rect.width), rounded(item.rect.height)
+        size = round_mm(item.rect.width), round_mm(item.rect.height)
         data = f"data:image/jpeg;base64,{b64encode(item.jpeg).decode()}"
         return MAKE.image(data, self._spot((item.rect.left, item.rect.top)), size, preserveAspectRatio="none")
 
     def _arrow(self, arrow: Arrow) -> Element:
         """The shaft ends in the head, so that the tip is sharp; data-from and data-to keep the true ends."""
         (x, y), (u, v) = self._spots((arrow.start, arrow.end))
-        made = MAKE.g(class_="vector", data_from=f"{x} {y}", data_to=f"{u} {v}", data_vector=arrow.label or None)
+        element = MAKE.g(class_="vector", data_from=f"{x} {y}", data_to=f"{u} {v}", data_vector=arrow.label or None)
         for shaft in arrow.shaft:
-            made.add(self._line(shaft, arrow.pen))
+            element.add(self._line(shaft, arrow.pen))
         for spots, fill in arrow.figures:
-            made.add(MAKE.polygon(self._spots(spots), fill=fill))
-        return made
+            element.add(MAKE.polygon(self._spots(spots), fill=fill))
+        return element
 
     def _text(self, text: Text) -> Element:
         """Levels by shifting tspans; the anchor is worked out here, as renderers disagree about it over tspans."""
@@ -196,19 +196,19 @@ class _SheetWriter:
         x, y = text.at
         x, y = self._spot((x if whole else x - ANCHORS[text.anchor] * width(text.runs, text.size, text.bold), y))
         plain = whole and text.runs[0].level == 0
-        made = MAKE.text(text.runs[0].text if plain else "", font_size=rounded(text.size), fill=text.pen.colour,
+        element = MAKE.text(text.runs[0].text if plain else "", font_size=round_mm(text.size), fill=text.pen.colour,
                          font_weight="bold" if text.bold else None,
                          text_anchor=text.anchor if whole and text.anchor != "start" else None)  # fmt: skip
-        made.update({"x": x, "y": y})  # what is told when it is made is taken apart first, which takes long
+        element.update({"x": x, "y": y})  # what is told when it is made is taken apart first, which takes long
         level = 0
         for run in () if plain else text.runs:
-            dy = rounded((level - run.level) * DROP * text.size)
-            size, level = rounded(script_size(text.size)) if run.level else None, run.level
-            made.add(MAKE.tspan(run.text, font_size=size)).update({"dy": dy or None})
-        return made
+            dy = round_mm((level - run.level) * DROP * text.size)
+            size, level = round_mm(script_size(text.size)) if run.level else None, run.level
+            element.add(MAKE.tspan(run.text, font_size=size)).update({"dy": dy or None})
+        return element
 
     def _spot(self, spot: Spot) -> Spot:
-        return rounded(spot[0]), rounded(self.height - spot[1])
+        return round_mm(spot[0]), round_mm(self.height - spot[1])
 
     def _spots(self, spots: Iterable[Spot]) -> list[Spot]:
         return [self._spot(spot) for spot in spots]
@@ -218,7 +218,7 @@ def look(pen: Pen) -> dict[str, Any]:
     """The attributes of what a pen draws."""
     look: dict[str, Any] = {"fill": pen.fill}
     if pen.width:
-        look |= {"stroke": pen.colour, "stroke_width": rounded(pen.width)}
+        look |= {"stroke": pen.colour, "stroke_width": round_mm(pen.width)}
     if pen.dash:
-        look["stroke_dasharray"] = " ".join(f"{rounded(part):g}" for part in pen.dash)
+        look["stroke_dasharray"] = " ".join(f"{round_mm(stretch):g}" for stretch in pen.dash)
     return look

@@ -26,15 +26,15 @@ def text(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results,
     one by one.
     """
     headings, columns = zip(*_columns(scene, travel, points, results), strict=True)
-    lines = [",".join(map(_quoted, ("pose", *headings, "fault")))]
+    lines = [",".join(map(_csv_cell, ("pose", *headings, "fault")))]
     for start in range(0, len(travel), ROWS):
         rows = np.stack([column[start : start + ROWS] for column in columns], axis=1) + 0.0  # a zero has no sign
         numbers = str(rows.tolist())[2:-2].replace(", ", ",").replace("nan", "").split("],[")
-        lines += [f"{pose},{row},{_quoted(faults.get(pose, ''))}" for pose, row in enumerate(numbers, start)]
+        lines += [f"{pose},{row},{_csv_cell(faults.get(pose, ''))}" for pose, row in enumerate(numbers, start)]
     return "\n".join([*lines, ""])
 
 
-def _quoted(cell: str) -> str:
+def _csv_cell(cell: str) -> str:
     """A cell as comma-separated text has it."""
     return '"' + cell.replace('"', '""') + '"' if any(mark in cell for mark in ',"\n\r') else cell
 
@@ -58,14 +58,14 @@ def json(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results,
     `faults` says why, by the pose's place.
     """
     named = {"points": points, **{kind: named for kind, named in results.items() if named}}
-    found = {"title": scene.title, "units": {"length": scene.units.length, "travel": _travel(scene, travel)[0]},
+    document = {"title": scene.title, "units": {"length": scene.units.length, "travel": _travel(scene, travel)[0]},
              "travel": _travel(scene, travel)[1].tolist(),
-             **{kind: {name: [*_listed(z)] for name, z in arrays.items()} for kind, arrays in named.items()},
+             **{kind: {name: [*_numbers_of(z)] for name, z in arrays.items()} for kind, arrays in named.items()},
              "faults": {str(pose): why for pose, why in faults.items()}}
-    return notation.dumps(found, ensure_ascii=False) + "\n"
+    return notation.dumps(document, ensure_ascii=False) + "\n"
 
 
-def _listed(z: Any) -> Iterator[Any]:
+def _numbers_of(z: Any) -> Iterator[Any]:
     """The numbers of an array, or its vectors."""
     for number in z.tolist():
         if number != number:
@@ -84,14 +84,14 @@ def _columns(scene: Scene, travel: Any, points: Mapping[str, Any], results: Resu
     long, (unit, gone) = LENGTH.unit(scene.units), _travel(scene, travel)
     yield f"travel [{unit}]", gone
     for name, z in points.items():
-        yield from _parts(f"{name}.", z, f"[{long}]")
+        yield from _real_columns(f"{name}.", z, f"[{long}]")
     for kind, named in results.items():
         way, dimension = KINDS[kind].way, KINDS[kind].dimension
         for name, z in named.items():
-            yield from _parts(f"{way} {name}.{dimension.letter}".strip(), z, f"[{dimension.unit(scene.units)}]")
+            yield from _real_columns(f"{way} {name}.{dimension.letter}".strip(), z, f"[{dimension.unit(scene.units)}]")
 
 
-def _parts(heading: str, z: Any, unit: str) -> Iterator[tuple[str, Any]]:
+def _real_columns(heading: str, z: Any, unit: str) -> Iterator[tuple[str, Any]]:
     """A real column, or the two components of a complex one."""
     if not np.iscomplexobj(z):
         yield f"{heading} {unit}", z

@@ -36,18 +36,18 @@ def protocol(composition: Composition, structure: Iterable[str] = (), drafting: 
     `drafting` is what is told of its cost and errors.
     """
     plans, say = composition.plans, composition.plans.tongue
-    drawing, told = plans.drawing, Protocol(plans, composition.scales)
+    drawing, words = plans.drawing, Protocol(plans, composition.scales)
     lines = [say.title(drawing.scene.title), *filter(None, [drawing.scene.source]), ""]
     lines += [say(said("Structure: {0}", line)) for line in structure]
-    lines += ["", *_scales(composition), *_pose(drawing.scene, composition.scales, say), "", *_wrapped(say(said(
+    lines += ["", *_scales(composition), *_pose(drawing.scene, composition.scales, say), "", *_wrap_lines(say(said(
         "Vectors are underlined twice of which magnitude and direction are known, once where one of the two or a "
-        "locus is.")), ""), *_passages(told.passages, say, movements), *_results(SheetWords(plans), composition.scales,
+        "locus is.")), ""), *_passages(words.passages, say, movements), *_results(SheetWords(plans), composition.scales,
                                                                                  say)]
     lines += ["", say(said("Cost: {0}.", counts(drawing.drawn).text))]
-    lines += [line for told in drafting for line in _wrapped(say(told), "")]
+    lines += [line for told in drafting for line in _wrap_lines(say(told), "")]
     if drawing.forms:
         lines += ["", say(said("Forms chosen for this pose:"))]
-        lines += [line for form in drawing.forms for line in _wrapped(say(form), "  ")]
+        lines += [line for form in drawing.forms for line in _wrap_lines(say(form), "  ")]
     return "\n".join(lines).rstrip() + "\n"
 
 
@@ -57,21 +57,22 @@ def _pose(scene: Scene, scales: Scales, say: Tongue) -> list[str]:
     program = layout(scene)
     values = evaluate(program, Floats())
     lengths = Lengths(program, values, lambda index: MECHANISM, scales)
-    given = [join((step.name, coordinates([round(float(part) / scales.k_s, 1) for part in values[step.index]])), " ")
+    points = [join((step.name,
+                    coordinates([round(float(coordinate) / scales.k_s, 1) for coordinate in values[step.index]])), " ")
              for step in program.steps[: program.givens]]
-    lines = _wrapped(say(said("Mechanism plan, in mm of paper: {0}.", join(given))), "")
+    lines = _wrap_lines(say(said("Mechanism plan, in mm of paper: {0}.", join(points))), "")
     for step in program.steps[program.givens :]:
         sentence = program.sentence_with_reason(step.index)
-        lines += _wrapped(say(with_lengths(sentence, partial(lengths.for_step, step))), "  ")
+        lines += _wrap_lines(say(with_lengths(sentence, partial(lengths.for_step, step))), "  ")
     return lines
 
 
 def _scales(composition: Composition) -> Iterator[str]:
     """What a millimetre of each plan stands for."""
     plans, scales = composition.plans, composition.scales
-    told = [join((plan.words, join(scales.scale_texts(plan, plans.kinds(plan)))), ": ") for plan in plans.panels]
+    lines = [join((plan.words, join(scales.scale_texts(plan, plans.kinds(plan)))), ": ") for plan in plans.panels]
     paper = composition.arrangement.paper
-    yield from _wrapped(plans.tongue(said("Scales on {0}: {1}.", paper, join(told, "; "))), "")
+    yield from _wrap_lines(plans.tongue(said("Scales on {0}: {1}.", paper, join(lines, "; "))), "")
 
 
 def _passages(passages: Iterable[Passage], say: Tongue, movements: bool) -> Iterator[str]:
@@ -83,22 +84,22 @@ def _passages(passages: Iterable[Passage], say: Tongue, movements: bool) -> Iter
             yield from ("", say(said("On the {0}", passage.plan.words)) + ":")
         yield from _head(passage, say)
         for entry in passage.entries:
-            yield from _numbered(entry.number, say(entry.text))
-            for one in entry.movements if movements and entry.is_compound else ():
-                yield from _numbered(str(one.number), say(one.sentence), HANGING)
+            yield from _numbered_lines(entry.number, say(entry.text))
+            for movement in entry.movements if movements and entry.is_compound else ():
+                yield from _numbered_lines(str(movement.number), say(movement.sentence), HANGING)
         for control in passage.controls:
-            yield from _wrapped(say(control), "    ", "")
+            yield from _wrap_lines(say(control), "    ", "")
 
 
 def _head(passage: Passage, say: Tongue) -> Iterator[str]:
     """A stage's title, its equations with what is known in them, and its law where it was not told before."""
     if passage.stage is None or passage.title is None:
         return
-    yield from ("", *_wrapped(say(arrange("{0:capital}", passage.title)), "  "))
+    yield from ("", *_wrap_lines(say(arrange("{0:capital}", passage.title)), "  "))
     for equation in () if passage.again else passage.stage.equations:
         yield from (4 * " " + line for line in (equation.text, _underlines(equation)) if line)
     if passage.law:
-        yield from _wrapped(say(arrange("{0:capital}.", passage.law)), "    ", "")
+        yield from _wrap_lines(say(arrange("{0:capital}.", passage.law)), "    ", "")
 
 
 def _underlines(equation: Equation) -> str:
@@ -113,8 +114,8 @@ def _results(words: SheetWords, scales: Scales, say: Tongue) -> Iterator[str]:
     """What is read off the sheet, each beside the computed value, and the results in tables."""
     read = list(Readings(words.drawing, lengths_of(words.plans, scales), words.values))
     yield from ("", say(said("Measured on the sheet")) + ":") if read else ()
-    for one in read:
-        yield from _wrapped(say(one.text), "  ")
+    for reading in read:
+        yield from _wrap_lines(say(reading.text), "  ")
     for number, table in enumerate(words.result_tables()):
         yield from ("",) if number else ("", say(said("Results")) + ":")
         cells = [["".join(f"_{run.text}" if run.level else run.text for run in runs) for runs in row] for row in table]
@@ -123,13 +124,13 @@ def _results(words: SheetWords, scales: Scales, say: Tongue) -> Iterator[str]:
                                      enumerate(zip(row, wide, strict=True))) for row in cells)
 
 
-def _numbered(number: str, sentence: str, indent: int = 0) -> list[str]:
+def _numbered_lines(number: str, sentence: str, indent: int = 0) -> list[str]:
     """A sentence that hangs from its number."""
     return textwrap.wrap(sentence, WIDTH, initial_indent=f"{' ' * indent}{number:>{HANGING - 2}}. ",
                          subsequent_indent=" " * (HANGING + indent))
 
 
-def _wrapped(text: str, indent: str, hanging: str = "  ") -> list[str]:
+def _wrap_lines(text: str, indent: str, hanging: str = "  ") -> list[str]:
     return textwrap.wrap(text, WIDTH, initial_indent=indent, subsequent_indent=indent + hanging)
 
 
@@ -137,21 +138,21 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
     """The construction as data: its stages, and an entry for each drawn step, with what it makes, how, from what, why
     and where on the paper."""
     drawing, say = composition.plans.drawing, composition.plans.tongue
-    drawn, entries = drawing.drawn, []
-    told = Protocol(composition.plans, composition.scales)
-    (stages, stage_of), spoken = told.stages, {one.index: one for one in told.steps}
+    program, entries = drawing.drawn, []
+    protocol_of = Protocol(composition.plans, composition.scales)
+    (stages, stage_of), entry_of = protocol_of.stages, {one.index: one for one in protocol_of.steps}
     compound_of = {one.index: number for number, compound in enumerate(drawing.compounds)
                    for one in compound.movements}
     on_paper = OnPaper(drawing.values, composition.plans.plan_of_step.__getitem__, composition.scales.lengths_per_mm)
     for plate in composition.plates.steps:
-        step, number, words = plate.step, stage_of.get(plate.index), spoken.get(plate.index)
+        step, number, words = plate.step, stage_of.get(plate.index), entry_of.get(plate.index)
         entries.append({
             "number": plate.number,
-            "makes": say(drawn.text(step.index)),
+            "makes": say(program.text(step.index)),
             "kind": plate.kind,
             "operation": step.op.name,
             "instrument": step.op.instrument,
-            "reads": [say(drawn.text(arg)) for arg in step.args],
+            "reads": [say(program.text(arg)) for arg in step.args],
             "plan": plate.panel,
             "sentence": say(words.sentence) if words else plate.sentence,
             "lengths": _measures(words.lengths if words else ()),
@@ -161,7 +162,7 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
             "form": str(step.choice or ""),
             "reason": step.choice.reason() if step.choice and step.choice.compound.weighed else "",
             "links": list(step.links),
-            **on_paper.told(step),
+            **on_paper.step_data(step),
             "value": list(drawing.values[step.index]),
             "paper": list(plate.paper(composition.arrangement.height)),
         })
@@ -172,14 +173,14 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
         "kappa": drawing.kappa,
         "method": drawing.method,
         "forms": list(map(say, drawing.forms)),
-        "cost": say(counts(drawn).text),
+        "cost": say(counts(program).text),
         "stages": [_stage(stage, say) for stage in stages],
         "compounds": [say(compound.sentence) for compound in drawing.compounds],
         "entries": [{"steps": [one.number for one in entry.movements], "stage": passage.number, "plan": passage.plan,
                      "sentence": say(entry.sentence), "why": say(entry.why),
                      "lengths": _measures(entry.lengths)}
-                    for passage in told.passages for entry in passage.entries],
-        "controls": [say(control) for passage in told.passages for control in passage.controls],
+                    for passage in protocol_of.passages for entry in passage.entries],
+        "controls": [say(control) for passage in protocol_of.passages for control in passage.controls],
         "readings": [{"kind": one.kind, "of": one.of, "said": say(one.text), "value": one.value,
                       "computed": one.computed, "lengths": _measures([one.length])}
                      for one in Readings(drawing, lengths_of(composition.plans, composition.scales),
@@ -190,9 +191,9 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
 
 def _measures(lengths: Iterable[Length]) -> list[dict[str, Any]]:
     """The mm that a sentence speaks of, each with the marks between which they are, by their places in the list."""
-    return [{"mm": one.mm, "marks": list(one.marks)} for length in lengths for one in length.measures]
+    return [{"mm": measure.mm, "marks": list(measure.marks)} for length in lengths for measure in length.measures]
 
 
 def _stage(stage: Stage, say: Tongue) -> dict[str, Any]:
     return {"title": say(stage.title), "equation": stage.equation, "law": say(stage.law),
-            "vectors": {name: known.value for name, known in stage.vectors.items()}}
+            "vectors": {name: vector.value for name, vector in stage.vectors.items()}}

@@ -16,7 +16,7 @@ from graphplan.accuracy.survey.degeneracies import DEGENERACIES
 from graphplan.accuracy.survey.draughtsman import SQUARES, STRICT, Draft
 from graphplan.accuracy.survey.picture import Chart
 from graphplan.commands import main
-from graphplan.output.charts import drawn
+from graphplan.output.charts import draw_chart
 
 DRAFTS = [
     Draft("triad", "pose's own, auxiliary", "orthogonal", SQUARES, "A1", 40, 0.02, front=True),
@@ -106,8 +106,8 @@ def test_the_exponent_is_that_of_long_chains() -> None:
 def test_the_same_picture_is_the_same_text() -> None:
     """Pictures are valid SVG without a date, drawn twice alike."""
     chart = draughtsman.picture(DRAFTS, str(Pencil()))
-    text = drawn(chart)
-    assert text == drawn(chart)
+    text = draw_chart(chart)
+    assert text == draw_chart(chart)
     assert "dc:date" not in text
     assert ElementTree.fromstring(text).tag.endswith("svg")
 

@@ -18,7 +18,7 @@ from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.overlay import RED, overlay
 from graphplan.marking.judge.score import score
 from graphplan.marking.judge.verdict import Judgement
-from graphplan.output.report_page import marked
+from graphplan.output.report_page import report_page
 from graphplan.sheet.plates.display import Polygon, Text
 
 PENCIL = Pencil(0.1, 0.1, 0.05, 0.1)
@@ -71,7 +71,7 @@ def test_all_reports_name_the_same_first_wrong_step(name: str) -> None:
         assert opinion(found).startswith(f"First wrong is {start}: ")
         assert judgement_record(found, one.score)["first_wrong"]["step"] == step.number
         assert judgement_record(found, one.score)["first_wrong"]["mark"] == step.mark
-        page = re.sub("</?sub>", "", marked(found, one.score, []))
+        page = re.sub("</?sub>", "", report_page(found, one.score, []))
         assert f"First wrong is {start}: " in page
         assert boxed(found).lower().startswith(f"{start}:".lower())
         line = next(line for line in map(str, class_lines(room)) if line.startswith("a.csv"))

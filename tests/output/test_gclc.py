@@ -16,7 +16,7 @@ from objects import NAMES, PLACES, Place, coordinates, drafted_plates, farthest,
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.mechanism.scene import packaged_names
-from graphplan.output.exports.gclc import cornered, decimal, gclc
+from graphplan.output.exports.gclc import decimal, gclc, move_to_corner
 from graphplan.output.exports.walk import extent, identifiers
 from graphplan.sheet.lettering.letters import letter_plates
 from graphplan.sheet.plates.display import Text
@@ -36,14 +36,14 @@ def off(mark: DrawnStep, found: tuple[float, ...]) -> float:
 @pytest.mark.parametrize("name", packaged_names())
 def test_every_mark_is_read_where_it_lies(name: str) -> None:
     """Every point, line, opening and circle of every packaged scene is recovered from the commands alone."""
-    plates = cornered(laid_out(name)[1])
+    plates = move_to_corner(laid_out(name)[1])
     read, names = Reader().read(gclc(plates)), identifiers(plates.all_marks)
     assert max(off(mark, read.objects[names[mark]][1:]) for mark in plates.all_marks) < 1e-6
 
 
 def test_compasses_alone_are_read_too() -> None:
     """The construction with compasses and straightedge alone, with its marks between plans, is recovered as well."""
-    plates = cornered(laid_out("slider-crank", strict=True)[1])
+    plates = move_to_corner(laid_out("slider-crank", strict=True)[1])
     read, names = Reader().read(gclc(plates)), identifiers(plates.all_marks)
     points = [mark for mark in plates.all_marks if mark.kind in (POINT, CIRCLE)]
     assert max(off(mark, read.objects[names[mark]][1:]) for mark in points) < 1e-6
@@ -53,7 +53,7 @@ def test_compasses_alone_are_read_too() -> None:
 def test_a_moved_point_moves_the_construction(name: str) -> None:
     """Another place for one point of the pose gives the construction in that pose, on the same branches."""
     drawing, plates, _ = drafted_plates(name)
-    plates = cornered(plates)
+    plates = move_to_corner(plates)
     point, at, values = moved(drawing, plates)
     names = identifiers(plates.all_marks)
     put = f"point {names[point]} {' '.join(map(decimal, at))}"
@@ -68,7 +68,7 @@ def test_a_moved_point_moves_the_construction(name: str) -> None:
 def test_every_operation_is_translated(name: str, place: Place) -> None:
     """Each operation of the table becomes commands that give its value, wherever its operands lie."""
     for program, values in programs(name):
-        plates = cornered(loose(program, values, place))
+        plates = move_to_corner(loose(program, values, place))
         read = Reader().read(gclc(plates))
         last = plates.steps[-1]
         assert off(last, read.objects[identifiers(plates.all_marks)[last]][1:]) < 1e-6
@@ -91,7 +91,7 @@ def test_every_step_is_said_with_its_conditions() -> None:
 def test_the_picture_is_full_and_its_letters_stand_as_on_the_sheet(name: str) -> None:
     """The page ends where the drawing does, plates are filled, and every letter stands where it stood."""
     _, plates, _ = drafted_plates(name)
-    read, moved = Reader().read(gclc(plates)), cornered(plates)
+    read, moved = Reader().read(gclc(plates)), move_to_corner(plates)
     wide, high = next(map(float, texts) for command, *texts in read.drawn if command == "dim")
     ink = extent(item for panel in letter_plates(moved).values() for item in panel.items)
     assert min(ink.left, ink.bottom, wide - ink.right, high - ink.top) >= 0

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import pytest
 
-from graphplan.output.graphs import Figures, Graph, Polar, divisions, scale_words, smoothed, stacked
+from graphplan.output.graphs import Figures, Graph, PolarGraph, divisions, scale_words, smooth_line, stack_graphs
 from graphplan.sheet.lettering.lettering import SMALL_SHEET
 from graphplan.sheet.plates.display import Arrow, Rect
 from graphplan.words.tongue import ENGLISH
@@ -29,9 +29,9 @@ def test_diagrams_under_each_other_share_their_abscissae() -> None:
     """An abscissa lies at one place in all, each diagram holds its ordinates, and none meets another."""
     room = Rect(10.0, 10.0, 150.0, 200.0)
     spans = [(-300.0, 700.0), (0.0, 33.0), (-2.0, -1.0)]
-    found = stacked(room, (0.0, 360.0), spans, (2.0, 1.0, 1.0))
+    found = stack_graphs(room, (0.0, 360.0), spans, (2.0, 1.0, 1.0))
     for graph, (low, high) in zip(found, spans, strict=True):
-        assert graph.at(90.0, 0.0)[0] == pytest.approx(found[0].at(90.0, 0.0)[0])
+        assert graph.spot(90.0, 0.0)[0] == pytest.approx(found[0].spot(90.0, 0.0)[0])
         assert graph.y[0] == pytest.approx(low)
         assert graph.y[1] >= high
         assert all(room.holds(spot) for spot in graph.rect.corners)
@@ -41,17 +41,17 @@ def test_diagrams_under_each_other_share_their_abscissae() -> None:
 def test_smooth_curves_pass_through_their_points() -> None:
     """A smooth curve passes through every point, and breaks off where one is not known."""
     spots = [(0.0, 1.0), (2.0, 8.0), (4.0, 3.0), (6.0, 4.0)]
-    line = smoothed(spots)
+    line = smooth_line(spots)
     assert all(min(math.dist(spot, other) for other in line) < 1e-12 for spot in spots)
-    graph = Graph.fitted(Rect(0.0, 0.0, 50.0, 50.0), (0.0, 10.0), (0.0, 10.0))
+    graph = Graph.fit_rect(Rect(0.0, 0.0, 50.0, 50.0), (0.0, 10.0), (0.0, 10.0))
     assert len(list(graph.smooth([0, 1, 2, 3, 4], [1, 2, math.nan, 3, 4]))) == 2
 
 
 def test_polar_diagrams_hold_their_vectors_and_their_middle() -> None:
     """All ends and the middle lie in the window, at one scale both ways."""
     xs, ys = [300.0, 500.0, 410.0], [-20.0, 70.0, -120.0]
-    polar = Polar.fitted(Rect(0.0, 0.0, 80.0, 60.0), xs, ys)
-    assert all(polar.rect.holds(polar.at(x, y), 1e-9) for x, y in [*zip(xs, ys, strict=True), (0.0, 0.0)])
+    polar = PolarGraph.fit_vectors(Rect(0.0, 0.0, 80.0, 60.0), xs, ys)
+    assert all(polar.rect.holds(polar.end_of(x, y), 1e-9) for x, y in [*zip(xs, ys, strict=True), (0.0, 0.0)])
 
 
 def test_scales_are_told_by_either_convention() -> None:
@@ -62,7 +62,7 @@ def test_scales_are_told_by_either_convention() -> None:
 
 def test_axes_stay_at_their_diagram() -> None:
     """Where the zero of the ordinates lies far below a diagram, the abscissa is drawn at its edge."""
-    graph = Graph.fitted(Rect(10.0, 10.0, 110.0, 60.0), (0.0, 360.0), (9500.0, 9600.0))
+    graph = Graph.fit_rect(Rect(10.0, 10.0, 110.0, 60.0), (0.0, 360.0), (9500.0, 9600.0))
     paper = Figures(SMALL_SHEET, ENGLISH)
     arrows = [item for item in paper.axes(graph, "phi", "E") if isinstance(item, Arrow)]
     assert {end[1] for arrow in arrows for end in (arrow.start, arrow.end)} <= {10.0, 62.5}

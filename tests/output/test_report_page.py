@@ -17,7 +17,7 @@ from graphplan.marking.judge.overlay import overlay
 from graphplan.marking.judge.score import score
 from graphplan.marking.judge.verdict import RIGHT, UNSEEN, WRONG, Judgement, NumberVerdict, Verdict
 from graphplan.marking.traces import PlanFrame, StudentNumber, Trace
-from graphplan.output.report_page import class_list, marked
+from graphplan.output.report_page import class_list, report_page
 from graphplan.phrases import said
 from graphplan.sheet.layout.composition import compose
 from graphplan.words.tongue import ENGLISH
@@ -81,7 +81,7 @@ def judgement() -> Judgement:
 @cache
 def page() -> str:
     found = judgement()
-    return marked(found, score(found), overlay(found, score(found)))
+    return report_page(found, score(found), overlay(found, score(found)))
 
 
 @cache

@@ -47,26 +47,26 @@ class Ink:
         look = self.layers.look(item)
         if item.pen.dash and self.unit != 1.0:
             look["ltscale"] = self.unit
-        drawn = list(self._drawn(item, look))
+        entities = list(self._draw_item(item, look))
         if item.step is not None and item.layer not in DRAWING:
-            for entity in drawn:
+            for entity in entities:
                 entity.set_xdata(NAME, [(1000, item.layer)])
 
-    def _drawn(self, item: Item, look: dict[str, Any]) -> Iterator[Any]:
+    def _draw_item(self, item: Item, look: dict[str, Any]) -> Iterator[Any]:
         match item:
             case Polyline():
                 yield self._line(item, look)
             case Polygon():
-                yield from self._filled(item.spots, item.pen, look)
+                yield from self._fill_figure(item.spots, item.pen, look)
                 if item.pen.width:
                     yield self.space.add_lwpolyline(self._spots(item.spots), close=True, dxfattribs=look)
             case Circle():
                 disc = Arc(item.pen, item.layer, item.step, item.centre, item.radius, 0.0, 360.0)
-                yield from self._filled(disc.spots(APART)[:-1], item.pen, look)
+                yield from self._fill_figure(disc.spots(APART)[:-1], item.pen, look)
                 if item.pen.width:
-                    yield self.space.add_circle(self.at(item.centre), self.unit * item.radius, dxfattribs=look)
+                    yield self.space.add_circle(self.place_spot(item.centre), self.unit * item.radius, dxfattribs=look)
             case Arc():
-                yield self.space.add_arc(self.at(item.centre), self.unit * item.radius, item.start, item.end,
+                yield self.space.add_arc(self.place_spot(item.centre), self.unit * item.radius, item.start, item.end,
                                          dxfattribs=look)  # fmt: skip
             case Arrow():
                 yield from self._arrow(item, look)
@@ -84,7 +84,7 @@ class Ink:
             return self.space.add_line(*spots, dxfattribs=look)
         return self.space.add_lwpolyline(spots, dxfattribs=look)
 
-    def _filled(self, spots: tuple[Spot, ...], pen: Pen, look: dict[str, Any]) -> Iterator[Any]:
+    def _fill_figure(self, spots: tuple[Spot, ...], pen: Pen, look: dict[str, Any]) -> Iterator[Any]:
         """What fills a figure: a tint, or the paper itself, which covers what lies behind."""
         if pen.fill == PAPER:
             yield self.space.add_wipeout(self._spots(spots), dxfattribs={"layer": look["layer"]})
@@ -98,7 +98,7 @@ class Ink:
         strokes: list[Any] = []
         for spots, fill in arrow.figures:
             corners = self._spots((*spots[:2], *reversed(spots[2:])))  # the last two of a solid cross
-            strokes += (self._filled(spots, arrow.pen.with_fill(fill), look) if fill == PAPER
+            strokes += (self._fill_figure(spots, arrow.pen.with_fill(fill), look) if fill == PAPER
                         else [self.space.add_solid(corners, dxfattribs=look)])
         strokes += [self.space.add_line(*self._spots(shaft), dxfattribs=look) for shaft in arrow.shaft]
         start, end = self._spots((arrow.start, arrow.end))
@@ -117,21 +117,21 @@ class Ink:
             if lacking:  # that font is wide
                 ends = self._spots(((text.box.left, y), (text.box.right, y)))
                 return letters.set_placement(*ends, align=TextEntityAlignment.FIT)
-            return letters.set_placement(self.at((x, y)), align=ANCHORS[text.anchor])
+            return letters.set_placement(self.place_spot((x, y)), align=ANCHORS[text.anchor])
         small = script_size(text.size) / text.size
-        written = "".join(_levelled(run, small) for run in text.runs)
+        written = "".join(_stacked_text(run, small) for run in text.runs)
         letters = self.space.add_mtext(written, dxfattribs=look | {"char_height": self.unit * high})
-        return letters.set_location(self.at((x, y + high)), attachment_point=HANGING[text.anchor])
+        return letters.set_location(self.place_spot((x, y + high)), attachment_point=HANGING[text.anchor])
 
-    def at(self, spot: Spot) -> Spot:
+    def place_spot(self, spot: Spot) -> Spot:
         """Where a spot in mm lies in the space."""
         return self.origin[0] + self.unit * spot[0], self.origin[1] + self.unit * spot[1]
 
     def _spots(self, spots: tuple[Spot, ...]) -> list[Spot]:
-        return [self.at(spot) for spot in spots]
+        return [self.place_spot(spot) for spot in spots]
 
 
-def _levelled(run: TextRun, small: float) -> str:
+def _stacked_text(run: TextRun, small: float) -> str:
     """Letters in the language of stacked text: `small` is the size of those that hang or are raised."""
     if run.level == 0:
         return MEANT.sub(r"\\\g<0>", run.text)

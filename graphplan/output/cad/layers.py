@@ -30,19 +30,19 @@ LINE_TYPES = {  # by how many dashes and gaps they have: names by which programs
 
 def stage_layers(plates: Plates) -> Layers:
     """The layers of a construction: one a step, by the stages."""
-    drawn, tongue = plates.plans.drawing.drawn, plates.plans.tongue
+    program, tongue = plates.plans.drawing.drawn, plates.plans.tongue
     stages, of = Protocol(plates.plans).stages
-    found = []
-    for index in range(len(drawn)):
+    layers = []
+    for index in range(len(program)):
         place = of.get(index)
-        if index < drawn.givens:
-            found.append(f"{GIVEN} given")
+        if index < program.givens:
+            layers.append(f"{GIVEN} given")
         else:
             title = "" if place is None else f" {tongue(stages[place].title)[:LONGEST].translate(FORBIDDEN)}"
             stage = len(stages) if place is None else place
-            found.append(f"STAGE {stage + 1:02}{title} - STEP {drawn.number(index):03}")
-    told = plates.plans.sentences
-    return Layers(found, {found[index]: told[index] for index in range(drawn.givens, len(drawn))})
+            layers.append(f"STAGE {stage + 1:02}{title} - STEP {program.number(index):03}")
+    sentences = plates.plans.sentences
+    return Layers(layers, {layers[index]: sentences[index] for index in range(program.givens, len(program))})
 
 
 def step_layers(sheet: Sheet) -> Layers:
@@ -66,9 +66,9 @@ class Layers:
     def count(self, items: Iterable[Item]) -> None:
         """Tell what will be drawn."""
         for item in items:
-            self.counted[self.of(item)][item.pen] += 1
+            self.counted[self.layer_of(item)][item.pen] += 1
 
-    def of(self, item: Item) -> str:
+    def layer_of(self, item: Item) -> str:
         """The layer of an item."""
         if item.step is None:
             return item.layer if item.layer.startswith(FULL_SIZE) else f"{SHEET} {item.layer}"
@@ -82,16 +82,17 @@ class Layers:
     @cached_property
     def line_types(self) -> dict[tuple[float, ...], str]:
         """The names of line types by their dashes, mm; the longest of each kind has the plain name."""
-        found: dict[tuple[float, ...], str] = {(): "Continuous"}
+        line_types: dict[tuple[float, ...], str] = {(): "Continuous"}
         dashes = {pen.dash for pens in self.counted.values() for pen in pens if pen.dash}
-        names = {count: iter(known) for count, known in LINE_TYPES.items()}
+        names = {count: iter(pattern) for count, pattern in LINE_TYPES.items()}
         for dash in sorted(dashes, key=lambda dash: (-sum(dash), dash)):
-            found[dash] = next(names.get(len(dash), iter(())), "-".join(["DASH", *(f"{part:g}" for part in dash)]))
-        return found
+            line_types[dash] = next(names.get(len(dash), iter(())),
+                                    "-".join(["DASH", *(f"{stretch:g}" for stretch in dash)]))
+        return line_types
 
     def look(self, item: Item) -> dict[str, Any]:
         """The layer of an item, and what its pen has other than the layer."""
-        name = self.of(item)
+        name = self.layer_of(item)
         pen, usual = item.pen, self.pens[name]
         look: dict[str, Any] = {"layer": name}
         if pen.colour != usual.colour:
@@ -106,8 +107,8 @@ class Layers:
         """The layers and line types, entered into a document."""
         for dash, name in self.line_types.items():
             if dash:
-                parts = [-part if i % 2 else part for i, part in enumerate(dash)]
-                document.linetypes.add(name, [sum(dash), *parts], description=f"{dash} mm")
+                pattern = [-stretch if i % 2 else stretch for i, stretch in enumerate(dash)]
+                document.linetypes.add(name, [sum(dash), *pattern], description=f"{dash} mm")
         for name, pen in self.pens.items():
             layer = document.layers.add(name, **colour(pen.colour), lineweight=weight(pen.width),
                                         linetype=self.line_types[pen.dash])

@@ -46,7 +46,7 @@ class FullSize:
     scale: float
 
     @cached_property
-    def drawn(self) -> DrawnMechanism:
+    def drawn_mechanism(self) -> DrawnMechanism:
         """The mechanism on a print."""
         everywhere = Rect(-math.inf, -math.inf, math.inf, math.inf)
         return DrawnMechanism(self.plates.scene, View(everywhere, 1 / self.scale, (0.0, 0.0)))
@@ -54,40 +54,42 @@ class FullSize:
     @cached_property
     def items(self) -> tuple[Item, ...]:
         """All but points and dimensions, in mm of the print, each on its layer."""
-        symbols = [replace(item, layer=f"{FULL_SIZE} {item.layer}") for item in self.drawn.items()
+        symbols = [replace(item, layer=f"{FULL_SIZE} {item.layer}") for item in self.drawn_mechanism.items()
                    if item.layer in SYMBOLS and item.pen != pens.PRODUCED]
         return (*self._guides(), *self._links(), *symbols, *self._letters())
 
     def _links(self) -> Iterator[Item]:
         """A line through the points of each link, or around them."""
         for link in self.plates.scene.moving:
-            for chain in outline([self.drawn.spots[name] for name in self.plates.scene.links[link]]):
+            for chain in outline([self.drawn_mechanism.spots[name] for name in self.plates.scene.links[link]]):
                 yield Polyline(pens.LINK, f"{FULL_SIZE} link {link}", None, chain)
 
     def _guides(self) -> Iterator[Item]:
         """The line along which each block slides."""
         for slide in self.plates.scene.slides:
-            seat, along = self.drawn.seat(slide), self.drawn.direction(slide)
+            seat, along = self.drawn_mechanism.seat(slide), self.drawn_mechanism.direction(slide)
             ends = offset(seat, along, -GUIDE), offset(seat, along, GUIDE)
             yield Polyline(pens.PRODUCED, f"{FULL_SIZE} guides", None, ends)
 
     def _letters(self) -> Iterator[Text]:
         """The names of points, each where the links at it leave most room."""
-        size, seats = SMALL_SHEET.mark, [self.drawn.seat(slide) for slide in self.plates.scene.slides]
-        for (x, y), (runs, _) in self.drawn.letters().items():
-            way = self._free((x, y))
+        size, seats = SMALL_SHEET.mark, [self.drawn_mechanism.seat(slide) for slide in self.plates.scene.slides]
+        for (x, y), (runs, _) in self.drawn_mechanism.letters().items():
+            direction = self._free((x, y))
             half = width(runs, size) / 2, CAPS * size / 2
             clear = CLEAR + (LONG if any(math.dist(seat, (x, y)) < NEAR for seat in seats) else 0.0)
-            far = min(clear + part / abs(side) for part, side in zip(half, (way.real, way.imag), strict=True) if side)
-            at = x + far * way.real, y + far * way.imag - half[1]
+            far = min(clear + half_size / abs(side) for half_size,
+                      side in zip(half, (direction.real, direction.imag), strict=True) if side)
+            at = x + far * direction.real, y + far * direction.imag - half[1]
             yield Text(pens.LETTERS, f"{FULL_SIZE} names", None, at, runs, size, "middle")
 
     def _free(self, spot: Spot) -> complex:
         """The middle of the widest angle between what leaves a spot: links, and the ground below."""
-        here = [name for name, at in self.drawn.spots.items() if math.dist(at, spot) < NEAR]
-        ways = [complex(*other) - complex(*spot) for name in here for other in self.drawn.neighbours(name)]
-        ways += [-1j for name in here if FRAME in self.plates.scene.links_of[name]]
-        turns = sorted(cmath.phase(way) for way in ways) or [-math.pi / 2]
+        joints = [name for name, at in self.drawn_mechanism.spots.items() if math.dist(at, spot) < NEAR]
+        directions = [complex(*neighbour) - complex(*spot) for name in joints
+                      for neighbour in self.drawn_mechanism.neighbours(name)]
+        directions += [-1j for name in joints if FRAME in self.plates.scene.links_of[name]]
+        turns = sorted(cmath.phase(direction) for direction in directions) or [-math.pi / 2]
         gaps = [(end - start, start) for start, end in pairwise([*turns, turns[0] + math.tau])]
         gap, start = max(gaps, key=lambda one: (round(one[0], 6), one[1]))
         return cmath.rect(1.0, start + gap / 2)
@@ -95,13 +97,13 @@ class FullSize:
     @cached_property
     def dimensions(self) -> list[LinkDimension]:
         """The dimensions of its links."""
-        return dimensions(self.plates.scene, self.drawn.spots, self.items)
+        return dimensions(self.plates.scene, self.drawn_mechanism.spots, self.items)
 
     @property
     def box(self) -> Rect:
         """What it takes up, in units of the scene."""
-        sides = [abs(one.aside) for one in self.dimensions]
-        box, margin = bounding_box(list(self.drawn.spots.values())), max([ROOM, *sides]) + FIRST_LEVEL_MM
+        sides = [abs(dimension.aside) for dimension in self.dimensions]
+        box, margin = bounding_box(list(self.drawn_mechanism.spots.values())), max([ROOM, *sides]) + FIRST_LEVEL_MM
         return box.inset(-margin, -margin, -margin, -margin).times(self.scale)
 
     def draw(self, space: Any, layers: Layers, decimal: str) -> None:
@@ -113,13 +115,15 @@ class FullSize:
         for place in dict.fromkeys(places.values()):
             space.add_point(place, dxfattribs={"layer": POINTS})
         style = self._style(space.doc, places, decimal)
-        for one in self.dimensions:
-            space.add_aligned_dim(places[one.start], places[one.end], self.scale * one.aside, dimstyle=style,
+        for dimension in self.dimensions:
+            space.add_aligned_dim(places[dimension.start], places[dimension.end], self.scale * dimension.aside,
+                                  dimstyle=style,
                                   dxfattribs={"layer": DIMENSIONED}).render()  # fmt: skip
 
     def _style(self, document: Any, places: Mapping[str, Spot], decimal: str) -> str:
         """The style of dimensions, entered also as the document's own, by which some programs draw all of them."""
-        longest = max((math.dist(places[one.start], places[one.end]) for one in self.dimensions), default=1.0)
+        longest = max((math.dist(places[dimension.start], places[dimension.end]) for dimension in self.dimensions),
+                      default=1.0)
         places_after = max(0, DIGITS - 1 - math.floor(math.log10(longest)))
         settings = DIMENSION_STYLE | {"dimscale": self.scale, "dimdec": places_after, "dimdsep": ord(decimal)}
         style = document.dimstyles.add("GRAPHPLAN", dxfattribs=settings)

@@ -8,7 +8,7 @@ import ezdxf
 
 from graphplan.cams.profile import Cam
 from graphplan.output.cad.layers import FULL_SIZE
-from graphplan.output.dxf import UNITS, declare_classes, undated
+from graphplan.output.dxf import UNITS, declare_classes, without_date
 
 PROFILE, PITCH, BASE, POINTS = (f"{FULL_SIZE} {part}" for part in ("profile", "pitch curve", "base circle", "points"))
 PENS = {PROFILE: ("CONTINUOUS", 50), PITCH: ("DASHDOT", 18), BASE: ("DASHED", 18), POINTS: ("CONTINUOUS", 35)}
@@ -20,10 +20,10 @@ def profile_dxf(cam: Cam, tolerance: float) -> bytes:
 
     Beside it, on layers of their own, are the base circle, the path of the roller's centre, and the centre.
     """
-    with undated():
+    with without_date():
         document, text = ezdxf.new("R2010", units=UNITS[cam.task.units.length]), io.StringIO()
-        for name, (whole, *parts) in DASHES.items():
-            document.linetypes.add(name, [whole, *parts])
+        for name, (whole, *dashes) in DASHES.items():
+            document.linetypes.add(name, [whole, *dashes])
         for name, (line, weight) in PENS.items():
             document.layers.add(name, linetype=line, lineweight=weight)
         space = document.modelspace()

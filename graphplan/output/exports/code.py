@@ -113,15 +113,15 @@ class Code:
     def _outputs(self) -> Iterator[Number]:
         for kind, named in self.replay.places_of_results.items():
             unit = kind_of(kind).dimension.unit(self.scene.units)
-            for name, told in named.items():
-                parts = zip((" x", " y"), told, strict=True) if isinstance(told, tuple) else [("", told)]
-                yield from (Number(f"{kind} {name}{part}", unit, (place,)) for part, place in parts)
+            for name, value in named.items():
+                components = zip((" x", " y"), value, strict=True) if isinstance(value, tuple) else [("", value)]
+                yield from (Number(f"{kind} {name}{part}", unit, (place,)) for part, place in components)
 
     def head(self) -> str:
         """The first lines: the scene, and of its loads those that stay as they are in its pose."""
         changing = ", ".join(changing_loads(self.scene.loads))
-        kept = f"Loads that change over the cycle have the values of the given pose here: {changing}." * bool(changing)
-        texts = (self.scene.title, self.scene.source, *filter(None, [kept]), "")
+        remark = f"Loads that change over the cycle have the values of the given pose here: {changing}."
+        texts = (self.scene.title, self.scene.source, *[remark] * bool(changing), "")
         return "\n".join(f"// {' '.join(text.split())}".rstrip(" \\") for text in texts)
 
     def table(self, read: str, given: str) -> str:
@@ -130,7 +130,7 @@ class Code:
                          for array, numbers in ((read, self.inputs), (given, self.outputs))
                          for k, number in enumerate(numbers))
 
-    def written(self, language: Language, read: str) -> tuple[list[str], list[str]]:
+    def statements_in(self, language: Language, read: str) -> tuple[list[str], list[str]]:
         """The statements of the language, inputs being called as `read` says, and the text of each output."""
         names = {place: read.format(k) for k, number in enumerate(self.inputs) for place in number.places}
         writer = Writer(self.replay.tape, language, names)
@@ -141,7 +141,7 @@ class Code:
 def c(construction: Construction) -> str:
     """The construction as C99: one function over arrays of poses, which compilers turn into vector instructions."""
     code = Code(construction)
-    statements, outputs = code.written(C, "in{}[k]")
+    statements, outputs = code.statements_in(C, "in{}[k]")
     statements += [f"out{k}[k] = {text} + bad;" for k, text in enumerate(outputs)]
     arrays = [f"in{k}" for k in range(len(code.inputs))], [f"out{k}" for k in range(len(outputs))]
     parameters = [f"const double *restrict {name}" for name in arrays[0]] + [f"double *restrict {name}"
@@ -155,19 +155,19 @@ def c(construction: Construction) -> str:
 def javascript(construction: Construction) -> str:
     """The construction as a module of JavaScript: a function for one pose, and one over arrays of poses."""
     code = Code(construction)
-    statements, outputs = code.written(JAVASCRIPT, "x{}")
+    statements, outputs = code.statements_in(JAVASCRIPT, "x{}")
     statements += [f"y[{k}] = {text};" for k, text in enumerate(outputs)]
     count = len(code.inputs)
-    given = [f"const [x{2 * k}, x{2 * k + 1}] = {item.kind}s[{json.dumps(item.name)}] ?? {[*map(float, item.at)]};"
+    inputs = [f"const [x{2 * k}, x{2 * k + 1}] = {item.kind}s[{json.dumps(item.name)}] ?? {[*map(float, item.at)]};"
              for k, item in enumerate(code.moving)]
     places = iter(range(len(outputs)))
-    told = {kind: {name: tuple(next(places) for _ in told) if isinstance(told, tuple) else next(places)
+    results = {kind: {name: tuple(next(places) for _ in told) if isinstance(told, tuple) else next(places)
                    for name, told in named.items()} for kind, named in code.replay.places_of_results.items()}
     return JAVASCRIPT_FILE.format(
         head=code.head(), table=code.table("x", "y"), inputs=_names(code.inputs), outputs=_names(code.outputs),
         parameters="".join(f"x{k}, " for k in range(count)), arguments="".join(f"x[{k}][k], " for k in range(count)),
-        body="\n  ".join(statements), given="\n  ".join(given), count=len(outputs),
-        results=shape_expression(told, {k: f"y[{k}]" for k in range(len(outputs))}, "[]"))
+        body="\n  ".join(statements), given="\n  ".join(inputs), count=len(outputs),
+        results=shape_expression(results, {k: f"y[{k}]" for k in range(len(outputs))}, "[]"))
 
 
 def _names(numbers: Sequence[Number]) -> str:

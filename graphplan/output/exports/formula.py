@@ -46,9 +46,9 @@ def formula(drawn: DrawnStep, coordinates: Sequence[Sequence[str]], language: La
     domain, similar = Symbols(), _similar(drawn)
     read = [_local(domain, arg.kind, _window(arg, similar), texts)
             for arg, texts in zip(drawn.args, coordinates, strict=True)]  # fmt: skip
-    told = {name: domain.tape.input(text) * times for name, (text, times) in (given or {}).items()}
-    value = drawn.step.op.rule(domain, *read, **{**drawn.step.params, **told})
-    places = [domain.tape.place(part) for part in _told(domain, drawn.kind, _window(drawn, similar), value)]
+    loads = {name: domain.tape.input(text) * times for name, (text, times) in (given or {}).items()}
+    value = drawn.step.op.rule(domain, *read, **{**drawn.step.params, **loads})
+    places = [domain.tape.place(part) for part in _answer_on_paper(domain, drawn.kind, _window(drawn, similar), value)]
     writer = Writer(domain.tape, language, prefix=term, deepest=deepest)
     return Formula(tuple(writer.terms(places)), tuple(writer.text[place] for place in places))
 
@@ -65,20 +65,20 @@ def _window(drawn: DrawnStep, similar: bool) -> View:
 
 def _local(d: Symbols, kind: str, window: View, texts: Sequence[str]) -> tuple[Any, ...]:
     """The value that a rule reads, from coordinates in mm."""
-    parts: list[Any] = [d.tape.input(text) for text in texts]
+    numbers: list[Any] = [d.tape.input(text) for text in texts]
     if kind == OPENING:
-        return (_square(parts[0] / window.scale),)
-    x, y = window.to_plan((parts[0], parts[1]))
+        return (_square(numbers[0] / window.scale),)
+    x, y = window.to_plan((numbers[0], numbers[1]))
     if kind == CIRCLE:
-        return x, y, _square(parts[2] / window.scale)
-    return (-parts[3], parts[2], parts[3] * x - parts[2] * y) if kind == LINE else (x, y)
+        return x, y, _square(numbers[2] / window.scale)
+    return (-numbers[3], numbers[2], numbers[3] * x - numbers[2] * y) if kind == LINE else (x, y)
 
 
 def _square(part: Any) -> Any:
     return part * part
 
 
-def _told(d: Symbols, kind: str, window: View, value: Any) -> list[Any]:
+def _answer_on_paper(d: Symbols, kind: str, window: View, value: Any) -> list[Any]:
     """A rule's answer in mm; of a line the point that is next to the middle of its window, and its way."""
     if kind == LINE:
         (x, y), (a, b, c) = window.to_plan(window.rect.centre), value

@@ -18,8 +18,8 @@ from itertools import pairwise
 from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, Movement
 from graphplan.kernel.tape.written import Language, operations
 from graphplan.output.exports.formula import formula
-from graphplan.output.exports.latex import formulated, lettering, points
-from graphplan.output.exports.walk import REACH, Letter, Source, extent, heading, parameters, turned_back
+from graphplan.output.exports.latex import formula_of_runs, lettering, points
+from graphplan.output.exports.walk import REACH, Letter, TextWriter, extent, heading, parameters, turned_back
 from graphplan.output.tolerances import SHIFT_TOL_MM
 from graphplan.phrases import said
 from graphplan.sheet.lettering.label_candidates import BALLOON
@@ -148,28 +148,28 @@ SWALLOW = {pens.OPEN: 0.7}  # how deep the heads of vectors are cut in, beside t
 
 def gclc(plates: Plates) -> str:
     """The construction as a GCLC source (.gcl): points, steps with their sentences, strokes and letters."""
-    return _GclcWriter(cornered(plates)).text()
+    return _GclcWriter(move_to_corner(plates)).text()
 
 
 def _strokes(plates: Plates) -> Rect:
     """The box about all that is drawn but letters; where nothing is, about the panels."""
-    drawn = [item for plate in plates for item in (*plate.items(), *plate.mechanism)]
-    return extent(drawn) if drawn else plates.box
+    items = [item for plate in plates for item in (*plate.items(), *plate.mechanism)]
+    return extent(items) if items else plates.box
 
 
-def cornered(plates: Plates) -> Plates:
+def move_to_corner(plates: Plates) -> Plates:
     """The plates with what is drawn on them, and air for its letters, in the lower left corner of the picture."""
     box = _strokes(plates)
     dx, dy = AIR - box.left, AIR - box.bottom
     if max(abs(dx), abs(dy)) < SHIFT_TOL_MM:
         return plates
 
-    def there(view: View) -> View:
+    def moved_view(view: View) -> View:
         rect, (x, y) = view.rect, view.origin
-        moved = Rect(rect.left + dx, rect.bottom + dy, rect.right + dx, rect.top + dy)
-        return replace(view, rect=moved, origin=(x + dx, y + dy))
+        rect_there = Rect(rect.left + dx, rect.bottom + dy, rect.right + dx, rect.top + dy)
+        return replace(view, rect=rect_there, origin=(x + dx, y + dy))
 
-    return replace(plates, views={panel: there(view) for panel, view in plates.views.items()})
+    return replace(plates, views={panel: moved_view(view) for panel, view in plates.views.items()})
 
 
 def decimal(number: float) -> str:
@@ -191,7 +191,7 @@ SIGN = "ite(abs({0})<={2}*({1}),0,ite({0}>0,1,-1))"
 EXPRESSIONS = Language(_operand, operations("sqrt(max(0,{0}))", "abs({0})", SIGN))
 
 
-class _GclcWriter(Source):
+class _GclcWriter(TextWriter):
     """Writes the commands of each step, with what they need written where it is first needed."""
 
     commands, whole = COMMANDS, {Movement.LAID_OFF: "translate {out} {0} {1} {2}"}
@@ -223,25 +223,25 @@ class _GclcWriter(Source):
                            for code in drawn.step.op.fails]  # fmt: skip
         super().step(drawn)
 
-    def told(self, drawn: DrawnStep) -> dict[str, str]:
+    def command_texts(self, drawn: DrawnStep) -> dict[str, str]:
         """The number that vectors are multiplied by; of two crossings, which is meant."""
-        told = {"k": decimal(parameters(drawn)["k"])}
+        texts = {"k": decimal(parameters(drawn)["k"])}
         if drawn.step.op.movement is Movement.CUT:
-            told |= zip("QP" if turned_back(drawn) else "PQ", self._way(drawn.args[0]), strict=True)
+            texts |= zip("QP" if turned_back(drawn) else "PQ", self._line_points(drawn.args[0]), strict=True)
         if drawn.step.op.movement is Movement.ARCS_MET:
             sides = ("right", "left") if turned_back(drawn) else ("left", "right")
-            told |= zip(sides, map(self.names.__getitem__, drawn.args), strict=True)
-        return told
+            texts |= zip(sides, map(self.names.__getitem__, drawn.args), strict=True)
+        return texts
 
     def put(self, drawn: DrawnStep) -> None:
         self.lines.append(f"point {self.names[drawn]} {' '.join(map(decimal, drawn.spot))}")
 
     def reckon(self, drawn: DrawnStep) -> None:
         name, coordinates = self.names[drawn], [self._coordinates(arg) for arg in drawn.args]
-        found = formula(drawn, coordinates, EXPRESSIONS, f"{name}_n")
+        expression = formula(drawn, coordinates, EXPRESSIONS, f"{name}_n")
         numbers = [f"{name}_{part}" for part in COORDINATES[drawn.kind]]
-        told = [*found.terms, *zip(numbers, found.results, strict=True)]
-        self.lines += [f"expression {term} {{ {text} }}" for term, text in told]
+        terms = [*expression.terms, *zip(numbers, expression.results, strict=True)]
+        self.lines += [f"expression {term} {{ {text} }}" for term, text in terms]
         self.lines += [line.format(name) for line in RECKONED[drawn.kind]]
         if drawn.kind == POINT:
             self.made.add(f"{name}_x")
@@ -258,12 +258,12 @@ class _GclcWriter(Source):
         if drawn.kind == CIRCLE:
             centre, opened = map(self.names.__getitem__, drawn.args)
             return [*self._place(centre), f"({opened}*{decimal(parameters(drawn)['k'])})"]
-        (a, b), (c, d) = (self._place(end) for end in self._way(drawn))
+        (a, b), (c, d) = (self._place(end) for end in self._line_points(drawn))
         return [*self._place(self._foothold(drawn)), f"({c}-{a})", f"({d}-{b})"]
 
     def _place(self, point: str) -> list[str]:
         """The coordinates of a point, measured once."""
-        self._once(f"{point}_x", f"getx {point}_x {point}", f"gety {point}_y {point}")
+        self._define_once(f"{point}_x", f"getx {point}_x {point}", f"gety {point}_y {point}")
         return [f"{point}_x", f"{point}_y"]
 
     def _foothold(self, line: DrawnStep) -> str:
@@ -272,25 +272,25 @@ class _GclcWriter(Source):
         if movement not in COMMANDS:
             return f"{self.names[line]}_at"
         if movement is Movement.BISECTED:
-            self._once(f"{self.names[line]}_at", f"midpoint {self.names[line]}_at {ends[0]} {ends[1]}")
+            self._define_once(f"{self.names[line]}_at", f"midpoint {self.names[line]}_at {ends[0]} {ends[1]}")
             return f"{self.names[line]}_at"
         return ends[0] if movement is Movement.RULED else ends[1]
 
-    def _way(self, line: DrawnStep) -> tuple[str, str]:
+    def _line_points(self, line: DrawnStep) -> tuple[str, str]:
         """Two points from one of which to the other a line runs, on it or beside it."""
         movement, name = line.step.op.movement, self.names[line]
         if movement not in COMMANDS:
             return f"{name}_at", f"{name}_to"
         if movement is Movement.PARALLEL:
-            return self._way(line.args[0])
+            return self._line_points(line.args[0])
         ends = [self.names[arg] for arg in line.args]
-        P, Q = self._way(line.args[0]) if movement is Movement.PERPENDICULAR else (ends[0], ends[1])
+        P, Q = self._line_points(line.args[0]) if movement is Movement.PERPENDICULAR else (ends[0], ends[1])
         if movement is Movement.RULED:
             return P, Q
-        self._once(f"{name}_to", f"call across {{ {P} {Q} 1 {P} {name}_to }}")
+        self._define_once(f"{name}_to", f"call across {{ {P} {Q} 1 {P} {name}_to }}")
         return P, f"{name}_to"
 
-    def _once(self, name: str, *commands: str) -> None:
+    def _define_once(self, name: str, *commands: str) -> None:
         """A mark that only serves others, or a number, made where it is first needed."""
         if name not in self.made:
             self.made.add(name)
@@ -303,15 +303,16 @@ class _GclcWriter(Source):
         self._pen(stroke.pen)
         if stroke.head:
             slim = SLIM[stroke.pen.tip]
-            told = 2 * math.degrees(math.atan(1 / slim)), stroke.head * math.hypot(1, 1 / slim)
-            self._hold("arrowstyle", *map(_short, told), _short(SWALLOW.get(stroke.pen.tip, 0.0)))
+            head = 2 * math.degrees(math.atan(1 / slim)), stroke.head * math.hypot(1, 1 / slim)
+            self._hold("arrowstyle", *map(_short, head), _short(SWALLOW.get(stroke.pen.tip, 0.0)))
         start, end, low, high = self.names[stroke.start], self.names[stroke.end], stroke.low, stroke.high
         if stroke.head and (low, high) == (0.0, 1.0):
             self.lines.append(f"call vector {{ {start} {end} }}")
             return
         if stroke.in_mm:
-            (P, Q), long, end = self._way(stroke.of), math.hypot(*heading(stroke.of)), f"{self.names[stroke.of]}_on"
-            self._once(end, f"translate {end} {P} {Q} {start}")
+            (P, Q), long = self._line_points(stroke.of), math.hypot(*heading(stroke.of))
+            end = f"{self.names[stroke.of]}_on"
+            self._define_once(end, f"translate {end} {P} {Q} {start}")
             low, high = low / long, high / long
         name = "arrow" if stroke.head else "dashes" if stroke.pen.dash else "stroke"
         self.lines.append(f"call {name} {{ {start} {end} {_short(low)} {_short(high)} }}")
@@ -323,15 +324,15 @@ class _GclcWriter(Source):
 
     def chain(self, pen: Pen, spots: Sequence[Spot], closed: bool) -> None:
         """A figure is filled by triangles about its first corner: all are convex."""
-        names = [self._named(spot) for spot in spots]
+        names = [self._name_at(spot) for spot in spots]
         if closed and pen.fill != "none":
             self._hold("color", *map(str, pens.rgb(pen.fill)))
-            self.lines += [f"filltriangle {names[0]} {one} {other}" for one, other in pairwise(names[1:])]
+            self.lines += [f"filltriangle {names[0]} {start} {end}" for start, end in pairwise(names[1:])]
         if pen.width:
             self._pen(pen)
             self.lines += [f"drawsegment {one} {other}" for one, other in pairwise([*names, *names[:closed]])]
 
-    def _named(self, spot: Spot) -> str:
+    def _name_at(self, spot: Spot) -> str:
         """A joint, or a point of its own."""
         if joint := self.joints.get(spot):
             return self.names[joint]
@@ -340,7 +341,7 @@ class _GclcWriter(Source):
         return name
 
     def circle(self, item: Circle, joint: DrawnStep | None) -> None:
-        self._round(item.pen, self.names[joint] if joint else self._named(item.centre), item.radius)
+        self._round(item.pen, self.names[joint] if joint else self._name_at(item.centre), item.radius)
 
     def dot(self, mark: DrawnStep, pen: Pen, radius: float) -> None:
         self._round(pen, self.names[mark], radius)
@@ -359,17 +360,18 @@ class _GclcWriter(Source):
         text, (x, y) = letter.text, letter.off
         if letter.leader:
             self._pen(pens.LEADER)
-            self.lines.append("drawsegment " + " ".join(self._beside(letter.mark, spot) for spot in letter.leader))
+            self.lines.append("drawsegment "
+                              + " ".join(self._point_off_mark(letter.mark, spot) for spot in letter.leader))
         if letter.ringed:
-            self._round(pens.BALLOON, self._beside(letter.mark, letter.ringed), BALLOON * text.size)
-        place = self._beside(letter.mark, (x, y + text.size * CAPS / 2))
+            self._round(pens.BALLOON, self._point_off_mark(letter.mark, letter.ringed), BALLOON * text.size)
+        place = self._point_off_mark(letter.mark, (x, y + text.size * CAPS / 2))
         self._hold("color", *map(str, pens.rgb(text.pen.colour)))
         self._hold("fontsize", f"{points(text.size):.0f}")
         words = any(word.isalpha() and word[1:].islower() for run in text.runs for word in run.text.split())
-        told = rf"\mbox{{{lettering(text.runs)}}}" if words else formulated(text.runs)
-        self.lines.append(f"printat {place} {{{told}}}")
+        lettering_text = rf"\mbox{{{lettering(text.runs)}}}" if words else formula_of_runs(text.runs)
+        self.lines.append(f"printat {place} {{{lettering_text}}}")
 
-    def _beside(self, mark: DrawnStep, off: Spot) -> str:
+    def _point_off_mark(self, mark: DrawnStep, off: Spot) -> str:
         """A point so far off a mark."""
         name = f"s_{len(self.lines)}"
         self.lines.append(f"call beside {{ {self.names[mark]} {_short(off[0])} {_short(off[1])} {name} }}")
@@ -382,7 +384,7 @@ class _GclcWriter(Source):
 
     def _hold(self, what: str, *how: str) -> None:
         """What holds for all that follows, where it changes."""
-        told = " ".join((what, *how))
-        if told != self.held.get(what):
-            self.lines.append(told)
-            self.held[what] = told
+        statement = " ".join((what, *how))
+        if statement != self.held.get(what):
+            self.lines.append(statement)
+            self.held[what] = statement

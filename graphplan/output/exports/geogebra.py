@@ -25,9 +25,19 @@ from graphplan.cycle.relations import WrittenRelations, relations
 from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Panel
-from graphplan.output.exports.ggb_commands import labels, letters, number, ruled, written
-from graphplan.output.exports.ggb_linkage import ROW, Linkage
-from graphplan.output.exports.ggb_xml import CURVES, LINKS, POINTS, VECTORS, Objects, empty, lettered, quoted, spot
+from graphplan.output.exports.ggb_commands import command_of, formula_command, labels, letters, number
+from graphplan.output.exports.ggb_linkage import ROW, GeoGebraLinkage
+from graphplan.output.exports.ggb_xml import (
+    CURVES,
+    LINKS,
+    POINTS,
+    VECTORS,
+    Objects,
+    empty,
+    quote_text,
+    show_caption,
+    spot,
+)
 from graphplan.output.exports.walk import Elements, Letter, Riding, corners
 from graphplan.phrases import join, said, unit
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales
@@ -52,11 +62,11 @@ def geogebra(plates: Plates) -> bytes:
     one that is drawn in another pose.
     """
     drawing, wrong = best_construction(plates.plans.drawing) if plates.scene.links else (plates.plans.drawing, {})
-    other = plates if drawing is plates.plans.drawing else Plates(
+    plates_there = plates if drawing is plates.plans.drawing else Plates(
         replace(plates.plans, drawing=drawing), plates.views, plates.letters)
-    if {*other.plans.panels} != {*plates.plans.panels}:
-        other, wrong = plates, {}
-    root = _GeoGebraWriter(other, plates, wrong).document()
+    if {*plates_there.plans.panels} != {*plates.plans.panels}:
+        plates_there, wrong = plates, {}
+    root = _GeoGebraWriter(plates_there, plates, wrong).document()
     indent(root, " ")
     document = '<?xml version="1.0" encoding="utf-8"?>\n' + tostring(root, encoding="unicode") + "\n"
     packed = io.BytesIO()
@@ -71,10 +81,11 @@ def geogebra(plates: Plates) -> bytes:
 def scales(plates: Plates) -> Scales:
     """The scales of what is drawn, by its windows."""
     drawing, units = plates.plans.drawing, plates.scene.units
-    first, *others = plates.plans.panels
-    own = plates.views[first].scale
-    multiples: dict[str, Fraction] = {str(one): Fraction(plates.views[one].scale / own) for one in others}
-    return Scales(1 / own, drawing.kappa, units.length, multiples, float(drawing.phi), units.force,
+    first, *other_panels = plates.plans.panels
+    first_scale = plates.views[first].scale
+    multiples: dict[str, Fraction] = {str(panel): Fraction(plates.views[panel].scale / first_scale)
+                                      for panel in other_panels}
+    return Scales(1 / first_scale, drawing.kappa, units.length, multiples, float(drawing.phi), units.force,
                   plates.scene.sheet.convention)
 
 
@@ -91,10 +102,10 @@ class _GeoGebraWriter(Elements):
         self.joints = {point.spot: point for point in reversed(given.pose.values())}
         self.objects, box = Objects(self.title), plates.box
         self.size = min((WIDE - COLUMN) / box.width, (HIGH - ROWS) / box.height) * 0.97  # pixels for a mm
-        self.by_name = {name: self.names[drawn] for name, drawn in plates.pose.items()}
+        self.by_name = {name: self.names[mark] for name, mark in plates.pose.items()}
         self.placed, self.ways = WrittenRelations((), {}, {}, {}), dict[str, Spot]()
 
-    def named(self) -> Mapping[DrawnStep, str]:
+    def mark_names(self) -> Mapping[DrawnStep, str]:
         return labels(self.plates)
 
     # ---- the document ------------------------------------------------------------------------------------------
@@ -137,14 +148,14 @@ class _GeoGebraWriter(Elements):
         begun = said("The mechanism as it is given; nothing is drawn yet.")
         changing = dict.fromkeys(step.quantity.written for step in self.plates.plans.drawing.drawn.steps
                                  if step.quantity and step.quantity.changing)
-        kept = said("Loads that change over the cycle have the values of the given pose here: {0}.",
+        remark = said("Loads that change over the cycle have the values of the given pose here: {0}.",
                     join([*changing], ", "))
-        self._walked(join((begun, kept), " ") if changing else begun, 0)
-        for drawn in self.plates.pose.values():
-            self._due(drawn)
-        for drawn in self.plates.all_marks:
-            if drawn.number:
-                self._step(drawn)
+        self._write_sentence(join((begun, remark), " ") if changing else begun, 0)
+        for mark in self.plates.pose.values():
+            self._due(mark)
+        for mark in self.plates.all_marks:
+            if mark.number:
+                self._step(mark)
 
     def _step(self, drawn: DrawnStep) -> None:
         """A drawn step, with what is seen as soon as it is there, and its sentence."""
@@ -152,18 +163,18 @@ class _GeoGebraWriter(Elements):
         self._mark(drawn)
         self._due(drawn)
         self.objects.shown_if = ""
-        self._walked(drawn.sentence, drawn.number)
+        self._write_sentence(drawn.sentence, drawn.number)
 
     def _due(self, drawn: DrawnStep) -> None:
-        for one in self.due.get(drawn, ()):
-            self._arc(one) if isinstance(one, StruckArc) else self._stroke(one)
+        for stroke in self.due.get(drawn, ()):
+            self._arc(stroke) if isinstance(stroke, StruckArc) else self._stroke(stroke)
 
-    def _walked(self, sentence: str, number: int) -> None:
+    def _write_sentence(self, sentence: str, number: int) -> None:
         """The sentence of a step, seen until the next step is drawn; the navigation bar stops here."""
-        last = max(drawn.number for drawn in self.plates.all_marks)
+        last = max(mark.number for mark in self.plates.all_marks)
         self.objects.shown_if = f"ConstructionStep[] < ConstructionStep[step_{{{number + 1}}}]" if number < last else ""
-        told = f"{number}.  {sentence}" if number else self.say(sentence)
-        element = self.objects.on_screen("step", quoted(told), 20, 60 + ROW * len(self.plates.scene.drives))
+        text = f"{number}.  {sentence}" if number else self.say(sentence)
+        element = self.objects.on_screen("step", quote_text(text), 20, 60 + ROW * len(self.plates.scene.drives))
         element.set("label", f"step_{{{number}}}")
         self.objects.construction[-2].set("label", f"step_{{{number}}}")
         empty(element, "breakpoint", val=True)
@@ -174,8 +185,8 @@ class _GeoGebraWriter(Elements):
     @cached_property
     def _stage(self) -> dict[int, str]:
         """The title of the stage of each step that has one."""
-        drawn = self.plates.plans.drawing.drawn
-        return {step.index: self.say(stage.title) for stage, steps in drawn.stages for step in steps}
+        program = self.plates.plans.drawing.drawn
+        return {step.index: self.say(stage.title) for stage, steps in program.stages for step in steps}
 
     def _boxes(self) -> None:
         """A check box for each plan, and for each stage."""
@@ -198,37 +209,38 @@ class _GeoGebraWriter(Elements):
 
     def _pose(self) -> None:
         """The linkage; where it cannot be followed, its points as they are given."""
-        pose, given = self.plates.pose, self.given.pose
-        found = relations(self.given.scene, next(iter(self.given)).view)
-        free = found.free if found else []
-        self.ways = found.slide_ranges if found else {}
-        if found:
-            linkage = Linkage(found, self.objects, self.by_name)
-            self.placed = linkage.enter(lambda name: self._point(pose[name], given[name].spot))
-        for name, drawn in pose.items():
+        pose, given_pose = self.plates.pose, self.given.pose
+        positions = relations(self.given.scene, next(iter(self.given)).view)
+        free = positions.free if positions else []
+        self.ways = positions.slide_ranges if positions else {}
+        if positions:
+            linkage = GeoGebraLinkage(positions, self.objects, self.by_name)
+            self.placed = linkage.enter(lambda name: self._point(pose[name], given_pose[name].spot))
+        for name, mark in pose.items():
             if name not in free:
-                if found:
-                    self.objects.expression(self.names[drawn], "({}, {})".format(*self.placed.points[name]),
+                if positions:
+                    self.objects.expression(self.names[mark], "({}, {})".format(*self.placed.points[name]),
                                             type="point")
-                element = self._point(drawn, given[name].spot)
-                empty(element, "fixed", val=not found)
+                element = self._point(mark, given_pose[name].spot)
+                empty(element, "fixed", val=not positions)
 
     def _point(self, drawn: DrawnStep, at: Spot | None = None) -> Element:
         """A mark's element, at its place in the given pose."""
         label, point = self.names[drawn], drawn.kind == POINT
         letter = self._letter_of(drawn) if point else None
-        shown = bool(letter) or (point and drawn.view.rect.holds(drawn.spot))
+        is_visible = bool(letter) or (point and drawn.view.rect.holds(drawn.spot))
         pen = pens.ARC if not point else pens.PAIR if not drawn.number else pens.ORIGIN if drawn.free else pens.DOT
-        element = self.objects.element(TYPES[drawn.kind], label, shown, bool(letter), pen, POINTS if point else CURVES)
+        element = self.objects.element(TYPES[drawn.kind], label, is_visible, bool(letter), pen, POINTS if point
+                                       else CURVES)
         if point:
-            x, y = at or self._stated(drawn)
+            x, y = at or self._given_spot(drawn)
             empty(element, "coords", x=x, y=y, z=1.0)
             empty(element, "pointSize", val=3 if drawn.name else 1)
             empty(element, "pointStyle", val=0)
         if drawn.kind == OPENING:
             empty(element, "value", val=drawn.radius)
         if letter and label != letters(drawn.name):
-            lettered(element, letters(drawn.name))
+            show_caption(element, letters(drawn.name))
         else:
             empty(element, "caption", val=drawn.sentence)
         if letter:
@@ -247,18 +259,18 @@ class _GeoGebraWriter(Elements):
     @cached_property
     def _letters(self) -> dict[DrawnStep, Letter]:
         """The letters of points, by point."""
-        found: dict[DrawnStep, Letter] = {}
+        letters: dict[DrawnStep, Letter] = {}
         for plate in self.plates:
             for letter in self.letters(plate):
-                found.setdefault(letter.mark, letter)
-        return {drawn: found.get(drawn) or Letter.beside(drawn) for drawn in self.plates.all_marks
-                if drawn.name and drawn.kind == POINT}
+                letters.setdefault(letter.mark, letter)
+        return {mark: letters.get(mark) or Letter.above_right(mark) for mark in self.plates.all_marks
+                if mark.name and mark.kind == POINT}
 
-    def _stated(self, drawn: DrawnStep) -> Spot:
+    def _given_spot(self, drawn: DrawnStep) -> Spot:
         """Where a mark lies in the given pose, for readers that take a file as it stands."""
         if self.plates is self.given or not drawn.number:
             return drawn.spot
-        x, y = (float(np.ravel(part)[0]) for part in self._in_given_pose[drawn.index][:2])
+        x, y = (float(np.ravel(coordinate)[0]) for coordinate in self._in_given_pose[drawn.index][:2])
         return drawn.view((x, y)) if math.isfinite(x) and math.isfinite(y) else drawn.spot
 
     @cached_property
@@ -266,17 +278,18 @@ class _GeoGebraWriter(Elements):
         """The values of the drawn steps in the given pose, where they are drawn in another one."""
         scene = self.given.scene
         points = {name: np.array([complex(float(x), float(y))]) for name, (x, y) in scene.points.items()}
-        guides = {one.name: np.array([complex(*map(float, one.direction))]) for one in scene.slides
-                  if one.through is None}
+        guides = {slide.name: np.array([complex(*map(float, slide.direction))]) for slide in scene.slides
+                  if slide.through is None}
         return corrected_values(self.plates.plans.drawing, ReachablePoses(points, guides), self.wrong)
 
     def _mark(self, drawn: DrawnStep) -> None:
         if not drawn.free:
             wrong = self.wrong.get(drawn.index)
             if wrong:
-                terms, name, inputs = ruled(self._whole(drawn, wrong.compound), self.names, wrong.against)
+                terms, name, inputs = formula_command(self._compound_mark(drawn, wrong.compound), self.names,
+                                                      wrong.against)
             else:
-                terms, name, inputs = written(drawn, self.names, self.placed.guides)
+                terms, name, inputs = command_of(drawn, self.names, self.placed.guides)
             for term, text in terms:
                 self.objects.numeric(term, text)
             if name:
@@ -285,7 +298,7 @@ class _GeoGebraWriter(Elements):
                 self.objects.expression(self.names[drawn], inputs[0], type=TYPES[drawn.kind])
         self._point(drawn)
 
-    def _whole(self, drawn: DrawnStep, compound: Compound) -> DrawnStep:
+    def _compound_mark(self, drawn: DrawnStep, compound: Compound) -> DrawnStep:
         """The mark of a compound as one step from what the compound reads."""
         step = compound.step
         return replace(drawn, step=step, args=tuple(self.plates.steps[arg] for arg in step.args))
@@ -294,9 +307,9 @@ class _GeoGebraWriter(Elements):
 
     def _stroke(self, stroke: Stroke) -> None:
         """A stroke or a vector between its marks, or parts of the way; a vector that is asked for with its value."""
-        letter = (stroke.letter or stroke.of.name) if stroke in self.lettered and not stroke.vector else ""
+        letter = (stroke.letter or stroke.of.name) if stroke in self.lettered_strokes and not stroke.vector else ""
         kind, layer = ("vector", VECTORS) if stroke.head else ("segment", CURVES)
-        self.objects.drawn(kind, kind.capitalize(), self.ends(stroke), stroke.pen, layer, letter)
+        self.objects.add_shape(kind, kind.capitalize(), self.ends(stroke), stroke.pen, layer, letter)
         if stroke.vector:
             self._value(stroke, f"vector_{{{self.objects.count}}}")
 
@@ -304,17 +317,18 @@ class _GeoGebraWriter(Elements):
         """How large a vector is, beside its middle, in the scene's units."""
         assert stroke.vector is not None
         kind, panel, units = stroke.vector.kind, stroke.vector.panel, self.plates.scene.units
-        own = scales(self.plates)
+        panel_scales = scales(self.plates)
         if kind in VELOCITIES:
-            each, of = own.speed(panel), f"{units.length}/s"
+            each, of = panel_scales.speed(panel), f"{units.length}/s"
         elif kind in ACCELERATIONS:
-            each, of = own.acceleration(panel), f"{units.length}/s²"
+            each, of = panel_scales.acceleration(panel), f"{units.length}/s²"
         elif kind in FORCES:
-            each, of = own.force(panel), units.force
+            each, of = panel_scales.force(panel), units.force
         else:
             return
-        what = f"{stroke.vector.label[:1]}_{stroke.vector.point}" if kind in RATES else stroke.vector.label
-        text = f"{quoted(f'{what} = ')} + ({number(each)} * Length[{label}]) + {quoted(' ' + self.say(unit(of)))}"
+        symbol = f"{stroke.vector.label[:1]}_{stroke.vector.point}" if kind in RATES else stroke.vector.label
+        beginning, written_unit = quote_text(f"{symbol} = "), quote_text(" " + self.say(unit(of)))
+        text = f"{beginning} + ({number(each)} * Length[{label}]) + {written_unit}"
         start, end = (self.names[mark] for mark in (stroke.start, stroke.end))
         self.objects.text("value", text, f"Midpoint[{start}, {end}]", stroke.pen)
 
@@ -322,25 +336,25 @@ class _GeoGebraWriter(Elements):
         """As much of a circle as serves its mark."""
         centre, mark = f"Center[{self.names[arc.of]}]", self.names[arc.mark]
         turns = (f"Rotate[{mark}, {number(turn)}°, {centre}]" for turn in (-arc.before, arc.after))
-        self.objects.drawn("conicpart", "CircleArc", [centre, *turns], pens.ARC, CURVES)
+        self.objects.add_shape("conicpart", "CircleArc", [centre, *turns], pens.ARC, CURVES)
 
     def _mechanism(self, plate: Plate) -> None:
         """The paths of points as they lie, and the mechanism, which rides on its points and links."""
         self.objects.shown_if = self._plan_box[plate.panel]
-        for item, part in self.riding(plate, self.ways):
+        for item, carrier in self.riding(plate, self.ways):
             if not isinstance(item, Circle) and item.pen != pens.HOLLOW:
                 self._shape(pens.LINK if item.pen == pens.BAR else item.pen, corners(item), isinstance(item, Polygon),
-                            part)
+                            carrier)
         self.objects.shown_if = ""
 
     def _shape(self, pen: Pen, spots: Sequence[Spot], closed: bool, part: Riding) -> None:
         """A shape of the mechanism; only plates are filled."""
-        places = [self._riding(one, part) for one in spots]
+        places = [self._riding(spot, part) for spot in spots]
         if pen == pens.PLATE:
-            self.objects.drawn("polygon", "Polygon", places, pens.LINK, LINKS)
+            self.objects.add_shape("polygon", "Polygon", places, pens.LINK, LINKS)
             return
         for ends in pairwise([*places, *places[:closed]]):
-            self.objects.drawn("segment", "Segment", ends, pen, LINKS)
+            self.objects.add_shape("segment", "Segment", ends, pen, LINKS)
 
     def _riding(self, at: Spot, part: Riding) -> str:
         """A corner on its joint, else carried by what it rides on; or as it lies."""
@@ -350,7 +364,8 @@ class _GeoGebraWriter(Elements):
             return spot(*at)
         point = min(part.points, key=lambda name: math.dist(self.given.pose[name].spot, at))
         carrier, name = self.given.pose[point], self.by_name[point]
-        x, y = (number(round(one - other, 6)) for one, other in zip(at, carrier.spot, strict=True))
+        x, y = (number(round(coordinate - carrier_coordinate, 6)) for coordinate,
+                carrier_coordinate in zip(at, carrier.spot, strict=True))
         if part.link not in self.placed.turns:
             return f"{name} + ({x}, {y})"
         cos, sin = self.placed.turns[part.link]
@@ -359,7 +374,7 @@ class _GeoGebraWriter(Elements):
     def _caption(self, plate: Plate) -> None:
         """What a plan is, at the top of its window, and its scales."""
         rect = plate.view.rect
-        self.objects.text("caption", quoted(plate.caption), spot(rect.left, rect.top), bold=True)
-        told = scales(self.plates).scale_texts(plate.panel, self.plates.plans.kinds(plate.panel))
-        if told:
-            self.objects.text("scale", quoted(self.say(join(told, ",  "))), spot(rect.left, rect.top - 5))
+        self.objects.text("caption", quote_text(plate.caption), spot(rect.left, rect.top), bold=True)
+        texts = scales(self.plates).scale_texts(plate.panel, self.plates.plans.kinds(plate.panel))
+        if texts:
+            self.objects.text("scale", quote_text(self.say(join(texts, ",  "))), spot(rect.left, rect.top - 5))

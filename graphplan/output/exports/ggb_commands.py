@@ -65,7 +65,7 @@ RESULTS = {
 }
 
 
-def written(drawn: DrawnStep, labels: Mapping[DrawnStep, str],
+def command_of(drawn: DrawnStep, labels: Mapping[DrawnStep, str],
             guides: Mapping[str, tuple[str, str]]) -> tuple[Terms, str, list[str]]:
     """The numbers that a mark needs, by label, and its command with its inputs; without a name an expression.
 
@@ -74,24 +74,25 @@ def written(drawn: DrawnStep, labels: Mapping[DrawnStep, str],
     movement = drawn.step.op.movement
     if movement in COMMANDS:
         name, *inputs = COMMANDS[movement]
-        told = {name: number(value) for name, value in parameters(drawn).items()}
+        numbers = {name: number(value) for name, value in parameters(drawn).items()}
         for place, arg in enumerate(drawn.args):
             if arg.kind == CIRCLE:
-                told[f"centre{place}"], told[f"radius{place}"] = _circle(arg, labels)
-        told["sign"] = "-" if turned_back(drawn) else ""
+                numbers[f"centre{place}"], numbers[f"radius{place}"] = _circle(arg, labels)
+        numbers["sign"] = "-" if turned_back(drawn) else ""
         if movement is Movement.GUIDED and (guide := guides.get(" along ".join(drawn.step.links))):
-            told["dx"], told["dy"] = guide
-        return (), name, [text.format(*(labels[arg] for arg in drawn.args), **told) for text in inputs]
-    return ruled(drawn, labels)
+            numbers["dx"], numbers["dy"] = guide
+        return (), name, [text.format(*(labels[arg] for arg in drawn.args), **numbers) for text in inputs]
+    return formula_command(drawn, labels)
 
 
-def ruled(drawn: DrawnStep, labels: Mapping[DrawnStep, str], against: bool = False) -> tuple[Terms, str, list[str]]:
+def formula_command(drawn: DrawnStep, labels: Mapping[DrawnStep, str], against: bool = False) -> tuple[Terms, str,
+                                                                                                       list[str]]:
     """The same by the formula of the rule; of a line, turned round where it is drawn `against` its rule."""
     read = [_coordinates(arg, labels) for arg in drawn.args]
-    found = formula(drawn, read, LANGUAGE, f"number{drawn.index}n", DEEPEST)
+    expression = formula(drawn, read, LANGUAGE, f"number{drawn.index}n", DEEPEST)
     name, texts = RESULTS[drawn.kind]
-    results = [f"(-{text})" if against and place > 1 else text for place, text in enumerate(found.results)]
-    return found.terms, name, [text.format(*results) for text in texts]
+    results = [f"(-{text})" if against and place > 1 else text for place, text in enumerate(expression.results)]
+    return expression.terms, name, [text.format(*results) for text in texts]
 
 
 def _circle(circle: DrawnStep, labels: Mapping[DrawnStep, str]) -> tuple[str, str]:
@@ -128,11 +129,11 @@ def letters(name: str) -> str:
 
 def labels(plates: Plates) -> dict[DrawnStep, str]:
     """The label of every mark: its letters where GeoGebra allows them, else its kind and place."""
-    found: dict[DrawnStep, str] = {}
+    names: dict[DrawnStep, str] = {}
     taken = set(RESERVED)
-    for place, drawn in enumerate(plates.all_marks):
-        letter = letters(drawn.name)
+    for place, mark in enumerate(plates.all_marks):
+        letter = letters(mark.name)
         fits = LABEL.fullmatch(letter) and not letter.startswith(TAKEN) and letter not in taken
-        found[drawn] = letter if fits else f"{drawn.kind}_{{{place}}}"
-        taken.add(found[drawn])
-    return found
+        names[mark] = letter if fits else f"{mark.kind}_{{{place}}}"
+        taken.add(names[mark])
+    return names

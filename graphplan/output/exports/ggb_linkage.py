@@ -17,7 +17,7 @@ from graphplan.cycle.relations import WrittenRelations as WrittenRelations
 from graphplan.mechanism.model import FRAME, Drive
 from graphplan.mechanism.travel import sense
 from graphplan.output.exports.ggb_commands import DEEPEST, LANGUAGE, number
-from graphplan.output.exports.ggb_xml import CURVES, POINTS, Objects, empty, lettered
+from graphplan.output.exports.ggb_xml import CURVES, POINTS, Objects, empty, show_caption
 from graphplan.phrases import digits
 from graphplan.sheet.plates import pens
 
@@ -40,7 +40,7 @@ def handle(k: int) -> str:
     return f"handle_{{{k + 1}}}"
 
 
-class Linkage:
+class GeoGebraLinkage:
     """Enters a linkage among the objects; `labels` say what the points of the scene are called."""
 
     def __init__(self, relations: Relations, objects: Objects, labels: Mapping[str, str]):
@@ -55,7 +55,7 @@ class Linkage:
         for name in self.relations.free:
             inputs |= {f"x {name}": f"x({self.labels[name]})", f"y {name}": f"y({self.labels[name]})"}
         for k, drive in enumerate(self.scene.drives):
-            inputs |= dict(self._driven(k, drive))
+            inputs |= dict(self._drive_inputs(k, drive))
         inputs |= dict(self._states())
         return self._numbers(self.relations.write(LANGUAGE, inputs, "place", DEEPEST))
 
@@ -70,7 +70,7 @@ class Linkage:
 
     # ---- drives ----------------------------------------------------------------------------------------------------
 
-    def _driven(self, k: int, drive: Drive) -> Iterator[tuple[str, str]]:
+    def _drive_inputs(self, k: int, drive: Drive) -> Iterator[tuple[str, str]]:
         """The inputs that a drive gives: its slider's and its handle's shift together."""
         scale, gone = self.relations.view.scale, in_sense(drive, slider(k))
         self._slider(k, drive)
@@ -79,9 +79,9 @@ class Linkage:
             return
         turned = self._handle(k, drive)
         shift = self.objects.numeric(f"travel_{{{k + 1}}}", f"{gone} + {turned}" if turned else gone)
-        for part in ("cos", "sin"):
-            yield f"{part} {k}", self.objects.numeric(f"{part}travel_{{{k + 1}}}".replace("travel", "drive"),
-                                                      f"{part}({shift}°)")
+        for function in ("cos", "sin"):
+            yield f"{function} {k}", self.objects.numeric(f"{function}travel_{{{k + 1}}}".replace("travel", "drive"),
+                                                      f"{function}({shift}°)")
         if f"shift {k}" in self.relations.used_inputs:  # where it is counted how far links have turned in all
             within = in_sense(drive, self._round(in_sense(drive, shift), k))
             yield f"shift {k}", self.objects.numeric(f"turned_{{{k + 1}}}", f"({within})°")
@@ -99,7 +99,7 @@ class Linkage:
         low, high = self._limits(k, drive)
         empty(element, "value", val=0.0)
         sign, unit = ("s", f" {self.scene.units.length}") if drive.slides else ("φ", "°")
-        lettered(element, f"{sign}_{{{drive.link}}} = %v{unit}")
+        show_caption(element, f"{sign}_{{{drive.link}}} = %v{unit}")
         empty(element, "slider", min=low, max=high, absoluteScreenLocation=True, width=SLIDER, x=20, y=40 + ROW * k,
               fixed=True, horizontal=True, showAlgebra=True)
         whole = high - low > 359.0 and not drive.slides
@@ -115,7 +115,8 @@ class Linkage:
             return ""
         arm, pivot = self.places[pins[0]] - self.places[pivots[0]], self.labels[pivots[0]]
         x, y, angle = number(arm.real), number(arm.imag), f"{in_sense(drive, slider(k))}°"
-        begin = self.objects.hidden(self.objects.label("pin"), f"{pivot} + ({x} * cos({angle}) - {y} * sin({angle}), "
+        begin = self.objects.add_hidden_point(self.objects.label("pin"),
+                                              f"{pivot} + ({x} * cos({angle}) - {y} * sin({angle}), "
                                                                f"{x} * sin({angle}) + {y} * cos({angle}))")
         orbit = f"orbit_{{{k + 1}}}"
         self.objects.command("CircleArc", [pivot, begin, f"Rotate[{begin}, {ROUND}°, {pivot}]"], [orbit])
@@ -141,16 +142,16 @@ class Linkage:
 
     def _states(self) -> Iterator[tuple[str, str]]:
         """The inputs of states: straight between the knots around the first drive's travel."""
-        knots, asked = self.relations.knots, self.relations.used_inputs
-        states = sorted({int(name.split()[-1]) for name in asked if "state" in name})
+        knots, used_inputs = self.relations.knots, self.relations.used_inputs
+        states = sorted({int(name.split()[-1]) for name in used_inputs if "state" in name})
         if knots is None:
             yield from chain.from_iterable(((f"cos state {i}", "1"), (f"sin state {i}", "0"), (f"state {i}", "0"))
                                            for i in states)
             return
         travel = self._round(in_sense(self.scene.drives[0], "travel_{1}"), 0)
         unit = 1.0 if self.scene.drives[0].slides else math.radians(1.0)
-        part = f"({travel} - {number(knots.low / unit)}) / {number((knots.high - knots.low) / unit)}"
-        done = self.objects.numeric("knot_{1}", f"Min[1, Max[0, {part}]]")
+        share = f"({travel} - {number(knots.low / unit)}) / {number((knots.high - knots.low) / unit)}"
+        done = self.objects.numeric("knot_{1}", f"Min[1, Max[0, {share}]]")
         far = self.objects.numeric("knot_{2}", f"{number(KNOT_SPANS / math.pi)} * acos(1 - 2 * {done})")
         k = self.objects.numeric("knot_{3}", f"Min[{KNOT_SPANS}, floor({far}) + 1]")
         for i in states:
@@ -160,6 +161,6 @@ class Linkage:
             before, after = (f"Element[{values}, {place}]" for place in (k, f"{k} + 1"))
             state = self.objects.numeric(f"state_{{{i}}}", f"{before} + ({far} - {k} + 1) * ({after} - {before})")
             for name, text in ((f"cos state {i}", f"cos({state})"), (f"sin state {i}", f"sin({state})")):
-                if name in asked:
+                if name in used_inputs:
                     yield name, self.objects.numeric(f"{name[:3]}state_{{{i}}}".replace("state", "knot"), text)
             yield f"state {i}", state

@@ -40,13 +40,14 @@ class Objects:
         self.element("numeric", label, False, False, pens.THIN, CURVES)
         return label
 
-    def hidden(self, label: str, text: str) -> str:
+    def add_hidden_point(self, label: str, text: str) -> str:
         """A point that nobody sees."""
         self.expression(label, text, type="point")
         self.element("point", label, False, False, pens.THIN, CURVES)
         return label
 
-    def drawn(self, kind: str, command: str, inputs: Sequence[str], pen: Pen, layer: int, letter: str = "") -> Element:
+    def add_shape(self, kind: str, command: str, inputs: Sequence[str], pen: Pen, layer: int,
+                  letter: str = "") -> Element:
         """What is seen of marks: a shape by its command."""
         label = self.label(OWN[kind])
         sides = [f"side_{{{self.count},{i}}}" for i in range(len(inputs))] if kind == "polygon" else []
@@ -55,7 +56,7 @@ class Objects:
         for side in sides:
             self.element("segment", side, False, False, pen, layer)
         if letter:
-            lettered(element, letters(letter))
+            show_caption(element, letters(letter))
         return element
 
     def text(self, begins: str, exp: str, at: str, pen: Pen = pens.LETTERS, bold: bool = False) -> Element:
@@ -80,7 +81,7 @@ class Objects:
         """A box that is checked."""
         element = self.element("boolean", label, True, True, pens.LETTERS, POINTS)
         empty(element, "value", val=True)
-        lettered(element, caption)
+        show_caption(element, caption)
         empty(element, "labelOffset", x=x, y=y)
         empty(element, "checkbox", fixed=True)
 
@@ -100,14 +101,14 @@ class Objects:
         return element
 
 
-def lettered(element: Element, caption: str, mode: int = CAPTION) -> None:
+def show_caption(element: Element, caption: str, mode: int = CAPTION) -> None:
     """Show a caption as the label of an object that is called otherwise."""
-    for found in element.iter("labelMode"):
-        found.set("val", str(mode))
+    for mode_element in element.iter("labelMode"):
+        mode_element.set("val", str(mode))
     empty(element, "caption", val=caption)
 
 
-def quoted(words: str) -> str:
+def quote_text(words: str) -> str:
     """Words as a text of GeoGebra, which has no way to say its quotation mark."""
     return '"' + words.replace('"', "”") + '"'
 
@@ -119,8 +120,8 @@ def spot(x: float, y: float) -> str:
 
 def empty(parent: Element, name: str, **attributes: object) -> Element:
     """An element with nothing but attributes."""
-    return SubElement(parent, name, {key: _said(value) for key, value in attributes.items()})
+    return SubElement(parent, name, {key: _xml_value(value) for key, value in attributes.items()})
 
 
-def _said(value: object) -> str:
+def _xml_value(value: object) -> str:
     return str(value).lower() if isinstance(value, bool) else repr(value) if isinstance(value, float) else str(value)

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 
 from graphplan.output.exports import latex
 from graphplan.output.exports.latex import lettering
-from graphplan.output.svg import parted, rounded
+from graphplan.output.svg import round_mm, split_groups
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import Pen
 from graphplan.words.tongue import tongue
@@ -24,14 +24,15 @@ def sheet_tikz(sheet: Sheet) -> str:
     say = tongue(sheet.language)
     lines = [rf"\begin{{tikzpicture}}{PICTURE}", *_colours(sheet.items),
              rf"\useasboundingbox (0,0) rectangle {_spot((sheet.width, sheet.height))};"]
-    for step, items in parted(sheet):
+    for step, items in split_groups(sheet):
         lines.append(f"% {step + 1 - sheet.givens}: {sheet.sentences[step]}" if isinstance(step, int) else f"% {step}")
-        lines += [line for item in items for line in _drawn(item)]
+        lines += [line for item in items for line in _draw_item(item)]
     picture = latex.standalone([*lines, r"\end{tikzpicture}"], say.code, latex.PACKAGES)
-    return "\n".join([*latex.told([sheet.title, sheet.description], say, latex.PACKAGES, bare=False), *picture]) + "\n"
+    return "\n".join([*latex.head_lines([sheet.title, sheet.description], say, latex.PACKAGES, bare=False),
+                      *picture]) + "\n"
 
 
-def _drawn(item: Item) -> Iterator[str]:
+def _draw_item(item: Item) -> Iterator[str]:
     """An item as commands."""
     look = _look(item.pen)
     match item:
@@ -40,10 +41,10 @@ def _drawn(item: Item) -> Iterator[str]:
         case Polygon():
             yield rf"\path[{look}] {_chain(item.spots)} -- cycle;"
         case Circle():
-            yield rf"\path[{look}] {_spot(item.centre)} circle[radius={rounded(item.radius)}];"
+            yield rf"\path[{look}] {_spot(item.centre)} circle[radius={round_mm(item.radius)}];"
         case Arc():
-            yield (rf"\draw[{look}] {_spot(item.spot_at(item.start))} arc[start angle={rounded(item.start)}, "
-                   rf"end angle={rounded(item.end)}, radius={rounded(item.radius)}];")
+            yield (rf"\draw[{look}] {_spot(item.spot_at(item.start))} arc[start angle={round_mm(item.start)}, "
+                   rf"end angle={round_mm(item.end)}, radius={round_mm(item.radius)}];")
         case Arrow():
             for ends in item.shaft:
                 yield rf"\draw[{_look(item.pen.with_fill('none'))}] {_chain(ends)};"
@@ -60,11 +61,11 @@ def _drawn(item: Item) -> Iterator[str]:
 
 def _look(pen: Pen) -> str:
     """The options of what a pen draws."""
-    parts = [f"draw={_colour(pen.colour)}", f"line width={pen.width:g}mm"] if pen.width else ["draw=none"]
+    options = [f"draw={_colour(pen.colour)}", f"line width={pen.width:g}mm"] if pen.width else ["draw=none"]
     if pen.dash:
-        parts.append("dash pattern=" + " ".join(f"{'off' if k % 2 else 'on'} {part:g}mm"
-                                                for k, part in enumerate(pen.dash)))
-    return ", ".join([*parts, f"fill={_colour(pen.fill)}"] if pen.fill != "none" else parts)
+        options.append("dash pattern=" + " ".join(f"{'off' if k % 2 else 'on'} {stretch:g}mm"
+                                                for k, stretch in enumerate(pen.dash)))
+    return ", ".join([*options, f"fill={_colour(pen.fill)}"] if pen.fill != "none" else options)
 
 
 def _colour(colour: str) -> str:
@@ -74,8 +75,8 @@ def _colour(colour: str) -> str:
 
 def _colours(items: Iterable[Item]) -> Iterator[str]:
     """The colours that the style of constructions does not know."""
-    found = {colour for item in items for colour in (item.pen.colour, item.pen.fill) if colour.startswith("#")}
-    for colour in sorted(found - latex.COLOURS.keys()):
+    colours = {colour for item in items for colour in (item.pen.colour, item.pen.fill) if colour.startswith("#")}
+    for colour in sorted(colours - latex.COLOURS.keys()):
         yield rf"\definecolor{{{_colour(colour)}}}{{HTML}}{{{colour[1:].upper()}}}"
 
 
@@ -84,4 +85,4 @@ def _chain(spots: Iterable[Spot]) -> str:
 
 
 def _spot(at: Spot) -> str:
-    return f"({rounded(at[0])},{rounded(at[1])})"
+    return f"({round_mm(at[0])},{round_mm(at[1])})"

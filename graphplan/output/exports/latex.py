@@ -62,13 +62,13 @@ EXACTLY = r"""% Where two lines meet, with the sixteen digits of \fpeval: with f
 
 def style() -> str:
     """The colours and styles of all pictures, by what they are of."""
-    found = [rf"\definecolor{{{name}}}{{HTML}}{{{colour[1:].upper()}}}" for colour, name in COLOURS.items()]
-    found += [r"\tikzset{graphplan/.default=1mm, graphplan/.code={\graphplanmm=\fpeval{#1}pt\relax",
+    lines = [rf"\definecolor{{{name}}}{{HTML}}{{{colour[1:].upper()}}}" for colour, name in COLOURS.items()]
+    lines += [r"\tikzset{graphplan/.default=1mm, graphplan/.code={\graphplanmm=\fpeval{#1}pt\relax",
               r"  \let\pgfpointintersectionoflines\graphplanmeeting \pgfkeysalso{graphplan styles}},",
               r"  graphplan styles/.style={x=\graphplanmm, y=\graphplanmm, line cap=round, line join=round,"]
-    found += [f"  {line}," for line in (*_heads(), *_letters(), *(f"{name}/.style={{{_look(pen)}}}"
+    lines += [f"  {line}," for line in (*_heads(), *_letters(), *(f"{name}/.style={{{_look(pen)}}}"
                                                                   for name, pen in STYLES.items()))]
-    return EXACTLY + "\n".join([*found, "}}"]) + "\n"
+    return EXACTLY + "\n".join([*lines, "}}"]) + "\n"
 
 
 def package() -> str:
@@ -79,15 +79,15 @@ def package() -> str:
 
 
 def _look(pen: Pen) -> str:
-    dashes = " ".join(rf"{'off' if i % 2 else 'on'} {part:g}\graphplanmm" for i, part in enumerate(pen.dash))
-    look = [rf"draw={COLOURS.get(pen.colour) or _mixed(pen.colour)}, line width={pen.width:g}\graphplanmm"
+    dashes = " ".join(rf"{'off' if i % 2 else 'on'} {stretch:g}\graphplanmm" for i, stretch in enumerate(pen.dash))
+    look = [rf"draw={COLOURS.get(pen.colour) or _grey_as_black(pen.colour)}, line width={pen.width:g}\graphplanmm"
             if pen.width else "draw=none"]  # fmt: skip
     look += [f"dash pattern={dashes}"] if dashes else []
     look += [f"fill={COLOURS[pen.fill]}"] if pen.fill != "none" else []
     return ", ".join(look)
 
 
-def _mixed(grey: str) -> str:
+def _grey_as_black(grey: str) -> str:
     """A grey as so much black."""
     return f"black!{100 - 100 * pens.rgb(grey)[0] / 255:.0f}"
 
@@ -113,14 +113,14 @@ def _letters() -> Iterator[str]:
     yield rf"caption/.style={{inner sep=0pt, outer sep=0pt, anchor=north west, align=left, {_font('##1')}}}"
     yield rf"heading/.style={{caption=##1, {_font('##1', BOLD)}}}"
     for name, sizes in (("", SMALL_SHEET), ("large sheet", LARGE_SHEET)):
-        known = [f"size of {what}/.style={{{_font(size, high=True)}}}"
+        styles = [f"size of {what}/.style={{{_font(size, high=True)}}}"
                  for what, size in (("letters", points(sizes.mark)), ("numbers", points(sizes.text)))]
-        yield f"{name}/.style={{{', '.join(known)}}}" if name else ", ".join(known)
+        yield f"{name}/.style={{{', '.join(styles)}}}" if name else ", ".join(styles)
 
 
 def _font(size: float | str, series: str = "", high: bool = False) -> str:
-    told = rf"font={series}\fontsize{{{size}}}{{{size}}}\selectfont"
-    return f"{told}, text height={0.69 * float(size):.2f}pt" if high else told
+    command = rf"font={series}\fontsize{{{size}}}{{{size}}}\selectfont"
+    return f"{command}, text height={0.69 * float(size):.2f}pt" if high else command
 
 
 def points(mm: float) -> float:
@@ -131,11 +131,11 @@ def points(mm: float) -> float:
 # ---- documents -----------------------------------------------------------------------------------------------------
 
 
-def told(lines: Iterable[str], say: Tongue, packages: Sequence[str], bare: bool) -> list[str]:
+def head_lines(lines: Iterable[str], say: Tongue, packages: Sequence[str], bare: bool) -> list[str]:
     """The first lines of a file, in comments: what it is, and what it needs."""
     needs = said("LaTeX: packages {0}; by pdflatex, lualatex or xelatex", ", ".join(packages))
-    here = [rf"\usepackage{{{STYLE}}}"] if bare else []
-    return [f"% {line}" for text in (*lines, say(needs), *here) for line in text.splitlines()]
+    style_line = [rf"\usepackage{{{STYLE}}}"] if bare else []
+    return [f"% {line}" for text in (*lines, say(needs), *style_line) for line in text.splitlines()]
 
 
 def standalone(picture: Sequence[str], code: str, packages: Sequence[str]) -> list[str]:
@@ -186,14 +186,14 @@ AMONG_WORDS = re.compile(r"(?<!\w)(?:[A-Zα-ωΑ-Ω]\d*|[A-Z]{2})[′″']*(?![\
 LAST = re.compile(rf"(?:{LETTERED}|\w+)(?:\(\w+\))?[′″']*$")
 
 
-def formulated(runs: Runs) -> str:
+def formula_of_runs(runs: Runs) -> str:
     """Lettering as a formula: subscripts in braces, Greek letters by name."""
     return "".join(_level(run) or _formula(run.text.strip()) for run in runs)
 
 
 def lettering(runs: Runs, bold: bool = False, words: bool = False) -> str:
     """Lettering as LaTeX sets it: names as formulas, other words, or all that have no index, as they are."""
-    found, place = "", 0
+    text, place = "", 0
     while place < len(runs):
         level, after = runs[place].text if not runs[place].level else "", place + (not runs[place].level)
         levels = []
@@ -201,20 +201,20 @@ def lettering(runs: Runs, bold: bool = False, words: bool = False) -> str:
             levels.append(_level(runs[after]))
             after += 1
         base = LAST.search(level) if levels else None
-        found += _words(level[: base.start()] if base else level, bold or words)
-        found += f"${_formula(base[0] if base else '')}{''.join(levels)}$" if levels else ""
+        text += _words(level[: base.start()] if base else level, bold or words)
+        text += f"${_formula(base[0] if base else '')}{''.join(levels)}$" if levels else ""
         place = after
-    return rf"\textbf{{{found}}}" if bold else found
+    return rf"\textbf{{{text}}}" if bold else text
 
 
 def equation(told: Equation) -> str:
     """An equation with its vectors underlined as often as is known of them."""
-    found, done = "", 0
+    text, done = "", 0
     for start, end, times in told.underlines:
         vector = lettering(equation_runs(told.text[start:end]))
-        found += lettering(equation_runs(told.text[done:start])) + r"\underline{" * times + vector + "}" * times
+        text += lettering(equation_runs(told.text[done:start])) + r"\underline{" * times + vector + "}" * times
         done = end
-    return found + lettering(equation_runs(told.text[done:]))
+    return text + lettering(equation_runs(told.text[done:]))
 
 
 def _level(run: TextRun) -> str:
@@ -224,26 +224,27 @@ def _level(run: TextRun) -> str:
 
 def _formula(text: str) -> str:
     """Text inside a formula."""
-    told = re.sub("[⁰¹²³⁴-⁹⁻ⁿ]+", lambda found: f"^{{{found[0].translate(RAISED)}}}", text)
-    told = "".join(SIGNS.get(char) or SPECIAL.get(char, char) if char not in "^{}" else char for char in told)
-    return told.strip() if told.isascii() else rf"\text{{{text}}}"
+    formula_text = re.sub("[⁰¹²³⁴-⁹⁻ⁿ]+", lambda found: f"^{{{found[0].translate(RAISED)}}}", text)
+    formula_text = "".join(SIGNS.get(char) or SPECIAL.get(char, char) if char not in "^{}" else char
+                           for char in formula_text)
+    return formula_text.strip() if formula_text.isascii() else rf"\text{{{text}}}"
 
 
 def _words(words: str, nameless: bool) -> str:
     """Words with the names in them, if there are any, as formulas, and the characters escaped that are commands."""
-    found, done = "", 0
+    text, done = "", 0
     names = AMONG_WORDS if re.search(r"[^\W\d]{2}", words) else NAME
     for name in () if nameless else names.finditer(words):
-        found += spelled(words[done : name.start()]) + f"${_formula(name[0])}$"
+        text += escape_words(words[done : name.start()]) + f"${_formula(name[0])}$"
         done = name.end()
-    return found + spelled(words[done:])
+    return text + escape_words(words[done:])
 
 
-def spelled(words: str) -> str:
+def escape_words(words: str) -> str:
     """Words with the characters escaped that LaTeX would take for commands, or has in formulas alone."""
-    told = re.split("([⁰¹²³⁴-⁹⁻ⁿ]+)", words)
-    return "".join(f"${_formula(part)}$" if place % 2 else "".join(map(_character, part))
-                   for place, part in enumerate(told))  # fmt: skip
+    pieces = re.split("([⁰¹²³⁴-⁹⁻ⁿ]+)", words)
+    return "".join(f"${_formula(piece)}$" if place % 2 else "".join(map(_character, piece))
+                   for place, piece in enumerate(pieces))  # fmt: skip
 
 
 def _character(char: str) -> str:

@@ -31,42 +31,44 @@ class Slides:
         return dict(enumerate(Protocol(self.composition.plans, self.composition.scales).passages, 2))
 
     @property
-    def last(self) -> int:
+    def last_slide(self) -> int:
         """The slide with everything."""
         return len(self.passages) + 2
 
     @cached_property
-    def of(self) -> Mapping[int, int]:
+    def slide_of_step(self) -> Mapping[int, int]:
         """By step the slide on which it is drawn."""
-        return {one.index: number for number, passage in self.passages.items()
-                for entry in passage.entries for one in entry.movements}  # fmt: skip
+        return {movement.index: number for number, passage in self.passages.items()
+                for entry in passage.entries for movement in entry.movements}  # fmt: skip
 
     def showing(self, panel: str) -> str:
         """The slides that show a plan alone."""
         first = [1] if panel == self.composition.plans.panels[0] else []
-        return ",".join(map(str, [*first, *(slide for slide, one in self.passages.items() if one.plan == panel)]))
+        return ",".join(map(str,
+                            [*first, *(slide for slide, passage in self.passages.items() if passage.plan == panel)]))
 
     def frame(self, picture: Sequence[str]) -> list[str]:
         """All slides, with the picture."""
         scene = self.composition.plates.scene
-        titles = {1: scene.title, self.last: scene.title}
+        titles = {1: scene.title, self.last_slide: scene.title}
         words = {1: lettering(sentence_runs(scene.source), words=True)}
         for slide, passage in self.passages.items():
-            titles[slide], words[slide] = passage.title or passage.plan.words, self._beside(passage)
-        return [r"\begin{frame}[t]", *(rf"\frametitle<{slide}>{{{self._set(told)}}}" for slide, told in titles.items()),
+            titles[slide], words[slide] = passage.title or passage.plan.words, self._stage_text(passage)
+        return [r"\begin{frame}[t]",
+                *(rf"\frametitle<{slide}>{{{self._set(title)}}}" for slide, title in titles.items()),
                 r"\begin{columns}[T,onlytextwidth]", r"\column{.7\textwidth}\centering",
                 rf"\begin{{adjustbox}}{{max size={SLIDE}}}", *picture, r"\end{adjustbox}",
                 r"\column{.28\textwidth}\raggedright\footnotesize",
                 *(rf"\only<{slide}>{{{told}}}" for slide, told in words.items()), r"\end{columns}",
                 r"\end{frame}"]  # fmt: skip
 
-    def _beside(self, passage: Passage) -> str:
+    def _stage_text(self, passage: Passage) -> str:
         """The equations and the law of a stage, then the plan and its scales."""
         stage = passage.stage
-        told = [equation(one) for one in stage.equations] if stage else []
-        told += [self._set(arrange("{0:capital}.", stage.law))] if stage else []
-        plan = (lettering(text.runs, words=True) for text in captioned(self.composition, passage.plan))
-        return "\\par\\medskip ".join([*told, "\\scriptsize " + "\\par ".join(plan)])
+        lines = [equation(one) for one in stage.equations] if stage else []
+        lines += [self._set(arrange("{0:capital}.", stage.law))] if stage else []
+        plan = (lettering(text.runs, words=True) for text in plan_caption(self.composition, passage.plan))
+        return "\\par\\medskip ".join([*lines, "\\scriptsize " + "\\par ".join(plan)])
 
     def _set(self, text: str) -> str:
         """A sentence with the names in it."""
@@ -77,7 +79,7 @@ class Slides:
         return SheetWords(self.composition.plans).names
 
 
-def captioned(composition: Composition, panel: str) -> Iterator[Text]:
+def plan_caption(composition: Composition, panel: str) -> Iterator[Text]:
     """What stands over a plan."""
     rect = composition.arrangement.panels[panel]
     return (text for text in captions(composition) if rect.holds(text.at))

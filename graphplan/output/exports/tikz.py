@@ -17,8 +17,8 @@ from graphplan.kernel.tape.written import Language, operations
 from graphplan.output.exports import latex
 from graphplan.output.exports.formula import formula
 from graphplan.output.exports.latex import HEADS, LETTERS, NAMES, lettering
-from graphplan.output.exports.slides import Slides, captioned
-from graphplan.output.exports.walk import REACH, Letter, Source, extent, heading, parameters, turned_back
+from graphplan.output.exports.slides import Slides, plan_caption
+from graphplan.output.exports.walk import REACH, Letter, TextWriter, extent, heading, parameters, turned_back
 from graphplan.phrases import said
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import captions
@@ -67,24 +67,24 @@ COMMANDS = {
 
 def tikz(composition: Composition, **look: Any) -> str:
     """The construction in LaTeX that draws with TikZ; see :func:`written`."""
-    return written(TikzWriter, composition, **look)
+    return write_picture(TikzWriter, composition, **look)
 
 
-def written(writer: type[TikzWriter], composition: Composition, *, bare: bool = False, width: float = 0.0,
+def write_picture(writer: type[TikzWriter], composition: Composition, *, bare: bool = False, width: float = 0.0,
             overlays: bool = False) -> str:
     r"""The construction by a writer: a document of its own, or `bare`, to be read by another that uses the style.
 
     It is so many mm wide, or up to 1 so much of \\linewidth; else as large as the sheet. With `overlays` the stages are
     on slides.
     """
-    one, say = writer(composition.plates, composition, overlays), composition.plans.tongue
-    packages = [*latex.PACKAGES, *one.packages, *(["adjustbox"] if overlays else [])]
-    picture = one.picture(width)
-    if one.slides:
-        picture = one.slides.frame(picture)
+    tikz_writer, say = writer(composition.plates, composition, overlays), composition.plans.tongue
+    packages = [*latex.PACKAGES, *tikz_writer.packages, *(["adjustbox"] if overlays else [])]
+    picture = tikz_writer.picture(width)
+    if tikz_writer.slides:
+        picture = tikz_writer.slides.frame(picture)
     if not bare:
         picture = (latex.slides if overlays else latex.standalone)(picture, say.code, packages)
-    return "\n".join([*latex.told([one.title, one.source], say, packages, bare), *picture]) + "\n"
+    return "\n".join([*latex.head_lines([tikz_writer.title, tikz_writer.source], say, packages, bare), *picture]) + "\n"
 
 
 def plain(number: float) -> str:
@@ -104,7 +104,7 @@ def _operand(number: float) -> str:
 ARITHMETIC = Language(_operand, operations("sqrt(max(0,{0}))", "abs({0})", "(abs({0})<={2}*({1})?0:sign({0}))"))
 
 
-class TikzWriter(Source):
+class TikzWriter(TextWriter):
     """Writes first every step, then what is drawn of it, plan by plan, under the captions of a `composition`; with its
     `overlays` each step on the slide of its stage."""
 
@@ -122,7 +122,7 @@ class TikzWriter(Source):
     def picture(self, width: float = 0.0) -> list[str]:
         r"""The picture, so many mm wide, or up to 1 so much of \linewidth."""
         words = captions(self.composition) if self.composition else ()
-        box = extent([*(item for plate in self.plates for item in self.pictured(plate)), *words])
+        box = extent([*(item for plate in self.plates for item in self.plan_items(plate)), *words])
         self.far = FAR / max(1.0, width / box.width)
         wide = rf"{width:g}\linewidth" if width <= 1 else f"{width:g}mm"
         key = f"graphplan={wide}/{plain(box.width)}" if width else "graphplan"
@@ -136,7 +136,7 @@ class TikzWriter(Source):
             self.drawing(plate)
             self.lines.append(r"\end{scope}")
             if self.slides:
-                self._only(f"{self.slides.showing(plate.panel)},{self.slides.last}", begin)
+                self._show_on_slides(f"{self.slides.showing(plate.panel)},{self.slides.last_slide}", begin)
             self.lines.insert(begin, "")
         return [*self.lines, r"\end{tikzpicture}"]
 
@@ -144,36 +144,36 @@ class TikzWriter(Source):
         """What a plan is, and its scales, from the top down in as many lines as the panel's width takes; on slides it
         stands beside the picture, but on the last."""
         place, begin, wide = "", len(self.lines), rf"text width={plain(self.panels[panel].width)}\graphplanmm"
-        for text in captioned(self.composition, panel) if self.composition else ():
+        for text in plan_caption(self.composition, panel) if self.composition else ():
             place = r"([yshift=-1.2\graphplanmm]plan.south west)" if place else spot((text.at[0], text.box.top))
             style = f"{'heading' if text.bold else 'caption'}={latex.points(text.size):g}"
             self.lines.append(rf"\node[{style}, {wide}] (plan) at {place} {{{lettering(text.runs, words=True)}}};")
         if self.slides:
-            self._only(str(self.slides.last), begin)
+            self._show_on_slides(str(self.slides.last_slide), begin)
 
     def _boxes(self, whole: Rect) -> Iterator[str]:
         """What the picture takes up: of a slide what is drawn on its plan, of the last slide everything."""
         boxes = {"": whole}
         if self.slides:
-            boxes = {self.slides.showing(plate.panel): extent(self.pictured(plate)) for plate in self.plates}
-            boxes[str(self.slides.last)] = whole
+            boxes = {self.slides.showing(plate.panel): extent(self.plan_items(plate)) for plate in self.plates}
+            boxes[str(self.slides.last_slide)] = whole
         for slides, box in boxes.items():
             path = rf"\path[use as bounding box] {spot(box.corners[0])} rectangle {spot(box.corners[2])};"
             yield rf"\only<{slides}>{{{path}}}" if slides else path
 
-    def _only(self, slides: str, begin: int) -> None:
+    def _show_on_slides(self, slides: str, begin: int) -> None:
         """Let slides alone show what is written from some line on."""
         if begin < len(self.lines):
             self.lines[begin:] = [rf"\only<{slides}>{{%", *self.lines[begin:], "}"]
 
     def movement(self, plate: Plate, drawn: DrawnStep, letters: Iterable[Letter]) -> None:
         """What is drawn in one step, from its slide on, where it is in ink as on the last; on others it is pale."""
-        begin, slide = len(self.lines), self.slides.of.get(drawn.index) if self.slides else None
+        begin, slide = len(self.lines), self.slides.slide_of_step.get(drawn.index) if self.slides else None
         super().movement(plate, drawn, letters)
         if self.slides and slide and begin < len(self.lines):
-            scope = rf"\begin{{scope}}[drawn on={{{slide},{self.slides.last}}}]"
+            scope = rf"\begin{{scope}}[drawn on={{{slide},{self.slides.last_slide}}}]"
             self.lines[begin:] = [scope, *self.lines[begin:], r"\end{scope}"]
-            self._only(f"{slide}-", begin)
+            self._show_on_slides(f"{slide}-", begin)
 
     # ---- steps -----------------------------------------------------------------------------------------------------
 
@@ -196,18 +196,18 @@ class TikzWriter(Source):
         elif drawn.kind == CIRCLE:
             places = {"_at": drawn.spot, "": (drawn.spot[0] + drawn.radius, drawn.spot[1])}
         elif drawn.kind == LINE:
-            (x, y), (dx, dy) = _nearest(drawn), heading(drawn)
+            (x, y), (dx, dy) = _nearest_to_middle(drawn), heading(drawn)
             long = REACH / math.hypot(dx, dy)
             places = {"_at": (x, y), "_to": (x + dx * long, y + dy * long)}
         else:
             places = {"": drawn.spot}
         self.lines += [rf"\coordinate ({self.names[drawn]}{end}) at {spot(at)};" for end, at in places.items()]
 
-    def told(self, drawn: DrawnStep) -> dict[str, str]:
-        told = {name: plain(number) for name, number in parameters(drawn).items()}
-        told |= zip("ABCD", (end for arg in drawn.args if arg.kind == LINE for end in self.ends(arg)), strict=False)
-        told |= zip(("centre", "other"), (self.centre(arg) for arg in drawn.args if arg.kind == CIRCLE), strict=False)
-        return {**told, "sign": "-" if turned_back(drawn) else "+"}
+    def command_texts(self, drawn: DrawnStep) -> dict[str, str]:
+        texts = {name: plain(number) for name, number in parameters(drawn).items()}
+        texts |= zip("ABCD", (end for arg in drawn.args if arg.kind == LINE for end in self.ends(arg)), strict=False)
+        texts |= zip(("centre", "other"), (self.centre(arg) for arg in drawn.args if arg.kind == CIRCLE), strict=False)
+        return {**texts, "sign": "-" if turned_back(drawn) else "+"}
 
     def ends(self, line: DrawnStep) -> tuple[str, str]:
         """Two coordinates from one of which to the other a line runs."""
@@ -230,12 +230,12 @@ class TikzWriter(Source):
             places = {"_at": (x, more[0]), "": (f"{x}+{more[1]}", more[0])}
         elif drawn.kind == LINE:
             y, dx, dy = more
-            part = f"{REACH:g}/sqrt(({dx})*({dx})+({dy})*({dy}))"
-            places = {"_at": (x, y), "_to": (f"{x}+({dx})*{part}", f"{y}+({dy})*{part}")}
+            unit_length = f"{REACH:g}/sqrt(({dx})*({dx})+({dy})*({dy}))"
+            places = {"_at": (x, y), "_to": (f"{x}+({dx})*{unit_length}", f"{y}+({dy})*{unit_length}")}
         lets = ", ".join(rf"\p{{{name}}}=({name})" for name in read)
-        made = (rf"coordinate ({self.names[drawn]}{end}) at ({{\fpeval{{{x}}}}},{{\fpeval{{{y}}}}})"
+        coordinates = (rf"coordinate ({self.names[drawn]}{end}) at ({{\fpeval{{{x}}}}},{{\fpeval{{{y}}}}})"
                 for end, (x, y) in places.items())
-        self.lines.append("\n  ".join([rf"\path let {lets} in" if read else r"\path", *made]) + ";")
+        self.lines.append("\n  ".join([rf"\path let {lets} in" if read else r"\path", *coordinates]) + ";")
 
     def _coordinates(self, drawn: DrawnStep, read: dict[str, None]) -> list[str]:
         """The coordinates of an operand in mm, as a formula reads them; `read` are the coordinates to be looked up."""
@@ -253,24 +253,24 @@ class TikzWriter(Source):
         """By parts of the way between two marks, or from one the way that a line runs."""
         head = f", {HEADS[stroke.pen.tip]}={stroke.head:.3g}" if stroke.head else ""
         style = NAMES[stroke.pen.with_fill("none")] + head
-        start, end, parts = self.names[stroke.start], self.names[stroke.end], (stroke.low, stroke.high)
+        start, end, shares = self.names[stroke.start], self.names[stroke.end], (stroke.low, stroke.high)
         if self.lost.intersection((stroke.of, stroke.start, stroke.end)):
             self._path(style, map(spot, stroke.ends))
         elif stroke.in_mm:
             P, Q = self.ends(stroke.of)
-            self._path(style, (rf"($({start})!{part:.4f}\graphplanmm!($({start})+({Q})-({P})$)$)" for part in parts))
-        elif parts == (0.0, 1.0):
+            self._path(style, (rf"($({start})!{share:.4f}\graphplanmm!($({start})+({Q})-({P})$)$)" for share in shares))
+        elif shares == (0.0, 1.0):
             self.segment(style, start, end)
         else:
-            self.part(style, start, end, *parts)
+            self.stroke_by_shares(style, start, end, *shares)
 
     def segment(self, style: str, one: str, other: str) -> None:
         """A stroke from one mark to another."""
         self._path(style, (f"({one})", f"({other})"))
 
-    def part(self, style: str, start: str, end: str, low: float, high: float) -> None:
+    def stroke_by_shares(self, style: str, start: str, end: str, low: float, high: float) -> None:
         """A stroke by parts of the way from one mark to another."""
-        self._path(style, (rf"($({start})!{part:.4f}!({end})$)" for part in (low, high)))
+        self._path(style, (rf"($({start})!{share:.4f}!({end})$)" for share in (low, high)))
 
     def arc(self, arc: StruckArc) -> None:
         if self.lost.intersection((arc.of, arc.mark, *arc.of.args)):
@@ -301,21 +301,21 @@ class TikzWriter(Source):
 
     def letter(self, letter: Letter) -> None:
         """On that side of its mark where it stands, with a leader where it stands far off."""
-        text, name, held = letter.text, self.names[letter.mark], letter.mark not in self.lost
+        text, name, is_known = letter.text, self.names[letter.mark], letter.mark not in self.lost
         written = lettering(text.runs, text.bold)
         if letter.leader:
-            ends = (letter.at(end) for end in letter.leader)
-            self._path("leader", (f"($({name})+{spot(off)}$)" if held else spot(at)
+            ends = (letter.spot_off(end) for end in letter.leader)
+            self._path("leader", (f"($({name})+{spot(off)}$)" if is_known else spot(at)
                                   for off, at in zip(letter.leader, ends, strict=True)))
         if letter.ringed:
-            place = f"($({name})+{spot(letter.ringed)}$)" if held else spot(letter.at(letter.ringed))
+            place = f"($({name})+{spot(letter.ringed)}$)" if is_known else spot(letter.spot_off(letter.ringed))
             self.lines.append(rf"\draw[balloon] {place} circle[radius={plain(BALLOON * text.size)}];")
         style = self._style(text)
-        if held:
+        if is_known:
             anchor, off = _anchor(letter)
             self.label(f"{style}, anchor={anchor}" if anchor != "base" else style, name, spot(off), written)
         else:
-            self.lines.append(rf"\node[{style}] at {spot(letter.at(letter.off))} {{{written}}};")
+            self.lines.append(rf"\node[{style}] at {spot(letter.spot_off(letter.off))} {{{written}}};")
 
     def _style(self, text: Text) -> str:
         """What a letter is of."""
@@ -347,11 +347,11 @@ def _reach(drawn: DrawnStep) -> float:
     """How far out the coordinates of a mark lie."""
     if drawn.kind == OPENING:
         return drawn.radius
-    at = _nearest(drawn) if drawn.kind == LINE else drawn.spot
+    at = _nearest_to_middle(drawn) if drawn.kind == LINE else drawn.spot
     return max(map(abs, at)) + (drawn.radius if drawn.kind == CIRCLE else 0.0)
 
 
-def _nearest(line: DrawnStep) -> Spot:
+def _nearest_to_middle(line: DrawnStep) -> Spot:
     """The point of a line that is next to the middle of its plan's window."""
     (x, y), (a, b, c) = line.view.rect.centre, line.line
     off = (a * x + b * y + c) / (a * a + b * b)

@@ -32,7 +32,7 @@ CLEAR = 0.05, 0.7  # how far from a circle's centre a line passes, in radii, whe
 
 def tkz_euclide(composition: Composition, **look: Any) -> str:
     """The construction in LaTeX that draws with tkz-euclide; see :func:`graphplan.output.exports.tikz.written`."""
-    return tikz.written(TkzWriter, composition, **look)
+    return tikz.write_picture(TkzWriter, composition, **look)
 
 
 class TkzWriter(tikz.TikzWriter):
@@ -51,24 +51,24 @@ class TkzWriter(tikz.TikzWriter):
         else:
             super().put(drawn)
 
-    def told(self, drawn: DrawnStep) -> dict[str, str]:
+    def command_texts(self, drawn: DrawnStep) -> dict[str, str]:
         """Of two crossings, which is meant."""
-        told, names = super().told(drawn), (self.names[drawn], f"{self.names[drawn]}_other")
+        texts, names = super().command_texts(drawn), (self.names[drawn], f"{self.names[drawn]}_other")
         second = turned_back(drawn)
         if drawn.step.op.movement is Movement.CUT:
             second = turned_back(drawn) != (_passing(drawn) > 0)
-        told["first"], told["second"] = names[::-1] if second else names
-        return told
+        texts["first"], texts["second"] = names[::-1] if second else names
+        return texts
 
     # ---- the drawing -----------------------------------------------------------------------------------------------
 
     def segment(self, style: str, one: str, other: str) -> None:
         self.lines.append(rf"\tkzDrawSegment[{style}]({one},{other})")
 
-    def part(self, style: str, start: str, end: str, low: float, high: float) -> None:
+    def stroke_by_shares(self, style: str, start: str, end: str, low: float, high: float) -> None:
         """A line by what is added to the way between two marks; a head could point back."""
         if "head" in style:
-            super().part(style, start, end, low, high)
+            super().stroke_by_shares(style, start, end, low, high)
         else:
             self.lines.append(rf"\tkzDrawLine[{style}, add={-low:.4f} and {high - 1:.4f}]({start},{end})")
 

@@ -37,16 +37,16 @@ REACH = 20.0  # mm: how far apart the two ends of a line stand that no two marks
 
 def identifiers(drawn: Iterable[DrawnStep]) -> dict[DrawnStep, str]:
     """For every mark the letters and digits of its name, else the initial of its kind and its place; each but once."""
-    found: dict[DrawnStep, str] = {}
+    names: dict[DrawnStep, str] = {}
     taken: set[str] = set()
     for mark in drawn:
         letters = "".join(char for char in mark.name if char in SAFE)
         name = letters if letters[:1].isalpha() else f"{mark.kind[0].upper()}{mark.index}"
         while name in taken:
             name += f"n{abs(mark.index)}"
-        found[mark] = name
+        names[mark] = name
         taken.add(name)
-    return found
+    return names
 
 
 def heading(line: DrawnStep) -> Spot:
@@ -65,7 +65,7 @@ def parameters(drawn: DrawnStep) -> dict[str, float]:
     """The numbers of a command: what is given, in mm, and {k}, by which lengths from another plan are multiplied."""
     params, afar = drawn.step.params, drawn.step.op.afar
     factor = drawn.factor(drawn.args[afar[0][0]]) if afar else 1.0
-    lengths = {part: drawn.view.scale * float(params[part]) for part in params if part in ("dx", "dy")}
+    lengths = {name: drawn.view.scale * float(params[name]) for name in params if name in ("dx", "dy")}
     return {**lengths, "k": factor * float(params.get("ratio", 1))}
 
 
@@ -108,12 +108,12 @@ class Letter:
         self.ringed = next((self._from_mark(item.centre) for item in before if isinstance(item, Circle)), None)
 
     @classmethod
-    def beside(cls, mark: DrawnStep) -> Letter:
+    def above_right(cls, mark: DrawnStep) -> Letter:
         """A mark's own name above its right, where the sheet has none."""
         at = mark.spot[0] + 1.0, mark.spot[1] + 1.0
         return cls(mark, Text(pens.LETTERS, "letters", None, at, sentence_runs(mark.name), 2.5))
 
-    def at(self, off: Spot) -> Spot:
+    def spot_off(self, off: Spot) -> Spot:
         """The spot so far off its mark."""
         return self.mark.spot[0] + off[0], self.mark.spot[1] + off[1]
 
@@ -129,11 +129,11 @@ class Walk:
     def __init__(self, plates: Plates):
         self.plates, self.say = plates, plates.plans.tongue
         self.title, self.source = plates.scene.title, plates.scene.source
-        self.names = self.named()
+        self.names = self.mark_names()
         self.joints: Mapping[Spot, DrawnStep] = {point.spot: point for point in reversed(plates.pose.values())}
         self.lines: list[str] = []
 
-    def named(self) -> Mapping[DrawnStep, str]:
+    def mark_names(self) -> Mapping[DrawnStep, str]:
         """What the marks are called in the target."""
         return identifiers(self.plates.all_marks)
 
@@ -141,8 +141,8 @@ class Walk:
 
     def mechanism(self, plate: Plate, *layers: str) -> Iterator[tuple[Item, tuple[Spot, ...]]]:
         """The items of some layers of the mechanism, each with its corners or its middle."""
-        shown = [item for item in self.pictured(plate) if item.layer in layers and not isinstance(item, Text)]
-        for item in sorted(shown, key=lambda item: layers.index(item.layer)):
+        items = [item for item in self.plan_items(plate) if item.layer in layers and not isinstance(item, Text)]
+        for item in sorted(items, key=lambda item: layers.index(item.layer)):
             spots = corners(item)
             if all(spot in self.joints for spot in spots) or not self.live or item.layer not in RIDING:
                 yield item, spots
@@ -157,45 +157,46 @@ class Walk:
         motion = self.plates.plans.motion
         if motion:
             yield from ((item, Riding()) for item in motion.path_items(plate.view))
-            for one in motion.centrodes:
-                riding = Riding(tuple(name for name, _ in one.given[:1]), one.on)
-                yield from ((item, riding) for item in one.items(plate.view, self.plates.scene))
+            for centrode in motion.centrodes:
+                riding = Riding(tuple(name for name, _ in centrode.given[:1]), centrode.on)
+                yield from ((item, riding) for item in centrode.items(plate.view, self.plates.scene))
         mechanism = plate.drawn_mechanism
-        for part in mechanism.figures():
-            riding = _riding(part)
-            if isinstance(part, FixedGuide) and part.slide.along == FRAME:
-                at, along = mechanism.seat(part.slide), mechanism.direction(part.slide)
-                items: Iterable[Item] = symbols.guideway(at, along, part.side, ways.get(part.slide.name, (0.0, 0.0)))
+        for figure in mechanism.figures():
+            riding = _riding(figure)
+            if isinstance(figure, FixedGuide) and figure.slide.along == FRAME:
+                at, along = mechanism.seat(figure.slide), mechanism.direction(figure.slide)
+                items: Iterable[Item] = symbols.guideway(at, along, figure.side,
+                                                         ways.get(figure.slide.name, (0.0, 0.0)))
             else:
-                items = part.items
+                items = figure.items
             yield from ((item, riding) for item in items)
 
-    def pictured(self, plate: Plate) -> list[Item]:
+    def plan_items(self, plate: Plate) -> list[Item]:
         """What the sheet shows of a plan."""
         return letter_plates(self.plates)[plate.panel].items
 
     def letters(self, plate: Plate) -> Iterator[Letter]:
         """The letters of a plan where the sheet has them, each off the mark that it hangs on."""
         before: list[Item] = []  # its leader and its ring
-        for item in self.pictured(plate):
+        for item in self.plan_items(plate):
             if isinstance(item, Text):
-                yield Letter(self._hung(plate, item), item, *before)
+                yield Letter(self._mark_of_lettering(plate, item), item, *before)
             before = [*before, item] if item.layer == "letters" and not isinstance(item, Text) else []
 
-    def _hung(self, plate: Plate, text: Text) -> DrawnStep:
+    def _mark_of_lettering(self, plate: Plate, text: Text) -> DrawnStep:
         """The mark that lettering hangs on: its own, its vector's end, or the next of its line or of the pose."""
         if text.step is None:
             pose = self.plates.pose
             name = text.label.partition(",")[0]
             return pose[name] if name in pose else min(pose.values(), key=lambda mark: math.dist(mark.spot, text.at))
-        drawn = self.plates.steps[text.step]
-        if drawn.kind == LINE:
-            return min(plate.marks(drawn), key=lambda mark: math.dist(mark.spot, text.at))
-        ends = (vector.end for vector in plate.vectors if vector.of is drawn and vector.letter in text.label.split())
-        return next(ends, drawn)
+        own_mark = self.plates.steps[text.step]
+        if own_mark.kind == LINE:
+            return min(plate.marks(own_mark), key=lambda mark: math.dist(mark.spot, text.at))
+        ends = (vector.end for vector in plate.vectors if vector.of is own_mark and vector.letter in text.label.split())
+        return next(ends, own_mark)
 
 
-class Source(Walk):
+class TextWriter(Walk):
     """Writes a source of commands: the steps under their sentences, then the drawing, plan by plan."""
 
     commands: Mapping[Movement, str]  # an empty one makes nothing
@@ -204,12 +205,12 @@ class Source(Walk):
     def steps(self) -> None:
         """What is said of each step, and its commands."""
         firsts = self.plates.firsts
-        for drawn in self.plates.all_marks:
-            if drawn in firsts:
-                self.lines += ["", f"% {self.say(said('plan: {0}', firsts[drawn].caption))}"]
-            if drawn.number:
-                self.lines += ["", f"% {drawn.number}. {drawn.sentence}"]
-            self.step(drawn)
+        for mark in self.plates.all_marks:
+            if mark in firsts:
+                self.lines += ["", f"% {self.say(said('plan: {0}', firsts[mark].caption))}"]
+            if mark.number:
+                self.lines += ["", f"% {mark.number}. {mark.sentence}"]
+            self.step(mark)
 
     def step(self, drawn: DrawnStep) -> None:
         """The commands of a mark: the language's own where it has them, else what its formula says."""
@@ -220,12 +221,12 @@ class Source(Walk):
             self.reckon(drawn)
         elif command:
             names = [self.names[arg] for arg in drawn.args]
-            self.lines.append(command.format(*names, out=self.names[drawn], **self.told(drawn)))
+            self.lines.append(command.format(*names, out=self.names[drawn], **self.command_texts(drawn)))
 
     def command(self, drawn: DrawnStep) -> str | None:
         """The language's own command for a mark, if it has one."""
-        found = self.whole.get(drawn.step.op.movement) if parameters(drawn)["k"] == 1 else None
-        return found or self.commands.get(drawn.step.op.movement)
+        command = self.whole.get(drawn.step.op.movement) if parameters(drawn)["k"] == 1 else None
+        return command or self.commands.get(drawn.step.op.movement)
 
     def drawing(self, plate: Plate) -> None:
         """What is drawn on one plan, from back to front, each step with its letters."""
@@ -233,8 +234,8 @@ class Source(Walk):
         for letter in self.letters(plate):
             letters.setdefault(letter.text.step, []).append(letter)
         self.items(plate, *BACK)
-        for drawn in plate.steps:
-            self.movement(plate, drawn, letters.get(drawn.index, ()))
+        for mark in plate.steps:
+            self.movement(plate, mark, letters.get(mark.index, ()))
         self.items(plate, *FRONT)
         for letter in letters.get(None, ()):
             self.letter(letter)
@@ -261,7 +262,7 @@ class Source(Walk):
 
     # ---- what a target writes --------------------------------------------------------------------------------------
 
-    def told(self, drawn: DrawnStep) -> dict[str, str]:
+    def command_texts(self, drawn: DrawnStep) -> dict[str, str]:
         """What a command says beside the names of the operands."""
         raise NotImplementedError
 
@@ -306,20 +307,20 @@ class Elements(Walk):
     @cached_property
     def due(self) -> dict[DrawnStep, list[Stroke | StruckArc]]:
         """The strokes and arcs by the last of the marks that they hang on."""
-        found: dict[DrawnStep, list[Stroke | StruckArc]] = {}
+        due_strokes: dict[DrawnStep, list[Stroke | StruckArc]] = {}
         for plate in self.plates:
             strokes = [*(stroke for drawn in plate.steps for stroke in plate.strokes(drawn)), *plate.vectors]
             arcs = (arc for drawn in plate.steps for arc in plate.arcs(drawn) if plate.is_on_panel(arc.mark))
             hung: list[tuple[Stroke | StruckArc, tuple[DrawnStep, ...]]]
             hung = [*((stroke, (stroke.of, stroke.start, stroke.end)) for stroke in strokes),
                     *((arc, (arc.of, arc.mark)) for arc in arcs)]  # fmt: skip
-            for one, marks in hung:
-                found.setdefault(max(marks, key=lambda mark: mark.index), []).append(one)
-        return found
+            for stroke_or_arc, marks in hung:
+                due_strokes.setdefault(max(marks, key=lambda mark: mark.index), []).append(stroke_or_arc)
+        return due_strokes
 
     def ends(self, stroke: Stroke) -> list[str]:
         """Where a stroke begins and ends: its marks, or what is made of them."""
-        return [self._end(stroke, part) for part in (stroke.low, stroke.high)]
+        return [self._end(stroke, share) for share in (stroke.low, stroke.high)]
 
     def _end(self, stroke: Stroke, part: float) -> str:
         marks = [self.names[stroke.start], self.names[stroke.end]]
@@ -332,10 +333,10 @@ class Elements(Walk):
         return repr(value)
 
     @cached_property
-    def lettered(self) -> set[Stroke]:
+    def lettered_strokes(self) -> set[Stroke]:
         """What bears a letter: the first stroke of each line that has one, and vectors that their ends do not name."""
-        strokes = {one.of: one for ones in reversed(self.due.values()) for one in reversed(ones)
-                   if isinstance(one, Stroke) and one.of.kind == LINE and one.of.name and not one.head}
+        strokes = {stroke.of: stroke for ones in reversed(self.due.values()) for stroke in reversed(ones)
+                   if isinstance(stroke, Stroke) and stroke.of.kind == LINE and stroke.of.name and not stroke.head}
         vectors = (one for ones in self.due.values() for one in ones if isinstance(one, Stroke) and one.vector)
         return {*strokes.values(), *(one for one in vectors if one.letter not in ("", one.end.name))}
 

@@ -63,9 +63,10 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
         "under": points_under_slides(scene),
         "shared": [[point, at, coincidence_fault(point, at)]
                    for point, at in drawings[0].coincident_points.items()],
-        "lined": [[one, other, said("guides {0} and {1} are drawn as one line, and turn apart here", one, other)]
-                  for one, other in _lined(scene)],
-        "scene": _plain(_anywhere(tomllib.loads(scene.text))), "placed": [*_placed(scene)],
+        "lined": [[one, other_guide,
+                   said("guides {0} and {1} are drawn as one line, and turn apart here", one, other_guide)]
+                  for one, other_guide in _coinciding_guides(scene)],
+        "scene": _plain(_scene_for_all_poses(tomllib.loads(scene.text))), "placed": [*_required_points(scene)],
         "lines": [balance.direction and [*map(float, balance.direction)] for balance in scene.loads.balances]
         if scene.loads else [], "same": MARK_TOL, "linkage": linkage,
         "programs": [program.data for program in programs],
@@ -78,16 +79,16 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
     return data, "{" + ",\n".join(f"{name}: [{', '.join(texts)}]" for name, texts in tapes.items()) + "}"
 
 
-def _lined(scene: Scene) -> Iterator[tuple[str, str]]:
+def _coinciding_guides(scene: Scene) -> Iterator[tuple[str, str]]:
     """The guides that are one line in the given pose, and ride on two links."""
     straight = ((name, guide) for name, guide in guides(scene).items() if guide.through is None)
-    for (name, one), (another, other) in combinations(straight, 2):
-        if (one.at == other.at and one.direction == other.direction
-                and other.along not in scene.turning_alike(one.along)):
+    for (name, slide), (another, other_slide) in combinations(straight, 2):
+        if (slide.at == other_slide.at and slide.direction == other_slide.direction
+                and other_slide.along not in scene.turning_alike(slide.along)):
             yield name, another
 
 
-def _placed(scene: Scene) -> Iterator[str]:
+def _required_points(scene: Scene) -> Iterator[str]:
     """The points that a scene must have whose points are given by coordinates: others only served to place them."""
     needed = {name for guide in guides(scene).values() for name in guide.through or ()}
     needed |= {contact.at for contact in scene.contacts}
@@ -109,10 +110,10 @@ def script() -> str:
     return "\n".join(['const Motion = (() => {\n"use strict";', *texts, "return Motion;\n})();\n"])
 
 
-def _anywhere(told: Data) -> Data:
+def _scene_for_all_poses(told: Data) -> Data:
     """What a scene says that holds in other poses: which arc follows on a profile is told of its own pose alone."""
-    return told | ({"contacts": [{key: value for key, value in one.items() if key != "next"}
-                                 for one in told["contacts"]]} if "contacts" in told else {})
+    return told | ({"contacts": [{key: value for key, value in contact.items() if key != "next"}
+                                 for contact in told["contacts"]]} if "contacts" in told else {})
 
 
 def _plain(value: Any) -> Any:
@@ -120,7 +121,7 @@ def _plain(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _plain(part) for key, part in value.items()}
     if isinstance(value, list):
-        return [_plain(part) for part in value]
+        return [_plain(item) for item in value]
     return value if isinstance(value, str | bool | int | float) else str(value)
 
 
@@ -141,25 +142,27 @@ RULES = {
 
 def _linkage(scene: Scene) -> tuple[Data, list[str]]:
     """The linkage with its limits, and Newton's step of each structure of groups; where nothing drives it, why."""
-    found = pin_given_motions(scene)
-    linkage, parts = _parts(found, tuple(1.0 for _ in scene.drives))
-    _, others = _parts(found, tuple(float(k + 1) for k in range(len(scene.drives))))
-    layouts = list(dict.fromkeys(group.layout for group in parts))
+    pinned = pin_given_motions(scene)
+    linkage, groups = _linkage_groups(pinned, tuple(1.0 for _ in scene.drives))
+    _, other_groups = _linkage_groups(pinned, tuple(float(k + 1) for k in range(len(scene.drives))))
+    layouts = list(dict.fromkeys(group.layout for group in groups))
     moving = {link: k for k, link in enumerate(linkage.links)}
     return {
-        "rules": RULES, "reach": linkage.reach, "origin": _pair(linkage.origins[FRAME]), **_followed(scene),
-        "groups": [_group(group, other, moving, layouts) for group, other in zip(parts, others, strict=True)],
-        "counted": _counted(parts, others, moving) if linkage.counts_angles else None,
+        "rules": RULES, "reach": linkage.reach, "origin": _pair(linkage.origins[FRAME]), **_drive_ranges(scene),
+        "groups": [_group(group, other_group, moving, layouts) for group,
+                   other_group in zip(groups, other_groups, strict=True)],
+        "counted": _angle_counts(groups, other_groups, moving) if linkage.counts_angles else None,
         "links": moving, "opinion": _opinion(scene, moving), "changing": [*_changing(scene, moving)],
         "bases": [_pair(linkage.origins[link] - linkage.origins[FRAME], linkage.reach) for link in linkage.links],
-        "owned": dict(_owned(linkage)), "guided": dict(_guided(scene, moving)),
-        "ways": list(_ways(scene)), "anchors": list(_anchors(linkage, parts)),
+        "owned": dict(_points_by_link(linkage)), "guided": dict(_riding_guides(scene, moving)),
+        "ways": list(_written_directions(scene)), "anchors": list(_anchors(linkage, groups)),
         "locked": said("the links move by their special geometry alone") if scene.redundant else "",
-        "held": {name: said("the gears and profiles of the frame hold point {0}", name) for name in _held(scene)},
+        "held": {name: said("the gears and profiles of the frame hold point {0}", name)
+                 for name in _distance_keeping_points(scene)},
     }, [_step(layout) for layout in layouts]  # fmt: skip
 
 
-def _followed(scene: Scene) -> Data:
+def _drive_ranges(scene: Scene) -> Data:
     """The drives, how far they are followed and the limits there; or why they are not."""
     try:
         check_drives(scene)
@@ -199,7 +202,7 @@ def _opinion(scene: Scene, moving: Mapping[str, int]) -> Data:
     """
     long, loads = float(metre(scene.units)), scene.loads
     weigh, resist, couple = float(weight(scene.units)), float(inertia(scene.units)), float(weight(scene.units)) * long
-    pull = [weigh * float(part) for part in loads.gravity] if loads else [0.0, 0.0]
+    pull = [weigh * float(component) for component in loads.gravity] if loads else [0.0, 0.0]
     return {
         "points": {name: moving[links[0]] for name, links in scene.links_of.items() if links}, 
         "slides": [_slide(slide, moving) for slide in scene.slides],
@@ -230,24 +233,24 @@ def _changing(scene: Scene, moving: Mapping[str, int]) -> Iterator[Data]:
                        "through": load.through} if isinstance(load, Force) else {}
         strokes = {} if table.powers else {
             str(sense): [[*map(float, row)] for row in rows] for sense, rows in table.strokes.items()}
-        known = (float(end) for end in (min(table.corners), max(table.corners))) if strokes else ()
+        corners = (float(end) for end in (min(table.corners), max(table.corners))) if strokes else ()
         yield {
             "name": name, "link": moving[load.on], "force": bool(force), **force, "strokes": strokes,
             "over": "speed" if table.over_speed else "place", "period": float(table.period),
             "rate": float(scene.drives[0].rate), "powers": [*map(float, table.powers)] or None,
             "slack": float(table.length * TABLE_END_TOL) if strokes else 0.0,
             "slide": slide and {**_slide(slide, moving), "origin": guide_origin(scene, slide)},
-            "why": said("the table of {0} goes from {1} to {2}", name, *map(digits, known)) if strokes else "",
+            "why": said("the table of {0} goes from {1} to {2}", name, *map(digits, corners)) if strokes else "",
         }  # fmt: skip
 
 
-def _parts(scene: Scene, rates: tuple[float, ...]) -> tuple[Linkage, list[ClosureGroup]]:
+def _linkage_groups(scene: Scene, rates: tuple[float, ...]) -> tuple[Linkage, list[ClosureGroup]]:
     """The linkage and its groups, whose drives have these rates.
 
     The frame's base lies off all its points, so that each has an arm: it may be moved.
     """
     linkage = Linkage(scene, rates)
-    low = [min(part) for part in zip(*((z.real, z.imag) for z in linkage.places.values()), strict=True)]
+    low = [min(coordinates) for coordinates in zip(*((z.real, z.imag) for z in linkage.places.values()), strict=True)]
     linkage.origins[FRAME] = complex(*low) - linkage.reach * (1 + 1j)
     return linkage, [ClosureGroup(linkage, part) for part in linkage.parts]
 
@@ -256,35 +259,36 @@ def _group(group: ClosureGroup, other: ClosureGroup, moving: Mapping[str, int], 
     """A group in its numbers; `other` is the same with drives of other rates, which tell them apart."""
     return {
         "step": layouts.index(group.layout), "carriers": [moving[link] for link in group.carriers],
-        "links": [moving[link] for link in group.links], "arms": [part for arm in group.arms for part in arm],
-        "drives": [[round(two / one) - 1, turns, one]
-                   for (turns, one), (_, two) in zip(group.drives, other.drives, strict=True)],
+        "links": [moving[link] for link in group.links], "arms": [length for arm in group.arms for length in arm],
+        "drives": [[round(two / rate) - 1, turns, rate]
+                   for (turns, rate), (_, two) in zip(group.drives, other.drives, strict=True)],
         "angles": group.layout.angles, "unknowns": group.unknowns,
         "stops": [limit_reason(group.part, change) for change in (False, True)],
     }  # fmt: skip
 
 
-def _counted(groups: Sequence[ClosureGroup], others: Sequence[ClosureGroup], moving: Mapping[str, int]) -> list[Data]:
+def _angle_counts(groups: Sequence[ClosureGroup], others: Sequence[ClosureGroup],
+                  moving: Mapping[str, int]) -> list[Data]:
     """For each link by what its angle is counted: an unknown, or the angle of the link `on`, and a drive; -1 for none.
     """
-    found, first = [{"on": 0, "unknown": -1, "drive": -1, "rate": 0.0} for _ in moving], 0
-    for group, other in zip(groups, others, strict=True):
+    counts, first = [{"on": 0, "unknown": -1, "drive": -1, "rate": 0.0} for _ in moving], 0
+    for group, other_group in zip(groups, others, strict=True):
         places = [moving[link] for link in (FRAME, *group.carriers, *group.links)]
         unknowns = iter(range(first, first + group.unknowns))
         for spin in group.layout.spins:
-            one = found[places[spin.link]]
+            count = counts[places[spin.link]]
             if spin.on is None:
-                one["unknown"] = next(unknowns)
+                count["unknown"] = next(unknowns)
                 continue
-            one["on"] = places[spin.on]
+            count["on"] = places[spin.on]
             if spin.drive is not None:
-                rate, as_told = group.drives[spin.drive][1], other.drives[spin.drive][1]
-                one |= {"drive": round(as_told / rate) - 1, "rate": rate}
+                rate, as_told = group.drives[spin.drive][1], other_group.drives[spin.drive][1]
+                count |= {"drive": round(as_told / rate) - 1, "rate": rate}
         first += group.unknowns
-    return found
+    return counts
 
 
-def _owned(linkage: Linkage) -> Iterator[tuple[str, tuple[float, ...]]]:
+def _points_by_link(linkage: Linkage) -> Iterator[tuple[str, tuple[float, ...]]]:
     """Each moving point by its link and where that has it: its base's place, and from there."""
     for point, links in linkage.scene.links_of.items():
         if links and FRAME not in links:
@@ -294,13 +298,13 @@ def _owned(linkage: Linkage) -> Iterator[tuple[str, tuple[float, ...]]]:
             yield point, (linkage.order[link], lever.real, lever.imag)
 
 
-def _guided(scene: Scene, moving: Mapping[str, int]) -> Iterator[tuple[str, int]]:
+def _riding_guides(scene: Scene, moving: Mapping[str, int]) -> Iterator[tuple[str, int]]:
     """The guides that ride on links in a direction of their own, each with its link."""
     return ((name, moving[guide.along]) for name, guide in guides(scene).items()
             if guide.through is None and guide.along != FRAME)
 
 
-def _ways(scene: Scene) -> Iterator[tuple[str, str, int, int | None]]:
+def _written_directions(scene: Scene) -> Iterator[tuple[str, str, int, int | None]]:
     """Where the scene writes the directions of racks and of straight profiles: by name the table, the place in it, and
     in that of which centre."""
     for place, gear in enumerate(scene.gears):
@@ -311,7 +315,7 @@ def _ways(scene: Scene) -> Iterator[tuple[str, str, int, int | None]]:
             yield contact.name, "contacts", place, contact.centres.index(None)
 
 
-def _held(scene: Scene) -> Iterator[str]:
+def _distance_keeping_points(scene: Scene) -> Iterator[str]:
     """The points of the frame that keep the distance of two pitch circles, or the direction of a rack or profile."""
     fixed = {*scene.links.get(FRAME, ())}
     for gear in scene.gears:
@@ -324,15 +328,15 @@ def _held(scene: Scene) -> Iterator[str]:
 def _touching(scene: Scene) -> Iterator[Data]:
     """Where contacts touch: between two centres by a share, or off one as a link turns. The point that this is in the
     given pose is `at`; if it is on a link, the place has a name of its own in other poses, `else`."""
-    given = {name: complex(*map(float, at)) for name, at in scene.points.items()}
+    places = {name: complex(*map(float, at)) for name, at in scene.points.items()}
     for contact in scene.contacts:
         _, on, centre = contact.curved_side
-        other = f"{contact.at}'" if scene.links_of[contact.at] else ""
-        found: Data = {"at": contact.at, "centre": centre, "else": other}
+        twin = f"{contact.at}'" if scene.links_of[contact.at] else ""
+        touch: Data = {"at": contact.at, "centre": centre, "else": twin}
         if contact.direction is not None:
-            yield found | {"off": _pair(given[contact.at] - given[centre]), "on": on}
+            yield touch | {"off": _pair(places[contact.at] - places[centre]), "on": on}
         else:
-            yield found | {"other": contact.centres[1], "share": contact_fraction(scene, contact)}
+            yield touch | {"other": contact.centres[1], "share": contact_fraction(scene, contact)}
 
 
 def _anchors(linkage: Linkage, parts: Iterable[ClosureGroup]) -> Iterator[tuple[Any, ...]]:
@@ -363,8 +367,9 @@ def _anchors(linkage: Linkage, parts: Iterable[ClosureGroup]) -> Iterator[tuple[
 
 def _step(layout: GroupLayout) -> str:
     """Newton's step as a function `(x, y)`: it reads x and writes corrections, rates, the determinant and lies to y."""
-    tape, inputs, found = newton.record_step(layout)
-    outputs = [*found.corrections, *found.rates, found.determinant, *(number for lies in found.lies for number in lies)]
+    tape, inputs, step_outputs = newton.record_step(layout)
+    outputs = [*step_outputs.corrections, *step_outputs.rates, step_outputs.determinant,
+               *(number for lies in step_outputs.lies for number in lies)]
     writer = Writer(tape, JAVASCRIPT, {place: f"x[{k}]" for k, place in enumerate(inputs)})
     body = [*writer.statements(outputs), *(f"y[{k}] = {writer.text[place]};" for k, place in enumerate(outputs))]
     return arrow("(x, y)", body)

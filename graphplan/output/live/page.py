@@ -43,7 +43,7 @@ Data = dict[str, Any]  # of JSON
 
 
 @dataclass(frozen=True)
-class Variant:
+class PageVariant:
     """One way to draw a scene: its plan and method, and on one sheet the constructions that serve its poses, the given
     pose's first."""
 
@@ -61,45 +61,46 @@ class LivePage:
     """A live page of the ways to draw one scene, in some languages, of each the page's own first; `title` is the
     scene's own, `steps_first` opens it at the first step and not with all drawn."""
 
-    variants: Sequence[Variant]
+    variants: Sequence[PageVariant]
     languages: Sequence[str]
     title: str
     steps_first: bool = False
 
     @property
-    def _own(self) -> Composition:
+    def _own_composition(self) -> Composition:
         return self.variants[0].compositions[0]
 
     def html(self, shared: str = "") -> str:
         """The page; its script stands in it, or, `shared` with other pages, in a file of that name beside it."""
         template = files(__package__).joinpath("live.html").read_text("utf-8")
         say = tongue(self.languages[0])
-        own = self._spoken(0, say)
-        first = layout(self._in(self._own, say))
-        parts = {
+        spoken = self._variant_texts(0, say)
+        first = layout(self._translate_composition(self._own_composition, say))
+        fields = {
             **{f"word:{name}": escape(say(word)) for name, word in WORDS.items()},
             "language": say.code, "title": escape(say.title(self.title)),
-            "source": escape(self._own.plans.drawing.scene.source), "policy": POLICY + (SHARED if shared else ""),
+            "source": escape(self._own_composition.plans.drawing.scene.source),
+            "policy": POLICY + (SHARED if shared else ""),
             "width": f"{first.width:g}", "height": f"{first.height:g}", "svg": _inline(first),
-            **{name: own["programs"][0][name] for name in ("list", "readings", "tables", "forms")},
-            "data": embedded(json.dumps(self._data(), ensure_ascii=False, separators=(",", ":"))),
-            "packs": "\n".join(f'<script type="application/octet-stream" id="pack-{number}">{packed(pack)}</script>'
+            **{name: spoken["programs"][0][name] for name in ("list", "readings", "tables", "forms")},
+            "data": escape_for_script(json.dumps(self._data(), ensure_ascii=False, separators=(",", ":"))),
+            "packs": "\n".join(f'<script type="application/octet-stream" id="pack-{number}">{pack_data(pack)}</script>'
                                for number, pack in enumerate(self._packs())),
-            "scene": embedded(first.scene),
+            "scene": escape_for_script(first.scene),
             "script": f'<script src="{escape(shared)}"></script>' if shared else f"<script>\n{script()}</script>",
         }  # fmt: skip
-        return re.sub(r"\{\{([\w:]+)\}\}", lambda place: parts[place[1]], template)
+        return re.sub(r"\{\{([\w:]+)\}\}", lambda place: fields[place[1]], template)
 
     def _data(self) -> Data:
         """What the page knows before anything is unpacked."""
-        own = self.variants[0]
+        first = self.variants[0]
         return {
-            "variants": [{"plan": one.plan, "method": one.method} for one in self.variants],
+            "variants": [{"plan": variant.plan, "method": variant.method} for variant in self.variants],
             "languages": {code: LANGUAGES[code] for code in self.languages},
             "words": {code: {name: tongue(code)(word) for name, word in WORDS.items()} for code in self.languages},
             "signs": {code: {chr(sign): mark for sign, mark in tongue(code).signs.items()} for code in self.languages},
-            "units": {code: tongue(code)(unit(own.drawing.scene.units.length)) for code in self.languages},
-            "curves": list(own.drawing.scene.sheet.curves), "centrodes": list(own.drawing.scene.sheet.centrodes),
+            "units": {code: tongue(code)(unit(first.drawing.scene.units.length)) for code in self.languages},
+            "curves": list(first.drawing.scene.sheet.curves), "centrodes": list(first.drawing.scene.sheet.centrodes),
             "stepsFirst": self.steps_first,
         }  # fmt: skip
 
@@ -111,48 +112,52 @@ class LivePage:
         """What moves, draws and tells a variant; in other languages than the first only what is another there."""
         variant = self.variants[number]
         data, tape = self._motions[number]
-        own, *others = [self._spoken(number, tongue(code)) for code in self.languages]
+        first, *translations = [self._variant_texts(number, tongue(code)) for code in self.languages]
         return {
             "motion": data, "tape": tape, "texts": [texts.javascript() for texts in self._texts[number]],
             "programs": [_program(composition) for composition in variant.compositions],
-            "language": self.languages[0], "own": own,
-            "others": {code: difference(own, other) for code, other in zip(self.languages[1:], others, strict=True)},
+            "language": self.languages[0], "own": first,
+            "others": {code: difference(first, translation) for code,
+                       translation in zip(self.languages[1:], translations, strict=True)},
         }  # fmt: skip
 
     @cached_property
     def _motions(self) -> list[tuple[Data, str]]:
         """What moves each variant: data and tapes."""
-        return [motions.motion([one.plans.drawing for one in variant.compositions]) for variant in self.variants]
+        return [motions.motion([composition.plans.drawing for composition in variant.compositions])
+                for variant in self.variants]
 
     @cached_property
     def _texts(self) -> list[list[Texts]]:
         """The texts of each construction of each variant, in whatever language they are told."""
-        return [[Texts(one.plans, one.scales) for one in variant.compositions] for variant in self.variants]
+        return [[Texts(composition.plans, composition.scales) for composition in variant.compositions]
+                for variant in self.variants]
 
     @cached_property
     def _places(self) -> list[pictures.Places]:
         """Where the letters of each variant stand, as long as its first construction is drawn; in all languages."""
-        return [pictures.letter_places(one.compositions[0]) for one in self.variants]
+        return [pictures.letter_places(variant.compositions[0]) for variant in self.variants]
 
     @cached_property
-    def _told(self) -> dict[tuple[int, str], Data]:
+    def _texts_by_language(self) -> dict[tuple[int, str], Data]:
         return {}
 
-    def _spoken(self, number: int, say: Tongue) -> Data:
+    def _variant_texts(self, number: int, say: Tongue) -> Data:
         """What of a variant is said in a language, told once."""
-        if (number, say.code) not in self._told:
-            compositions = [self._in(one, say) for one in self.variants[number].compositions]
+        if (number, say.code) not in self._texts_by_language:
+            compositions = [self._translate_composition(composition, say)
+                            for composition in self.variants[number].compositions]
             still = [*frame_items(compositions[0]), *captions(compositions[0])]
-            self._told[number, say.code] = {
+            self._texts_by_language[number, say.code] = {
                 "title": say.title(self.title), "svg": _inline(sheet(compositions[0], still, CONSTRUCTION)),
                 "pictures": [pictures.picture(one, {} if k else self._places[number])
                              for k, one in enumerate(compositions)],
-                "programs": [texts.told(say) for texts in self._texts[number]],
+                "programs": [texts.texts_in(say) for texts in self._texts[number]],
                 "said": {text: say(text) for text in sayings(self._motions[number][0])},
             }  # fmt: skip
-        return self._told[number, say.code]
+        return self._texts_by_language[number, say.code]
 
-    def _in(self, composition: Composition, say: Tongue) -> Composition:
+    def _translate_composition(self, composition: Composition, say: Tongue) -> Composition:
         """A composition that speaks a language; its drawing is the same."""
         if say.code == composition.plans.tongue.code:
             return composition
@@ -161,7 +166,7 @@ class LivePage:
         return replace(composition, plans=Plans(drawing.with_values(drawing.drawn_out, drawing.computed, scene), say))
 
 
-def live(variants: Sequence[Variant], languages: Sequence[str], title: str, *, steps_first: bool = False,
+def live(variants: Sequence[PageVariant], languages: Sequence[str], title: str, *, steps_first: bool = False,
          shared: str = "") -> str:
     """The live page of these ways to draw one scene; with a name of a `shared` script it leaves that out."""
     return LivePage(variants, languages, title, steps_first).html(shared)
@@ -169,8 +174,8 @@ def live(variants: Sequence[Variant], languages: Sequence[str], title: str, *, s
 
 def script() -> str:
     """The JavaScript of all live pages."""
-    own = (files(__package__).joinpath(name).read_text("utf-8") for name in SCRIPTS)
-    return "\n".join(['"use strict";', "(() => {", motions.script(), pictures.scripts(), *own, "})();", ""])
+    sources = (files(__package__).joinpath(name).read_text("utf-8") for name in SCRIPTS)
+    return "\n".join(['"use strict";', "(() => {", motions.script(), pictures.scripts(), *sources, "})();", ""])
 
 
 def _inline(page: Sheet) -> str:
@@ -205,12 +210,12 @@ def _box(rect: Rect, high: float) -> list[float]:
 def on_one_sheet(first: Composition, others: Sequence[Construction]) -> tuple[Composition, ...]:
     """A composition, and in its windows, at its scales, other constructions of the scene; those of other plans are
     left out."""
-    found = [first]
+    compositions = [first]
     for drawing in others:
         plans = Plans(drawing, first.plans.tongue)
         if plans.panels == first.plans.panels:
-            found.append(replace(first, plans=plans))
-    return tuple(found)
+            compositions.append(replace(first, plans=plans))
+    return tuple(compositions)
 
 
 def sayings(data: Any) -> Iterator[Said]:
@@ -218,19 +223,19 @@ def sayings(data: Any) -> Iterator[Said]:
     if isinstance(data, Said):
         yield data
     elif isinstance(data, Mapping | list | tuple):
-        for part in data.values() if isinstance(data, Mapping) else data:
-            yield from sayings(part)
+        for item in data.values() if isinstance(data, Mapping) else data:
+            yield from sayings(item)
 
 
 # ---- data in a page --------------------------------------------------------------------------------------------------
 
 
-def embedded(text: str) -> str:
+def escape_for_script(text: str) -> str:
     """Text that cannot end the script it stands in: `</` and `<!--` have a backslash after their first sign."""
     return re.sub(r"<(?=/|!--)", r"<\\", text)
 
 
-def packed(data: Data) -> str:
+def pack_data(data: Data) -> str:
     """Data as a page has them: JSON, by gzip, in letters of base 64."""
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
     return base64.b64encode(gzip.compress(text.encode(), PACKING, mtime=0)).decode("ascii")

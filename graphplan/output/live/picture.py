@@ -82,7 +82,7 @@ def picture(composition: Composition, places: Places | None = None) -> Data:
     Its letters stand where they do on its sheet, or at these places; those that have none find theirs on the page.
     """
     teller = _Teller(composition)
-    return teller.told() | {"places": teller.places() if places is None else places}
+    return teller.picture_data() | {"places": teller.places() if places is None else places}
 
 
 def letter_places(composition: Composition) -> Places:
@@ -102,24 +102,24 @@ class _Teller:
         self.mechanism = self.plates[MECHANISM].drawn_mechanism
         self.titles = list(map(composition.plans.tongue, Protocol(composition.plans, composition.scales).sentences))
 
-    def told(self) -> Data:
+    def picture_data(self) -> Data:
         """Everything, but what does not move."""
         arrangement, plans = self.composition.arrangement, self.plates.plans
-        found = {
+        picture = {
             "width": arrangement.width, "height": arrangement.height, "measures": _measures(self.plates.letters),
             "panels": [self._panel(one) for one in self.plates],
             "points": [[name, *plans.place(name)] for name in self.points],
             "slides": [self._slide(slide) for slide in self.scene.slides],
             "links": [list(map(self.points.index, self.scene.links[link])) for link in self.scene.moving],
-            "steps": [self._step(drawn) for drawn in self.plates.steps],
+            "steps": [self._step(mark) for mark in self.plates.steps],
             "vectors": [self._vector(plate, stroke) for plate in self.plates for stroke in plate.wanted_vectors],
-            "parts": list(map(self._part, self.mechanism.figures())),
+            "parts": list(map(self._part_data, self.mechanism.figures())),
             "pairs": list(map(self.points.index, self.mechanism.pairs)),
             "joints": [self._lettering(sentence_runs(name, (name,))) for name in self.points],
             "numbers": [self._link_number(wish) for wish in self.mechanism.wishes()],
             "uses": {name: self.pen(pen) for name, pen in PENS.items()},
         }  # fmt: skip
-        return found | {"pens": [{"look": _attributes(pen), "colour": pen.colour, "width": pen.width, "tip": pen.tip}
+        return picture | {"pens": [{"look": _attributes(pen), "colour": pen.colour, "width": pen.width, "tip": pen.tip}
                                  for pen in self.pens]}  # fmt: skip
 
     def pen(self, pen: Pen) -> int:
@@ -146,35 +146,35 @@ class _Teller:
     def _step(self, drawn: DrawnStep) -> Data:
         """What is drawn of a step, told by marks."""
         plate = self.plates[drawn.panel]
-        found: Data = {"number": drawn.number, "kind": drawn.kind, "panel": self.panels.index(drawn.panel),
+        step: Data = {"number": drawn.number, "kind": drawn.kind, "panel": self.panels.index(drawn.panel),
                        "spoken": PlateLetters(plate).is_mentioned(drawn),
                        "title": self.titles[drawn.index]}
         if drawn.name:
-            found |= {"name": drawn.name, "letter": self._lettering(name_runs(drawn.name), corner(drawn.step))}
+            step |= {"name": drawn.name, "letter": self._lettering(name_runs(drawn.name), corner(drawn.step))}
         if drawn.kind in (LINE, CIRCLE):
-            found["marks"] = [mark.index for mark in plate.marks(drawn)]
+            step["marks"] = [mark.index for mark in plate.marks(drawn)]
         if drawn.kind == LINE:
             beyond, pen = plate.line_pen(drawn)
-            found |= {"beyond": beyond, "pen": self.pen(pen)}
+            step |= {"beyond": beyond, "pen": self.pen(pen)}
         if drawn.kind == CIRCLE and (end := self.plates.plans.diameter(drawn.step)) is not None \
                 and self.plates.steps[end].panel == drawn.panel:
-            found["diameter"] = end
-        if drawn.index in self._carried:
+            step["diameter"] = end
+        if drawn.index in self._marks_on_lines:
             name = self.program.text(drawn.index)
             runs = sentence_runs(self.plates.plans.tongue(said("to {0}", name)), (name,))
-            found |= {"text": name, "to": self._lettering(runs, size=self.plates.letters.text)}
+            step |= {"text": name, "to": self._lettering(runs, size=self.plates.letters.text)}
         if drawn.kind == POINT and (dot := plate.dotting(drawn)):
-            found["dot"] = [self.pen(dot), plate.dot_radius(drawn)]
+            step["dot"] = [self.pen(dot), plate.dot_radius(drawn)]
         if drawn.kind == POINT and drawn.root:
-            given = plate.given_pen(drawn)
-            found |= {"root": drawn.root.index, "pen": self.pen(plate.laid_pen(drawn)),
-                      "given": None if given is None else self.pen(given)}
-        return found
+            given_pen = plate.given_pen(drawn)
+            step |= {"root": drawn.root.index, "pen": self.pen(plate.laid_pen(drawn)),
+                      "given": None if given_pen is None else self.pen(given_pen)}
+        return step
 
     @cached_property
-    def _carried(self) -> set[int]:
+    def _marks_on_lines(self) -> set[int]:
         """The marks on lines: to these lines go where they break off."""
-        lines = ((one, line) for one in self.plates for line in one.steps if line.kind == LINE)
+        lines = ((plate, line) for plate in self.plates for line in plate.steps if line.kind == LINE)
         return {mark.index for one, line in lines for mark in one.marks(line)}
 
     def _vector(self, plate: Plate, stroke: Stroke) -> Data:
@@ -187,7 +187,7 @@ class _Teller:
 
     # ---- the mechanism ---------------------------------------------------------------------------------------------
 
-    def _part(self, part: Figure | FixedGuide | Rail) -> Data:
+    def _part_data(self, part: Figure | FixedGuide | Rail) -> Data:
         """A part of the mechanism's picture, and what it moves with."""
         if isinstance(part, Figure):
             return {"frame": self._frame(part), "items": [self._item(item, part) for item in part.items]}
@@ -206,19 +206,21 @@ class _Teller:
         """The two points of a link that are farthest apart."""
         names, spots = self.scene.links[link], self.mechanism.spots
         pairs = [(p, q) for i, p in enumerate(names) for q in names[i + 1 :]]
-        found = max(pairs, key=lambda pair: math.dist(spots[pair[0]], spots[pair[1]]), default=None)
-        apart = found and math.dist(spots[found[0]], spots[found[1]]) > symbols.NEAR
-        return {"points": list(map(self.points.index, found))} if found and apart else None
+        widest_pair = max(pairs, key=lambda pair: math.dist(spots[pair[0]], spots[pair[1]]), default=None)
+        apart = widest_pair and math.dist(spots[widest_pair[0]], spots[widest_pair[1]]) > symbols.NEAR
+        return {"points": list(map(self.points.index, widest_pair))} if widest_pair and apart else None
 
     def _item(self, item: Item, part: Figure) -> Data:
         """A stroke, figure or arc of a symbol."""
-        found = {"layer": item.layer, "pen": self.pen(item.pen)}
+        fields = {"layer": item.layer, "pen": self.pen(item.pen)}
         if isinstance(item, Arc):
-            return found | {"spots": [self._off(item.centre, part.at)], "arc": [item.radius, item.start, item.end]}
+            return fields | {"spots": [self._spot_by_point(item.centre, part.at)],
+                             "arc": [item.radius, item.start, item.end]}
         assert isinstance(item, Polyline | Polygon)
-        return found | {"spots": [self._off(spot, part.at) for spot in item.spots], "closed": isinstance(item, Polygon)}
+        return fields | {"spots": [self._spot_by_point(spot, part.at) for spot in item.spots],
+                         "closed": isinstance(item, Polygon)}
 
-    def _off(self, spot: Spot, at: Sequence[str]) -> tuple[int, float, float]:
+    def _spot_by_point(self, spot: Spot, at: Sequence[str]) -> tuple[int, float, float]:
         """A spot by the nearest of some points, and how far off it is."""
         point = min(at, key=lambda name: math.dist(self.mechanism.spots[name], spot))
         x, y = self.mechanism.spots[point]
@@ -235,7 +237,7 @@ class _Teller:
     def _link_number(self, wish: Wish) -> Data:
         """The number of a link, and where it may stand."""
         link = wish.label.removeprefix("link ")
-        spots = [self._off(spot, self.scene.links[link]) for spot in wish.spots]
+        spots = [self._spot_by_point(spot, self.scene.links[link]) for spot in wish.spots]
         return {"label": wish.label, "letter": self._lettering(wish.runs, size=wish.letter_size), "clear": wish.clear,
                 "free": wish.free, "frame": self._turning(link), "spots": spots}
 
@@ -263,10 +265,10 @@ def _key(wish: Wish) -> str:
 
 def _measures(sizes: LetterSizes) -> Data:
     """The measures by name, and those of letters."""
-    found = {name: getattr(module, name) for module, names in MEASURES.items() for name in names}
-    return found | {"TOGETHER": TOGETHER, "MARGIN": MARGIN, "CAPS": CAPS, "DEPTH": DEPTH, "DROP": DROP,
+    measures = {name: getattr(module, name) for module, names in MEASURES.items() for name in names}
+    return measures | {"TOGETHER": TOGETHER, "MARGIN": MARGIN, "CAPS": CAPS, "DEPTH": DEPTH, "DROP": DROP,
                     "LETTER": sizes.mark, "TEXT": sizes.text, "ADVANCE": {char: ADVANCE[char] for char in "0, ≡"},
-                    "LOWERED": {size: script_size(size) for size in vars(sizes).values()}}
+                    "LOWERED": {letter_size: script_size(letter_size) for letter_size in vars(sizes).values()}}
 
 
 def _fine(length: float) -> float:

@@ -37,15 +37,15 @@ def _literal(value: Any, text: Mapping[int, str]) -> str:
     if isinstance(value, dict):
         return "{" + ", ".join(f"{json.dumps(key)}: {_literal(part, text)}" for key, part in value.items()) + "}"
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(_literal(part, text) for part in value) + "]"
+        return "[" + ", ".join(_literal(item, text) for item in value) + "]"
     return text[value.place] if isinstance(value, Symbol) else json.dumps(value)
 
 
 def _symbols(value: Any) -> Iterator[int]:
     """The places of all symbols in nested values."""
     if isinstance(value, dict | list | tuple):
-        for part in value.values() if isinstance(value, dict) else value:
-            yield from _symbols(part)
+        for item in value.values() if isinstance(value, dict) else value:
+            yield from _symbols(item)
     elif isinstance(value, Symbol):
         yield value.place
 
@@ -58,12 +58,12 @@ class _Asking(Symbols):
         self.reasons: list[tuple[str, str]] = []
 
     def sqrt(self, value: Any, code: str, why: str) -> Any:
-        return self._noted(super().sqrt(value, code, why), code, why)
+        return self._note_question(super().sqrt(value, code, why), code, why)
 
     def nonzero(self, value: Any, scale: Any, code: str, why: str) -> Any:
-        return self._noted(super().nonzero(value, scale, code, why), code, why)
+        return self._note_question(super().nonzero(value, scale, code, why), code, why)
 
-    def _noted(self, found: Any, code: str, why: str) -> Any:
+    def _note_question(self, found: Any, code: str, why: str) -> Any:
         self.reasons += [(code, why)] * (len(self.tape.questions) - len(self.reasons))
         return found
 
@@ -97,39 +97,42 @@ class PosedTapes:
 
     def __init__(self, drawing: Construction):
         self.drawing, scene = drawing, drawing.scene
-        given = {step.name for program in (drawing.drawn, drawing.program) for step in program.steps[:program.givens]}
-        self.points = [name for name in scene.points if name in given]
+        given_names = {step.name for program in (drawing.drawn, drawing.program)
+                       for step in program.steps[:program.givens]}
+        self.points = [name for name in scene.points if name in given_names]
         self.guides = {name: guide for name, guide in guides(scene).items()
                        if guide.through is None and guide.along != FRAME}
         self.loads = {name: drawn_components(scene, drawing.phi, name) for name in changing_loads(scene.loads)}
-        drawn, rules = self._told(drawing.drawn), self._told(drawing.program)
+        drawn_tape, rules = self._record_program(drawing.drawn), self._record_program(drawing.program)
         self.wanted = [(i, j) for i, j in zip(drawing.drawn.wanted, drawing.program.wanted, strict=True)
                        if drawing.drawn.steps[i].op.gives == POINT]
-        self.drawn = self._function(drawn, tuple(drawn.values))
+        self.drawn = self._function(drawn_tape, tuple(drawn_tape.values))
         points = tuple(rules.values[j] for _, j in self.wanted)
         self.rules = self._function(rules, {"points": points, "results": self._results(rules)})
         steps = len(drawing.drawn) - drawing.drawn.givens
         self.data = {
             "points": self.points, "guides": [*self.guides], "loads": [*self.loads],
             "wanted": [i for i, _ in self.wanted],
-            "asked": {"drawn": self._reasons(drawing.drawn, drawn), "rules": self._reasons(drawing.program, rules)},
-            "relied": [[one, other, coincidence_fault(one, other)] for one, other in drawing.relied],
+            "asked": {"drawn": self._reasons(drawing.drawn, drawn_tape),
+                      "rules": self._reasons(drawing.program, rules)},
+            "relied": [[point, twin, coincidence_fault(point, twin)] for point, twin in drawing.relied],
             "title": scene.title, "method": drawing.method, "steps": steps,
         }  # fmt: skip
 
-    def _told(self, program: Program) -> _Told:
+    def _record_program(self, program: Program) -> _Told:
         """A program on a tape of its own."""
-        domain, asked = _Asking(), list[Step]()
+        domain, asked_steps = _Asking(), list[Step]()
         number = domain.tape.input
-        given: dict[Any, Any] = {name: {part: number(f"{name}.{part}") for part in "xy"} for name in self.points}
+        inputs: dict[Any, Any] = {name: {coordinate: number(f"{name}.{coordinate}") for coordinate in "xy"}
+                                  for name in self.points}
         for name, guide in self.guides.items():
-            way = {part: number(f"{name}.{part}") for part in ("dx", "dy")}
-            given |= dict.fromkeys(guiding_steps(program, guide), way)
+            direction = {part: number(f"{name}.{part}") for part in ("dx", "dy")}
+            inputs |= dict.fromkeys(guiding_steps(program, guide), direction)
         for step, name in changing_steps(program).items():
-            given[step] = {part: number(f"{name}.{part}") * times for part, times in self.loads[name].items()}
-        values = evaluate(program, domain, given,
-                          lambda step: asked.extend([step] * (len(domain.tape.questions) - len(asked))))
-        return _Told(domain, values, asked)
+            inputs[step] = {part: number(f"{name}.{part}") * times for part, times in self.loads[name].items()}
+        values = evaluate(program, domain, inputs,
+                          lambda step: asked_steps.extend([step] * (len(domain.tape.questions) - len(asked_steps))))
+        return _Told(domain, values, asked_steps)
 
     def _reasons(self, program: Program, told: _Told) -> list[str]:
         """Why each question's step cannot be drawn where its answer is no."""
@@ -143,16 +146,17 @@ class PosedTapes:
         at = {name: (domain.tape.input(f"{name}.x"), domain.tape.input(f"{name}.y")) for name in self.points}
         scene = self.drawing.scene.with_pose({**self.drawing.scene.points, **at}, lambda one: one.direction)
         forces = _Forces(scene, results, cast(Any, None), rounds=self.drawing.rounds, bounded=True)
-        found = as_solved(_Report(self.drawing, cast(Any, None), results, False, forces if scene.loads else None,
+        results_data = as_solved(_TapeReport(self.drawing, cast(Any, None), results, False, forces if scene.loads
+                                             else None,
                                   posed=scene))
-        return {key: part for key, part in found.items() if key not in SOLVED}
+        return {key: item for key, item in results_data.items() if key not in SOLVED}
 
     def _function(self, told: _Told, wanted: Any) -> str:
         """A function of the points' coordinates and the guides' directions to what is wanted."""
         tape = told.domain.tape
-        names = [f"{name}.{part}" for name in self.points for part in "xy"]
+        names = [f"{name}.{coordinate}" for name in self.points for coordinate in "xy"]
         names += [f"{name}.{part}" for name in self.guides for part in ("dx", "dy")]
-        names += [f"{name}.{part}" for name, parts in self.loads.items() for part in parts]
+        names += [f"{name}.{part}" for name, components in self.loads.items() for part in components]
         inputs = {tape.input(name).place: f"x[{k}]" for k, name in enumerate(names)}
         writer = _Answering(tape, inputs)
         body = writer.statements([*_symbols(wanted)], tape.questions)
@@ -166,7 +170,7 @@ class _Forces(Forces):
 
 
 @dataclass(frozen=True)
-class _Report(Report):
+class _TapeReport(Report):
     """A report in another pose."""
 
     posed: Scene | None = None

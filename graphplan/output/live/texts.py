@@ -58,18 +58,18 @@ class Texts:
     scales: Scales
     later: Later = field(default_factory=Later)
 
-    def told(self, tongue: Tongue) -> dict[str, Any]:
+    def texts_in(self, tongue: Tongue) -> dict[str, Any]:
         """The texts of the given pose by the part of the page, what the marks are called, and the templates."""
         plans = replace(self.plans, tongue=tongue)
-        given = Telling(plans, self.scales)
+        telling = Telling(plans, self.scales)
         following = Telling(Plans(with_marks_anywhere(plans.drawing, self.later), tongue), self._scales)
-        parts = {"list": "\n".join(given.protocol()), "readings": "".join(given.readings()),
-                 "tables": given.results(), "forms": "".join(given.forms())}
+        texts = {"list": "\n".join(telling.protocol()), "readings": "".join(telling.readings()),
+                 "tables": telling.results(), "forms": "".join(telling.forms())}
         for _ in (*following.protocol(), *following.readings(), following.results()):
             pass
-        if len(given.parts) != len(following.parts):
+        if len(telling.parts) != len(following.parts):
             raise ValueError("a text of other poses has other parts")
-        return {**parts, "names": [given.set(plans.drawing.drawn.text(i)) for i in range(len(plans.drawing.drawn))],
+        return {**texts, "names": [telling.set(plans.drawing.drawn.text(i)) for i in range(len(plans.drawing.drawn))],
                 "templates": {k: told for k, told in enumerate(following.parts) if FOLLOWS.search(told)}}
 
     @property
@@ -98,7 +98,7 @@ class Telling:
         """Words with the names of marks set as on the sheet."""
         return html(sentence_runs(self.plans.tongue(text), self.names))
 
-    def _part(self, told: str) -> str:
+    def _numbered_span(self, told: str) -> str:
         self.parts.append(told)
         return f'<span data-told="{len(self.parts) - 1}">{told}</span>'
 
@@ -118,30 +118,31 @@ class Telling:
         if passage.stage is None or passage.title is None:
             return ""
         equations = () if passage.again else passage.stage.equations
-        told = [f"<h4>{self.set(arrange('{0:capital}', passage.title))}</h4>"]
-        told += [f'<p class="equation">{_equation(equation)}</p>' for equation in equations]
-        told += [f"<p>{self.set(arrange('{0:capital}.', passage.law))}</p>"] if passage.law else []
-        return "".join(told)
+        lines = [f"<h4>{self.set(arrange('{0:capital}', passage.title))}</h4>"]
+        lines += [f'<p class="equation">{_equation(equation)}</p>' for equation in equations]
+        lines += [f"<p>{self.set(arrange('{0:capital}.', passage.law))}</p>"] if passage.law else []
+        return "".join(lines)
 
     def _entries(self, entries: Iterable[Entry]) -> Iterator[str]:
         """Entries as items of a list; one of several movements has a list of these."""
         for entry in entries:
-            told = f"<b>{entry.number}</b> {self._part(self.set(entry.text))}"
+            line = f"<b>{entry.number}</b> {self._numbered_span(self.set(entry.text))}"
             last = entry.movements[-1].number
             if not entry.is_compound:
-                yield f'<li><button type="button" data-place="{last}">{told}</button></li>'
+                yield f'<li><button type="button" data-place="{last}">{line}</button></li>'
                 continue
-            parts = "".join(f'<li><button type="button" data-place="{one.number}"><b>{one.number}</b> '
-                            f"{self._part(self.set(one.sentence))}</button></li>" for one in entry.movements)
-            yield f'<li><button type="button" class="whole" data-until="{last}">{told}</button><ol>{parts}</ol></li>'
+            items = "".join(f'<li><button type="button" data-place="{movement.number}"><b>{movement.number}</b> '
+                            f"{self._numbered_span(self.set(movement.sentence))}</button></li>"
+                            for movement in entry.movements)
+            yield f'<li><button type="button" class="whole" data-until="{last}">{line}</button><ol>{items}</ol></li>'
 
     # ---- what is read ------------------------------------------------------------------------------------------------
 
     def readings(self) -> Iterator[str]:
         """What is measured on the drawing, and what it means, as items of a list; empty where that is nothing."""
-        found = Readings(self.plans.drawing, lengths_of(self.plans, self.scales), self.words.values)
-        return (f"<li>{self._part(self.set(in_any_case(lambda one=one: _reading(found, one))))}</li>"  # type: ignore[misc]
-                for one in found.drawn_readings)
+        readings = Readings(self.plans.drawing, lengths_of(self.plans, self.scales), self.words.values)
+        return (f"<li>{self._numbered_span(self.set(in_any_case(lambda one=reading: _reading(readings, one))))}</li>"  # type: ignore[misc]
+                for reading in readings.drawn_readings)
 
     def results(self) -> str:
         """What is read when all is drawn, as tables."""
@@ -150,14 +151,15 @@ class Telling:
     def _rows(self, table: Table) -> Iterator[str]:
         """The rows of a table, its head first."""
         for number, row in enumerate(table):
-            cells = (f"<td>{self._part(html(runs))}</td>" if number else f"<th>{html(runs)}</th>" for runs in row[1:])
+            cells = (f"<td>{self._numbered_span(html(runs))}</td>" if number else f"<th>{html(runs)}</th>"
+                     for runs in row[1:])
             yield f"<tr><th>{html(row[0])}</th>{''.join(cells)}</tr>"
 
     def forms(self) -> Iterator[str]:
         """By which methods and in which forms it is drawn, and why, as items of a list."""
         drawing = self.plans.drawing
-        for kind, ways in drawing.method.items():
-            yield f"<li>{self.set(arrange('{0:capital}: {1}.', WORDS[kind], join(ways)))}</li>"
+        for kind, methods in drawing.method.items():
+            yield f"<li>{self.set(arrange('{0:capital}: {1}.', WORDS[kind], join(methods)))}</li>"
         yield from (f"<li>{self.set(form)}</li>" for form in drawing.brief_forms)
 
 
@@ -174,9 +176,9 @@ def html(runs: Runs) -> str:
 
 def _equation(equation: Equation) -> str:
     """An equation whose vectors are underlined as often as numbers of them are known."""
-    told, done = "", 0
+    text, done = "", 0
     for start, end, times in equation.underlines:
-        told += html(equation_runs(equation.text[done:start]))
-        told += f'<span class="known-{times}">{html(equation_runs(equation.text[start:end]))}</span>'
+        text += html(equation_runs(equation.text[done:start]))
+        text += f'<span class="known-{times}">{html(equation_runs(equation.text[start:end]))}</span>'
         done = end
-    return told + html(equation_runs(equation.text[done:]))
+    return text + html(equation_runs(equation.text[done:]))

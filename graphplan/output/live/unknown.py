@@ -45,9 +45,9 @@ class Later:
     outputs: dict[int, int] = field(default_factory=dict)
     assumed: dict[int, bool] = field(default_factory=dict)
 
-    def input(self, name: str) -> Number:
+    def input(self, name: str) -> UnknownNumber:
         """A number that JavaScript calls so."""
-        return Number(self, self.tape.input(name))
+        return UnknownNumber(self, self.tape.input(name))
 
     def output(self, number: Any) -> int:
         """Which output of the tape a number is."""
@@ -55,7 +55,7 @@ class Later:
 
     def positive(self, number: Any) -> bool:
         """Whether a number is above zero: what is assumed, if anything is."""
-        if isinstance(number, Number):
+        if isinstance(number, UnknownNumber):
             number = number.symbol
         place = self.tape.place(number)
         if self.tape.is_constant(place):
@@ -77,8 +77,8 @@ class Later:
         no arithmetic."""
         writer = Writer(self.tape, LIVE)
         body = writer.statements([*self.outputs])
-        told = ",".join(writer.text[place] for place in self.outputs)
-        return "\n".join(["function (v, s, {tenths, hypot, level, result}) {", *body, f"return [{told}];", "}"])
+        outputs = ",".join(writer.text[place] for place in self.outputs)
+        return "\n".join(["function (v, s, {tenths, hypot, level, result}) {", *body, f"return [{outputs}];", "}"])
 
 
 class Asked(UndecidedText):
@@ -89,24 +89,25 @@ class Asked(UndecidedText):
 
     def say_both(self, tell: Callable[[], Said]) -> Said:
         output = self.later.output(Symbol(self.later.tape, self.place))
-        one, other = (self.later.assuming(self.place, answer, tell) for answer in (True, False))
-        return one if one == other else arrange(f"{EITHER}{output}{THEN}{{0}}{ELSE}{{1}}{END}", one, other)
+        if_so, if_not = (self.later.assuming(self.place, answer, tell) for answer in (True, False))
+        return if_so if if_so == if_not else arrange(f"{EITHER}{output}{THEN}{{0}}{ELSE}{{1}}{END}", if_so, if_not)
 
 
-def _recorded(operation: Callable[[Any, Any], Any]) -> Callable[[Number, Any], Number]:
+def _record_operation(operation: Callable[[Any, Any], Any]) -> Callable[[UnknownNumber, Any], UnknownNumber]:
     """Arithmetic with another number."""
 
-    def record(number: Number, other: Any) -> Number:
-        return Number(number.later, operation(number.symbol, other.symbol if isinstance(other, Number) else other))
+    def record(number: UnknownNumber, other: Any) -> UnknownNumber:
+        return UnknownNumber(number.later,
+                             operation(number.symbol, other.symbol if isinstance(other, UnknownNumber) else other))
 
     return record
 
 
-def _turned(operation: Callable[[Any, Any], Any]) -> Callable[[Number, Any], Number]:
-    return _recorded(lambda symbol, other: operation(other, symbol))
+def _swap_operands(operation: Callable[[Any, Any], Any]) -> Callable[[UnknownNumber, Any], UnknownNumber]:
+    return _record_operation(lambda symbol, other: operation(other, symbol))
 
 
-class Number(Unknown):
+class UnknownNumber(Unknown):
     """A number of a pose; it can be computed with, compared and told, and is no float."""
 
     __slots__ = ("later", "symbol")
@@ -114,26 +115,26 @@ class Number(Unknown):
     def __init__(self, later: Later, symbol: Any):
         self.later, self.symbol = later, symbol
 
-    __add__, __radd__ = _recorded(operator.add), _turned(operator.add)
-    __sub__, __rsub__ = _recorded(operator.sub), _turned(operator.sub)
-    __mul__, __rmul__ = _recorded(operator.mul), _turned(operator.mul)
-    __truediv__, __rtruediv__ = _recorded(operator.truediv), _turned(operator.truediv)
+    __add__, __radd__ = _record_operation(operator.add), _swap_operands(operator.add)
+    __sub__, __rsub__ = _record_operation(operator.sub), _swap_operands(operator.sub)
+    __mul__, __rmul__ = _record_operation(operator.mul), _swap_operands(operator.mul)
+    __truediv__, __rtruediv__ = _record_operation(operator.truediv), _swap_operands(operator.truediv)
 
-    def __neg__(self) -> Number:
-        return Number(self.later, -self.symbol)
+    def __neg__(self) -> UnknownNumber:
+        return UnknownNumber(self.later, -self.symbol)
 
-    def __abs__(self) -> Number:
-        return Number(self.later, abs(self.symbol))
+    def __abs__(self) -> UnknownNumber:
+        return UnknownNumber(self.later, abs(self.symbol))
 
-    def __pow__(self, power: float) -> Number:
+    def __pow__(self, power: float) -> UnknownNumber:
         if power != 0.5:
             raise TypeError("only square roots are recorded")
-        return Number(self.later, self.symbol.root())
+        return UnknownNumber(self.later, self.symbol.root())
 
-    def __round__(self, places: int) -> Number:
+    def __round__(self, places: int) -> UnknownNumber:
         if places != 1:
             raise TypeError("only rounding to tenths is recorded")
-        return Number(self.later, self.later.tape.worded_operation("tenths", self.symbol.place))
+        return UnknownNumber(self.later, self.later.tape.worded_operation("tenths", self.symbol.place))
 
     def __lt__(self, other: Any) -> bool:
         return self.later.positive(other - self)
@@ -150,26 +151,26 @@ class Number(Unknown):
     def __bool__(self) -> bool:
         return self.later.positive(abs(self))
 
-    def level(self, kinds: str, numbers: Sequence[Any]) -> Number:
+    def level(self, kinds: str, numbers: Sequence[Any]) -> UnknownNumber:
         return self._of_sum(LEVEL + kinds, numbers)
 
-    def result(self, kinds: str, numbers: Sequence[Any]) -> Number:
+    def result(self, kinds: str, numbers: Sequence[Any]) -> UnknownNumber:
         return self._of_sum(RESULT + kinds, (*numbers, self))
 
-    def _of_sum(self, operation: str, numbers: Sequence[Any]) -> Number:
+    def _of_sum(self, operation: str, numbers: Sequence[Any]) -> UnknownNumber:
         """What is worked out of the numbers of a sum."""
         tape = self.later.tape
         places = (tape.place(getattr(number, "symbol", number)) for number in numbers)
-        return Number(self.later, tape.worded_operation(operation, *places))
+        return UnknownNumber(self.later, tape.worded_operation(operation, *places))
 
     def printed_number(self, number: Any, kind: str) -> Said:
         symbol = getattr(number, "symbol", number)
         return figures(f"{PLACE}{self.later.output(symbol)}:{kind}{self.later.output(self.symbol)}{END}")
 
-    def hypot(self, other: Any) -> Number:
+    def hypot(self, operand: Any) -> UnknownNumber:
         tape = self.later.tape
-        other = other.symbol if isinstance(other, Number) else other
-        return Number(self.later, tape.worded_operation("hypot", self.symbol.place, tape.place(other)))
+        operand = operand.symbol if isinstance(operand, UnknownNumber) else operand
+        return UnknownNumber(self.later, tape.worded_operation("hypot", self.symbol.place, tape.place(operand)))
 
     def place(self, count: int) -> str:
         return f"{PLACE}{self.later.output(self.symbol)}:{count}{END}"
@@ -186,9 +187,10 @@ class Laters(Floats):
 
     def sign(self, value: Any, scale: Any) -> Any:
         tape = value.later.tape
-        return Number(value.later, tape.sign(*(tape.place(getattr(one, "symbol", one)) for one in (value, scale))))
+        return UnknownNumber(value.later,
+                             tape.sign(*(tape.place(getattr(number, "symbol", number)) for number in (value, scale))))
 
 
-def unknown(later: Later, values: Sequence[Any]) -> list[tuple[Number, ...]]:
+def unknown(later: Later, values: Sequence[Any]) -> list[tuple[UnknownNumber, ...]]:
     """The values of marks, each number unknown."""
     return [tuple(later.input(f"v[{mark}][{k}]") for k in range(len(value))) for mark, value in enumerate(values)]

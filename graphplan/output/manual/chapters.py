@@ -80,7 +80,7 @@ class ChapterPage(SitePage):
         from markdown_it import MarkdownIt
 
         markdown = MarkdownIt("commonmark").enable("table")
-        title, *tokens = self._resolved(markdown.parse(text))[1:]
+        title, *tokens = self._resolve_links(markdown.parse(text))[1:]
         body = markdown.renderer.render(tokens[1:], markdown.options, {})
         body = body.replace("<table>", '<div class="wide"><table>').replace("</table>", "</table></div>")
         return self.page(title.content, [*self._language(), f'<article lang="en">\n{body}</article>'])
@@ -90,16 +90,16 @@ class ChapterPage(SitePage):
         if self.tongue.code != "en":
             yield self.paragraph(said("This chapter is in English."))
 
-    def _resolved(self, tokens: Sequence[Token]) -> Sequence[Token]:
+    def _resolve_links(self, tokens: Sequence[Token]) -> Sequence[Token]:
         """The tokens with names of their heads, and with addresses as the site has them."""
         for token, following in zip(tokens, [*tokens[1:], None], strict=True):
             if token.type == "heading_open" and following:
                 token.attrSet("id", anchor(following.content))
             if token.children:
-                token.children = [*self._addressed(token.children)]
+                token.children = [*self._address_links(token.children)]
         return tokens
 
-    def _addressed(self, tokens: Sequence[Token]) -> Iterator[Token]:
+    def _address_links(self, tokens: Sequence[Token]) -> Iterator[Token]:
         """The tokens of a paragraph; a link or a picture that leads out of the site leaves its words."""
         leads_out = False
         for token in tokens:

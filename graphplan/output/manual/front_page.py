@@ -18,9 +18,9 @@ COLUMNS, WIDTH = 3, 260  # thumbnails in a row, and the width of each in pixels
 
 def front_page(shown: Sequence[ShownScene], charts: Iterable[str], tongue: Tongue) -> str:
     """The page as Markdown, with the charts that are there."""
-    by_name, pictures = {one.name: one for one in shown}, [*charts]
+    by_name, pictures = {scene.name: scene for scene in shown}, [*charts]
 
-    def parts() -> Iterator[str]:
+    def page_lines() -> Iterator[str]:
         yield MARK
         yield f"# {tongue(said('Gallery'))}"
         yield tongue(CONSTRUCTED())
@@ -36,7 +36,7 @@ def front_page(shown: Sequence[ShownScene], charts: Iterable[str], tongue: Tongu
             yield tongue(MEASURED())
             yield _thumbnails([_picture(f"charts/{name}.svg", name) for name in pictures])
 
-    return "\n\n".join(parts()) + "\n"
+    return "\n\n".join(page_lines()) + "\n"
 
 
 def _thumbnails(cells: Sequence[str]) -> str:

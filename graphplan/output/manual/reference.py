@@ -15,7 +15,7 @@ from graphplan.kernel.kinds import FAILURES, LINE, PENCIL, Primitive
 from graphplan.marking.judge.score import KINDS
 from graphplan.mechanism import pairs
 from graphplan.mechanism.schema import FORM, keys
-from graphplan.output.manual.site import REFERENCE, SitePage, coded
+from graphplan.output.manual.site import REFERENCE, SitePage, code_spans
 from graphplan.output.report_page import HtmlCell
 from graphplan.phrases import Said, phrase, said
 from graphplan.sheet.words.task import INSTRUMENTS
@@ -42,7 +42,7 @@ def reference(commands: Mapping[str, str], results: Mapping[str, Mapping[str, ob
 
 
 def _code(text: str) -> HtmlCell:
-    return HtmlCell("<br>".join(f"<code>{escape(part)}</code>" for part in text.split("` or `")))
+    return HtmlCell("<br>".join(f"<code>{escape(piece)}</code>" for piece in text.split("` or `")))
 
 
 def _names(names: Iterable[str]) -> str:
@@ -51,7 +51,7 @@ def _names(names: Iterable[str]) -> str:
 
 
 def _text(text: object) -> HtmlCell:
-    return HtmlCell(coded(escape(str(text))))
+    return HtmlCell(code_spans(escape(str(text))))
 
 
 def _keys() -> Table:
@@ -76,7 +76,7 @@ def _paragraph(doc: str | None) -> str:
 
 def _primitives(page: SitePage) -> Table:
     """Each operation of the drawing board as it is spoken, its instrument, what may fail, its forms and its source."""
-    def more(op: Primitive) -> Iterator[str]:
+    def further_lines(op: Primitive) -> Iterator[str]:
         if op.forms:
             yield page.tongue(said("forms: {0}", _names(op.forms)))
         if op.fails:
@@ -84,19 +84,19 @@ def _primitives(page: SitePage) -> Table:
         if op.source:
             yield page.tongue(said("source: {0}", op.source))
 
-    rows = (("", (_code(op.name), _text(page.tongue(_spoken(op))), _text(page.tongue(HANDS[op.instrument]())),
-                  _text("; ".join(more(op)))))
+    rows = (("", (_code(op.name), _text(page.tongue(_sample_sentence(op))), _text(page.tongue(HANDS[op.instrument]())),
+                  _text("; ".join(further_lines(op)))))
             for op in TABLE.values())
     return said("Primitives"), said("What can be drawn: every step of a construction is one of these."), (
         said("Primitive"), said("As it is spoken"), said("Instrument"), said("More")), rows
 
 
-def _spoken(op: Primitive) -> Said:
+def _sample_sentence(op: Primitive) -> Said:
     """The sentence of an operation of any marks."""
     letters = {kind: iter(names) for kind, names in ANYTHING.items()}
     read = [next(letters[kind]) for kind in op.reads]
-    made = {"point": "X", LINE: "x"}.get(op.gives) or next(letters[op.gives])
-    return op.sentence_of(read, out=made, **{name: f"`{name}`" for name in op.params})
+    result = {"point": "X", LINE: "x"}.get(op.gives) or next(letters[op.gives])
+    return op.sentence_of(read, out=result, **{name: f"`{name}`" for name in op.params})
 
 
 def _failures(page: SitePage) -> Table:
@@ -107,7 +107,7 @@ def _failures(page: SitePage) -> Table:
 
 
 def _commands(commands: Mapping[str, str]) -> Table:
-    rows = (("", (_code(name), HtmlCell(f"<pre>{escape(told)}</pre>"))) for name, told in commands.items())
+    rows = (("", (_code(name), HtmlCell(f"<pre>{escape(command)}</pre>"))) for name, command in commands.items())
     return said("Commands"), said("What `graphplan COMMAND --help` prints."), (said("Command"), said("Help")), rows
 
 

@@ -34,7 +34,7 @@ class ShownScene:
 
 def index(shown: Sequence[ShownScene], charts: Iterable[str], tongue: Tongue) -> str:
     """The page that leads to all scenes, and shows the charts that are there."""
-    page, by_name = SitePage(tongue, INDEX), {one.name: one for one in shown}
+    page, by_name = SitePage(tongue, INDEX), {card.name: card for card in shown}
     measured = [Sight(f"charts/{name}.svg", name, f"charts/{name}.svg") for name in charts]
 
     def body() -> Iterator[str]:
@@ -55,8 +55,8 @@ def _card(page: SitePage, one: ShownScene) -> Sight:
     title = page.tongue.title(one.scene.title)
     links = [f'<a href="{one.name}.html">{page.say(said("{0} steps", one.steps))}</a>']
     links += [f'<a href="{one.live}">{page.say(said("moving"))}</a>'] if one.live else []
-    told = f"<b>{escape(title)}</b><br>{escape(one.scene.source)}<br>{' · '.join(links)}"
-    return Sight(f"{one.name}.svg", title, f"{one.name}.html", told)
+    caption = f"<b>{escape(title)}</b><br>{escape(one.scene.source)}<br>{' · '.join(links)}"
+    return Sight(f"{one.name}.svg", title, f"{one.name}.html", caption)
 
 
 def scene_page(one: ShownScene, tongue: Tongue) -> str:

@@ -48,14 +48,14 @@ class SitePage(HtmlPage):
 
     def page(self, title: str, body: Iterable[str], pictures: str = "") -> str:
         """The whole page; the body is HTML."""
-        parts = {"language": self.tongue.code, "title": f"graphplan: {escape(title)}", "places": self._places(),
+        fields = {"language": self.tongue.code, "title": f"graphplan: {escape(title)}", "places": self._places(),
                  "body": "\n".join([f"<h1>{escape(title)}</h1>", *body])}
         text = files(__package__).joinpath("site.html").read_text("utf-8")
-        return re.sub(r"\{\{(\w+)\}\}", lambda slot: parts[slot[1]], text)
+        return re.sub(r"\{\{(\w+)\}\}", lambda slot: fields[slot[1]], text)
 
     def paragraph(self, told: Said) -> str:
         """Words as a paragraph; what stands in ` is code."""
-        return f"<p>{coded(self.say(told))}</p>"
+        return f"<p>{code_spans(self.say(told))}</p>"
 
     @property
     def root(self) -> str:
@@ -68,7 +68,7 @@ class SitePage(HtmlPage):
                          for name, words in PLACES.items() if name != CONTENTS or has_chapters())
 
 
-def coded(html: str) -> str:
+def code_spans(html: str) -> str:
     """Words as HTML in which what stands in ` is code."""
     return re.sub(r"`([^`]+)`", r"<code>\1</code>", html)
 

@@ -26,8 +26,8 @@ TOPICS: dict[Said, tuple[str, ...]] = {
 
 def by_topic(names: Iterable[str]) -> dict[Said, list[str]]:
     """The names under their topics, in the order of these; what is no packaged scene comes last."""
-    wanted = [*names]
-    sorted_names = {topic: [name for name in scenes if name in wanted] for topic, scenes in TOPICS.items()}
-    placed = {name for scenes in TOPICS.values() for name in scenes}
-    sorted_names[said("Further scenes")] = [name for name in wanted if name not in placed]
+    requested = [*names]
+    sorted_names = {topic: [name for name in scenes if name in requested] for topic, scenes in TOPICS.items()}
+    in_topics = {name for scenes in TOPICS.values() for name in scenes}
+    sorted_names[said("Further scenes")] = [name for name in requested if name not in in_topics]
     return {topic: scenes for topic, scenes in sorted_names.items() if scenes}

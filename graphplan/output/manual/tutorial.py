@@ -95,7 +95,7 @@ def tutorial(pictures: Collection[str], tongue: Tongue) -> str:
 
 def markdown(pictures: Collection[str], tongue: Tongue) -> str:
     """Both as Markdown, for a code host."""
-    def parts() -> Iterator[str]:
+    def page_lines() -> Iterator[str]:
         yield f"# {tongue(said('Tutorial'))}"
         for title, lessons in TUTORIALS.items():
             yield f"## {tongue(title)}"
@@ -106,4 +106,4 @@ def markdown(pictures: Collection[str], tongue: Tongue) -> str:
                 item += [f"![{tongue(title)}]({lesson.picture})"] if lesson.picture in pictures else []
                 yield f"{number}. " + indent("\n\n".join(item), "   ").lstrip()
 
-    return "\n\n".join(parts()) + "\n"
+    return "\n\n".join(page_lines()) + "\n"

@@ -22,7 +22,17 @@ from graphplan.kernel.drawing import Values
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM
-from graphplan.output.graphs import CURVES, Figures, Graph, Polar, Span, scale_words, smoothed, stacked, through
+from graphplan.output.graphs import (
+    CURVES,
+    Figures,
+    Graph,
+    PolarGraph,
+    Span,
+    lines_through,
+    scale_words,
+    smooth_line,
+    stack_graphs,
+)
 from graphplan.output.panelled import Panelled, Words, divide_across, divide_down
 from graphplan.output.subjects.balance_words import BalanceWords, clear_rounding
 from graphplan.phrases import Said, join, said
@@ -200,18 +210,18 @@ class BalanceSheet(Panelled):
         """A smooth line through spots, back to its beginning where the motion closes."""
         known = [spot for spot, z in zip(spots, motion.path, strict=True) if np.isfinite(z)]
         if not motion.links.closes or len(known) < len(spots):
-            return smoothed(known)
+            return smooth_line(known)
         count = len(spots)
-        whole = smoothed([known[-1], *known, known[0], known[1]])
+        whole = smooth_line([known[-1], *known, known[0], known[1]])
         pieces = (len(whole) - 1) // (count + 2)
         return whole[pieces:-pieces]
 
     # ---- diagrams --------------------------------------------------------------------------------------------------
 
-    def polar(self, rect: Rect) -> Polar:
+    def polar(self, rect: Rect) -> PolarGraph:
         """The polar diagram of the shaking force, before and after."""
         forces = np.concatenate([self.usual_values(self._force(motion)) for motion, _ in self.motions])
-        return Polar.fitted(rect.inset(4.0, 4.0, 4.0, 8.0), forces.real.tolist(), forces.imag.tolist())
+        return PolarGraph.fit_vectors(rect.inset(4.0, 4.0, 4.0, 8.0), forces.real.tolist(), forces.imag.tolist())
 
     def _polar(self, rect: Rect) -> Iterator[Item]:
         """The curves of the ends of the shaking force, with numbered positions."""
@@ -219,12 +229,12 @@ class BalanceSheet(Panelled):
         ink, ends = [*self.figures.rings(polar, "N")], list[Spot]()
         ink += self._legend(rect, [("J", BEFORE), *([("J'", AFTER)] if self.balancing.after else [])])
         for motion, pen in self.motions:
-            spots = [polar.at(float(z.real), float(z.imag)) for z in self._force(motion)]
+            spots = [polar.end_of(float(z.real), float(z.imag)) for z in self._force(motion)]
             ink += clip_item(Polyline(pen, "links", None, tuple(self._smooth(motion, spots))), polar.rect)
             shown = [spots[k] for k in self.places if polar.rect.holds(spots[k])]
             ink += [Circle(pen.with_fill(pen.colour), "links", None, spot, 0.5) for spot in shown]
             ends += shown
-        spots = [polar.at(float(z.real), float(z.imag)) for z in self._force(self.given_motion)[self.places]]
+        spots = [polar.end_of(float(z.real), float(z.imag)) for z in self._force(self.given_motion)[self.places]]
         yield from (*ink, *place_letters([*self._numbers(spots, polar.rect)], ink, ends, polar.rect, self.letters))
 
     def _force(self, motion: MassMotion) -> Any:
@@ -259,7 +269,7 @@ class BalanceSheet(Panelled):
         spans = [_span([self.usual_values(values) for values, _ in curves]) for curves in (forces, moments)]
         upper, lower = stack_diagrams(rect.inset(2.0, 2.0, 4.0, 5.0), ends, spans)
         unit_x = self.scene.units.length if slides else "°"
-        yield from through([upper, lower], self._uprights(travel))
+        yield from lines_through([upper, lower], self._uprights(travel))
         words = "s" if slides else "φ"
         convention = self.scene.sheet.convention
         yield from self.figures.axes(upper, "", scale_words("J", upper.k_y, "N", convention), numbers=False)
@@ -315,8 +325,8 @@ class BalanceSheet(Panelled):
 def stack_diagrams(room: Rect, x: Span, spans: Sequence[Span]) -> list[Graph]:
     """Two diagrams, each as high as its ordinates are at its round scale, in the shares in which they take most room.
     """
-    tried = [stacked(room, x, spans, (share, 1.0)) for share in SHARES]
-    fitted = [[replace(graph, rect=replace(graph.rect, top=graph.at(0.0, high)[1]))
+    tried = [stack_graphs(room, x, spans, (share, 1.0)) for share in SHARES]
+    fitted = [[replace(graph, rect=replace(graph.rect, top=graph.spot(0.0, high)[1]))
                for graph, (_, high) in zip(graphs, spans, strict=True)] for graphs in tried]
     return max(fitted, key=lambda graphs: math.prod(graph.rect.height for graph in graphs))
 

@@ -120,8 +120,8 @@ class CamFigures(Figures):
         if still or hard:
             high = max(high, -low, one.size if still else 0.0)
             low = -high
-        graph = Graph.fitted(rect, (0.0, 360.0), (low, high))
-        at = graph.at
+        graph = Graph.fit_rect(rect, (0.0, 360.0), (low, high))
+        at = graph.spot
         yield from self.abscissa(graph)
         yield Polyline(AXIS, "ruling", None, (at(0, low), at(0, high)))
         for angles, part in parts:
@@ -134,7 +134,7 @@ class CamFigures(Figures):
             yield from self.shock_arrows(at, high)
         told = "{0} = 0" if still else "{0}, {1}   ({2})"
         scale = scale_words(one.letter, graph.k_y, one.measure)
-        yield self.headed(graph, arrange(told, one.letter, unit(one.measure), scale), (one.letter, f"k_{one.letter}"))
+        yield self.heading(graph, arrange(told, one.letter, unit(one.measure), scale), (one.letter, f"k_{one.letter}"))
         for angle, value in ((top, most), (foot, -depth)):
             if abs(value) > RANGE_TOL * (high - low):
                 x, y = at(angle, value)
@@ -194,8 +194,8 @@ class CamFigures(Figures):
         A0 = at(complex(pieces[0][1][0]))
         yield Polyline(pens.THIN, "plates", None, (at(0j), A0))
         yield from self.limit_tangents(at, rect) if self.has_limits else self.touching_lines(at, rect)
-        yield from self.marked(A0, "A_0", (1.4, -3.0))
-        yield from self.marked(at(0j), "O", (-1.4, -3.0))
+        yield from self.draw_point(A0, "A_0", (1.4, -3.0))
+        yield from self.draw_point(at(0j), "O", (-1.4, -3.0))
 
     @property
     def has_limits(self) -> bool:
@@ -222,7 +222,7 @@ class CamFigures(Figures):
                 tip = spot(way * (one.intercept + one.slope * high), high)
                 yield from self.touch_label(tip, words(digits(math.degrees(math.atan(one.slope)))), spot(0.0, high)[0])
         if where.back is not None and abs(where.corner[0] - pair.offset) > OFFSET_TOL * pair.base:
-            yield from self.marked(spot(where.corner[0], -where.corner[1]), "O_m", (1.6, 0.6))
+            yield from self.draw_point(spot(where.corner[0], -where.corner[1]), "O_m", (1.6, 0.6))
 
     def touch_label(self, tip: Spot, words: Said, axis: float) -> Iterator[Item]:
         """Where a tangent touches the curve, with its angle, away from the path."""
@@ -266,10 +266,10 @@ class CamFigures(Figures):
         end = window((-reach, reach - lowest))
         yield from clip_item(Polyline(TANGENT, "plates", None, (limit, end)), rect)
         yield self.text(((limit[0] + end[0]) / 2 - 2.0, (limit[1] + end[1]) / 2 - 2.0), "45°", "end")
-        yield from self.marked(A0, "A_0")
-        yield from self.marked(O, "O", (1.4, -2.8))
+        yield from self.draw_point(A0, "A_0")
+        yield from self.draw_point(O, "O", (1.4, -2.8))
         if abs(base - lowest) > BASE_TOL * base:
-            yield from self.marked(limit, "O'", (1.4, -1.0))
+            yield from self.draw_point(limit, "O'", (1.4, -1.0))
 
     def _scale_label(self, window: View, rect: Rect) -> Item:
         """The scale of a figure, in its corner."""

@@ -148,8 +148,8 @@ class CamPlan:
                 continue  # there the follower stands
             long = math.dist((x, y), O) or 1.0
             part = 1 + (far + NUMBER_GAP_MM) / long
-            yield from paper.backed((O[0] + part * (x - O[0]), O[1] + part * (y - O[1])), str(k), middle=True)
-        yield from paper.backed((O[0] - 5.5, O[1] + 1.4), "O", self.letters.mark)
+            yield from paper.backed_text((O[0] + part * (x - O[0]), O[1] + part * (y - O[1])), str(k), middle=True)
+        yield from paper.backed_text((O[0] - 5.5, O[1] + 1.4), "O", self.letters.mark)
         shown = self.lettered_division
         for name, (dx, dy) in {"A": (1.2, 1.0), "K": (1.0, -3.4), "P": (0.8, 1.0), "T": (0.8, 1.0),
                                "B": (2.0, 1.4), "S": (2.0, 0.0)}.items():
@@ -157,7 +157,7 @@ class CamPlan:
             if step is not None:
                 x, y = self.ink.plates.steps[step.index].spot
                 if math.dist((x, y), O) > MIN_LETTER_MM:
-                    yield from paper.backed((x + dx, y + dy), step.name, self.letters.mark)
+                    yield from paper.backed_text((x + dx, y + dy), step.name, self.letters.mark)
 
     @property
     def lettered_division(self) -> int:

@@ -116,7 +116,7 @@ class FlywheelFigure:
     @cached_property
     def graphs(self) -> dict[str, Graph]:
         """The diagrams by name."""
-        found = {name: Graph.framed(frame, self.window) for name, frame in self.drawing.frames.items()}
+        found = {name: Graph.from_frame(frame, self.window) for name, frame in self.drawing.frames.items()}
         energy, spots = found["energy"], self.drawing.values.values_of_role("energies")
         low = self.window(min(spots, key=lambda spot: spot[1]))[1] - FREE  # m and n may lie far below
         return found | {"energy": replace(energy, rect=replace(energy.rect, bottom=max(low, energy.rect.bottom)))}
@@ -166,12 +166,12 @@ class FlywheelFigure:
     def _origin(self) -> Iterator[Item]:
         """The origin in which the tangents meet, if it lies on the panel: so far left of the axis is the flywheel."""
         wheel = self.result.wheel
-        O = self.graphs["energy-mass"].at(-wheel.inertia, wheel.origin)
+        O = self.graphs["energy-mass"].spot(-wheel.inertia, wheel.origin)
         if self.rect.holds(O):
             for which, letter in (("upper", "m"), ("lower", "n")):
                 (place,), cut = self._steps(which), self.window(self.drawing.values.values_of_role(letter)[0])
                 yield Polyline(TANGENTS[which], "plates", place, (O, cut))
-            yield from self.paper.marked(O, "O", (-1.2, 0.8))
+            yield from self.paper.draw_point(O, "O", (-1.2, 0.8))
 
     # ---- curves ----------------------------------------------------------------------------------------------------
 
@@ -184,7 +184,7 @@ class FlywheelFigure:
     def _areas(self) -> Iterator[Item]:
         """What lies between the moment and its mean."""
         graph = self.graphs["moment"]
-        level = graph.at(0.0, self.drawing.mean)[1]
+        level = graph.spot(0.0, self.drawing.mean)[1]
         parts = [graph.spots(*part) for part in self.sample_curve(self.result.cycle.moment)]
         spots = [spot for part in parts for spot in part]
         corners = ((spots[0][0], level), *spots, (spots[-1][0], level))
@@ -248,7 +248,7 @@ class FlywheelFigure:
         for which, name in (("upper", "psi_max"), ("lower", "psi_min")):
             touch = getattr(self.result.wheel, which)
             cut = self.window(self.drawing.values.values_of_role("m" if which == "upper" else "n")[0])
-            end = graph.at(touch.inertia, touch.energy)
+            end = graph.spot(touch.inertia, touch.energy)
             spots = tuple(spot for t in (0.25, 0.4, 0.15, 0.6, 0.8)
                           if bounds.holds(spot := (cut[0] + t * (end[0] - cut[0]), cut[1] + t * (end[1] - cut[1]))))
             if spots:

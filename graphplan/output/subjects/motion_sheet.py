@@ -77,7 +77,7 @@ class MotionFigure:
         """The diagrams by name; travel is in degrees, or in lengths."""
         machine, found = self.found.machine, dict[str, Graph]()
         for name, frame in self.drawing.frames.items():
-            graph = Graph.framed(frame, self.window)
+            graph = Graph.from_frame(frame, self.window)
             across = 1.0 if name in ("inertia", "energy-mass") else machine.degree
             up = {"inertia": machine.degree, "omega": machine.pace, "slowness": 1 / machine.pace}.get(name, 1.0)
             found[name] = replace(graph, k_x=graph.k_x / across, k_y=graph.k_y / up)

@@ -13,7 +13,7 @@ from graphplan.machine.rotors.polygons import Correction, free_radius
 from graphplan.machine.rotors.rotor import PLANES, ThreeRuns, TrialWeights
 from graphplan.machine.rotors.rotor_balance import BalancedRotor
 from graphplan.machine.rotors.trial_runs import Effect, angle_of, harmonic
-from graphplan.output.graphs import CURVES, Figures, Graph, stacked
+from graphplan.output.graphs import CURVES, Figures, Graph, stack_graphs
 from graphplan.output.tolerances import HARMONIC_TOL, MIN_WEIGHT, RANGE_TOL
 from graphplan.phrases import Said, arrange, digits, said, unit
 from graphplan.sheet.layout.scales import round_up
@@ -127,7 +127,8 @@ class RotorViews(Figures):
         back = one.angle - math.degrees(DIMENSION_HEAD_MM / radius)
         yield Arrow(Pen(0.18, pens.INK, fill=pens.INK), "links", step, arc.spot_at(back), arc.spot_at(one.angle),
                     DIMENSION_HEAD_MM)
-        yield from self.backed(arc.spot_at(one.angle / 2 if one.angle < 180 else one.angle - 30), f"alpha_{one.letter}",
+        yield from self.backed_text(arc.spot_at(one.angle / 2 if one.angle < 180 else one.angle - 30),
+                                    f"alpha_{one.letter}",
                                middle=True)
 
     def _trial_masses(self, plan: View, effect: Effect, index: int) -> Iterator[tuple[Spot, str]]:
@@ -196,7 +197,7 @@ class RotorViews(Figures):
             for at in (x, end):
                 yield Polyline(DIMENSION, "ruling", None, ((at, y - 1.0), (at, top - 1.0)))
                 yield Arrow(Pen(0.18, pens.INK, fill=pens.INK), "ruling", None, middle, (at, y), DIMENSION_HEAD_MM)
-            yield from self.backed(middle, name, middle=True)
+            yield from self.backed_text(middle, name, middle=True)
 
 
 # ---- polygons and trials --------------------------------------------------------------------------------------------
@@ -310,7 +311,7 @@ class RotorFigures(RotorViews):
         arc = Arc(DIMENSION, "links", None, D, radius, low, high)
         yield arc
         if radius > 2 * MIN_LETTERED_MM:
-            yield from self.backed(arc.spot_at((low + high) / 2), "alpha", middle=True)
+            yield from self.backed_text(arc.spot_at((low + high) / 2), "alpha", middle=True)
 
     def _weights(self, plan: View, z: dict[str, complex], steps: dict[str, int]) -> Iterator[Item]:
         """The polygon of the trial weights, and the permanent weight."""
@@ -331,20 +332,20 @@ class RotorFigures(RotorViews):
         cosine = [mean + (first * cmath.rect(1.0, -math.radians(angle))).real for angle in turn]
         weights = [*map(float, trial.weights)]
         span, largest = (start, start + 360.0), 1.15 * max(*weights, *cosine, MIN_WEIGHT)
-        rect = stacked(rect, span, [(0.0, largest)])[0].rect
-        graph = Graph.fitted(rect, span, (0.0, largest), largest / rect.height)
+        rect = stack_graphs(rect, span, [(0.0, largest)])[0].rect
+        graph = Graph.fit_rect(rect, span, (0.0, largest), largest / rect.height)
         yield from self.axes(graph, "°", arrange("p, {0}", unit(self.found.task.units.mass)), turns=True)
         yield from graph.curve(turn, cosine, CURVES[1])
         yield from graph.points([*angles, start + 360.0], [*weights, weights[0]], radius=0.7)
         for size, name, over in ((mean + abs(first), "p_max", 1.0), (mean - abs(first), "p_min", -3.4)):
-            y = graph.at(0.0, size)[1]
+            y = graph.spot(0.0, size)[1]
             yield Polyline(pens.PRODUCED, "ruling", None, ((rect.left, y), (rect.right, y)))
-            yield from self.backed((rect.right - 12.0, y + over), self.runs(name))
+            yield from self.backed_text((rect.right - 12.0, y + over), self.runs(name))
         if abs(first) <= HARMONIC_TOL * mean:
             return
         place = start + (math.degrees(cmath.phase(first)) - start) % 360
         yield from graph.uprights([place], pens.PRODUCED)
-        yield from self.backed((graph.at(place, 0.0)[0] + 0.8, rect.bottom + 1.5), f"{digits(place % 360)}°")
+        yield from self.backed_text((graph.spot(place, 0.0)[0] + 0.8, rect.bottom + 1.5), f"{digits(place % 360)}°")
 
 
 def spots_along(start: Spot, end: Spot) -> tuple[Spot, ...]:

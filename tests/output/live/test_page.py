@@ -80,14 +80,14 @@ def test_every_step_stage_and_result_stands_in_the_page_without_a_script(name: s
 
 def test_the_scene_is_in_the_page_once() -> None:
     """The scene as it was written stands in a script of its own; what would end that is turned back by the reader."""
-    from graphplan.output.live.page import embedded
+    from graphplan.output.live.page import escape_for_script
 
     page, scene = text_of(*USED), gp.load(NAME)
     assert Reader(page).scripts["scene"].replace("<\\", "<") == scene.text
     text = 'title = "</script><!-- <b>"'
-    assert "</" not in embedded(text)
-    assert "<!--" not in embedded(text)
-    assert embedded(text).replace("<\\", "<") == text
+    assert "</" not in escape_for_script(text)
+    assert "<!--" not in escape_for_script(text)
+    assert escape_for_script(text).replace("<\\", "<") == text
 
 
 def test_it_is_the_same_every_time() -> None:
@@ -119,10 +119,10 @@ def test_pages_may_share_their_script() -> None:
 
 @cache
 def shared_page() -> str:
-    from graphplan.output.live.page import Variant, live
+    from graphplan.output.live.page import PageVariant, live
 
     composition = composition_of("four-bar")
-    return live([Variant("orthogonal", "", (composition,))], ["en"], "Four-bar", shared="graphplan-live.js")
+    return live([PageVariant("orthogonal", "", (composition,))], ["en"], "Four-bar", shared="graphplan-live.js")
 
 
 # ---- in a browser ----------------------------------------------------------------------------------------------------

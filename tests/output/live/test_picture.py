@@ -21,7 +21,7 @@ from graphplan.errors import GraphplanError
 from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construction import Construction
 from graphplan.output.live.picture import picture, scripts
-from graphplan.output.svg import inked, svg
+from graphplan.output.svg import ink_group, svg
 from graphplan.sheet.cycle_frames import construction_in_pose
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
@@ -130,7 +130,7 @@ class Stage:
                 found.setdefault(str(drawn.number), []).extend(items)
             for vector in plate.vectors:
                 found.setdefault(str(vector.of.number), []).append(vector.item)
-        return {key: [_stroke(node.tag, node.attrib, "") for node in inked(self.sheet, 0, items).get_xml()
+        return {key: [_stroke(node.tag, node.attrib, "") for node in ink_group(self.sheet, 0, items).get_xml()
                       if node.tag in NUMBERS] for key, items in found.items()}  # fmt: skip
 
 

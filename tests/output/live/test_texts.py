@@ -125,7 +125,7 @@ def test_filled_in_they_are_the_texts_of_that_pose(name: str, language: str) -> 
     composition, say = composition_of(name), tongue(language)
     drawing, scales = composition.plans.drawing, composition.scales
     texts = Texts(composition.plans, scales)
-    told = texts.told(say)
+    told = texts.texts_in(say)
     turn = follow(drawing.scene, 7, (0.0, 12.0))
     places = [[{name: complex(z[k]) for name, z in arrays.items()} for arrays in (turn.points, turn.guides)]
               for k in range(1, 7) if all(math.isfinite(abs(z[k])) for z in turn.points.values())]

@@ -97,9 +97,9 @@ def pair_with_base(task: Task) -> CamPair:
     if follower.oscillates:
         return Oscillating(cam.sense, roller, float(follower.arm), float(follower.distance), _arm_angle(task))
     if cam.base == PRESSURE and cam.limits:
-        where = region(task.law, cam.limits)
-        offset, depth = where.corner if follower.offset == SMALLEST else (float(follower.offset), 0.0)
-        depth = depth or where.depth(offset)
+        centre_region = region(task.law, cam.limits)
+        offset, depth = centre_region.corner if follower.offset == SMALLEST else (float(follower.offset), 0.0)
+        depth = depth or centre_region.depth(offset)
         if depth <= 0:
             raise Refused(f"{task.name}: cam.base", f"at the offset {number_text(offset)} the pressure angle is never "
                           "reached, so there is no smallest base circle", "a smaller offset, or a radius")
@@ -191,10 +191,10 @@ def lifts_of(law: Law, one: LawPiece, angles: Any) -> Lifts:
 
 def excess(law: Law, pair: CamPair, limits: Limits, rounds: int = SCAN_ROUNDS) -> float:
     """By how many degrees the pressure angle is too large where it is most so."""
-    found = [steepest_pressure(law, pair, 1, rounds)[1] - float(limits.rise)]
+    excesses = [steepest_pressure(law, pair, 1, rounds)[1] - float(limits.rise)]
     if limits.back is not None:
-        found.append(steepest_pressure(law, pair, -1, rounds)[1] - float(limits.back))
-    return max(found)
+        excesses.append(steepest_pressure(law, pair, -1, rounds)[1] - float(limits.back))
+    return max(excesses)
 
 
 def steepest_pressure(law: Law, pair: CamPair, way: int, rounds: int = SCAN_ROUNDS) -> tuple[float, float]:
@@ -221,5 +221,5 @@ def smallest_radius(law: Law, pair: CamPair, rounds: int = SCAN_ROUNDS) -> tuple
             return -radius
         return np.where(radius > 0, -radius, -np.inf)
 
-    angle, size = law.extremum(bend, rounds)
-    return angle, -size
+    angle, bend_size = law.extremum(bend, rounds)
+    return angle, -bend_size

@@ -93,8 +93,8 @@ class _CamRecorder:
 
     def _ray(self, k: int) -> Mark:
         """The line through O that was level at first, where it has gone."""
-        told = said("division {0}: {1}°, against the turning of the cam", k, digits(self._angle(k)))
-        return self._guide(self.O, -self.pair.sense * self._angle(k), why=told)
+        text = said("division {0}: {1}°, against the turning of the cam", k, digits(self._angle(k)))
+        return self._guide(self.O, -self.pair.sense * self._angle(k), why=text)
 
     def draw_first(self) -> None:
         """The base circle and the follower where it is lowest."""
@@ -139,8 +139,8 @@ class _CamRecorder:
             marks["B"] = board.line_meets_circle(ray, self.pivots, way="on", name=f"B_{k}", why=said("the pivot"))
             marks["arc"] = board.circle(marks["B"], self.arm, why=said("the arm about it"))
         else:
-            way = "on" if self._passes > 0 else "back"
-            T = board.line_meets_circle(ray, self.offsets, way=way, name=f"T_{k}",
+            sense = "on" if self._passes > 0 else "back"
+            T = board.line_meets_circle(ray, self.offsets, way=sense, name=f"T_{k}",
                                              why=said("where the path touches it")) if self._passes else self.O
             marks["path"] = board.perpendicular(ray, T, why=said("the path of the follower"))
 
@@ -200,8 +200,8 @@ class _CamRecorder:
         far = pole(self.pair, self._law(k, 1))
         if abs(far) <= ZERO_LENGTH * self.pair.base:
             return self.O
-        told = "a·ψ′/(1 ± ψ′)" if self.oscillates else "ds/dφ"
-        return self.board.lay_along(self.rays[k], self.O, length=far, name=f"P_{k}", quantity=_length(told),
+        formula = "a·ψ′/(1 ± ψ′)" if self.oscillates else "ds/dφ"
+        return self.board.lay_along(self.rays[k], self.O, length=far, name=f"P_{k}", quantity=_length(formula),
                                     why=said("the pole of cam and follower: there the cam moves as the follower"))
 
     def _face(self, k: int) -> Mark:

@@ -35,11 +35,11 @@ def numbers(drawing: CamDrawing, count: int, tolerance: float, check: Mapping[st
     cam, program = drawing.cam, drawing.values.drawing.program
     task = cam.task
     turns = next(word for word, sense in TURNS.items() if sense == cam.pair.sense)
-    found: dict[str, Any] = {
+    document: dict[str, Any] = {
         "title": task.title, "units": {"length": task.units.length},
         "cam": {"turns": turns, "omega": task.cam.omega, "base_radius": cam.pair.base, **placement(cam)},
-        "pressure_angle": {name: {"at": angle, "largest": size} for name, way in (("rise", 1), ("return", -1))
-                           for angle, size in [cam.steepest[way]] if isinstance(cam.pair, Rolled)},
+        "pressure_angle": {name: {"at": angle, "largest": pressure} for name, way in (("rise", 1), ("return", -1))
+                           for angle, pressure in [cam.steepest[way]] if isinstance(cam.pair, Rolled)},
         "least_radius": dict(zip(("at", "radius"), cam.narrowest, strict=True)),
         "shocks": [{"at": float(jump.angle), "of": "velocity" if jump.order == HARD else "acceleration",
                     "before": _rate(cam, jump.before, jump.order), "after": _rate(cam, jump.after, jump.order)}
@@ -53,7 +53,7 @@ def numbers(drawing: CamDrawing, count: int, tolerance: float, check: Mapping[st
                   for stage, steps in program.stages for step in steps],
         "check": dict(check),
     }
-    return found
+    return document
 
 
 def placement(cam: Cam) -> dict[str, Any]:
@@ -62,13 +62,14 @@ def placement(cam: Cam) -> dict[str, Any]:
     if not isinstance(pair, Translating):
         angle = getattr(pair, "angle", None)
         return {} if angle is None else {"arm_angle": math.degrees(angle)}
-    found: dict[str, Any] = {"offset": pair.offset, "depth": pair.depth}
+    document: dict[str, Any] = {"offset": pair.offset, "depth": pair.depth}
     if limits is not None:
-        where = region(cam.law, limits)
-        tangents = {"rise": where.rise, **({"return": where.back} if where.back else {})}
-        found["tangents"] = {name: {"at": one.angle, "passes": one.intercept,
-                                    "angle": math.degrees(math.atan(one.slope))} for name, one in tangents.items()}
-    return found
+        centre_region = region(cam.law, limits)
+        tangents = {"rise": centre_region.rise, **({"return": centre_region.back} if centre_region.back else {})}
+        document["tangents"] = {name: {"at": tangent.angle, "passes": tangent.intercept,
+                                    "angle": math.degrees(math.atan(tangent.slope))} for name,
+                                    tangent in tangents.items()}
+    return document
 
 
 def _rate(cam: Cam, value: float, order: int) -> float:
@@ -83,7 +84,7 @@ def _positions(cam: Cam, angles: Any) -> list[dict[str, Any]]:
     if cam.task.follower.oscillates:
         rates[0] = np.degrees(rates[0])
     profile, pitch = (cam.pair.to_cam_plane(spots, angles) for spots in (touch.point, touch.roller))
-    found = []
+    rows = []
     for k, angle in enumerate(angles):
         row: dict[str, Any] = {"angle": float(angle)}
         row |= {name: float(values[k]) + 0.0 for name, values in zip(LAW_COLUMNS, rates, strict=True)}
@@ -93,8 +94,8 @@ def _positions(cam: Cam, angles: Any) -> list[dict[str, Any]]:
         radius = float(touch.radius[k])
         row |= {"pressure_angle": math.degrees(float(touch.pressure[k])) + 0.0,
                 "radius_of_curvature": radius if math.isfinite(radius) else None}
-        found.append(row)
-    return found
+        rows.append(row)
+    return rows
 
 
 # ---- one pose as a scene --------------------------------------------------------------------------------------------
@@ -112,7 +113,7 @@ def scene_text(cam: Cam, angle: float) -> str:
     tangent = 1j * complex(touch.normal[0])
     straight = not abs(touch.radius[0]) < STRAIGHT_RADIUS * pair.base
     points = {CENTRE: 0j, TOUCHED: point}
-    own, touching = follower_lines(cam, points, end)
+    guide_lines, touching = follower_lines(cam, points, end)
     middle = "" if straight else CENTRE if abs(centre) < ZERO_LENGTH * pair.base else PROFILE
     if middle == PROFILE:
         points[PROFILE] = centre
@@ -121,7 +122,7 @@ def scene_text(cam: Cam, angle: float) -> str:
     points |= {} if middle == PROFILE else {f"K{CAM}": point}
     lines = [*heading_lines(cam, angle), "", "[points]",
              *(f"{name} = {_vector(spot)}" for name, spot in points.items()),
-             "", "[links]", f'{CAM} = "{body}"', *own, "", "[[contacts]]", f'links = ["{CAM}", "{FOLLOWER}"]',
+             "", "[links]", f'{CAM} = "{body}"', *guide_lines, "", "[[contacts]]", f'links = ["{CAM}", "{FOLLOWER}"]',
              f'at = "{TOUCHED}"', f"centres = [{profile}, {touching if touching else _vector(tangent)}]",
              "", "[[drive]]", f'link = "{CAM}"', f"omega = {pair.sense * cam.task.cam.omega!r}", *find_lines(cam)]
     return "\n".join(lines) + "\n"
@@ -145,9 +146,9 @@ def follower_lines(cam: Cam, points: dict[str, complex], end: complex) -> tuple[
         return [f'{FOLLOWER} = "{PIVOT} {END}"', f'frame = "{CENTRE} {PIVOT}"'], "" if flat else f'"{END}"'
     across = pair.sense * pair.offset if isinstance(pair, Translating) else 0.0
     points[END] = complex(across, end.imag)
-    held = [f'{FOLLOWER} = "{END}"', f'frame = "{CENTRE}"', "", "[[slides]]", f'link = "{FOLLOWER}"',
+    lines = [f'{FOLLOWER} = "{END}"', f'frame = "{CENTRE}"', "", "[[slides]]", f'link = "{FOLLOWER}"',
             'along = "frame"', f'at = "{END}"', "direction = [0, 1]"]
-    return held, "" if flat else f'"{END}"'
+    return lines, "" if flat else f'"{END}"'
 
 
 def find_lines(cam: Cam) -> Iterator[str]:

@@ -27,7 +27,7 @@ Lifts = Callable[[int], Array]  # the law's derivative of an order, at some angl
 
 
 @dataclass(frozen=True)
-class Contact:
+class CamContact:
     """Cam and follower in touch at some angles, in the frame's plane; radii are positive where the cam is convex.
 
     `roller` is the centre of the roller, or the point; of a flat face, as `point`, where it touches. `centre` is that
@@ -54,7 +54,7 @@ class CamPair(ABC):
         """The radius of the base circle."""
 
     @abstractmethod
-    def contact(self, lifts: Lifts) -> Contact:
+    def contact(self, lifts: Lifts) -> CamContact:
         """How they touch, by the law's derivatives."""
 
     def to_cam_plane(self, spots: Array, angles: Array) -> Array:
@@ -79,12 +79,12 @@ class Rolled(CamPair):
         q = A2 - 2j * self.sense * A1 - A
         return A, 1j * self.sense * t / abs(t), -self.sense * (t.conjugate() * q).imag / abs(t) ** 3, up
 
-    def contact(self, lifts: Lifts) -> Contact:
+    def contact(self, lifts: Lifts) -> CamContact:
         A, n, bend, up = self.path_curvature(lifts)
         with np.errstate(divide="ignore", invalid="ignore"):
             radius = np.where(bend == 0, np.inf, 1 / bend)
             centre = np.where(bend == 0, np.inf, A - n * radius)
-        return Contact(A - self.roller * n, n, centre, radius - self.roller, A, np.angle(n / up) * self.sense)
+        return CamContact(A - self.roller * n, n, centre, radius - self.roller, A, np.angle(n / up) * self.sense)
 
 
 @dataclass(frozen=True)
@@ -133,12 +133,12 @@ class Flat(CamPair):
         """The pressure angle where it touches at a point."""
         return 0 * point.real
 
-    def contact(self, lifts: Lifts) -> Contact:
+    def contact(self, lifts: Lifts) -> CamContact:
         n, h, h1, h2, turn, change = self.face(lifts)
         across = h1 / turn
         radius = h + (h2 * turn - h1 * change) / turn**3
         point = n * (h + 1j * across)
-        return Contact(point, n, point - radius * n, radius, point, self.leaning(point, n))
+        return CamContact(point, n, point - radius * n, radius, point, self.leaning(point, n))
 
 
 @dataclass(frozen=True)

@@ -65,10 +65,10 @@ class MotionPiece:
         for _ in range(order):
             piece = piece._derivative
         exact = isinstance(t, Fraction)
-        found: Any = 0 * t
+        value: Any = 0 * t
         for power in reversed(piece.powers):
-            found = found * t + (power if exact else float(power))
-        return sum((wave.value_at(t) for wave in piece.waves), found)
+            value = value * t + (power if exact else float(power))
+        return sum((wave.value_at(t) for wave in piece.waves), value)
 
     def times(self, factor: Fraction) -> MotionPiece:
         """The same motion so many times as large."""
@@ -83,23 +83,23 @@ class MotionPiece:
 
 def integrate_parts(parts: Sequence[tuple[Fraction, Fraction]], order: int) -> tuple[MotionPiece, ...]:
     """The motion from rest at 0 of which the derivative of an order is constant in parts: (where it begins, value)."""
-    found, state = list[MotionPiece](), (Fraction(0),) * order
+    pieces, state = list[MotionPiece](), (Fraction(0),) * order
     for (start, value), (end, _) in pairwise((*parts, (Fraction(1), Fraction(0)))):
         derivatives = (*state, value)
         taylor = [rate / math.factorial(k) for k, rate in enumerate(derivatives)]
         piece = MotionPiece(start, end, shift_powers(taylor, start))
-        found.append(piece)
+        pieces.append(piece)
         state = tuple(piece.value_at(end, k) for k in range(order))
-    return tuple(found)
+    return tuple(pieces)
 
 
 def shift_powers(powers: Sequence[Fraction], by: Fraction) -> tuple[Fraction, ...]:
     """The coefficients in t of a sum of powers of t - by."""
-    found = [Fraction(0)] * len(powers)
+    shifted = [Fraction(0)] * len(powers)
     for n, power in enumerate(powers):
         for k in range(n + 1):
-            found[k] += power * math.comb(n, k) * (-by) ** (n - k)
-    return tuple(found)
+            shifted[k] += power * math.comb(n, k) * (-by) ** (n - k)
+    return tuple(shifted)
 
 
 def spline(knots: Sequence[Fraction], lifts: Sequence[Fraction], closed: bool) -> tuple[MotionPiece, ...]:
@@ -201,9 +201,9 @@ class LawPiece:
 
     def value_at(self, angle: Any, order: int = 0) -> Any:
         """The lift, or its derivative by the angle in radians, which may be an array of degrees."""
-        part = (angle - float(self.begins)) / float(self.stage.angle)
-        found = self.piece.value_at(part, order)
-        return found + float(self.lift) if order == 0 else found / math.radians(self.stage.angle) ** order
+        share = (angle - float(self.begins)) / float(self.stage.angle)
+        value = self.piece.value_at(share, order)
+        return value + float(self.lift) if order == 0 else value / math.radians(self.stage.angle) ** order
 
     def divide(self, parts: int) -> Array:
         """Its angles from end to end, so many parts of it apart."""
@@ -233,12 +233,12 @@ class Law:
     @cached_property
     def stretches(self) -> tuple[LawPiece, ...]:
         """The smooth pieces in order."""
-        found, angle, lift = list[LawPiece](), Fraction(0), Fraction(0)
+        pieces, angle, lift = list[LawPiece](), Fraction(0), Fraction(0)
         for stage in self.stages:
-            found += [LawPiece(angle + stage.angle * piece.start, angle + stage.angle * piece.end, stage, angle, lift,
+            pieces += [LawPiece(angle + stage.angle * piece.start, angle + stage.angle * piece.end, stage, angle, lift,
                               piece) for piece in stage.pieces]
             angle, lift = angle + stage.angle, lift + stage.stroke
-        return tuple(found)
+        return tuple(pieces)
 
     @cached_property
     def lifts(self) -> tuple[Fraction, ...]:
@@ -255,12 +255,12 @@ class Law:
         turned = np.asarray(angles, float) % 360.0
         starts = np.array([float(one.start) for one in self.stretches])
         which = np.maximum(np.searchsorted(starts, turned, "right") - 1, 0)
-        found = np.empty_like(turned)
-        for k, one in enumerate(self.stretches):
-            own = which == k
-            if own.any():
-                found[own] = one.value_at(turned[own], order)
-        return self.times * found
+        values = np.empty_like(turned)
+        for k, stretch in enumerate(self.stretches):
+            is_in_piece = which == k
+            if is_in_piece.any():
+                values[is_in_piece] = stretch.value_at(turned[is_in_piece], order)
+        return self.times * values
 
     @property
     def turn_and_rest(self) -> tuple[Fraction, Fraction]:
@@ -275,8 +275,8 @@ class Law:
 
     def largest(self, order: int) -> float:
         """About how large the derivative of an order is where it is largest."""
-        found = (abs(one.value_at(one.divide(8), order)).max() for one in self.stretches)
-        return self.times * max(map(float, found))
+        maxima = (abs(stretch.value_at(stretch.divide(8), order)).max() for stretch in self.stretches)
+        return self.times * max(map(float, maxima))
 
     def _joints(self) -> Iterator[Jump]:
         """What each derivative does where pieces meet; a velocity that jumps says nothing of the acceleration."""
@@ -291,18 +291,18 @@ class Law:
         The function reads an array of degrees and the piece that they lie on. Each piece is divided, then the parts
         beside the best place so many times again.
         """
-        found = (highest_on(lambda angles, one=one: value(angles, one), one, rounds)  # type: ignore[misc]
+        extrema = (highest_on(lambda angles, one=one: value(angles, one), one, rounds)  # type: ignore[misc]
                  for one in self.stretches)
-        return max(found, key=lambda pair: pair[1])
+        return max(extrema, key=lambda pair: pair[1])
 
 
 def highest_on(value: Callable[[Array], Array], one: LawPiece, rounds: int) -> tuple[float, float]:
     """The place and size of the largest value of a function on a piece."""
-    low, high, parts, best = float(one.start), float(one.end), SCAN_PARTS, (math.nan, -math.inf)
+    low, high, count, best = float(one.start), float(one.end), SCAN_PARTS, (math.nan, -math.inf)
     for _ in range(rounds + 1):
-        angles = np.linspace(low, high, parts + 1)
+        angles = np.linspace(low, high, count + 1)
         values = np.nan_to_num(np.asarray(value(angles), float), nan=-math.inf)
         k = int(np.argmax(values))
         best = max(best, (float(angles[k]), float(values[k])), key=lambda pair: pair[1])
-        low, high, parts = float(angles[max(k - 1, 0)]), float(angles[min(k + 1, parts)]), REFINED_PARTS
+        low, high, count = float(angles[max(k - 1, 0)]), float(angles[min(k + 1, count)]), REFINED_PARTS
     return best

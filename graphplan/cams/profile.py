@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.cams.base import least_flat, lifts_of, pair_with_base, smallest_radius, steepest_pressure
-from graphplan.cams.follower import CamPair, Contact, Flat, Rolled
+from graphplan.cams.follower import CamContact, CamPair, Flat, Rolled
 from graphplan.cams.law import HARD, SOFT, Law, LawPiece
 from graphplan.cams.task import POINTED, PRESSURE, Task
 from graphplan.cams.tolerances import ANGLE_TOL_DEG, FLAT_ARC, LENGTH_TOL
@@ -59,12 +59,12 @@ class Cam:
         """The radius of the roller, or 0."""
         return float(self.task.follower.radius)
 
-    def contact(self, angles: Array) -> Contact:
+    def contact(self, angles: Array) -> CamContact:
         """How they touch at angles in degrees; where pieces of the law meet, as at the beginning of the second."""
         turned = np.asarray(angles, float)
         return self.pair.contact(lambda order: self.law.value_at(turned, order))
 
-    def contact_on(self, one: LawPiece, angles: Array) -> Contact:
+    def contact_on(self, one: LawPiece, angles: Array) -> CamContact:
         """The same at angles on one piece of the law."""
         return self.pair.contact(lifts_of(self.law, one, np.asarray(angles, float)))
 
@@ -86,25 +86,25 @@ class Cam:
         """Points of the closed path of the roller's centre."""
         return self.closed_curve(lambda touch: touch.roller)
 
-    def closed_curve(self, spot: Callable[[Contact], Array]) -> Array:
-        parts = []
-        for one in self.law.stretches:
-            count = max(2, math.ceil(float(one.end - one.start) * SAMPLES_PER_DEGREE))
-            angles = one.divide(count)
-            parts.append(self.pair.to_cam_plane(spot(self.contact_on(one, angles)), angles))
-        return np.concatenate(parts)
+    def closed_curve(self, spot: Callable[[CamContact], Array]) -> Array:
+        spots = []
+        for stretch in self.law.stretches:
+            count = max(2, math.ceil(float(stretch.end - stretch.start) * SAMPLES_PER_DEGREE))
+            angles = stretch.divide(count)
+            spots.append(self.pair.to_cam_plane(spot(self.contact_on(stretch, angles)), angles))
+        return np.concatenate(spots)
 
     # ---- true to size ----------------------------------------------------------------------------------------------
 
     def arcs(self, tolerance: float) -> list[ArcOfProfile]:
         """The outline as arcs, none further from the profile than the tolerance; one begins where the last ends."""
-        found, stretches = list[ArcOfProfile](), self.law.stretches
-        for one, after in zip(stretches, (*stretches[1:], stretches[0]), strict=True):
-            steps = max(1, math.ceil(float(one.end - one.start) / MAX_ARC_DEG))
-            for low, high in pairwise(map(float, one.divide(steps))):
-                found += self.fit_arcs(one, low, high, tolerance)
-            found += self._corner(one, after)
-        return found
+        arcs, stretches = list[ArcOfProfile](), self.law.stretches
+        for stretch, after in zip(stretches, (*stretches[1:], stretches[0]), strict=True):
+            steps = max(1, math.ceil(float(stretch.end - stretch.start) / MAX_ARC_DEG))
+            for low, high in pairwise(map(float, stretch.divide(steps))):
+                arcs += self.fit_arcs(stretch, low, high, tolerance)
+            arcs += self._corner(stretch, after)
+        return arcs
 
     def fit_arcs(self, one: LawPiece, low: float, high: float, tolerance: float) -> Iterator[ArcOfProfile]:
         """Arcs through the ends and the middle of parts of a piece, halved until they are close enough."""
@@ -136,7 +136,7 @@ class Cam:
     @cached_property
     def steepest(self) -> dict[int, tuple[float, float]]:
         """The angle and size of the largest pressure angle of the rise (1) and of the return (-1), in degrees."""
-        return {way: steepest_pressure(self.law, self.pair, way) for way in (1, -1)}
+        return {sense: steepest_pressure(self.law, self.pair, sense) for sense in (1, -1)}
 
     @cached_property
     def narrowest(self) -> tuple[float, float]:
@@ -158,19 +158,20 @@ class Cam:
     def _shocks(self) -> Iterator[Said]:
         """Where derivatives of the law jump."""
         for order, words in ((HARD, HARD_SHOCK), (SOFT, SOFT_SHOCK)):
-            found = [digits(float(jump.angle)) for jump in self.law.jumps if jump.order == order]
-            if found:
-                yield words(join(arrange("{0}°", angle) for angle in found))
+            angles = [digits(float(jump.angle)) for jump in self.law.jumps if jump.order == order]
+            if angles:
+                yield words(join(arrange("{0}°", angle) for angle in angles))
 
     def _leaning(self) -> Iterator[Said]:
         """Pressure angles beyond those that are usual, where nothing is said of them."""
         if self.task.cam.limits is None:
             names = said("the rise"), said("the return")
-            for way, usual, name in zip((1, -1), USUAL_PRESSURE_DEG[self.task.follower.oscillates], names, strict=True):
-                angle, size = self.steepest[way]
-                if size > usual + ANGLE_TOL_DEG:
+            for sense, usual, name in zip((1, -1), USUAL_PRESSURE_DEG[self.task.follower.oscillates], names,
+                                          strict=True):
+                angle, pressure = self.steepest[sense]
+                if pressure > usual + ANGLE_TOL_DEG:
                     yield said("at {0}° the pressure angle of {1} is {2}°; as a rule it is {3}° at most",
-                               digits(angle), name, digits(size), digits(usual))
+                               digits(angle), name, digits(pressure), digits(usual))
 
 
 def arc_bulge(start: complex, middle: complex, end: complex) -> float:
@@ -192,11 +193,11 @@ def arc_deviation(spots: Array, bulge: float) -> float:
     start, half = complex(spots[0]), complex(spots[-1] - spots[0]) / 2
     if abs(half) == 0:
         return float(max(abs(spots - start)))
-    own = (spots - start) / half - 1
+    deviation = (spots - start) / half - 1
     if bulge == 0.0:
-        return float(max(abs(own.imag)) * abs(half))
+        return float(max(abs(deviation.imag)) * abs(half))
     centre = 1j * (1 - bulge**2) / (2 * bulge)
-    return float(max(abs(abs(own - centre) - abs(1 - centre))) * abs(half))
+    return float(max(abs(abs(deviation - centre) - abs(1 - centre))) * abs(half))
 
 
 # ---- what forbids it ------------------------------------------------------------------------------------------------
@@ -223,11 +224,11 @@ def check_pressure(cam: Cam, faults: Faults) -> None:
     limits = cam.task.cam.limits
     if limits is None or (cam.task.follower.flat and not cam.task.follower.oscillates):
         return
-    for key, way, most in (("rise", 1, limits.rise), ("return", -1, limits.back)):
-        angle, size = cam.steepest[way]
-        if most is not None and size > float(most) + ANGLE_TOL_DEG:
-            what = f"at {number_text(angle)} degrees it is {number_text(size)}, above {number_text(most)}"
-            faults.add(f"cam.pressure_angle.{key}", what, larger_base(cam.task))
+    for key, sense, most in (("rise", 1, limits.rise), ("return", -1, limits.back)):
+        angle, pressure = cam.steepest[sense]
+        if most is not None and pressure > float(most) + ANGLE_TOL_DEG:
+            text = f"at {number_text(angle)} degrees it is {number_text(pressure)}, above {number_text(most)}"
+            faults.add(f"cam.pressure_angle.{key}", text, larger_base(cam.task))
 
 
 def larger_base(task: Task) -> str:
@@ -252,13 +253,13 @@ def check_drops(cam: Cam, what: str, faults: Faults) -> None:
 def check_convexity(cam: Cam, faults: Faults) -> None:
     """Note where a flat face cannot follow: the profile would be hollow or pointed, or the face overtakes the cam."""
     check_drops(cam, "flat face", faults)
-    angle, size = cam.narrowest
+    angle, radius = cam.narrowest
     least = float(cam.task.cam.least)
     nothing = LENGTH_TOL * cam.pair.base
-    if size <= nothing or size < least - nothing:
-        why = "it is hollow there, so that the face loses it" if size < -nothing else "it is too narrow"
-        what = f"at {number_text(angle)} degrees the profile's radius of curvature is {number_text(size)}: {why}"
-        faults.add("cam.base", what, convex_base(cam))
+    if radius <= nothing or radius < least - nothing:
+        why = "it is hollow there, so that the face loses it" if radius < -nothing else "it is too narrow"
+        text = f"at {number_text(angle)} degrees the profile's radius of curvature is {number_text(radius)}: {why}"
+        faults.add("cam.base", text, convex_base(cam))
 
 
 def convex_base(cam: Cam) -> str:
@@ -274,15 +275,15 @@ def check_undercut(cam: Cam, faults: Faults) -> None:
     follower, least = cam.task.follower, float(cam.task.cam.least)
     if follower.contact != POINTED:
         check_drops(cam, "roller", faults)
-    angle, size = cam.narrowest
-    if size <= cam.roller + LENGTH_TOL * cam.pair.base:
+    angle, radius = cam.narrowest
+    if radius <= cam.roller + LENGTH_TOL * cam.pair.base:
         faults.add("follower.radius", f"at {number_text(angle)} degrees the path of the roller's centre has the "
-                   f"radius of curvature {number_text(size)}: a roller of {number_text(cam.roller)} undercuts the "
+                   f"radius of curvature {number_text(radius)}: a roller of {number_text(cam.roller)} undercuts the "
                    "profile",
-                   f"half of it, {number_text(size / 2)}, or a larger base circle")
-    elif size - cam.roller < least - LENGTH_TOL * cam.pair.base:
+                   f"half of it, {number_text(radius / 2)}, or a larger base circle")
+    elif radius - cam.roller < least - LENGTH_TOL * cam.pair.base:
         faults.add("cam.least_radius", f"at {number_text(angle)} degrees the profile's radius of curvature is "
-                   f"{number_text(size - cam.roller)}, below {number_text(least)}",
+                   f"{number_text(radius - cam.roller)}, below {number_text(least)}",
                    "a smaller roller, or a larger base circle")
 
 
@@ -304,9 +305,9 @@ def check_pivot(cam: Cam, faults: Faults) -> None:
 def check_crossing(cam: Cam, faults: Faults) -> None:
     """Note where the profile, or the path of the roller's centre, crosses itself."""
     curves = [("cam.base", "the path of the roller's centre", cam.pitch_curve)] if isinstance(cam.pair, Rolled) else []
-    for where, what, curve in [*curves, ("cam.base", "the profile", cam.outline)]:
+    for place, name, curve in [*curves, ("cam.base", "the profile", cam.outline)]:
         if crossing := _self_crossing(curve):
-            faults.add(where, f"{what} crosses itself at ({number_text(crossing.real)}, {number_text(crossing.imag)})",
+            faults.add(place, f"{name} crosses itself at ({number_text(crossing.real)}, {number_text(crossing.imag)})",
                        "a larger base circle, or a smaller roller")
             return
 
@@ -322,9 +323,9 @@ def _self_crossing(curve: Array) -> complex | None:
     loops = shapely.get_parts(shapely.polygonize([shapely.node(ring)]))
     sizes = [math.dist((low, left), (high, right)) for low, left, high, right in shapely.bounds(loops)]
     least = LENGTH_TOL * float(np.ptp(curve.real) + np.ptp(curve.imag))
-    large = sorted((size, k) for k, size in enumerate(sizes) if size > least)
+    large = sorted((area, k) for k, area in enumerate(sizes) if area > least)
     if len(large) < 2:
         return None
-    (_, smallest), *others = large
-    rest = shapely.union_all(loops[[k for _, k in others]]).boundary
-    return complex(*shapely.shortest_line(loops[smallest].boundary, rest).coords[0])
+    (_, smallest), *smaller = large
+    boundary = shapely.union_all(loops[[k for _, k in smaller]]).boundary
+    return complex(*shapely.shortest_line(loops[smallest].boundary, boundary).coords[0])

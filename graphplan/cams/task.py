@@ -95,16 +95,16 @@ def _rows(item: SceneItem, names: SceneNames) -> tuple[tuple[Fraction, Fraction]
     if not isinstance(item.value, list) or len(item.value) < 3:
         return item.fault(f"{describe(item.value)} where angles and lifts are wanted",
                           "three pairs or more, such as [[0, 0], [60, 10], [120, 20]]")
-    before, found = len(item.faults), list[Vector]()
+    before, points = len(item.faults), list[Vector]()
     for row in item.value:
         if (pair := item.with_value(row).vector()) is not None:
-            if found and pair[0] <= found[-1][0]:
-                item.fault(f"the angle {number_text(pair[0])} comes after {number_text(found[-1][0])}",
+            if points and pair[0] <= points[-1][0]:
+                item.fault(f"the angle {number_text(pair[0])} comes after {number_text(points[-1][0])}",
                            "increasing angles")
-            found.append(pair)
-    if found and any(found[0]):
+            points.append(pair)
+    if points and any(points[0]):
         item.fault("its first pair is not [0, 0]", "degrees and lifts from the beginning of the stage")
-    return tuple(found) if len(item.faults) == before else None
+    return tuple(points) if len(item.faults) == before else None
 
 
 def stage_by_motion(row: TableRow) -> LawStage | None:
@@ -149,10 +149,10 @@ def _offset(item: SceneItem, names: SceneNames) -> Fraction | str | None:
 def _follower(row: TableRow) -> Follower | None:
     """The follower, which has just the lengths that its kind has."""
     moves, contact, values = row["moves"], row["contact"], row.values
-    wanted = {"radius": contact == ROLLER, "arm": moves == OSCILLATING and contact != FLAT,
+    needed_keys = {"radius": contact == ROLLER, "arm": moves == OSCILLATING and contact != FLAT,
               "centre_distance": moves == OSCILLATING}
     unused = f"it does not apply to a follower that is {moves} with a {contact} contact"
-    for key, has in wanted.items():
+    for key, has in needed_keys.items():
         if has and key not in row.items:
             row.item.fault(f"{key} is missing", f"a length, such as {key} = 10")
         elif key in row.items and not has:
@@ -258,11 +258,11 @@ def parse(text: str, name: str) -> Task:
 def check_task(task: Task, faults: Faults) -> None:
     """Note what does not fit together."""
     law, follower, cam = task.law, task.follower, task.cam
-    turn, rest = law.turn_and_rest
+    turn, resting = law.turn_and_rest
     if turn != 360:
         faults.add("law", f"its stages take {number_text(turn)} degrees", "stages of 360 degrees together")
-    if abs(rest) > LIFT_TOL * law.largest(0) / law.times:
-        faults.add("law", f"after one turn the lift is {number_text(rest)}", "strokes that add up to 0")
+    if abs(resting) > LIFT_TOL * law.largest(0) / law.times:
+        faults.add("law", f"after one turn the lift is {number_text(resting)}", "strokes that add up to 0")
     at, depth = law.extremum(lambda angles, one: -one.value_at(angles))
     if depth > LIFT_TOL * law.largest(0) / law.times:
         faults.add("law", f"the lift is {number_text(-depth)} at {number_text(at)} degrees, below where it begins",

@@ -43,9 +43,9 @@ class Piecewise:
     def __add__(self, other: Piecewise | float) -> Piecewise:
         """The sum with another of the same panels, or with a constant."""
         if isinstance(other, Piecewise):
-            more, own = sorted((self.terms, other.terms), key=lambda terms: -terms.shape[-1])
+            more, own_terms = sorted((self.terms, other.terms), key=lambda terms: -terms.shape[-1])
             terms = more.copy()
-            terms[..., :own.shape[-1]] += own
+            terms[..., :own_terms.shape[-1]] += own_terms
         else:
             terms = self.terms.copy()
             terms[..., 0] += other
@@ -65,14 +65,14 @@ class Piecewise:
     def without_rounding(self, size: npt.ArrayLike) -> Piecewise:
         """The same functions, each zero where it is rounding alone beside a size, shape () or (k,)."""
         largest = np.abs(self.terms).max(axis=(-2, -1), initial=0.0)
-        kept = (largest > SERIES_TOL * np.asarray(size))[..., None, None]
-        return replace(self, terms=np.where(kept, self.terms, 0.0))
+        is_kept = (largest > SERIES_TOL * np.asarray(size))[..., None, None]
+        return replace(self, terms=np.where(is_kept, self.terms, 0.0))
 
     @property
     def total_integral(self) -> Reals:
         """The integral over the whole range, shape (...)."""
-        found: Reals = self.terms[..., 0] @ np.diff(self.edges)
-        return found
+        integral: Reals = self.terms[..., 0] @ np.diff(self.edges)
+        return integral
 
     def integral(self) -> Piecewise:
         """The integral from the first edge on, of the same panels."""
@@ -92,14 +92,14 @@ class Piecewise:
         places = ((low + high) / 2 + (high - low) / 2 * grid).ravel()
         values = legendre_sums(self.terms[:, None, :], grid[None, :]).ravel()
         signs = np.where(np.abs(values) > SIGN_TOL * np.abs(values).max(), np.sign(values), 0.0)
-        seen = np.flatnonzero(signs)
-        changed = signs[seen[:-1]] != signs[seen[1:]]
-        first, last = seen[:-1][changed], seen[1:][changed]
+        nonzero = np.flatnonzero(signs)
+        changed = signs[nonzero[:-1]] != signs[nonzero[1:]]
+        first, last = nonzero[:-1][changed], nonzero[1:][changed]
         panel = np.repeat(np.arange(panels), SIGN_SAMPLES + 1)
         inside = (last == first + 1) & (panel[first] == panel[last])
-        found: Reals = places[np.minimum(first + 1, last)]  # where it jumps, or is nothing between the two
-        found[inside] = self.bisect_roots(panel[first[inside]], places[first[inside]], places[last[inside]])
-        return found
+        roots: Reals = places[np.minimum(first + 1, last)]  # where it jumps, or is nothing between the two
+        roots[inside] = self.bisect_roots(panel[first[inside]], places[first[inside]], places[last[inside]])
+        return roots
 
     def bisect_roots(self, panel: npt.NDArray[np.int_], low: Reals, high: Reals) -> Reals:
         """The roots between travels in panels at which the signs differ."""
@@ -140,17 +140,17 @@ def fit_piecewise(function: Callable[[Reals], Reals], breaks: Sequence[float], s
     Fails with `Refused` where the values have no limit, or are none.
     """
     waiting = first_panels(breaks)
-    whole, kept, count = float(waiting[-1, 1] - waiting[0, 0]), list[tuple[Reals, Reals]](), 0
+    whole, fitted, count = float(waiting[-1, 1] - waiting[0, 0]), list[tuple[Reals, Reals]](), 0
     for _ in range(MAX_HALVINGS):
         terms = panel_series(function, waiting)
-        if not kept:
+        if not fitted:
             limit = SERIES_TOL * np.maximum(size, np.abs(terms).max(axis=(-2, -1)))[..., None]
         tail, widths = np.abs(terms[..., -TAIL_TERMS:]).max(axis=-1), (waiting[:, 1] - waiting[:, 0]) / whole
         fine = ((tail <= limit) | (tail * widths <= limit / 16)).reshape(-1, len(waiting)).all(axis=0)
-        kept.append((waiting[fine], terms[..., fine, :]))
+        fitted.append((waiting[fine], terms[..., fine, :]))
         count, rough = count + len(waiting), waiting[~fine]
         if not len(rough):
-            return join_panels(kept).without_rounding(size)
+            return join_panels(fitted).without_rounding(size)
         if count > MAX_PANELS:
             break
         waiting = halve_panels(rough)
@@ -161,8 +161,8 @@ def fit_piecewise(function: Callable[[Reals], Reals], breaks: Sequence[float], s
 def first_panels(breaks: Sequence[float]) -> Reals:
     """The first panels, shape (p, 2)."""
     edges = np.unique(np.asarray(breaks, dtype=float))
-    parts = np.ceil(np.diff(edges) / (edges[-1] - edges[0]) * MIN_PANELS - COUNT_TOL).astype(int)
-    rows = [np.linspace(low, high, count + 1) for low, high, count in zip(edges, edges[1:], parts, strict=False)]
+    counts = np.ceil(np.diff(edges) / (edges[-1] - edges[0]) * MIN_PANELS - COUNT_TOL).astype(int)
+    rows = [np.linspace(low, high, count + 1) for low, high, count in zip(edges, edges[1:], counts, strict=False)]
     return np.concatenate([np.stack([row[:-1], row[1:]], axis=1) for row in rows])
 
 
@@ -181,8 +181,8 @@ def panel_series(function: Callable[[Reals], Reals], panels: Reals) -> Reals:
         bad = places.ravel()[~np.isfinite(values).reshape(-1, places.size).all(axis=0)][0]
         raise Refused(f"travel {bad:.6g}", "the reduced moment or inertia is unknown there",
                       "a range that can be reached")
-    found: Reals = values.reshape(*values.shape[:-1], *places.shape) @ matrix
-    return found
+    series: Reals = values.reshape(*values.shape[:-1], *places.shape) @ matrix
+    return series
 
 
 def join_panels(kept: Sequence[tuple[Reals, Reals]]) -> Piecewise:
@@ -208,5 +208,5 @@ def legendre_sums(terms: Reals, x: Reals) -> Reals:
     after = following = np.zeros(np.broadcast_shapes(terms.shape[:-1], x.shape))
     for k in range(terms.shape[-1] - 1, 0, -1):
         after, following = terms[..., k] + (2 * k + 1) / (k + 1) * x * after - (k + 1) / (k + 2) * following, after
-    found: Reals = terms[..., 0] + x * after - following / 2
-    return found
+    sums: Reals = terms[..., 0] + x * after - following / 2
+    return sums

@@ -176,6 +176,6 @@ def _parallel(plans: CyclePlans, room: DiagramSizes) -> tuple[float, float]:
 
 def _span(plans: CyclePlans, wheel: FlywheelSpeeds, axis: float) -> tuple[float, float]:
     """From where to where the energies go, with those at which the tangents cut a parallel."""
-    m, n = (one.cut + one.slope * axis for one in (wheel.upper, wheel.lower))
+    m, n = (tangent.cut + tangent.slope * axis for tangent in (wheel.upper, wheel.lower))
     energies = plans.energies
     return min(float(energies.min()), n), max(float(energies.max()), m)

@@ -161,10 +161,10 @@ class _FlywheelRecorder:
         plans, last = self.plans, len(self.told) - 1
         self.before, self.after = list[Mark](), list[Mark]()
         for k, x in enumerate(self.told):
-            one = self._mark("moment", x, plans.right[k] if k < last else plans.left[k], f"M_{self.numbers[k]}")
-            self.after.append(one)
+            mark_after = self._mark("moment", x, plans.right[k] if k < last else plans.left[k], f"M_{self.numbers[k]}")
+            self.after.append(mark_after)
             two = 0 < k < last and plans.jumps(k)
-            self.before.append(self._mark("moment", x, plans.left[k], f"M_{self.numbers[k]}") if two else one)
+            self.before.append(self._mark("moment", x, plans.left[k], f"M_{self.numbers[k]}") if two else mark_after)
         self.marks["moments"] = [mark for pair in zip(self.before, self.after, strict=True)
                                  for mark in dict.fromkeys(pair)]
         self.marks["inertias"] = [self._mark("inertia", I, x, f"I_{k}")
@@ -264,8 +264,8 @@ class _FlywheelRecorder:
                            why=said("the tangents at the outer points meet here"))
         F = board.transfer(A, D, D, name=f"F_{letter}")
         G = board.meet(board.line(F, C), board.parallel(self.level, D), name=f"G_{letter}")
-        side, other = board.line(A, D), board.line(D, C)
-        K = board.meet(other, board.parallel(side, G), name=f"K_{letter}",
+        side, second_side = board.line(A, D), board.line(D, C)
+        K = board.meet(second_side, board.parallel(side, G), name=f"K_{letter}",
                        why=said("the level tangent goes through it"))
         tangent = board.parallel(self.level, K)
         L = board.meet(side, tangent, name=f"L_{letter}")
@@ -276,5 +276,5 @@ class _FlywheelRecorder:
 def are_in_line(travels: Reals, heights: Reals) -> bool:
     """Whether three points lie on a line."""
     first, middle, last = heights
-    part = (travels[1] - travels[0]) / (travels[2] - travels[0])
-    return bool(abs(middle - first - part * (last - first)) < LINE_TOL_MM)
+    share = (travels[1] - travels[0]) / (travels[2] - travels[0])
+    return bool(abs(middle - first - share * (last - first)) < LINE_TOL_MM)

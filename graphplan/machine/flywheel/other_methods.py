@@ -38,8 +38,8 @@ class MethodResult:
 
 def methods(cycle: SteadyCycle, unevenness: float, motor: Speeds | None = None) -> list[MethodResult]:
     """What each of the other methods finds for an unevenness; `motor` gives the moment of a motor at a speed."""
-    found = [gutjahr(cycle, unevenness), area_vectors(cycle, unevenness), power(cycle, unevenness)]
-    return found if motor is None else [*found, characteristic(cycle, unevenness, motor)]
+    comparisons = [gutjahr(cycle, unevenness), area_vectors(cycle, unevenness), power(cycle, unevenness)]
+    return comparisons if motor is None else [*comparisons, characteristic(cycle, unevenness, motor)]
 
 
 # ---- areas between nodes ---------------------------------------------------------------------------------------------
@@ -61,8 +61,8 @@ def areas(cycle: SteadyCycle) -> list[Area]:
     (first, last), energy = cycle.ends, cycle.energy
     edges = [float(at) for at in np.unique(np.where(nodes >= last, first, nodes))]
     edges.append(edges[0] + cycle.span)
-    found = [Area(low, high, work_between(energy, low, high)) for low, high in pairwise(edges)]
-    return [*merge_areas(found, AREA_TOL * sum(abs(area.work) for area in found))]
+    areas_between = [Area(low, high, work_between(energy, low, high)) for low, high in pairwise(edges)]
+    return [*merge_areas(areas_between, AREA_TOL * sum(abs(area.work) for area in areas_between))]
 
 
 def work_between(energy: Piecewise, low: float, high: float) -> float:
@@ -91,14 +91,14 @@ def merge_areas(found: list[Area], nothing: float) -> Iterator[Area]:
 
 def area_vectors(cycle: SteadyCycle, unevenness: float) -> MethodResult:
     """The largest surplus A by the areas laid one after the other: the distance of the outermost levels."""
-    found = areas(cycle)
-    levels = [0.0, *accumulate(area.work for area in found)]
+    areas_of_cycle = areas(cycle)
+    levels = [0.0, *accumulate(area.work for area in areas_of_cycle)]
     stored = max(levels) - min(levels)
-    nodes = [*(area.start for area in found), *(area.end for area in found[-1:])]
+    nodes = [*(area.start for area in areas_of_cycle), *(area.end for area in areas_of_cycle[-1:])]
     low, high = (nodes[int(best(levels))] if nodes else 0.0 for best in (np.argmin, np.argmax))
     return MethodResult("area vectors", stored / energy_divisor(cycle, unevenness), stored,
                  said("takes the reduced inertia as constant, and leaves it out"),
-                 {"areas": found, "least_at": low, "most_at": high})
+                 {"areas": areas_of_cycle, "least_at": low, "most_at": high})
 
 
 # ---- Gutjahr ---------------------------------------------------------------------------------------------------------
@@ -111,10 +111,10 @@ def gutjahr(cycle: SteadyCycle, unevenness: float) -> MethodResult:
     """
     (_, least), _ = cycle.inertia.extremes(cycle.slope)
     square, ends = cycle.speed**2 / 2, list[tuple[float, float]]()
-    for way in (1, -1):
-        squared = (1 + way * unevenness / 2) ** 2 * square
+    for sense in (1, -1):
+        squared = (1 + sense * unevenness / 2) ** 2 * square
         curve, rate = cycle.energy + (cycle.inertia + -least) * -squared, cycle.closed_moment + cycle.slope * -squared
-        ends.append(curve.extremes(rate)[way > 0])
+        ends.append(curve.extremes(rate)[sense > 0])
     (fast, most), (slow, lowest) = ends
     inertia = (most - lowest) / energy_divisor(cycle, unevenness) - least
     return MethodResult("gutjahr", inertia, most - lowest, NEGLECTS_NOTHING,
@@ -147,12 +147,12 @@ def power(cycle: SteadyCycle, unevenness: float) -> MethodResult:
     strokes = [(-work / length * cycle.speed if length else 0.0, length / cycle.speed)
                for work, length in ((taken.work, span), (-taken.work, cycle.span - span))]
     (work, work_time), (idle, idle_time) = strokes
-    found = rectangles(work + drive, work_time, idle + drive, idle_time)
-    inertia = found.surplus / energy_divisor(cycle, unevenness) - cycle.mean_inertia
-    return MethodResult("power", inertia, found.surplus,
+    wheel = rectangles(work + drive, work_time, idle + drive, idle_time)
+    inertia = wheel.surplus / energy_divisor(cycle, unevenness) - cycle.mean_inertia
+    return MethodResult("power", inertia, wheel.surplus,
                  said("takes one working stroke and idling, each of constant power, and the mean of the inertia"),
                  {"work": work + drive, "work_time": work_time, "idle": idle + drive, "idle_time": idle_time,
-                  "mean": found.mean})
+                  "mean": wheel.mean})
 
 
 # ---- the motor's characteristic --------------------------------------------------------------------------------------
@@ -164,12 +164,12 @@ def characteristic(cycle: SteadyCycle, unevenness: float, motor: Speeds) -> Meth
     Where the load has the motor's moment of the largest speed work begins, and it ends where it has that of the least;
     between these places the motor's moment runs straight, and straight back while the machine idles.
     """
-    rest, (first, _) = cycle.closed_moment + -motor(cycle.speed), cycle.ends
-    levels = [motor((1 + way * unevenness / 2) * cycle.speed) for way in (1, -1)]
+    net_moment, (first, _) = cycle.closed_moment + -motor(cycle.speed), cycle.ends
+    levels = [motor((1 + sense * unevenness / 2) * cycle.speed) for sense in (1, -1)]
     (slow, _), (fast, _) = cycle.energy.extremes(cycle.closed_moment)
-    start, end = (nearest_travel(cycle, (rest + level).roots(), at) for level,
+    start, end = (nearest_travel(cycle, (net_moment + level).roots(), at) for level,
                   at in zip(levels, (fast, slow), strict=True))
-    load, middle, worked = rest.integral(), sum(levels) / 2, (end - start) % cycle.span
+    load, middle, worked = net_moment.integral(), sum(levels) / 2, (end - start) % cycle.span
     works = [work_between(load, low, low + length) + middle * length
              for low, length in ((start, worked), (first + (end - first) % cycle.span, cycle.span - worked))]
     stored = max(map(abs, works))

@@ -140,22 +140,22 @@ def flywheel(scene: Scene, positions: int | None = None, *, what: str = "flywhee
     else:
         unevenness = float(wish.unevenness or 0)
         wheel = size_flywheel(cycle, unevenness, what)
-    found = tuple(methods(cycle, unevenness, motor(reduced))) if unevenness > 0 else ()
+    comparisons = tuple(methods(cycle, unevenness, motor(reduced))) if unevenness > 0 else ()
     plans = positions or min(PLANS_PER_TURN * max(1, round(cycle.span / TURN)), MAX_PLANS)
-    return FlywheelResult(reduced, cycle, wheel, unevenness, wish.inertia is not None, found, plans)
+    return FlywheelResult(reduced, cycle, wheel, unevenness, wish.inertia is not None, comparisons, plans)
 
 
 def motor(reduced: Reduction) -> Speeds | None:
     """The moment at a speed of the loads over the drive's speed, whatever the travel; none where there are none."""
     first, last = reduced.ends
     loads = [load for load in reduced.reduce_at(np.linspace(first, last, 7)[:-1]).speed_loads
-             if all(np.ptp(part) <= MOTOR_TOL * np.abs(part).max() for part in (load.arm, load.rate))]
+             if all(np.ptp(rate) <= MOTOR_TOL * np.abs(rate).max() for rate in (load.arm, load.rate))]
     return (lambda omega: math.fsum(float(np.ravel(load.moment(omega))[0]) for load in loads)) if loads else None
 
 
 def speeds_if_it_turns(find: Any, cycle: SteadyCycle) -> FlywheelSpeeds | None:
     try:
-        found: FlywheelSpeeds = find(cycle, 0.0)
+        speeds: FlywheelSpeeds = find(cycle, 0.0)
     except Refused:
         return None
-    return found
+    return speeds

@@ -60,8 +60,8 @@ class SteadyCycle:
     @cached_property
     def closed_moment(self) -> Piecewise:
         """The moment of all loads and of the drive: its integral over the cycle is nothing."""
-        size = sum(float(np.abs(load.terms).max()) for load in self.loads.values())
-        return (self.moment + self.closing).without_rounding(size)
+        moment_scale = sum(float(np.abs(load.terms).max()) for load in self.loads.values())
+        return (self.moment + self.closing).without_rounding(moment_scale)
 
     @cached_property
     def energy(self) -> Piecewise:
@@ -102,14 +102,14 @@ def steady_cycle(reduction: Reduction, speed: float, closes: str = DRIVE, changi
     inertia, slope, loads = reduced_curves(reduction, speed)
     works = {name: float(moment.total_integral) for name, moment in loads.items()}
     closing, factor, span = 0.0, 1.0, float(inertia.edges[-1] - inertia.edges[0])
-    size = max(sum(map(work_to_and_fro, loads.values())), reduction.machine_size.moment * span)
-    require_idle_weights(works, size, what)
+    work_scale = max(sum(map(work_to_and_fro, loads.values())), reduction.machine_size.moment * span)
+    require_idle_weights(works, work_scale, what)
     if closes == LOAD:
-        factor = closing_factor(loads, works, changing, size, what)
+        factor = closing_factor(loads, works, changing, work_scale, what)
         loads = {name: moment * factor if name in changing else moment for name, moment in loads.items()}
     else:
         done = sum(works.values())
-        closing = -done / span if abs(done) > CANCELLED_WORK_TOL * size else 0.0
+        closing = -done / span if abs(done) > CANCELLED_WORK_TOL * work_scale else 0.0
     first, last = reduction.ends
     corners = np.array([at for at in reduction.breaks if first < at < last])
     return SteadyCycle(speed, inertia, slope, loads, closing, factor, tuple(changing), corners)
@@ -154,20 +154,20 @@ def closing_factor(loads: Mapping[str, Piecewise], works: Mapping[str, float], c
     if not [name for name in loads if name in changing]:
         raise Refused(f'{what}: closes = "load"', "no load changes", 'a load with `over`, or closes = "drive"')
     done = sum(works[name] for name in changing)
-    rest = sum(work for name, work in works.items() if name not in changing)
-    if abs(done) <= WORK_TOL * size or abs(rest) <= WORK_TOL * size:
+    constant_work = sum(work for name, work in works.items() if name not in changing)
+    if abs(done) <= WORK_TOL * size or abs(constant_work) <= WORK_TOL * size:
         which = "that change" if abs(done) <= WORK_TOL * size else "that do not change"
         raise Refused(f'{what}: closes = "load"', f"the loads {which} do no work over the cycle",
                       'closes = "drive", or other loads')
-    return -rest / done
+    return -constant_work / done
 
 
 def sum_of_functions(functions: Collection[Piecewise], like: Piecewise) -> Piecewise:
     """The sum of functions of the same panels as another."""
-    found = like * 0.0
+    total = like * 0.0
     for function in functions:
-        found += function
-    return found
+        total += function
+    return total
 
 
 # ---- Wittenbauer's diagram ------------------------------------------------------------------------------------------
@@ -233,12 +233,12 @@ def size_flywheel(cycle: SteadyCycle, unevenness: float, what: str = "flywheel")
     upper, lower = _tangents(cycle, unevenness)
     inertia = needed_inertia(cycle, unevenness)
     if not inertia:
-        own = turn_with(cycle, 0.0).unevenness
-        if own <= EVENNESS_TOL:
+        own_unevenness = turn_with(cycle, 0.0).unevenness
+        if own_unevenness <= EVENNESS_TOL:
             raise Refused(f"{what}: unevenness {unevenness:g}", "the machine needs no flywheel: it runs evenly",
                           "masses or loads that change its speed")
         raise Refused(f"{what}: unevenness {unevenness:g}", "the machine needs no flywheel for it: its own unevenness "
-                      f"is {own:.4g}", f"an unevenness below {own:.4g}")
+                      f"is {own_unevenness:.4g}", f"an unevenness below {own_unevenness:.4g}")
     return FlywheelSpeeds(inertia, upper, lower, upper.cut - upper.slope * inertia)
 
 
@@ -251,7 +251,8 @@ def needed_inertia(cycle: SteadyCycle, unevenness: float) -> float:
 
 def _tangents(cycle: SteadyCycle, unevenness: float) -> tuple[Tangency, Tangency]:
     """The tangents of the largest and the least speed of an unevenness."""
-    upper, lower = (tangent(cycle, ((1 + way * unevenness / 2) * cycle.speed) ** 2 / 2, way > 0) for way in (1, -1))
+    upper, lower = (tangent(cycle, ((1 + sense * unevenness / 2) * cycle.speed) ** 2 / 2, sense > 0)
+                    for sense in (1, -1))
     return upper, lower
 
 
@@ -277,9 +278,9 @@ def turn_with(cycle: SteadyCycle, inertia: float, what: str = "flywheel") -> Fly
 
 def _speeds(mean: float, upper: Tangency, lower: Tangency, flywheel: float) -> tuple[float, float]:
     """The speeds of this mean at two points of the cycle, their kinetic energies as far apart as the curve has them."""
-    one, two = upper.inertia + flywheel, lower.inertia + flywheel
+    upper_inertia, two = upper.inertia + flywheel, lower.inertia + flywheel
     apart = 4 * mean**2 * two + 2 * (upper.energy - lower.energy)
-    under = (4 * mean * two) ** 2 + 4 * (one - two) * apart
+    under = (4 * mean * two) ** 2 + 4 * (upper_inertia - two) * apart
     divisor = 4 * mean * two + math.sqrt(max(under, 0.0))
     fast = 2 * apart / divisor if divisor > 0 else math.inf
     return fast, 2 * mean - fast
@@ -303,11 +304,11 @@ def tangent_from_origin(cycle: SteadyCycle, inertia: float, origin: float, above
     """The tangent from the origin: the slope is drawn, and drawn again to where that tangent touched."""
     slope = cycle.speed**2 / 2
     for _ in range(MAX_ORIGIN_ROUNDS):
-        found = tangent(cycle, slope, above)
-        before, slope = slope, (found.energy - origin) / (found.inertia + inertia)
+        touch = tangent(cycle, slope, above)
+        before, slope = slope, (touch.energy - origin) / (touch.inertia + inertia)
         if abs(slope - before) <= SPEED_TOL * slope:
             break
-    return through_touch(found._replace(slope=slope))
+    return through_touch(touch._replace(slope=slope))
 
 
 def through_touch(one: Tangency) -> Tangency:

@@ -79,8 +79,8 @@ class _Dyads:
 
         Of the last row the last link is as long as its vector.
         """
-        step, moved, new = self.places[end] - self.places[joints[k + 1]], [*joints], [*bars]
-        moved[k + 1] = end
+        step, displacement, new = self.places[end] - self.places[joints[k + 1]], [*joints], [*bars]
+        displacement[k + 1] = end
         for j in range(k + 1, len(chain)):
             foot = joints[j + 1]
             if j == k + 1 == len(chain) - 1:
@@ -88,10 +88,10 @@ class _Dyads:
                                    bars[j])
             head = self.add_point("S" if j == k + 1 == len(chain) - 1 else f"L_{k + 1}{j + 1}",
                                   self.places[foot] + step)
-            new[j] = self._bar(chain[j].link, moved[j], head)
+            new[j] = self._bar(chain[j].link, displacement[j], head)
             self._bar(chain[k].link, foot, head)
-            moved[j + 1], self.count = head, self.count + 1
-        return moved, new
+            displacement[j + 1], self.count = head, self.count + 1
+        return displacement, new
 
     def _point(self, name: str, start: str, vector: PrincipalVector, bar: str) -> str:
         """The end of a principal vector that is laid off from a point of a bar that is parallel to its link."""
@@ -127,9 +127,10 @@ class _Dyads:
         bare = {link for link in scene.links if re.search(rf"(?m)^[ \t]*{re.escape(link)}[ \t]*=", scene.text)}
         links = {link if link in bare else f'"{link}"': f'"{" ".join(points)}"'
                  for link, points in self.links.items() if points != [*scene.links.get(link, ())]}
-        found = with_keys(with_keys(scene.text, "points", points), "links", links)
-        asked = f'["{self.last}"]'
-        return with_keys(found, "find", {"velocity": asked, "acceleration": asked, "links": "[]", "slides": "[]",
+        text = with_keys(with_keys(scene.text, "points", points), "links", links)
+        asked_points = f'["{self.last}"]'
+        return with_keys(text, "find",
+                         {"velocity": asked_points, "acceleration": asked_points, "links": "[]", "slides": "[]",
                                          **({"reactions": "[]"} if scene.loads else {})})
 
 

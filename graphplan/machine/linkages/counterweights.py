@@ -93,9 +93,9 @@ class _Balancing:
         if link == FRAME:
             return {}
         hanging = self.tree.entry[link]
-        found = {f"sliding of {link}": 1 + 0j} if not hanging.on else self.position_form(hanging.on, hanging.at)
+        form = {f"sliding of {link}": 1 + 0j} if not hanging.on else self.position_form(hanging.on, hanging.at)
         arm = point_of(self.scene, point) - point_of(self.scene, hanging.at)
-        return sum_of_forms([(1, found), (1, {self.turning[link]: arm})])
+        return sum_of_forms([(1, form), (1, {self.turning[link]: arm})])
 
     @cached_property
     def chains(self) -> list[Form]:
@@ -110,12 +110,12 @@ class _Balancing:
         """The sums of which the real multiples do not move across the guide."""
         if self.guide is None:
             return []
-        ahead, found = guide_unit(self.guide), list[Form]()
+        ahead, forms = guide_unit(self.guide), list[Form]()
         for slide in self.scene.slides:
             if FRAME in slide.links and slide.link != FRAME:
                 turn = (guide_unit(slide) / ahead).conjugate()
-                found.append(sum_of_forms([(turn, self.position_form(slide.link, slide.at))]))
-        return found
+                forms.append(sum_of_forms([(turn, self.position_form(slide.link, slide.at))]))
+        return forms
 
     def first_moment(self, weights: Mapping[str, float]) -> Form:
         """The first moment of all masses, and of counterweights with these masses as if in their pivots."""
@@ -138,11 +138,11 @@ class _Balancing:
     def solve(self, keep: Collection[str], radii: Mapping[str, float]) -> tuple[Counterweight, ...]:
         """The counterweights on as few links as will do."""
         able = [link for link in self.scene.moving if self.turning[link] != FRAME]
-        where, moving = f"{self.scene.name}: counterweights", self.scene.moving
+        place, moving = f"{self.scene.name}: counterweights", self.scene.moving
         if unknown := next((link for link in keep if link not in moving), ""):
-            raise Refused(where, said("there is no moving link {0}", unknown), f"one of {', '.join(moving)}")
+            raise Refused(place, said("there is no moving link {0}", unknown), f"one of {', '.join(moving)}")
         if unable := next((link for link in radii if link not in able), ""):
-            raise Refused(where, said("link {0} does not turn", unable), f"one of {', '.join(able)}")
+            raise Refused(place, said("link {0} does not turn", unable), f"one of {', '.join(able)}")
         able = [link for link in able if link not in keep]
         grounded = [link for link in able if self.is_grounded(link)]
         chosen = [*grounded]
@@ -150,8 +150,8 @@ class _Balancing:
             if not self.unbalanced_keys(chosen, {}):
                 break
             chosen += [link] if link else []
-        if left := self.unbalanced_keys(chosen, {}):
-            raise self.refusal(chosen, left)
+        if unbalanced := self.unbalanced_keys(chosen, {}):
+            raise self.refusal(chosen, unbalanced)
         for link in chosen[::-1]:
             fewer = [one for one in chosen if one != link]
             if not self.unbalanced_keys(fewer, {}):
@@ -164,22 +164,23 @@ class _Balancing:
         A link may bear them in vain at its own length: a mass in its next joint loads that. Then the radius is longer.
         """
         for longer in RADIUS_FACTORS:
-            own = {link: radii.get(link) or self.length(link) * (1 if self.is_grounded(link) else longer)
+            radius_of = {link: radii.get(link) or self.length(link) * (1 if self.is_grounded(link) else longer)
                    for link in links}
             weights = dict.fromkeys(links, 0.0)
             for _ in range(MAX_MASS_ROUNDS):
                 moments = self.moments(links, weights)[0]
-                found = [Counterweight(link, self.pivot(link), moment, own[link]) for link, moment in moments.items()]
-                before, weights = weights, {one.link: one.mass for one in found}
+                counterweights = [Counterweight(link, self.pivot(link), moment, radius_of[link]) for link,
+                                  moment in moments.items()]
+                before, weights = weights, {weight.link: weight.mass for weight in counterweights}
                 if all(abs(mass - before[link]) <= WEIGHT_TOL * mass for link, mass in weights.items()):
-                    return tuple(one for one in found if abs(one.moment) > BALANCED_TOL * self.moment_scale)
+                    return tuple(one for one in counterweights if abs(one.moment) > BALANCED_TOL * self.moment_scale)
         raise Refused(f"{self.scene.name}: counterweights",
                       said("their own masses would need ever larger counterweights"), said("a larger radius"))
 
     def unbalanced_keys(self, links: Sequence[str], weights: Mapping[str, float]) -> list[str]:
         """What of the first moment counterweights on these links cannot balance, by turnings and slidings."""
-        _, left = self.moments(links, weights)
-        return [key for key, factor in left.items() if abs(factor) > BALANCED_TOL * self.moment_scale]
+        _, remainder = self.moments(links, weights)
+        return [key for key, factor in remainder.items() if abs(factor) > BALANCED_TOL * self.moment_scale]
 
     @cached_property
     def moment_scale(self) -> float:
@@ -198,10 +199,10 @@ class _Balancing:
         columns += [[form.get(key, 0j) for key in keys] for form in self.guided_forms]
         right = -np.array([first.get(key, 0j) for key in keys])
         matrix = np.array(columns, dtype=complex).reshape(len(columns), len(keys)).T
-        found = np.linalg.lstsq(real_equations(matrix), real_equations(right), rcond=FACTOR_TOL)[0]
-        left = matrix @ found - right
-        moments = {link: self.reach * complex(found[2 * k], found[2 * k + 1]) for k, link in enumerate(links)}
-        return moments, dict(zip(keys, left.tolist(), strict=True))
+        solution = np.linalg.lstsq(real_equations(matrix), real_equations(right), rcond=FACTOR_TOL)[0]
+        remainder = matrix @ solution - right
+        moments = {link: self.reach * complex(solution[2 * k], solution[2 * k + 1]) for k, link in enumerate(links)}
+        return moments, dict(zip(keys, remainder.tolist(), strict=True))
 
     def is_free(self, key: str) -> bool:
         """Whether what goes with it does not count: what is constant, and a sliding along the guide."""
@@ -209,27 +210,27 @@ class _Balancing:
             return True
         if self.guide is None or not key.startswith("sliding of "):
             return False
-        ways = [guide_unit(slide) / guide_unit(self.guide) for slide in self.scene.slides if FRAME in slide.links
+        directions = [guide_unit(slide) / guide_unit(self.guide) for slide in self.scene.slides if FRAME in slide.links
                 and key == f"sliding of {slide.link}" and self.turning[slide.link] == FRAME]
-        return any(abs(way.imag) < FACTOR_TOL for way in ways)
+        return any(abs(direction.imag) < FACTOR_TOL for direction in directions)
 
     def length(self, link: str) -> float:
         """The length of a link: how far its farthest joint is from the pivot, or its farthest point."""
-        here = point_of(self.scene, self.pivot(link))
+        pivot = point_of(self.scene, self.pivot(link))
         points = [p for p in self.scene.links[link] if p in self.scene.joints] or self.scene.links[link]
-        far = max(abs(point_of(self.scene, point) - here) for point in points)
-        return far or max(abs(point_of(self.scene, point) - here) for point in self.scene.links[link]) or self.reach
+        far = max(abs(point_of(self.scene, point) - pivot) for point in points)
+        return far or max(abs(point_of(self.scene, point) - pivot) for point in self.scene.links[link]) or self.reach
 
     def refusal(self, links: Sequence[str], left: Sequence[str]) -> Refused:
         """Why it cannot be done: what stays unbalanced."""
         slides = [key.removeprefix("sliding of ") for key in left if key.startswith("sliding of ")]
-        where = f"{self.scene.name}: counterweights"
+        place = f"{self.scene.name}: counterweights"
         if slides:
-            return Refused(where, said("link {0} slides, and no joints lead from it to the frame: what slides with it "
+            return Refused(place, said("link {0} slides, and no joints lead from it to the frame: what slides with it "
                                        "cannot be balanced", slides[0]), "--counterweights none, or partial")
         turning = [link for link in self.scene.moving if self.turning[link] in left]
         on = ", ".join(links) or said("no link")
-        return Refused(where, said("what turns with {0} cannot be balanced by counterweights on {1}",
+        return Refused(place, said("what turns with {0} cannot be balanced by counterweights on {1}",
                                    ", ".join(turning), on), "fewer links in --keep, or --counterweights partial")
 
 
@@ -254,8 +255,8 @@ def point_of(scene: Scene, point: str) -> complex:
 
 
 def guide_unit(slide: Slide) -> complex:
-    way = complex(*map(float, slide.direction))
-    return way / abs(way)
+    direction = complex(*map(float, slide.direction))
+    return direction / abs(direction)
 
 
 # ---- the linkage with its counterweights -----------------------------------------------------------------------------
@@ -271,16 +272,16 @@ def add_counterweights(scene: Scene, weights: Sequence[Counterweight]) -> Scene:
 def add_counterweight(scene: Scene, weight: Counterweight) -> Scene:
     """The scene with one counterweight."""
     assert scene.loads is not None
-    own, there = scene.loads.masses.get(weight.link), weight.place(scene)
-    centre, mass, inertia = there, weight.mass, 0.0
-    if own is not None:
-        here = point_of(scene, own.centre)
-        mass += float(own.mass)
-        centre = (float(own.mass) * here + weight.mass * there) / mass
+    own_mass, weight_place = scene.loads.masses.get(weight.link), weight.place(scene)
+    centre, mass, inertia = weight_place, weight.mass, 0.0
+    if own_mass is not None:
+        own_centre = point_of(scene, own_mass.centre)
+        mass += float(own_mass.mass)
+        centre = (float(own_mass.mass) * own_centre + weight.mass * weight_place) / mass
         metre = float(METRES[scene.units.length])
-        inertia = float(own.inertia) + metre**2 * (float(own.mass) * abs(here - centre) ** 2
-                                                   + weight.mass * abs(there - centre) ** 2)
-    name = own.centre if own else f"S_{weight.link}"
+        inertia = float(own_mass.inertia) + metre**2 * (float(own_mass.mass) * abs(own_centre - centre) ** 2
+                                                   + weight.mass * abs(weight_place - centre) ** 2)
+    name = own_mass.centre if own_mass else f"S_{weight.link}"
     while name in scene.points:
         name += "'"
     spot = centre.real, centre.imag

@@ -91,9 +91,9 @@ class Engine:
     def share(self, scene: Scene, share: float, radius: float | None = None) -> Counterweight:
         """The counterweight on the crank that balances what rotates and a share of what reciprocates."""
         unit = float(KILOGRAMS[scene.units.mass] * METRES[scene.units.length])
-        here, pin = (complex(*map(float, scene.points[name])) for name in (self.hinge, self.pin(scene)))
-        moment = -(self.rotating + share * self.reciprocating) * self.radius / unit * (pin - here) / abs(pin - here)
-        return Counterweight(self.crank, self.hinge, moment, radius or abs(pin - here))
+        hinge, pin = (complex(*map(float, scene.points[name])) for name in (self.hinge, self.pin(scene)))
+        moment = -(self.rotating + share * self.reciprocating) * self.radius / unit * (pin - hinge) / abs(pin - hinge)
+        return Counterweight(self.crank, self.hinge, moment, radius or abs(pin - hinge))
 
     def pin(self, scene: Scene) -> str:
         """The crank pin."""
@@ -110,9 +110,9 @@ def path_series(ratio: float, offset: float = 0.0, points: int = SERIES_SAMPLES)
 
     angle = 2 * np.pi * np.arange(points) / points
     path = ratio * np.cos(angle) + np.sqrt(1 - (ratio * np.sin(angle) - offset) ** 2)
-    found = np.fft.rfft(path).conj() * 2 / points
-    found[0] /= 2
-    return found[:points // 2]
+    series = np.fft.rfft(path).conj() * 2 / points
+    series[0] /= 2
+    return series[:points // 2]
 
 
 def engine(scene: Scene) -> Engine | None:
@@ -124,42 +124,42 @@ def engine(scene: Scene) -> Engine | None:
     for slide in (slide for slide in scene.slides if slide.along == FRAME):
         for hinge, pin, wrist, crank, rod in _cranks(scene, slide.link):
             places = (complex(*map(float, scene.points[name])) for name in (hinge, pin, wrist))
-            found = reduce_masses(scene, (crank, rod, slide.link), hinge, [*places], slide)
-            if found is not None and set(masses) <= {crank, rod, slide.link}:
-                return found
+            reduced = reduce_masses(scene, (crank, rod, slide.link), hinge, [*places], slide)
+            if reduced is not None and set(masses) <= {crank, rod, slide.link}:
+                return reduced
     return None
 
 
 def _cranks(scene: Scene, slider: str) -> list[tuple[str, str, str, str, str]]:
     """Ways from a slider over a rod and a crank to the frame: hinge, crank pin and wrist pin, crank and rod."""
     joints = {frozenset((a, b)): joint.at for joint in scene.revolutes for a in joint.links for b in joint.links}
-    found = []
+    cranks = []
     for crank in scene.moving:
         for rod in scene.moving:
             needed = [joints.get(frozenset(pair)) for pair in ((FRAME, crank), (crank, rod), (rod, slider))]
             if len({crank, rod, slider}) == 3 and all(needed):
-                found.append((*map(str, needed), crank, rod))
-    return found  # type: ignore[return-value]
+                cranks.append((*map(str, needed), crank, rod))
+    return cranks  # type: ignore[return-value]
 
 
 def reduce_masses(scene: Scene, links: tuple[str, str, str], hinge: str, joints: Sequence[complex],
              slide: Slide) -> Engine | None:
     """The engine of these links, and joints O, A and B, if its masses may be reduced."""
     (crank, rod, piston), (O, A, B) = links, joints
-    way = complex(*map(float, slide.direction))
-    ahead = way / abs(way) * (1 if ((B - O) / way).real > 0 else -1)
+    direction = complex(*map(float, slide.direction))
+    ahead = direction / abs(direction) * (1 if ((B - O) / direction).real > 0 else -1)
     if abs(A - O) >= abs(B - A) - abs(((B - O) / ahead).imag):
         return None
     masses = scene.loads.masses if scene.loads else {}
-    parts, kg = dict.fromkeys(links, (0.0, 0j)), float(KILOGRAMS[scene.units.mass])
+    mass_and_moment, kg = dict.fromkeys(links, (0.0, 0j)), float(KILOGRAMS[scene.units.mass])
     for link, start, end in ((crank, O, A), (rod, A, B)):
         if link in masses:
             centre = complex(*map(float, scene.points[masses[link].centre]))
-            parts[link] = kg * float(masses[link].mass), (centre - start) / (end - start)
-    if any(abs(part.imag) > ON_LINE_TOL for _, part in parts.values()):
+            mass_and_moment[link] = kg * float(masses[link].mass), (centre - start) / (end - start)
+    if any(abs(moment.imag) > ON_LINE_TOL for _, moment in mass_and_moment.values()):
         return None
     metre = float(METRES[scene.units.length])
-    (m_1, s_1), (m_2, s_2) = (parts[link] for link in (crank, rod))
+    (m_1, s_1), (m_2, s_2) = (mass_and_moment[link] for link in (crank, rod))
     m_3 = kg * float(masses[piston].mass) if piston in masses else 0.0
     omega = next((float(drive.rate) for drive in scene.drives if drive.links == (crank, FRAME)), 0.0)
     return Engine(crank, rod, piston, hinge, metre * abs(A - O), metre * abs(B - A),

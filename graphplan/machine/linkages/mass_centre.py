@@ -62,14 +62,14 @@ class MassCentre:
     @property
     def masses(self) -> dict[str, Mass]:
         """The masses of the moving links."""
-        found = self.scene.loads.masses if self.scene.loads else {}
-        return {link: mass for link, mass in found.items() if link in self.scene.moving}
+        masses = self.scene.loads.masses if self.scene.loads else {}
+        return {link: mass for link, mass in masses.items() if link in self.scene.moving}
 
     @property
     def points(self) -> tuple[str, ...]:
         """The points that the construction is drawn from, and the mass centres of the links."""
-        given = (step.name for step in self._given_steps)
-        return tuple(dict.fromkeys((*given, *(mass.centre for mass in self.masses.values()))))
+        given_names = (step.name for step in self._given_steps)
+        return tuple(dict.fromkeys((*given_names, *(mass.centre for mass in self.masses.values()))))
 
     @property
     def _given_steps(self) -> Sequence[Step]:
@@ -87,8 +87,8 @@ class MassCentre:
         """
         from graphplan.kernel.numbers.arrays import Arrays
 
-        given = {step.name: {"x": z.real, "y": z.imag} for step in self._given_steps for z in [places[step.name]]}
-        (x, y), = self.drawing.mark_values(Arrays(), given).values_of_role("S")
+        inputs = {step.name: {"x": z.real, "y": z.imag} for step in self._given_steps for z in [places[step.name]]}
+        (x, y), = self.drawing.mark_values(Arrays(), inputs).values_of_role("S")
         return x + 1j * y
 
 
@@ -116,9 +116,9 @@ def _vectors(tree: SpanningTree, mass: Number) -> Iterator[PrincipalVector]:
         line = minus(scene.points[end], scene.points[start])
         if start == end:
             continue
-        found = as_multiple(moments_of_mass(tree, hanging.link), line)
+        multiples = as_multiple(moments_of_mass(tree, hanging.link), line)
         least = VECTOR_TOL * float(tree.mass_beyond(hanging.link))
-        along, across = (part / mass if abs(float(part)) > least else Fraction(0) for part in found)
+        along, across = (multiple / mass if abs(float(multiple)) > least else Fraction(0) for multiple in multiples)
         if along or across:
             yield PrincipalVector(hanging.link, start, end, along, across)
 
@@ -146,11 +146,11 @@ def _head(board: Board, vector: PrincipalVector, points: Mapping[str, Mark]) -> 
     P, Q = points[vector.start], points[vector.end]
     head, name, line = P, vector.link or vector.end, f"{vector.start}{vector.end}"
     if vector.along:
-        told = said("the principal point: h_{0} = {1} {2}", name, digits(float(vector.along), 5), line)
-        head = board.step_off(P, Q, P, ratio=vector.along, why=told, quantity=Quantity(f"h_{name}", "length"))
+        text = said("the principal point: h_{0} = {1} {2}", name, digits(float(vector.along), 5), line)
+        head = board.step_off(P, Q, P, ratio=vector.along, why=text, quantity=Quantity(f"h_{name}", "length"))
     if vector.across:
-        told = said("its offset: xi_{0} = {1} {2}", name, digits(float(vector.across), 5), line)
-        head = board.step_across(P, Q, head, ratio=vector.across, why=told, quantity=Quantity(f"xi_{name}", "length"))
+        text = said("its offset: xi_{0} = {1} {2}", name, digits(float(vector.across), 5), line)
+        head = board.step_across(P, Q, head, ratio=vector.across, why=text, quantity=Quantity(f"xi_{name}", "length"))
     return head
 
 
@@ -196,10 +196,10 @@ def shaking(centre: MassCentre, places: Mapping[str, Any], accelerations: Mappin
     """
     scene = centre.scene
     about = complex(*map(float, scene.points[centre.base])) if FRAME in scene.links_of[centre.base] else 0j
-    long, heavy, parts, moment = float(METRES[scene.units.length]), float(KILOGRAMS[scene.units.mass]), {}, 0.0
+    long, heavy, components, moment = float(METRES[scene.units.length]), float(KILOGRAMS[scene.units.mass]), {}, 0.0
     for link, mass in centre.masses.items():
         force = -heavy * long * float(mass.mass) * accelerations[mass.centre]
-        parts[link] = force
+        components[link] = force
         moment = moment + long * ((places[mass.centre] - about).conjugate() * force).imag
         moment = moment - heavy * float(mass.inertia) * alphas[link]
-    return Shaking(about, parts, moment)
+    return Shaking(about, components, moment)

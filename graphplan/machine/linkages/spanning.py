@@ -37,8 +37,8 @@ class SpanningTree:
     @cached_property
     def roots(self) -> tuple[Hanging, ...]:
         """What hangs on the frame, or loose, and bears a mass; the first of all where nothing does."""
-        found = [hanging for hanging in self.hangings if hanging.on in ("", FRAME)]
-        return tuple(hanging for hanging in found if self.mass_beyond(hanging.link)) or (found[0],)
+        roots = [hanging for hanging in self.hangings if hanging.on in ("", FRAME)]
+        return tuple(hanging for hanging in roots if self.mass_beyond(hanging.link)) or (roots[0],)
 
     @property
     def base(self) -> str:
@@ -62,8 +62,8 @@ class SpanningTree:
     def mass_beyond(self, link: str) -> Number:
         """The mass of a link and of all that hangs on it, in the scene's unit."""
         masses = self.scene.loads.masses if self.scene.loads else {}
-        own: Number = masses[link].mass if link in masses else 0
-        return own + sum(self.mass_beyond(hanging.link) for hanging in self.hung_on(link))
+        own_mass: Number = masses[link].mass if link in masses else 0
+        return own_mass + sum(self.mass_beyond(hanging.link) for hanging in self.hung_on(link))
 
     def line(self, link: str) -> tuple[str, str]:
         """The two points that a link's vectors are multiples of: where it hangs, and the next joint, or a point apart.
@@ -88,29 +88,29 @@ def spanning_tree(scene: Scene) -> SpanningTree:
 
 
 def _hangings(scene: Scene, chained: bool) -> Iterator[Hanging]:
-    found, frame = {FRAME}, scene.links.get(FRAME, ())
+    reached, frame = {FRAME}, scene.links.get(FRAME, ())
     driven = [link for drive in scene.drives for link in drive.links if link != FRAME]
     order = [*dict.fromkeys((*driven, *scene.moving))]
     fixed = [Hanging(link, point, FRAME) for link in order for point in scene.links[link] if point in frame]
     loose = [Hanging(link, point, "") for point in scene.motions for link in scene.links_of[point]]
     loose += [Hanging(slide.link, slide.at, "") for slide in scene.slides if slide.link != FRAME]
     loose += [Hanging(link, scene.links[link][0], "") for link in order]
-    for first in ([one] for one in (*fixed, *loose)) if chained else (fixed, *([one] for one in loose)):
-        yield from hang_from(scene, first, found, chained)
+    for first in ([hanging] for hanging in (*fixed, *loose)) if chained else (fixed, *([one] for one in loose)):
+        yield from hang_from(scene, first, reached, chained)
 
 
 def hang_from(scene: Scene, first: list[Hanging], found: set[str], chained: bool) -> Iterator[Hanging]:
     """These links and all that joints lead to from them: `chained` depth first, else the nearest first."""
-    left = first[::-1]
-    while left:
-        hanging = left.pop()
+    queue = first[::-1]
+    while queue:
+        hanging = queue.pop()
         if hanging.link in found:
             continue
         found.add(hanging.link)
         yield hanging
         points = [point for point in scene.links[hanging.link] if point not in scene.links.get(FRAME, ())]
-        more = [Hanging(other, point, hanging.link) for point in points for other in scene.links_of[point]]
-        left = [*left, *more[::-1]] if chained else [*more[::-1], *left]
+        more = [Hanging(link, point, hanging.link) for point in points for link in scene.links_of[point]]
+        queue = [*queue, *more[::-1]] if chained else [*more[::-1], *queue]
 
 
 def as_multiple(vector: Pair, of: Pair) -> Pair:

@@ -128,22 +128,22 @@ class MotionLayout:
     @cached_property
     def frames(self) -> dict[str, Frame]:
         """The diagrams by name, in SI; `reciprocal` is where 1/omega is constructed."""
-        found, top, k = dict[str, Frame](), 0.0, self.k
+        frames, top, k = dict[str, Frame](), 0.0, self.k
         travel, level = AxisScale(k["travel"]), (0.0, self.whole / k["travel"])
         lowest = {"moment": min(float(self.moments.min()), 0.0) * (1 + MARGIN), "energy": self._low(self.energies),
                   "omega": self._low(self.omegas)}
         for name, height in self.room.heights.items():
             upright = AxisScale(k[name], lowest.get(name, 0.0))
-            found[name] = Frame((0.0, top - height), travel, upright, level, (0.0, height))
+            frames[name] = Frame((0.0, top - height), travel, upright, level, (0.0, height))
             top -= height + ROW_GAP_MM
         right, wide = level[1] + COLUMN_GAP_MM, (0.0, INERTIA_SHARE * self.room.free)
-        inertia, energy, omega = AxisScale(k["inertia"], self._low(self.inertias)), found["energy"], found["omega"]
-        low, high = found["moment"].upright
+        inertia, energy, omega = AxisScale(k["inertia"], self._low(self.inertias)), frames["energy"], frames["omega"]
+        low, high = frames["moment"].upright
         down = AxisScale(-self.whole / (high - low))
-        found["energy-mass"] = Frame((right, energy.origin[1]), inertia, energy.y, wide, energy.upright)
-        found["inertia"] = Frame((right, 0.0), inertia, down, wide, (low - high, 0.0))
-        found["reciprocal"] = Frame((right, omega.origin[1]), AxisScale(1.0), AxisScale(1.0), wide, omega.upright)
-        return found
+        frames["energy-mass"] = Frame((right, energy.origin[1]), inertia, energy.y, wide, energy.upright)
+        frames["inertia"] = Frame((right, 0.0), inertia, down, wide, (low - high, 0.0))
+        frames["reciprocal"] = Frame((right, omega.origin[1]), AxisScale(1.0), AxisScale(1.0), wide, omega.upright)
+        return frames
 
 
 def _scale(least: float) -> float:

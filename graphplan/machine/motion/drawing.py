@@ -65,8 +65,8 @@ class MotionDrawing:
         """How far the drawing is from the true motion at most, as parts of the largest energy, speed and time."""
         true = self.motion.state_at(self.travel)
         pairs = {name: (self.read(name), getattr(true, name)) for name in ("energy", "omega", "time")}
-        return {name: float(np.nanmax(abs(drawn - exact)) / np.nanmax(abs(exact)))
-                for name, (drawn, exact) in pairs.items()}
+        return {name: float(np.nanmax(abs(drawn_values - exact)) / np.nanmax(abs(exact)))
+                for name, (drawn_values, exact) in pairs.items()}
 
 
 def draw_motion(motion: TrueMotion, strips: int = DEFAULT_STRIPS,
@@ -87,14 +87,14 @@ def draw_motion(motion: TrueMotion, strips: int = DEFAULT_STRIPS,
 def strip_moments(machine: DrivenMachine, travel: Reals, energy: float) -> tuple[list[float], list[float]]:
     """The moment of each strip, and the energies at the divisions, as far as there is some."""
     moments, energies = list[float](), [energy]
-    for here, there in pairwise(travel):
-        middle = np.array([(here + there) / 2])
+    for start, end in pairwise(travel):
+        middle = np.array([(start + end) / 2])
         inertia, half = float(machine.inertia(middle)[0]), energy
         for _ in range(CORRECTIONS_PER_STRIP if machine.laws else 1):
             rate = np.sqrt(2 * max(half, 0.0) / inertia)
             moment = float(machine.moment(middle, np.array([rate]))[0])
-            half = energy + moment * (there - here) / 2
-        energy += moment * (there - here)
+            half = energy + moment * (end - start) / 2
+        energy += moment * (end - start)
         if not energy > 0:
             break
         moments.append(moment)
@@ -190,14 +190,14 @@ class _MotionRecorder:
         for (name, letter), axis, rows in zip((("omega", "omega"), ("slowness", "u")), axes, heights, strict=True):
             self.marks[name] = []
             for k, height in enumerate(rows):
-                told = said("from the point {0}: omega = {1}", k, digits(float(omegas[k])))
+                text = said("from the point {0}: omega = {1}", k, digits(float(omegas[k])))
                 self.marks[name].append(self.board.lay_off(self._foot(k, axis), dx=0, dy=float(height),
-                                                           name=f"{letter}_{k}", why=told))
+                                                           name=f"{letter}_{k}", why=text))
 
     def _foot(self, k: int, axis: Mark) -> Mark:
         """Where the upright at a division meets an axis."""
-        told = said("the upright at division {0}", k)
-        upright = self.board.parallel(self.rate.ordinates, self.divisions[k], why=told)
+        text = said("the upright at division {0}", k)
+        upright = self.board.parallel(self.rate.ordinates, self.divisions[k], why=text)
         return self.board.meet(upright, axis)
 
     def _speed(self) -> None:
@@ -266,7 +266,7 @@ class _MotionRecorder:
         self.marks["time"] = []
         for k in (1, 2):
             spent = curve.time * float(x[k] / x[2]) ** (1 - curve.n)
-            told = said("the first two strips as a parabola omega = {0} phi^{1}: {2} s", digits(curve.k),
+            text = said("the first two strips as a parabola omega = {0} phi^{1}: {2} s", digits(curve.k),
                         digits(curve.n), digits(spent))
             length = float(self.frames["time"].y.mm(spent))
-            self.marks["time"].append(board.lay_off(self._foot(k, axis), dx=0, dy=length, name=f"t_{k}", why=told))
+            self.marks["time"].append(board.lay_off(self._foot(k, axis), dx=0, dy=length, name=f"t_{k}", why=text))

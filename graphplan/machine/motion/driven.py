@@ -38,8 +38,8 @@ class SpeedLaw(NamedTuple):
 
     def value(self, speed: Reals) -> Reals:
         """The load at these speeds, nan at others than it knows: a search may pass by there."""
-        known = np.clip(speed, *self.ends)
-        return np.where(known == speed, self.law(known), np.nan)
+        clipped = np.clip(speed, *self.ends)
+        return np.where(clipped == speed, self.law(clipped), np.nan)
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,8 +102,8 @@ class DrivenMachine:
         """The travels between which all is smooth, from one travel to another."""
         inner = self.reduced[0].edges
         first, last = (math.floor((x - self.begin) / self.period) if self.closed else 0 for x in (start, end))
-        found = np.unique([inner + turn * self.period for turn in range(first, last + 1)])
-        return [start, *(float(x) for x in found if start < x < end), end]
+        edges = np.unique([inner + turn * self.period for turn in range(first, last + 1)])
+        return [start, *(float(x) for x in edges if start < x < end), end]
 
 
 def turns_below(turns: Reals) -> Reals:
@@ -116,9 +116,9 @@ def driven_machine(reduction: Reduction, wheel: float = 0.0, closing: float = 0.
     Fails with `Refused` where a pose is not reached or has no velocities.
     """
     def rows(travel: Reals) -> Reals:
-        found = reduction.reduce_at(travel)
-        speeds = [curve for load in found.speed_loads for curve in (load.arm, load.rate)]
-        return np.array([found.inertia, found.slope, found.moment, *speeds])
+        reduced = reduction.reduce_at(travel)
+        speeds = [curve for load in reduced.speed_loads for curve in (load.arm, load.rate)]
+        return np.array([reduced.inertia, reduced.slope, reduced.moment, *speeds])
 
     unit, name = travel_unit(reduction.scene)
     first, last = reduction.ends
@@ -149,6 +149,6 @@ def require_inertia(inertia: Piecewise, reduction: Reduction) -> None:
     values = inertia.at(travel)
     least = int(np.argmin(values))
     if not values[least] > INERTIA_TOL * values.max():
-        where = travel_text(reduction.scene, float(travel[least] / reduction.unit))
-        raise Refused("the machine", f"its reduced inertia is zero at {where}",
+        place = travel_text(reduction.scene, float(travel[least] / reduction.unit))
+        raise Refused("the machine", f"its reduced inertia is zero at {place}",
                       "[masses] with the inertia of the first drive's link")

@@ -86,7 +86,7 @@ def steady_motion(machine: DrivenMachine, speed: float) -> TrueMotion:
         raise Refused("the steady motion", "the speed is missing", "--speed, or the omega of the first [[drive]]")
     if machine.laws:
         return limit_cycle(machine, nominal_speed(machine, speed))
-    over, size = (float(one[0]) for one in work_over_cycle(machine, np.array([speed])))
+    over, size = (float(work[0]) for work in work_over_cycle(machine, np.array([speed])))
     if abs(over) > CYCLE_TOL * 1e3 * size:
         raise Refused("the steady motion", f"the loads give {over:.6g} J over a cycle, which does not close",
                       "[flywheel], whose closing moment closes it, or a driver's characteristic over the speed")
@@ -148,9 +148,9 @@ def run_up(machine: DrivenMachine, cycle: TrueMotion, omega: float = 0.0) -> Run
             raise Refused("the run-up", f"the machine stops again in turn {turn + 1}", "more drive, or less load")
         near = motion.sample_travels[apart(motion.sample_travels) <= 0]
         if len(near):
-            there = min(near[0], *motion.roots(apart), near[0])
-            at = motion.state_at([there])
-            place = Place(there + turn * period, float(at.omega[0]), elapsed + float(at.time[0]))
+            limit = min(near[0], *motion.roots(apart), near[0])
+            at = motion.state_at([limit])
+            place = Place(limit + turn * period, float(at.omega[0]), elapsed + float(at.time[0]))
             return RunUp(place, (place.travel - begin) / period)
         last = motion.state_at([begin + period])
         omega, elapsed = float(last.omega[0]), elapsed + float(last.time[0])
@@ -191,22 +191,22 @@ def motion_of_scene(scene: Scene, speed: float | None = None, travel: float | No
     Fails with `Refused` where the machine does not start or get so far, its cycle does not close, or it is to stop and
     does not.
     """
-    asked = scene.run
-    speed = first_number(speed, None if asked is None else asked.speed)
-    travel = first_number(travel, None if asked is None else asked.travel)
-    found = reduction_of_motion(scene, travel)
-    in_cycle = in_cycle or (scene.flywheel is not None and asked is None and speed is None and travel is None)
-    found, machine = with_flywheel(scene, found)
-    own = abs(float(scene.drives[0].rate))
+    run = scene.run
+    speed = first_number(speed, None if run is None else run.speed)
+    travel = first_number(travel, None if run is None else run.travel)
+    driven_scene = reduction_of_motion(scene, travel)
+    in_cycle = in_cycle or (scene.flywheel is not None and run is None and speed is None and travel is None)
+    driven_scene, machine = with_flywheel(scene, driven_scene)
+    own_rate = abs(float(scene.drives[0].rate))
     if in_cycle:
-        mean = speed if speed is not None else own if scene.flywheel is None else float(scene.flywheel.speed)
+        mean = speed if speed is not None else own_rate if scene.flywheel is None else float(scene.flywheel.speed)
         motion = steady_motion(machine, abs(mean) * machine.pace)
-        return MachineMotion(found, machine, motion, motion,
+        return MachineMotion(driven_scene, machine, motion, motion,
                              nominal_speed(machine, motion.means.planimetric) if machine.laws else None)
-    first = own if speed is None else speed
+    first = own_rate if speed is None else speed
     if first < 0:
         raise Refused("--speed", f"{first:g} is below 0", "a speed in the sense in which the drive moves, or 0")
-    stops = asked is not None and asked.stops
+    stops = run is not None and run.stops
     end = end_of_travel(machine, travel, stops)
     motion = move(machine, first * machine.pace, machine.begin, end)
     if stops:
@@ -214,7 +214,7 @@ def motion_of_scene(scene: Scene, speed: float | None = None, travel: float | No
             raise Refused("run: stops", f"the machine still moves after {machine.travel_text(end)}",
                           "a travel, or more load")
         motion = replace(motion, end=motion.stop.travel)
-    return with_steady_cycle(MachineMotion(found, machine, motion), first)
+    return with_steady_cycle(MachineMotion(driven_scene, machine, motion), first)
 
 
 def first_number(*values: object) -> float | None:
@@ -254,25 +254,25 @@ def end_of_travel(machine: DrivenMachine, travel: float | None, stops: bool) -> 
 def with_flywheel(scene: Scene, found: Reduction) -> tuple[Reduction, DrivenMachine]:
     """The machine with the flywheel that is asked for, if it needs one, and what closes its cycle: a moment, or its
     loads scaled."""
-    wanted = scene.flywheel
-    if wanted is None:
+    flywheel = scene.flywheel
+    if flywheel is None:
         return found, driven_machine(found)
-    speed = abs(float(wanted.speed)) * found.unit
-    cycle = steady_cycle(found, speed, wanted.closes, found.changing)
-    wheel = (turn_with(cycle, float(wanted.inertia or 0)).inertia if wanted.unevenness is None
-             else needed_inertia(cycle, float(wanted.unevenness)))
+    speed = abs(float(flywheel.speed)) * found.unit
+    cycle = steady_cycle(found, speed, flywheel.closes, found.changing)
+    wheel = (turn_with(cycle, float(flywheel.inertia or 0)).inertia if flywheel.unevenness is None
+             else needed_inertia(cycle, float(flywheel.unevenness)))
     found = found.scale_loads(cycle.factor)
     return found, driven_machine(found, wheel, cycle.closing)
 
 
-def with_steady_cycle(found: MachineMotion, speed: float) -> MachineMotion:
+def with_steady_cycle(driven: MachineMotion, speed: float) -> MachineMotion:
     """The run with the steady cycle that its machine comes to, if characteristics lead to one."""
-    machine = found.machine
-    if not (machine.laws and machine.closed) or found.motion.stop is not None:
-        return found
+    machine = driven.machine
+    if not (machine.laws and machine.closed) or driven.motion.stop is not None:
+        return driven
     try:
-        omega = nominal_speed(machine, found.motion.extremes[1].omega)
-        found = replace(found, nominal=omega, steady=(cycle := limit_cycle(machine, omega)))
-        return replace(found, run_up=run_up(machine, cycle, speed * machine.pace))
+        omega = nominal_speed(machine, driven.motion.extremes[1].omega)
+        driven = replace(driven, nominal=omega, steady=(cycle := limit_cycle(machine, omega)))
+        return replace(driven, run_up=run_up(machine, cycle, speed * machine.pace))
     except Refused:
-        return found
+        return driven

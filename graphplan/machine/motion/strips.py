@@ -44,15 +44,16 @@ def times(travel: Reals, omega: Reals) -> Reals:
 
     Within the parabola it goes by its own law; nan from where the speed is no more than 0, or unknown.
     """
-    found, first = np.zeros(len(travel)), 0
+    elapsed, first = np.zeros(len(travel)), 0
     if omega[0] == 0:
         curve = parabola(travel, omega)
-        found[1], found[2], first = curve.time * ((travel[1] - travel[0]) / (travel[2] - travel[0])) ** (1 - curve.n), \
+        elapsed[1], elapsed[2], first = curve.time * ((travel[1] - travel[0]) / (travel[2]
+                                                                                 - travel[0])) ** (1 - curve.n), \
             curve.time, 2
     slowness = np.divide(1.0, omega, out=np.full(len(omega), np.nan), where=omega > 0)
     strips = (slowness[first:-1] + slowness[first + 1:]) / 2 * np.diff(travel[first:])
-    found[first + 1:] = found[first] + np.cumsum(strips)
-    return found
+    elapsed[first + 1:] = elapsed[first] + np.cumsum(strips)
+    return elapsed
 
 
 def by_energy(machine: DrivenMachine, travel: Reals, omega: float) -> Reals:
@@ -60,23 +61,23 @@ def by_energy(machine: DrivenMachine, travel: Reals, omega: float) -> Reals:
 
     d(omega^2) = 2/I M dphi where the inertia does not change; nan from where nothing is left.
     """
-    found = [omega]
-    for here, there in pairwise(travel):
-        inertia = machine.inertia(np.array([here, there]))
-        moment = float(machine.moment(np.array([here]), np.array([found[-1]]))[0])
-        square = (inertia[0] * found[-1] ** 2 + 2 * moment * (there - here)) / inertia[1]
-        found.append(math.sqrt(square) if square >= 0 else math.nan)
-    return np.array(found)
+    speeds = [omega]
+    for start, end in pairwise(travel):
+        inertia = machine.inertia(np.array([start, end]))
+        moment = float(machine.moment(np.array([start]), np.array([speeds[-1]]))[0])
+        square = (inertia[0] * speeds[-1] ** 2 + 2 * moment * (end - start)) / inertia[1]
+        speeds.append(math.sqrt(square) if square >= 0 else math.nan)
+    return np.array(speeds)
 
 
 def baranov(machine: DrivenMachine, travel: Reals, omega: float) -> Reals:
     """The speeds by Baranov's step (13.31), of the first order; from rest the first strip is one of `by_energy`."""
-    found = [omega]
+    speeds = [omega]
     if omega == 0:
-        found += [float(by_energy(machine, travel[:2], 0.0)[1])]
-    for here, there in pairwise(travel[len(found) - 1:]):
-        (now, then), rate = machine.inertia(np.array([here, there])), found[-1]
-        moment = float(machine.moment(np.array([here]), np.array([rate]))[0])
-        step = moment * (there - here) / (now * rate) + (3 * now - then) / (2 * now) * rate if rate > 0 else math.nan
-        found.append(step)
-    return np.array(found)
+        speeds += [float(by_energy(machine, travel[:2], 0.0)[1])]
+    for start, end in pairwise(travel[len(speeds) - 1:]):
+        (now, then), rate = machine.inertia(np.array([start, end])), speeds[-1]
+        moment = float(machine.moment(np.array([start]), np.array([rate]))[0])
+        step = moment * (end - start) / (now * rate) + (3 * now - then) / (2 * now) * rate if rate > 0 else math.nan
+        speeds.append(step)
+    return np.array(speeds)

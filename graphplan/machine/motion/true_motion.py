@@ -123,9 +123,9 @@ class _Rule(NamedTuple):
 
     def integral_terms(self, values: Reals, first: float) -> Reals:
         """The terms of the integral, which begins at `first`."""
-        found: Reals = values @ self.terms
-        found[0] += first
-        return found
+        terms: Reals = values @ self.terms
+        terms[0] += first
+        return terms
 
 
 @cache
@@ -182,7 +182,7 @@ class TrueMotion:
 
     @cached_property
     def _starts(self) -> list[float]:
-        return [min(one.start, one.start + one.way) for one in self.stretches]
+        return [min(stretch.start, stretch.start + stretch.way) for stretch in self.stretches]
 
     @property
     def last_travel(self) -> float:
@@ -194,12 +194,12 @@ class TrueMotion:
         x = np.asarray(travel, dtype=float)
         energy, time = np.full(x.shape, np.nan), np.full(x.shape, np.nan)
         inside = (x >= self.start) & (x <= self.last_travel)
-        held = np.array([max(0, bisect_right(self._starts, value) - 1) for value in x], dtype=int)
-        for k in np.unique(held[inside]):
-            here, one = inside & (held == k), self.stretches[k]
-            place = one.place(x[here])
-            energy[here] = np.where((place == -1) & (one.power == 2), 0.0, legval(place, one.energy))
-            time[here] = legval(place, one.time)
+        stretch_of = np.array([max(0, bisect_right(self._starts, value) - 1) for value in x], dtype=int)
+        for k in np.unique(stretch_of[inside]):
+            is_here, stretch = inside & (stretch_of == k), self.stretches[k]
+            place = stretch.place(x[is_here])
+            energy[is_here] = np.where((place == -1) & (stretch.power == 2), 0.0, legval(place, stretch.energy))
+            time[is_here] = legval(place, stretch.time)
         time[x == self.start] = 0.0
         energy = np.maximum(energy, 0.0)
         inertia = self.machine.inertia(x)
@@ -211,8 +211,8 @@ class TrueMotion:
     def sample_travels(self) -> Reals:
         """Travels that show the motion: the ends of all stretches, and places between."""
         ends = [*self._starts, self.last_travel]
-        parts = [np.linspace(a, b, STRETCH_SAMPLES, endpoint=False) for a, b in pairwise(ends)]
-        return np.concatenate([*parts, [self.last_travel]])
+        samples = [np.linspace(a, b, STRETCH_SAMPLES, endpoint=False) for a, b in pairwise(ends)]
+        return np.concatenate([*samples, [self.last_travel]])
 
     @cached_property
     def extremes(self) -> tuple[Place, Place]:
@@ -220,7 +220,7 @@ class TrueMotion:
         places = np.union1d(self.sample_travels, self.roots(lambda x: self.state_at(x).acceleration))
         state = self.state_at(places)
         least, most = int(np.argmin(state.omega)), int(np.argmax(state.omega))
-        return (Place(*(float(one[least]) for one in (places, state.omega, state.time))),
+        return (Place(*(float(values[least]) for values in (places, state.omega, state.time))),
                 Place(*(float(one[most]) for one in (places, state.omega, state.time))))
 
     def roots(self, function: Callable[[Reals], Reals]) -> Reals:
@@ -239,9 +239,9 @@ class TrueMotion:
         area = 0.0
         for a, b in pairwise([*self._starts, self.last_travel]):
             area += (b - a) / 2 * float(weights @ self.state_at((a + b) / 2 + (b - a) / 2 * nodes).omega)
-        way, half = self.last_travel - self.start, (least + most) / 2
+        distance, half = self.last_travel - self.start, (least + most) / 2
         elapsed = float(self.state_at([self.last_travel]).time[0])
-        return Means(half, area / way, way / elapsed, (most - least) / half)
+        return Means(half, area / distance, distance / elapsed, (most - least) / half)
 
 
 def move(machine: DrivenMachine, omega: float, start: float, end: float) -> TrueMotion:
@@ -253,22 +253,22 @@ def move(machine: DrivenMachine, omega: float, start: float, end: float) -> True
     energy = float(machine.inertia(np.array([start]))[0]) * omega**2 / 2
     if omega == 0:
         require_start(machine, start)
-    waiting, found = machine.edges(start, end)[::-1], list[MotionStretch]()
-    here, elapsed = waiting.pop(), 0.0
+    waiting, stretches = machine.edges(start, end)[::-1], list[MotionStretch]()
+    position, elapsed = waiting.pop(), 0.0
     while waiting:
-        way = waiting[-1] - here
-        one = move_stretch(machine, here, way, energy, elapsed, at_rest=energy == 0)
-        if one is None and (halt := stretch_to_rest(machine, here, waiting[-1], energy, elapsed)) is not None:
-            return TrueMotion(machine, start, end, (*found, halt), Place(halt.start, 0.0, start_value(halt.time)))
-        if one is None and way <= MIN_STRETCH * (end - start):
-            require_tables_cover(machine, here, energy)
-            return TrueMotion(machine, start, end, tuple(found), Place(here, 0.0, math.inf))
-        if one is None:
-            waiting.append(here + way / 2)
+        distance = waiting[-1] - position
+        stretch = move_stretch(machine, position, distance, energy, elapsed, at_rest=energy == 0)
+        if stretch is None and (halt := stretch_to_rest(machine, position, waiting[-1], energy, elapsed)) is not None:
+            return TrueMotion(machine, start, end, (*stretches, halt), Place(halt.start, 0.0, start_value(halt.time)))
+        if stretch is None and distance <= MIN_STRETCH * (end - start):
+            require_tables_cover(machine, position, energy)
+            return TrueMotion(machine, start, end, tuple(stretches), Place(position, 0.0, math.inf))
+        if stretch is None:
+            waiting.append(position + distance / 2)
             continue
-        found.append(one)
-        here, energy, elapsed = waiting.pop(), float(one.energy.sum()), float(one.time.sum())
-    return TrueMotion(machine, start, end, tuple(found), None)
+        stretches.append(stretch)
+        position, energy, elapsed = waiting.pop(), float(stretch.energy.sum()), float(stretch.time.sum())
+    return TrueMotion(machine, start, end, tuple(stretches), None)
 
 
 def require_within_span(machine: DrivenMachine, start: float, end: float) -> None:
@@ -317,24 +317,24 @@ def stretch_to_rest(machine: DrivenMachine, here: float, end: float, energy: flo
     def back(far: float) -> MotionStretch | None:
         return move_stretch(machine, far, here - far, 0.0, 0.0, at_rest=True)
 
-    one = back(end)
-    if one is None or (over := float(one.energy.sum()) - energy) < 0:
+    stretch = back(end)
+    if stretch is None or (over := float(stretch.energy.sum()) - energy) < 0:
         return None
     low, under, high = here, -energy, end
     for _ in range(100):
         far = (low * over - high * under) / (over - under)
-        if not low < far < high or (one := back(far)) is None:
+        if not low < far < high or (stretch := back(far)) is None:
             break
-        miss = float(one.energy.sum()) - energy
+        miss = float(stretch.energy.sum()) - energy
         if abs(miss) <= STOP_TOL * energy:
             break
         if miss > 0:
             high, over, under = far, miss, under / 2
         else:
             low, under, over = far, miss, over / 2
-    if one is None:
+    if stretch is None:
         return None
-    whole = float(one.time.sum())  # below zero: it was passed backwards
-    time = one.time.copy()
+    whole = float(stretch.time.sum())  # below zero: it was passed backwards
+    time = stretch.time.copy()
     time[0] += elapsed - whole
-    return MotionStretch(one.start, one.way, one.power, one.energy, time)
+    return MotionStretch(stretch.start, stretch.way, stretch.power, stretch.energy, time)

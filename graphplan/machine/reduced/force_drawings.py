@@ -43,8 +43,8 @@ class LeverDraughtsman(Draughtsman):
         lever = Lever(velocity, loading, LeverPlan.of_part(), {}, balance_letter(balance))
         marks = self.balancing_marks(lever)
         self.read(kinds.balance_kind(kinds.BY_LEVER, balance), name, *marks)
-        shown = force_arrows(self.board, self.marks, [*lever.shown, Shown("balance", lever.letter, *marks[-2:])])
-        return replace(super().finish(velocity, plan), phi=phi, force_arrows=shown)
+        arrows = force_arrows(self.board, self.marks, [*lever.shown, Shown("balance", lever.letter, *marks[-2:])])
+        return replace(super().finish(velocity, plan), phi=phi, force_arrows=arrows)
 
     def balancing_marks(self, lever: Lever) -> tuple[Mark, ...]:
         """The moment on the link that turns, or the force on the one that slides, which balances all loads."""
@@ -65,9 +65,10 @@ def lever_drawing(scene: Scene, loads: Loads) -> Construction:
     balance = Balance(drive.link, slide.at, slide.direction) if slide else Balance(drive.link)
     acting = (*(force.at for force in loads.forces), *(mass.centre for mass in loads.masses.values()))
     find = Find(moving_points(scene, acting), (), (), (), ())
-    given = replace(scene, loads=replace(loads, balances=(balance,), frictions=()), find=find)
-    found = alternatives(Network(given), "", lambda planner: LeverDraughtsman(given, planner, Style()).draw())
-    return next(found)[0]
+    with_balance = replace(scene, loads=replace(loads, balances=(balance,), frictions=()), find=find)
+    drawings = alternatives(Network(with_balance), "",
+                            lambda planner: LeverDraughtsman(with_balance, planner, Style()).draw())
+    return next(drawings)[0]
 
 
 # ---- force polygons with friction -----------------------------------------------------------------------------------
@@ -91,8 +92,8 @@ def with_resting_pairs(scene: Scene, motion: UnitMotion, travel: Array) -> Scene
 
 def _resting(scene: Scene, motion: UnitMotion, rates: UnitRates) -> Iterator[str]:
     for point, link, pin in pairs(scene):
-        one, other = (0.0 if name == FRAME else rates.rate(kinds.OMEGA, name) for name in (link, pin))
-        if np.max(np.abs(one - other), initial=0.0) <= DEAD_POINT_TOL:
+        rate, pin_rate = (0.0 if name == FRAME else rates.rate(kinds.OMEGA, name) for name in (link, pin))
+        if np.max(np.abs(rate - pin_rate), initial=0.0) <= DEAD_POINT_TOL:
             yield JointForce(point, link).name
     reach = scene.extent * motion.metres if motion.turns else 1.0
     for slide in scene.slides:

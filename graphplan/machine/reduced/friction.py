@@ -93,38 +93,41 @@ class FrictionOverCycle:
     def __init__(self, scene: Scene, motion: UnitMotion, ends: tuple[float, float]):
         assert scene.loads is not None
         self.motion, self.speed, self.ends = motion, mean_speed(scene), ends
-        self.scene = held = with_resting_pairs(kinetostatic(scene, self.speed), motion, sample_travels(motion, ends))
-        assert held.loads is not None
-        self.values = LoadValues(held, [*loads_on_links(held, held.loads)])
-        self.frictions = [one for one in held.loads.frictions if one.coefficient and (one.radius or not one.at)]
-        self._rate = abs(float(held.drives[0].rate))
+        self.scene = kinetostatic_scene = with_resting_pairs(kinetostatic(scene, self.speed), motion,
+                                                             sample_travels(motion, ends))
+        assert kinetostatic_scene.loads is not None
+        self.values = LoadValues(kinetostatic_scene, [*loads_on_links(kinetostatic_scene, kinetostatic_scene.loads)])
+        self.frictions = [friction for friction in kinetostatic_scene.loads.frictions if friction.coefficient
+                          and (friction.radius or not friction.at)]
+        self._rate = abs(float(kinetostatic_scene.drives[0].rate))
         self.power = float(NEWTONS[scene.units.force]) * motion.metres / motion.unit / self._rate
-        self.recordings, self._further = (Recordings(with_rounds(held, rounds), motion.motion, rubbed_drawing)
+        self.recordings, self._further = (Recordings(with_rounds(kinetostatic_scene, rounds), motion.motion,
+                                                     rubbed_drawing)
                                           for rounds in (FRICTION_ROUNDS, FRICTION_ROUNDS + 1))
         self.edges = np.array(self._breaks())
 
     @property
     def pairs(self) -> tuple[str, ...]:
         """The names of the journals and slides that rub."""
-        return tuple(name for one in self.frictions for name in (
-            *(journal_name(one, *journal) for journal in self._journals(one)),
-            *(slide.name for slide in self._slides(one))))
+        return tuple(name for friction in self.frictions for name in (
+            *(journal_name(friction, *journal) for journal in self._journals(friction)),
+            *(slide.name for slide in self._slides(friction))))
 
     def friction_at(self, travel: Array, side: int = 1) -> FrictionMoments:
         """The friction at some travels; at a break that which it has on one side, -1 or 1. Fails with `Refused` where
         the mechanism locks itself: where one round of friction more changes the forces, as none is in equilibrium."""
         travel = self.off_breaks(travel, side)
-        found, turn = self._forces(self.recordings, travel, side, gaps=True)
-        if (torn := ~np.isfinite(self.drive_moment(found, turn, kinds.RUBBED))).any():
+        forces, turn = self._forces(self.recordings, travel, side, gaps=True)
+        if (torn := ~np.isfinite(self.drive_moment(forces, turn, kinds.RUBBED))).any():
             travel = np.where(torn, travel + side * BREAK_OFFSET * (self.ends[1] - self.ends[0]), travel)
-            found, turn = self._forces(self.recordings, travel, side)
-        plain, rubbed = (self.drive_moment(found, turn, way) for way in (kinds.BY_PLANS, kinds.RUBBED))
+            forces, turn = self._forces(self.recordings, travel, side)
+        plain, rubbed = (self.drive_moment(forces, turn, kind) for kind in (kinds.BY_PLANS, kinds.RUBBED))
         further = self.drive_moment(*self._forces(self._further, travel, side), kinds.RUBBED)
-        size = np.maximum(np.abs(plain), np.abs(rubbed))
-        if locked := np.flatnonzero(~(np.abs(further - rubbed) <= BALANCE_TOL * size)).tolist():
+        larger = np.maximum(np.abs(plain), np.abs(rubbed))
+        if locked := np.flatnonzero(~(np.abs(further - rubbed) <= BALANCE_TOL * larger)).tolist():
             at = travel_text(self.scene, float(travel[locked[0]]))
             raise Refused("friction", said("the mechanism locks itself at a travel of {0}", at), "less friction")
-        return FrictionMoments(plain, plain - rubbed, dict(self._losses(found)))
+        return FrictionMoments(plain, plain - rubbed, dict(self._losses(forces)))
 
     def off_breaks(self, travel: Array, side: int = 1) -> Array:
         """The travels, but those at breaks a hair beside them: there the senses are known."""
@@ -171,20 +174,20 @@ class FrictionOverCycle:
     def _losses(self, found: Results) -> Iterator[tuple[str, Array]]:
         """What each journal and slide takes of the moment, by its reaction and its rate for a unit of travel; what
         contacts take is left to the polygons."""
-        for one in self.frictions:
-            for journal in self._journals(one):
-                circle = float(one.radius * one.coefficient)
-                force = found[JOINT_FORCE][JointForce(one.at, journal[0]).name]
+        for friction in self.frictions:
+            for journal in self._journals(friction):
+                circle = float(friction.radius * friction.coefficient)
+                force = found[JOINT_FORCE][JointForce(friction.at, journal[0]).name]
                 turning = self.relative_rate(found, journal)
-                yield journal_name(one, *journal), -self.power * circle * np.abs(force) * np.abs(turning)
-            for slide in self._slides(one):
+                yield journal_name(friction, *journal), -self.power * circle * np.abs(force) * np.abs(turning)
+            for slide in self._slides(friction):
                 slip, force = found[kinds.SLIDE_VELOCITY][slide.name], found[SLIDE_FORCE][slide.name]
                 yield slide.name, -self.power * np.abs((np.conj(slip) * force).real)
 
     def _journals(self, one: Friction) -> list[tuple[str, str]]:
         """The links on the pin of a joint that rubs, each with the link that has the pin."""
-        pin, *others = self.scene.links_of[one.at] if one.at else ("",)
-        return [(link, pin) for link in others]
+        pin, *links = self.scene.links_of[one.at] if one.at else ("",)
+        return [(link, pin) for link in links]
 
     def _slides(self, one: Friction) -> list[Slide]:
         """The slide that rubs, if it is one."""
@@ -192,24 +195,25 @@ class FrictionOverCycle:
 
     def relative_rate(self, found: Results, journal: tuple[str, str], kind: str = kinds.OMEGA) -> Any:
         """How a link turns on that with the pin."""
-        one, other = (0.0 if link == FRAME else found[kind][link] for link in journal)
-        return one - other
+        rate, pin_rate = (0.0 if link == FRAME else found[kind][link] for link in journal)
+        return rate - pin_rate
 
     # ---- where it breaks ---------------------------------------------------------------------------------------------
 
     def _breaks(self) -> list[float]:
         """The travels at which a journal or a slide that rubs stands still, or its reaction passes through nothing."""
         travel = sample_travels(self.motion, self.ends)
-        found, turn = self._forces(self.recordings, travel, gaps=True)
-        brackets = [*self._brackets(found, turn)]
+        forces, turn = self._forces(self.recordings, travel, gaps=True)
+        brackets = [*self._brackets(forces, turn)]
 
         def values(at: Array) -> tuple[Array, Array]:
-            found, turn = self._forces(self.recordings, at, gaps=True)
-            told = [[part[j] for part in one.of(found, turn)] for j, one in enumerate(brackets)]
-            return np.array([value for value, _ in told]), np.array([change for _, change in told]) / self._rate
+            forces_there, turn = self._forces(self.recordings, at, gaps=True)
+            values = [[component[j] for component in bracket.of(forces_there, turn)] for j,
+                      bracket in enumerate(brackets)]
+            return np.array([value for value, _ in values]), np.array([change for _, change in values]) / self._rate
 
-        low, high = (np.array([getattr(one, end) for one in brackets], dtype=int) for end in ("low", "high"))
-        before, after = (np.array([one.of(found, turn)[0][k] for one, k in zip(brackets, places, strict=True)])
+        low, high = (np.array([getattr(bracket, end) for bracket in brackets], dtype=int) for end in ("low", "high"))
+        before, after = (np.array([one.of(forces, turn)[0][k] for one, k in zip(brackets, places, strict=True)])
                          for places in (low, high))
         places = np.array(refine_zeros(values, travel[low], travel[high], before, after))
         first, last = self.ends
@@ -219,7 +223,7 @@ class FrictionOverCycle:
         """Between which of the samples something vanishes; what is next to nothing at a sample is passed over."""
         every = [np.abs(force) for kind in (JOINT_FORCE, SLIDE_FORCE) for force in found.get(kind, {}).values()]
         largest = max((float(np.nanmax(sizes)) for sizes in every), default=0.0)
-        for of, size in [of for one in self.frictions for of in self.vanishing_quantities(one, largest)]:
+        for of, size in [of for friction in self.frictions for of in self.vanishing_quantities(friction, largest)]:
             values, _ = of(found, turn)
             for i, j in pairwise(np.flatnonzero(np.abs(values) > SIGNLESS_TOL * size).tolist()):
                 if values[i] * values[j] < 0 and j - i <= 2:
@@ -284,17 +288,17 @@ def cycle_losses(friction: FrictionOverCycle, moments: Callable[[Array], Mapping
     motion, ends, names = friction.motion, friction.ends, list[str]()
 
     def rows(travel: Array) -> Array:
-        found = friction.friction_at(travel)
-        named = {"": found.balance - found.moment, M_F: found.moment, **moments(travel)}
-        names[:] = [*named, *found.losses]
-        return np.array([*named.values(), *found.losses.values()])
+        forces = friction.friction_at(travel)
+        named = {"": forces.balance - forces.moment, M_F: forces.moment, **moments(travel)}
+        names[:] = [*named, *forces.losses]
+        return np.array([*named.values(), *forces.losses.values()])
 
     sizes = np.abs(rows(sample_travels(motion, ends))).max(axis=1)
     works = fit_piecewise(rows, [ends[0], *breaks, ends[1]], np.maximum(sizes, sizes[0])).total_integral * motion.unit
     done = dict(zip(names, map(float, works), strict=True))
     pairs = {name: -done.pop(name) for name in friction.pairs}
     lost = -done.pop(M_F)
-    if any(one.contact for one in friction.frictions):
+    if any(friction_pair.contact for friction_pair in friction.frictions):
         pairs["contacts"] = lost - sum(pairs.values())
     return CycleLosses(lost, sum(max(0.0, work) for work in done.values()), pairs)
 
@@ -312,15 +316,16 @@ def mean_speed(scene: Scene) -> float:
 def kinetostatic(scene: Scene, speed: float) -> Scene:
     """The scene at a constant mean speed of its first drive, with a balance at each drive; at rest with weights alone,
     moving only so that friction has a sense."""
-    moved, loads = at_unit_rate(scene), scene.loads
+    unit_scene, loads = at_unit_rate(scene), scene.loads
     assert loads is not None
-    balances = tuple(map(moved.balance_of, moved.drives))
+    balances = tuple(map(unit_scene.balance_of, unit_scene.drives))
     if speed:
-        moved = moved.with_drives(one.driven_at(Fraction(one.rate) * Fraction(speed), 0) for one in moved.drives)
+        unit_scene = unit_scene.with_drives(drive.driven_at(Fraction(drive.rate) * Fraction(speed), 0)
+                                            for drive in unit_scene.drives)
     else:
         loads = weights_alone(scene, loads)
     slides = tuple(slide.name for slide in scene.slides)
-    return replace(moved, loads=replace(loads, balances=balances), find=Find((), (), None, scene.moving, slides))
+    return replace(unit_scene, loads=replace(loads, balances=balances), find=Find((), (), None, scene.moving, slides))
 
 
 def with_rounds(scene: Scene, rounds: int) -> Scene:

@@ -202,11 +202,11 @@ Function = Callable[[Array], tuple[Array, Array]]
 def load_breaks(loads: LoadValues, motion: UnitMotion, ends: tuple[float, float]) -> tuple[float, ...]:
     """The travels between two ends at which the tables of loads have corners, jump or change strokes, in order."""
     tables = [load.table for load in loads.tabled if load.table]
-    found = [travel for table in tables if table.over == TRAVEL for travel in travel_breaks(table, motion, ends)]
+    travels = [travel for table in tables if table.over == TRAVEL for travel in travel_breaks(table, motion, ends)]
     for name, slide in loads.slides.items():
         over = [table for table in tables if table.slide == name]
-        found += slide_breaks(loads, motion, slide, over, ends)
-    return sort_breaks(found, ends)
+        travels += slide_breaks(loads, motion, slide, over, ends)
+    return sort_breaks(travels, ends)
 
 
 def sort_breaks(found: Iterable[float], ends: tuple[float, float]) -> tuple[float, ...]:
@@ -214,11 +214,11 @@ def sort_breaks(found: Iterable[float], ends: tuple[float, float]) -> tuple[floa
     next round."""
     low, high = ends
     found = (low + (travel - low) % (high - low) if travel > high else travel for travel in found)
-    close, kept = BREAK_DISTANCE * (high - low), [low]
+    close, breaks = BREAK_DISTANCE * (high - low), [low]
     for travel in sorted(found):
-        if travel - kept[-1] > close and high - travel > close:
-            kept.append(travel)
-    return tuple(kept[1:])
+        if travel - breaks[-1] > close and high - travel > close:
+            breaks.append(travel)
+    return tuple(breaks[1:])
 
 
 def travel_breaks(table: LoadTable, motion: UnitMotion, ends: tuple[float, float]) -> Iterator[float]:
@@ -258,12 +258,12 @@ def slide_breaks(loads: LoadValues, motion: UnitMotion, slide: Slide, tables: li
     dead = find_zeros(speed, travel, speed(travel)[0])
     strokes = np.unique(np.concatenate([travel, dead]))
     places, turned = place(strokes)[0], place(np.array(dead))[0] if dead else np.zeros(0)
-    found = list(dead)
+    zeros = list(dead)
     for table in tables:
         for corner in table.corners if table.over_position else ():
             if not np.any(np.abs(turned - float(corner)) <= TABLE_TOL * float(table.length)):
-                found += find_zeros(partial(distance_beyond, place, float(corner)), strokes, places - float(corner))
-    return found
+                zeros += find_zeros(partial(distance_beyond, place, float(corner)), strokes, places - float(corner))
+    return zeros
 
 
 def distance_beyond(place: Function, corner: float, travel: Array) -> tuple[Array, Array]:
@@ -285,17 +285,17 @@ def refine_zeros(function: Function, low: Array, high: Array, before: Array, aft
 
     By Newton's method, or with slopes that are nan by secants; a step that leaves the bracket is one to its middle.
     """
-    rising, last, left = after > 0, low, before
+    rising, last, value_before = after > 0, low, before
     at = low + (high - low) * (before / (before - after))
     for _ in range(MAX_NEWTON_ROUNDS if low.size else 0):
         value, slope = function(at)
         below = (value < 0) == rising
         low, high = np.where(below, at, low), np.where(below, high, at)
         with np.errstate(all="ignore"):
-            step = at - value / np.where(np.isfinite(slope), slope, (value - left) / (at - last))
+            step = at - value / np.where(np.isfinite(slope), slope, (value - value_before) / (at - last))
         new = np.where((step >= low) & (step <= high), step, np.where(value == 0, at, (low + high) / 2))
-        moved, last, left, at = np.abs(new - at), at, value, new
-        if np.all(moved <= BREAK_TOL * np.maximum(1.0, np.abs(at))):
+        movement, last, value_before, at = np.abs(new - at), at, value, new
+        if np.all(movement <= BREAK_TOL * np.maximum(1.0, np.abs(at))):
             break
     return [*map(float, at)]
 

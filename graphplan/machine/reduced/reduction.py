@@ -92,10 +92,10 @@ class Reduction:
         if self.closed:
             ends = 0.0, common_period(self.motion.period, [load.table for load in self.acting if load.table])
         self.ends = ends
-        rubs = any(one.coefficient for one in scene.loads.frictions)
+        rubs = any(friction.coefficient for friction in scene.loads.frictions)
         self.friction = FrictionOverCycle(scene, self.motion, ends) if rubs else None
-        found = load_breaks(self.values, self.motion, ends)
-        self.breaks = sort_breaks([*found, *self.friction.edges.tolist()], ends) if self.friction else found
+        breaks = load_breaks(self.values, self.motion, ends)
+        self.breaks = sort_breaks([*breaks, *self.friction.edges.tolist()], ends) if self.friction else breaks
 
     @cached_property
     def machine_size(self) -> MachineSize:
@@ -166,8 +166,8 @@ class Reduction:
         turn = self.motion.turn(np.array([float(travel)]))
         rates = self.motion.velocities(turn)
         values = self.values.values(self.motion, turn, rates, np.array([float(travel)]), 1)
-        given = {name: complex(value[0]) for name, value in self.values.in_units(values, turn).items()}
-        return lever_drawing(in_pose(self.motion.scene, turn, 0), loads_with(self.loads, given))
+        load_values = {name: complex(value[0]) for name, value in self.values.in_units(values, turn).items()}
+        return lever_drawing(in_pose(self.motion.scene, turn, 0), loads_with(self.loads, load_values))
 
     def scale_loads(self, factor: float) -> Reduction:
         """The same machine, its loads that change so many times as large."""
@@ -268,6 +268,6 @@ def machine_size(scene: Scene) -> MachineSize:
 
 def _largest(load: Force | Moment) -> float:
     """The largest value of a load: of a table that of its rows."""
-    here = math.hypot(*map(float, load.value)) if isinstance(load, Force) else abs(float(load.value))
+    size_of_load = math.hypot(*map(float, load.value)) if isinstance(load, Force) else abs(float(load.value))
     rows = load.table.rows if load.table else ()
-    return max([here, *(abs(float(value)) for _, value in rows)])
+    return max([size_of_load, *(abs(float(value)) for _, value in rows)])

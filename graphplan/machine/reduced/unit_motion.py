@@ -57,34 +57,34 @@ class Recordings:
 
         Else it fails with `Refused` where no construction serves in a pose.
         """
-        found, why = Results(), ""
-        left = np.arange(len(turn.travel))
+        results, why = Results(), ""
+        remaining = np.arange(len(turn.travel))
         for drawing in self._constructions():
             only = None if wanted is None else [kind for kind in drawing.kinds if kind in wanted]
             if only is not None and not only:
-                return found
+                return results
             try:
-                poses = self._poses(drawing, turn, left, only, given)
+                poses = self._poses(drawing, turn, remaining, only, given)
             except Refused as refused:
                 why = str(refused)
                 continue
             for kind, named in poses.results.items():
                 for name, z in named.items():
-                    row = found.setdefault(kind, {}).setdefault(name, np.full(len(turn.travel), np.nan, z.dtype))
-                    row[left] = z
+                    row = results.setdefault(kind, {}).setdefault(name, np.full(len(turn.travel), np.nan, z.dtype))
+                    row[remaining] = z
             torn = np.any([~np.isfinite(z) for named in poses.results.values() for z in named.values()], axis=0)
-            left, why = left[torn], next(iter(poses.faults.values()), why)
-            if not left.size:
-                return found
-        if gaps and found:
-            return found
+            remaining, why = remaining[torn], next(iter(poses.faults.values()), why)
+            if not remaining.size:
+                return results
+        if gaps and results:
+            return results
         raise Refused("the cycle", why, "a span of travels in which the mechanism has velocities")
 
     def _poses(self, drawing: Construction, turn: Turn, left: Array, only: Collection[str] | None,
                given: Mapping[str, Mapping[str, Array]]) -> Any:
         """One construction in some of the poses."""
-        points, guides, *more = ({name: z[left] for name, z in own.items()}
-                                 for own in (turn.points, turn.guides, *given.values()))
+        points, guides, *more = ({name: z[left] for name, z in values.items()}
+                                 for values in (turn.points, turn.guides, *given.values()))
         return drawing.evaluate(points, guides, only=only, compiled=self.compiled,
                                 **dict(zip(given, more, strict=True)))  # type: ignore[arg-type]
 
@@ -93,10 +93,10 @@ class Recordings:
         for method in ("", *METHODS):
             yield from self.draw_once(method, partial(self.draw, self.scene, method))
         low, high = (float(self.motion.path.travel[end]) for end in (0, -1))
-        for part in OTHER_POSES:
-            turn = self.motion.turn(np.array([low + part * (high - low)]))
+        for share in OTHER_POSES:
+            turn = self.motion.turn(np.array([low + share * (high - low)]))
             if not turn.faults:
-                yield from self.draw_once(part, partial(self.draw, in_pose(self.scene, turn, 0), ""))
+                yield from self.draw_once(share, partial(self.draw, in_pose(self.scene, turn, 0), ""))
 
     def draw_once(self, key: object, draw: Callable[[], Construction]) -> Iterator[Construction]:
         """A construction, unless there is none; what keeps the given pose from having one is told."""
@@ -107,8 +107,8 @@ class Recordings:
                 if key == "":
                     raise
                 self._drawn[key] = None
-        if found := self._drawn[key]:
-            yield found
+        if drawn_pose := self._drawn[key]:
+            yield drawn_pose
 
 
 # ---- rates ----------------------------------------------------------------------------------------------------------
@@ -154,11 +154,11 @@ class UnitMotion:
         reached."""
         if self.period:
             travel = np.mod(travel, self.period)
-        found = self.motion.turn(travel, self.compiled)
-        if found.faults:
-            why = next(iter(found.faults.values()))
+        turn = self.motion.turn(travel, self.compiled)
+        if turn.faults:
+            why = next(iter(turn.faults.values()))
             raise Refused("the cycle", why, "a span of travels that the mechanism reaches")
-        return found
+        return turn
 
     def in_scene_units(self, travel: Array) -> Array:
         """Travels as scenes tell them: in degrees, or in lengths."""
@@ -174,9 +174,9 @@ class UnitMotion:
 
     def _rates(self, turn: Turn, wanted: tuple[kinds.ResultKind, ...]) -> UnitRates:
         """The rates of some kinds in the poses of a turn."""
-        found = self.recordings.evaluate(turn, wanted)
+        rates = self.recordings.evaluate(turn, wanted)
         return UnitRates({kind: {name: z * self._scale(kind) for name, z in named.items()}
-                      for kind, named in found.items()})
+                      for kind, named in rates.items()})
 
     def _scale(self, kind: str) -> float:
         """What turns a rate by lengths and seconds into one by metres and units of travel."""
@@ -192,10 +192,11 @@ def at_unit_rate(scene: Scene) -> Scene:
     """The scene with its first drive at a rate of one in its sense, or in the positive one from rest; others in pace.
     """
     first = scene.drives[0]
-    size = abs(Fraction(first.rate)) or Fraction(1)
-    one, *others = scene.drives
-    start = one.driven_at(Fraction(one.rate) / size or Fraction(1), Fraction(0))
-    return scene.with_drives((start, *(drive.driven_at(Fraction(drive.rate) / size, Fraction(0)) for drive in others)))
+    unit = abs(Fraction(first.rate)) or Fraction(1)
+    first_drive, *other_drives = scene.drives
+    start = first_drive.driven_at(Fraction(first_drive.rate) / unit or Fraction(1), Fraction(0))
+    return scene.with_drives((start,
+                              *(drive.driven_at(Fraction(drive.rate) / unit, Fraction(0)) for drive in other_drives)))
 
 
 def moving_points(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:

@@ -92,9 +92,9 @@ def sums(rotor: Rotor, masses: tuple[Eccentric, ...]) -> Sums:
     force, moment = _sum([(Fraction(1), mass) for mass in masses]), _sum([*zip(arms, masses, strict=True)])
     if not rotor.dynamic:
         return Sums(force, moment, (force,))
-    parts = [arm / rotor.plane_distance for arm in arms]
-    first = _sum([(1 - part, mass) for part, mass in zip(parts, masses, strict=True)])
-    return Sums(force, moment, (first, _sum([*zip(parts, masses, strict=True)])))
+    shares = [arm / rotor.plane_distance for arm in arms]
+    first = _sum([(1 - share, mass) for share, mass in zip(shares, masses, strict=True)])
+    return Sums(force, moment, (first, _sum([*zip(shares, masses, strict=True)])))
 
 
 def _sum(sides: list[tuple[Fraction, Eccentric]]) -> Vector:
@@ -163,8 +163,8 @@ def correction_of(rotor: Rotor, index: int, side: Pair) -> Correction:
 
 def free_radius(rotor: Rotor, masses: tuple[Eccentric, ...]) -> Fraction:
     """The radius at which corrections are drawn that have none: that of the outermost mass, or 1."""
-    given = [Fraction(mass.radius) for mass in masses if mass.radius]
-    return max([*given, *(radius for radius in rotor.radii if radius)], default=Fraction(1))
+    radii = [Fraction(mass.radius) for mass in masses if mass.radius]
+    return max([*radii, *(radius for radius in rotor.radii if radius)], default=Fraction(1))
 
 
 class PolygonRecorder:
@@ -182,7 +182,7 @@ class PolygonRecorder:
             self._keep("O", self.board.given(x=0, y=0, name="O"))
             for k, mass in self.turned:
                 ratio = mass.mass or Fraction(mass.mass_radius) / self.free
-                x, y = (part / ratio for part in mass.unbalance)
+                x, y = (component / ratio for component in mass.unbalance)
                 self._keep(f"P_{k}", self.board.given(x=x, y=y, name=f"P_{k}"))
 
     def draw(self) -> None:
@@ -212,8 +212,8 @@ class PolygonRecorder:
         for k, mass, arm in arms:
             radius = self.board.line(self.marks["O"], self.marks[f"P_{k}"])
             name, length = f"{letter}_{k}", Quantity(written.format(k), kind)
-            told = said("opposite to the radius: left of plane I") if arm < 0 else ""
-            end = self._keep(name, self.board.lay_along(self.board.parallel(radius, end), end, name=name, why=told,
+            text = said("opposite to the radius: left of plane I") if arm < 0 else ""
+            end = self._keep(name, self.board.lay_along(self.board.parallel(radius, end), end, name=name, why=text,
                                                         length=mass.mass_radius * float(arm), quantity=length))
         return end
 
@@ -221,7 +221,7 @@ class PolygonRecorder:
         """The moment polygon of the masses that are not in plane I."""
         self._keep("M_0", self.board.begin(plan=MOMENTS, name="M_0"))
         arms = [(k, mass, self.rotor.arm(mass.at)) for k, mass in self.turned if mass.at is not None]
-        self.last = self._sides("M", "m_{0}·a_{0}·r_{0}", MOMENT, (one for one in arms if one[2]))
+        self.last = self._sides("M", "m_{0}·a_{0}·r_{0}", MOMENT, (arm for arm in arms if arm[2]))
 
     def _forces(self) -> None:
         """The force polygon, with what the moment polygon gives."""
@@ -247,9 +247,9 @@ class PolygonRecorder:
 
     def place_correction(self, index: int, ray: Mark, way: int = 1, why: str = "", prime: str = "") -> None:
         """A correction mass on a radius, or opposite."""
-        letter, given = PLANES[index], self.rotor.radii[index]
+        letter, given_radius = PLANES[index], self.rotor.radii[index]
         name = f"P_{letter}{prime}"
-        why = why or ("" if given else said("its radius is free"))
-        length = way * (given or self.free)
+        why = why or ("" if given_radius else said("its radius is free"))
+        length = way * (given_radius or self.free)
         self._keep(name, self.board.lay_along(ray, self.marks["O"], length=length, name=name, why=why,
                                               quantity=Quantity(f"r_{letter}", "length")))

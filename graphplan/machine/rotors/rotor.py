@@ -88,8 +88,8 @@ def trial_mass_radius(row: TableRow) -> Fraction:
         row.item.fault("mass_radius, or mass and radius, tell the trial mass", "mass = 0.02 and radius = 100")
     elif "mass_radius" not in values and not ("mass" in values and "radius" in values):
         row.item.fault(f"{'radius' if 'mass' in values else 'mass'} is missing", "mass = 0.02 and radius = 100")
-    found: Fraction = values.get("mass_radius") or values.get("mass", Fraction(1)) * values.get("radius", 1)
-    return found
+    product: Fraction = values.get("mass_radius") or values.get("mass", Fraction(1)) * values.get("radius", 1)
+    return product
 
 
 def _trial_mass(row: TableRow) -> tuple[Fraction, Fraction, Fraction | None, Fraction | None]:
@@ -248,8 +248,9 @@ def mass_by_angle(row: TableRow) -> Eccentric:
     """A mass by its distance from the axis and its angle, or mass times radius with an angle."""
     values = row.values
     c, s, exact = heading(values["angle"])
-    size = values["mass"] * values["radius"] if "mass" in values else values["mass_radius"]
-    return Eccentric(values.get("name", ""), (size * c, size * s), values.get("at"), values.get("mass"), exact)
+    mass_radius = values["mass"] * values["radius"] if "mass" in values else values["mass_radius"]
+    return Eccentric(values.get("name", ""), (mass_radius * c, mass_radius * s), values.get("at"), values.get("mass"),
+                     exact)
 
 
 def mass_by_coordinates(row: TableRow) -> Eccentric:
@@ -318,23 +319,23 @@ def _rotor(row: TableRow) -> Rotor | None:
 
 def _in_place(row: TableRow, planes: tuple[Fraction, ...]) -> tuple[Eccentric, ...]:
     """The masses by name, those of a rotor with one plane in it unless they stand elsewhere."""
-    found = []
+    rows = []
     for number, mass in enumerate(row.values.get("masses", ()), 1):
         if mass.at is None and len(planes) == 2:
             row.items["masses"].rows()[number - 1].fault("at is missing", "its place along the axis, such as at = 200")
         at = planes[0] if mass.at is None else mass.at
-        found.append(replace(mass, name=mass.name or str(number), at=at))
-    return tuple(found)
+        rows.append(replace(mass, name=mass.name or str(number), at=at))
+    return tuple(rows)
 
 
 def per_plane(row: TableRow, key: str, planes: tuple[Fraction, ...]) -> tuple[Fraction | None, ...]:
     """What is given of the correction in each plane, one number for both."""
-    given = row.values.get(key, (None,))
-    if len(given) > len(planes):
+    values = row.values.get(key, (None,))
+    if len(values) > len(planes):
         row.items[key].fault("two numbers for one plane", "one number")
     if key == "mass" and key in row.values and "radius" in row.values:
         row.items[key].fault("radius is given, too: each follows from the other", "one of them")
-    return tuple((given * 2)[:len(planes)])
+    return tuple((values * 2)[:len(planes)])
 
 
 ROTOR = Table("the rotor", (

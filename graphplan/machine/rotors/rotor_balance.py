@@ -69,7 +69,8 @@ class BalancedRotor:
         """
         if self.polygons:
             return closing_sides(self.drawing, self.task.rotor, self.sums, values)
-        return [read_corrections(self.drawing, one, index, values)[0] for index, one in enumerate(self.effects)]
+        return [read_corrections(self.drawing, plane_effect, index, values)[0] for index,
+                plane_effect in enumerate(self.effects)]
 
     def mass_and_radius(self, one: Correction) -> tuple[float | None, float | None]:
         """Mass and radius of a correction, in the task's units; nothing where neither is given."""
@@ -86,22 +87,22 @@ class BalancedRotor:
     @property
     def notes(self) -> Iterator[Said]:
         """What is worth knowing of the rotor."""
-        rotor, found, units = self.task.rotor, self.sums, self.task.units
-        if found.state is UnbalanceState.BALANCED:
+        rotor, sums, units = self.task.rotor, self.sums, self.task.units
+        if sums.state is UnbalanceState.BALANCED:
             yield said("the rotor is balanced as it is")
-        elif not rotor.dynamic and any(found.moment):
+        elif not rotor.dynamic and any(sums.moment):
             yield said("one plane balances forces alone: a moment of {0} {1} about it is left, which two balance",
-                       digits(found.dynamic), unit(f"{units.mass}·{units.length}²"))
-        elif found.state is UnbalanceState.DYNAMIC:
+                       digits(sums.dynamic), unit(f"{units.mass}·{units.length}²"))
+        elif sums.state is UnbalanceState.DYNAMIC:
             yield said("the unbalance is dynamic only: the force polygon closes by itself")
-        elif rotor.dynamic and found.single is not None and not self.effects:
+        elif rotor.dynamic and sums.single is not None and not self.effects:
             yield said("the unbalance is static only: one mass with m·r = {0} {1} at {2} {3} would balance it",
-                       digits(found.static), unit(f"{units.mass}·{units.length}"),
-                       digits(float(rotor.planes[0]) + math.copysign(found.single, rotor.planes[-1] - rotor.planes[0])),
+                       digits(sums.static), unit(f"{units.mass}·{units.length}"),
+                       digits(float(rotor.planes[0]) + math.copysign(sums.single, rotor.planes[-1] - rotor.planes[0])),
                        unit(units.length))
-        for one in self.effects:
-            if one.fourth and isinstance(one.trial, ThreeRuns) and one.trial.fourth:
-                (near, far), measured = one.fourth, float(one.trial.fourth.amplitude)
+        for plane_effect in self.effects:
+            if plane_effect.fourth and isinstance(plane_effect.trial, ThreeRuns) and plane_effect.trial.fourth:
+                (near, far), measured = plane_effect.fourth, float(plane_effect.trial.fourth.amplitude)
                 if abs(measured - near) > DOUBT_SHARE * abs(far - near):
                     yield said("the fourth run should have given {0} or {1} and gave {2}", digits(near), digits(far),
                                digits(measured))
@@ -117,7 +118,7 @@ def balance_rotor(task: RotorTask) -> BalancedRotor:
     places = [f"{task.name}: trial" + (f".{k}" if len(task.trials) > 1 else "") for k in range(1, len(task.trials) + 1)]
     effects = tuple(map(effect, task.trials, places))
     choices = [[_unbalance(index, one, side) for side in one.balancing] for index, one in enumerate(effects)]
-    masses = [tuple(found) for found in product(*choices)]
+    masses = [tuple(choice) for choice in product(*choices)]
     if all(one.trial.at == plane for one, plane in zip(effects, task.rotor.planes, strict=True)):
         return _by_trials(task, effects, masses)
     return _by_polygons(task, effects, masses)
@@ -134,14 +135,14 @@ def _by_polygons(task: RotorTask, effects: tuple[Effect, ...], masses: list[tupl
     recorder = PolygonRecorder(board, task.rotor, masses[0])
     recorder.draw_end_view()
     marks: dict[str, Mark] = {}
-    for index, one in enumerate(effects):
-        marks |= draw_trial(board, one, index)
+    for index, plane_effect in enumerate(effects):
+        marks |= draw_trial(board, plane_effect, index)
     recorder.draw()
     drawing = rotor_drawing(board, marks | recorder.marks)
     sides = closing_sides(drawing, task.rotor, recorder.sums, drawing.values.numbers)
     first = tuple(correction_of(task.rotor, k, side) for k, side in enumerate(sides))
-    others = (compute_corrections(task.rotor, found) for found in masses[1:])
-    return BalancedRotor(task, effects, tuple(masses), drawing, (first, *others))
+    other_answers = (compute_corrections(task.rotor, choice) for choice in masses[1:])
+    return BalancedRotor(task, effects, tuple(masses), drawing, (first, *other_answers))
 
 
 def _by_trials(task: RotorTask, effects: tuple[Effect, ...], masses: list[tuple[Eccentric, ...]]) -> BalancedRotor:
@@ -150,26 +151,26 @@ def _by_trials(task: RotorTask, effects: tuple[Effect, ...], masses: list[tuple[
     recorder = PolygonRecorder(board, task.rotor, ())
     recorder.draw_end_view()
     marks: dict[str, Mark] = {}
-    for index, one in enumerate(effects):
-        marks |= draw_trial(board, one, index)
+    for index, plane_effect in enumerate(effects):
+        marks |= draw_trial(board, plane_effect, index)
     weighed = any(isinstance(one.trial, TrialWeights) for one in effects)
     with recorder.placing_stage(said("where the largest trial weight would hang") if weighed else
                           said("turned by alpha from the trial mass, A_1/A times as large")):
-        for index, one in enumerate(effects):
-            for k, side in enumerate(one.balancing if one.ratio else ()):
-                recorder.place_correction(index, _ray(board, recorder.marks["O"], one, k, side), prime="'" * k)
+        for index, plane_effect in enumerate(effects):
+            for k, side in enumerate(plane_effect.balancing if plane_effect.ratio else ()):
+                recorder.place_correction(index, _ray(board, recorder.marks["O"], plane_effect, k, side), prime="'" * k)
     drawing = rotor_drawing(board, marks | recorder.marks)
-    found = [read_corrections(drawing, one, index, drawing.values.numbers) for index, one in enumerate(effects)]
+    corrections = [read_corrections(drawing, one, index, drawing.values.numbers) for index, one in enumerate(effects)]
     answers = tuple(tuple(correction_of(task.rotor, index, side) for index, side in enumerate(sides))
-                    for sides in product(*found))
+                    for sides in product(*corrections))
     return BalancedRotor(task, effects, tuple(masses), drawing, answers)
 
 
 def _ray(board: Board, O: Mark, one: Effect, k: int, side: complex) -> Mark:
     """The radius of a correction that a trial has found."""
     angle = math.degrees(cmath.phase(side)) % 360
-    told = said("{0}° from the trial mass", digits(one.turns[k])) if isinstance(one.trial, ThreeRuns) else ""
-    return board.inclined(O, angle=Angle(digits(angle), side.real, side.imag), why=told)
+    text = said("{0}° from the trial mass", digits(one.turns[k])) if isinstance(one.trial, ThreeRuns) else ""
+    return board.inclined(O, angle=Angle(digits(angle), side.real, side.imag), why=text)
 
 
 def rotor_drawing(board: Board, marks: dict[str, Mark]) -> RotorDrawing:

@@ -52,8 +52,8 @@ class Effect:
     @property
     def balancing(self) -> list[complex]:
         """Mass times radius vector of the correction, one for each answer."""
-        size = float(self.trial.mass_radius) * self.ratio
-        return [cmath.rect(size, math.radians(float(self.trial.angle) + turn)) for turn in self.turns]
+        mass_radius = float(self.trial.mass_radius) * self.ratio
+        return [cmath.rect(mass_radius, math.radians(float(self.trial.angle) + turn)) for turn in self.turns]
 
 
 TRIAL_PLANS = tuple(Panel(f"trial {letter}", said("plan of trial {0}", letter),
@@ -79,13 +79,14 @@ def three_runs_effect(trial: ThreeRuns, where: str) -> Effect:
     """The trial's effect by (16.29), alpha by (16.32)."""
     first, second, third = trial.amplitudes
     square = (second**2 + third**2) / 2 - first**2
-    told = f"the amplitudes {', '.join(f'{float(one):g}' for one in trial.amplitudes)}"
+    amplitudes_text = f"the amplitudes {', '.join(f'{float(amplitude):g}' for amplitude in trial.amplitudes)}"
     if square < 0 or square <= first**2 * Fraction(MIN_EFFECT) ** 2:
         why = "A² = (A_2² + A_3²)/2 - A_1² is below 0" if square < 0 else "the trial mass has almost no effect"
-        raise Refused(where, f"{told}: {why}", "measure again, with a larger trial mass")
+        raise Refused(where, f"{amplitudes_text}: {why}", "measure again, with a larger trial mass")
     over, under = (third**2 - second**2) / 4, first**2 * square  # cos alpha = over / sqrt(under)
     if over**2 > under:
-        raise Refused(where, f"{told}: no parallelogram has these sides and diagonals (|cos α| > 1)", "measure again")
+        raise Refused(where, f"{amplitudes_text}: no parallelogram has these sides and diagonals (|cos α| > 1)",
+                      "measure again")
     A = math.sqrt(square)
     if first <= VIBRATION_TOL * A:
         return Effect(trial, A, 0.0, (0.0,))
@@ -103,14 +104,14 @@ def three_runs_effect(trial: ThreeRuns, where: str) -> Effect:
 
 def foretold_amplitude(trial: ThreeRuns, fourth: Vibration, A: float, turn: float) -> float:
     """The amplitude with the trial mass elsewhere, if this answer is right."""
-    own = -cmath.rect(float(trial.amplitudes[0]), math.radians(turn))
-    return abs(own + cmath.rect(A, math.radians(float(fourth.angle - trial.angle))))
+    own_vibration = -cmath.rect(float(trial.amplitudes[0]), math.radians(turn))
+    return abs(own_vibration + cmath.rect(A, math.radians(float(fourth.angle - trial.angle))))
 
 
 def marked_effect(trial: MarkedRuns, where: str) -> Effect:
     """The trial's effect as a difference of vectors (16.26)."""
-    first, second = (cmath.rect(float(one.amplitude), math.radians(float(one.angle)))
-                     for one in (trial.first, trial.second))
+    first, second = (cmath.rect(float(vibration.amplitude), math.radians(float(vibration.angle)))
+                     for vibration in (trial.first, trial.second))
     A = second - first
     if abs(A) <= MIN_EFFECT * abs(first):
         raise Refused(where, "both vibrations are the same: the trial mass has almost no effect",
@@ -169,8 +170,8 @@ def _drawn_runs(board: Board, effect: Effect, plan: Panel) -> dict[str, Mark]:
     D = board.lay_along(base, C, length=first, name="D", quantity=Quantity("A_1", AMPLITUDE))
     E = board.transfer(C, D, D, name="E")
     if len(effect.turns) == 1 and not effect.fourth:
-        way = effect.amplitude * math.cos(math.radians(effect.turns[0]))
-        G = board.lay_along(base, C, length=float(first) - way, name="G", quantity=Quantity("A_2", AMPLITUDE),
+        projection = effect.amplitude * math.cos(math.radians(effect.turns[0]))
+        G = board.lay_along(base, C, length=float(first) - projection, name="G", quantity=Quantity("A_2", AMPLITUDE),
                             why=said("A_1, A_2 and A_3 lie on one line"))
         return {"C": C, "D": D, "E": E, "G": G}
     arcs = [board.circle(P, board.radius(length=length, quantity=Quantity(letter, AMPLITUDE)))
@@ -178,8 +179,8 @@ def _drawn_runs(board: Board, effect: Effect, plan: Panel) -> dict[str, Mark]:
     left, right = (board.circles_meet(*arcs, side=side, name="G", why=why) for side, why in (
         ("left", said("DG is the effect A of the trial mass, the angle from DG to DC is alpha")),
         ("right", said("the other answer: amplitudes do not tell the sense of alpha"))))
-    found = {"C": C, "D": D, "E": E, "G": left, "H": right}
-    return found if effect.turns[0] > 0 else found | {"G": right, "H": left}
+    marks = {"C": C, "D": D, "E": E, "G": left, "H": right}
+    return marks if effect.turns[0] > 0 else marks | {"G": right, "H": left}
 
 
 def _drawn_marks(board: Board, effect: Effect, plan: Panel) -> dict[str, Mark]:
@@ -209,8 +210,8 @@ def _drawn_weights(board: Board, effect: Effect, plan: Panel) -> dict[str, Mark]
     end = W = board.begin(plan=plan, name="W_0")
     marks = {"W_0": W}
     for k, weight in enumerate(trial.weights, 1):
-        one = Vibration(weight, Fraction(angle_of(trial, k - 1)))
-        end = marks[f"W_{k}"] = lay_off_vibration(board, end, one, f"W_{k}", f"p_{k - 1}")
+        vibration = Vibration(weight, Fraction(angle_of(trial, k - 1)))
+        end = marks[f"W_{k}"] = lay_off_vibration(board, end, vibration, f"W_{k}", f"p_{k - 1}")
     if effect.ratio:
         marks["p"] = board.step_off(W, end, W, ratio=Fraction(2, len(trial.weights)), name="p", why=said(
             "the permanent weight, where the largest trial weight would hang"))
@@ -223,16 +224,16 @@ DRAWN: dict[type[Trial], Callable[[Board, Effect, Panel], dict[str, Mark]]] = {
 
 def read_corrections(drawing: RotorDrawing, effect: Effect, index: int, values: Sequence[Any]) -> list[Pair]:
     """The corrections as they are measured on the plan of a trial, mass times radius, one for each answer."""
-    size, at = float(effect.trial.mass_radius), cmath.rect(1.0, math.radians(float(effect.trial.angle)))
+    mass_radius, at = float(effect.trial.mass_radius), cmath.rect(1.0, math.radians(float(effect.trial.angle)))
     if not effect.ratio:
         return [(0.0, 0.0)]
     if isinstance(effect.trial, TrialWeights):
         x, y = drawing.vector(f"{index}:W_0", f"{index}:p", values)
-        return [(size * x, size * y)]
-    (u, v), found = drawing.vector(f"{index}:D", f"{index}:C", values), []
+        return [(mass_radius * x, mass_radius * y)]
+    (u, v), corrections = drawing.vector(f"{index}:D", f"{index}:C", values), []
     for end in "GH"[:len(effect.turns)]:  # the trial mass's vector, turned and grown as DG is to DC
         x, y = drawing.vector(f"{index}:D", f"{index}:{end}", values)
-        square = (x * x + y * y) / size
+        square = (x * x + y * y) / mass_radius
         along, across = (u * x + v * y) / square, (v * x - u * y) / square
-        found.append((along * at.real - across * at.imag, along * at.imag + across * at.real))
-    return found
+        corrections.append((along * at.real - across * at.imag, along * at.imag + across * at.real))
+    return corrections

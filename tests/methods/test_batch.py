@@ -129,12 +129,12 @@ def test_guides_that_nothing_turns_are_refused(guide: str, why: str) -> None:
 
 
 def test_guides_that_are_one_line_only_in_this_pose_are_refused() -> None:
-    """Two guides drawn as one line on different links turn apart: the second is asked for by points."""
+    """Two guides drawn as one line on different links turn differently: the second is asked for by points."""
     other = '[[slides]]\nlink = "4"\nalong = "5"\nat = "A"\ndirection = [3, 1]\n'
     text = GUIDED.replace('3 = "A"', '3 = "A"\n4 = "A"\n5 = "Q"').replace('"O P"', '"O P Q"')
     text = text.replace("B = ", "Q = [80, 10]\nB = ")
     scene = gp.parse(text.replace("[[drive]]", other + "[[drive]]"), "one-line")
-    with pytest.raises(Refused, match="turn apart"):
+    with pytest.raises(Refused, match="turn differently"):
         gp.construct(scene).evaluate({}, guides={"3 along 2": [3 + 1j]})
 
 

@@ -34,11 +34,11 @@ def _distance_off(d: Drawn, k: int) -> float:
 
 def _halfway(d: Drawn, i: int, j: int) -> float:
     """Two points of the line are as far from one as from the other, and it turns left of the way between them."""
-    here, way = (d[i] + d[j]) / 2, d.direction(-1)
-    here -= d.distance_off(-1, here) * 1j * way
-    there = here + way * d.size
-    apart = [abs(X - d[i]) - abs(X - d[j]) for X in (here, there)]
-    return max(map(abs, apart)) / d.size + abs(way - 1j * unit(d[j] - d[i]))
+    midpoint, along_line = (d[i] + d[j]) / 2, d.direction(-1)
+    midpoint -= d.distance_off(-1, midpoint) * 1j * along_line
+    second_point = midpoint + along_line * d.size
+    apart = [abs(X - d[i]) - abs(X - d[j]) for X in (midpoint, second_point)]
+    return max(map(abs, apart)) / d.size + abs(along_line - 1j * unit(d[j] - d[i]))
 
 
 def _proportion(d: Drawn, A: int, B: int, C: int, P: int, Q: int) -> float:
@@ -78,11 +78,11 @@ def _locus(d: Drawn, A: int, alpha: int, B: int, beta: int, C: int) -> float:
         rows.append((normal.real, normal.imag, dot(normal, side)))
         right.append(-d.distance_off(line, 0j))
     free = cross3(*rows)
-    told = math.hypot(*free)
+    determinacy = math.hypot(*free)
     one, two = cross3(rows[1], free), cross3(free, rows[0])
-    fitted = [(right[0] * p + right[1] * q) / told**2 for p, q in zip(one, two, strict=True)]
-    trials = [[p + k * d.size * q / told for p, q in zip(fitted, free, strict=True)] for k in (-1, 1)]
-    return told * max(abs(d.distance_off(-1, complex(x, y))) / (d.size + math.hypot(x, y)) for x, y, _ in trials)
+    fitted = [(right[0] * p + right[1] * q) / determinacy**2 for p, q in zip(one, two, strict=True)]
+    trials = [[p + k * d.size * q / determinacy for p, q in zip(fitted, free, strict=True)] for k in (-1, 1)]
+    return determinacy * max(abs(d.distance_off(-1, complex(x, y))) / (d.size + math.hypot(x, y)) for x, y, _ in trials)
 
 
 # ---- accelerations, false position ---------------------------------------------------------------------------------
@@ -124,19 +124,19 @@ def _counters_afar(d: Drawn, y: int, z: int, X: int, C: int, p: int, q: int, m: 
 
     A force is its two components and its moment about X: three that are held by two lines have no determinant.
     """
-    ways = d.direction(y), d.direction(z)
-    lines = [(way.real, way.imag, d.distance_off(k, d[X]) / d.size) for k, way in zip((y, z), ways, strict=True)]
+    directions = d.direction(y), d.direction(z)
+    lines = [(u.real, u.imag, d.distance_off(k, d[X]) / d.size) for k, u in zip((y, z), directions, strict=True)]
     pole = cross3(*lines)  # the flatter the lines cross, the less they tell
     force, load = d[-1] - d[m], d[q] - d[p]
-    both = force + load
-    lever = pole[0] * both.real + pole[1] * both.imag + pole[2] * cross(d[C] - d[X], load) / d.size
+    resultant = force + load
+    lever = pole[0] * resultant.real + pole[1] * resultant.imag + pole[2] * cross(d[C] - d[X], load) / d.size
     free = cross(complex(pole[0], pole[1]), force)  # a part of the force along the way to the pole holds nothing
     return (abs(lever) + abs(free)) / d.size / (1 + abs(force) / d.size)
 
 
 def _concurrent(d: Drawn, y: int, z: int) -> float:
     """The drawn line and the two others pass through one point, or are parallel."""
-    rows = [(way.real, way.imag, d.distance_off(k, 0j) / d.size) for k in (y, z, -1) for way in (d.direction(k),)]
+    rows = [(u.real, u.imag, d.distance_off(k, 0j) / d.size) for k in (y, z, -1) for u in (d.direction(k),)]
     return sum(a * b for a, b in zip(cross3(rows[0], rows[1]), rows[2], strict=True))
 
 
@@ -168,10 +168,10 @@ def _touches(d: Drawn, P: int, R: int, w: int, p: int, q: int) -> float:
 
 def _leans(d: Drawn, l: int, B: int, w: int, p: int, q: int) -> float:
     """The guide is turned by the friction angle: the force square to it is against the sliding."""
-    slip, force, way = (d[w] - d[B]) / 1j, dot(d[q] - d[p], 1j * d.direction(l)), d.direction(l)
-    full = d.number("coefficient") * math.copysign(1.0, dot(slip, way)) * math.copysign(1.0, force)
-    still = abs(dot(slip, way)) <= STANDSTILL_TOL * d.size or abs(force) <= STANDSTILL_TOL * d.size
-    return min(abs(d.direction(-1) - unit(way * (1 + 1j * lean))) for lean in (full, 0.0 if still else full))
+    slip, force, guide = (d[w] - d[B]) / 1j, dot(d[q] - d[p], 1j * d.direction(l)), d.direction(l)
+    full = d.number("coefficient") * math.copysign(1.0, dot(slip, guide)) * math.copysign(1.0, force)
+    still = abs(dot(slip, guide)) <= STANDSTILL_TOL * d.size or abs(force) <= STANDSTILL_TOL * d.size
+    return min(abs(d.direction(-1) - unit(guide * (1 + 1j * lean))) for lean in (full, 0.0 if still else full))
 
 
 def _presses(d: Drawn, P: int, B: int, p: int, q: int) -> float:
@@ -307,8 +307,8 @@ CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
 
 def residuals(step: Step, values: Sequence[Any], least: float = 0.0) -> list[tuple[Claim, float]]:
     """Each claim of a step with its residual; `values` are those of the whole program."""
-    drawn = Drawn(step, values, least)
-    return [(claim, _residual(claim, drawn)) for claim in step.op.claims]
+    drawn_step = Drawn(step, values, least)
+    return [(claim, _residual(claim, drawn_step)) for claim in step.op.claims]
 
 
 def _residual(claim: Claim, drawn: Drawn) -> float:

@@ -190,8 +190,8 @@ def dot_all(row: Sequence[Any], left: Sequence[Any]) -> Any:
 def _normalize_turn(d: Any, lies: Attitude) -> Attitude:
     """A body as it is known to lie, its turn no longer and no shorter than 1 in better numbers."""
     x, y, cos, sin = lies
-    size = d.sqrt(cos * cos + sin * sin, "not-rational", "the turn of a link is irrational")
-    return Attitude(x, y, cos / size, sin / size)
+    length = d.sqrt(cos * cos + sin * sin, "not-rational", "the turn of a link is irrational")
+    return Attitude(x, y, cos / length, sin / length)
 
 
 def _apply_correction(lies: Attitude, x: Any, y: Any, turn: Any) -> Attitude:

@@ -112,9 +112,9 @@ def _bobillier(s: Any, P: Any, A: Any, A0: Any, B: Any, B0: Any, M: Any) -> Any:
 def _hartmann(s: Any, P: Any, A: Any, A0: Any, B: Any, B0: Any, M: Any) -> Any:
     """The pole's own velocity u: its part along each point's velocity is seen from that point's centre under it."""
     a, b, m = s.side(A, A0), s.side(B, B0), s.side(P, M)
-    parts = [s.parallel(ray, s.meet(s.side(X0, s.quarter(P, X, X)), s.perpendicular(ray, P)))
+    parallels = [s.parallel(ray, s.meet(s.side(X0, s.quarter(P, X, X)), s.perpendicular(ray, P)))
              for ray, X, X0 in ((a, A, A0), (b, B, B0))]
-    U = s.meet(*parts, name="U")
+    U = s.meet(*parallels, name="U")
     part = s.meet(s.perpendicular(m, P), s.parallel(m, U))
     return s.meet(s.side(s.quarter(P, M, M), part), m)
 
@@ -142,8 +142,8 @@ def conjugate(d: Any, P: Any, A: Any, A0: Any, B: Any, B0: Any, M: Any) -> Any:
     """The centre of curvature of the path of M, from two points with the centres of theirs, all on rays through P."""
     a, b = (require_apart(d, P, X, "a point with a known centre is the pole") for X in (A, B))
     one, two = (dot(ray, vector(P, third(d, X, X0, P, X))) for ray, X, X0 in ((a, A, A0), (b, B, B0)))
-    both = d.nonzero(cross(a, b), abs(a[0] * b[1]) + abs(a[1] * b[0]), "lines-parallel", "the two rays are one line")
-    W0 = P[0] + (one * b[1] - two * a[1]) / both, P[1] + (two * a[0] - one * b[0]) / both
+    sine = d.nonzero(cross(a, b), abs(a[0] * b[1]) + abs(a[1] * b[0]), "lines-parallel", "the two rays are one line")
+    W0 = P[0] + (one * b[1] - two * a[1]) / sine, P[1] + (two * a[0] - one * b[0]) / sine
     return curved(d, P, M, W0)
 
 

@@ -10,15 +10,15 @@ from graphplan.kernel.drawn import Drawn, cross3, dot, unit
 
 def _third_error(d: Drawn, K: int, A: int, m: int, w: int) -> float:
     """The length mw is the mean proportional of KA and what is laid off."""
-    KA, mean, found = abs(d[A] - d[K]), abs(d[w] - d[m]), abs(d[-1] - d[K])
-    return (found * KA - mean * mean) / KA / (d.size + found)
+    KA, mean, drawn_length = abs(d[A] - d[K]), abs(d[w] - d[m]), abs(d[-1] - d[K])
+    return (drawn_length * KA - mean * mean) / KA / (d.size + drawn_length)
 
 
 def _curvature_error(d: Drawn, P: int, M: int, W: int) -> float:
     """What is left of PM^2 = MW * MC, W being the foot of the inflection pole on the ray."""
     ray = unit(d[P] - d[M])
-    mean, foot, found = abs(d[P] - d[M]), dot(ray, d[W] - d[M]), dot(ray, d[-1] - d[M])
-    return (mean * mean - foot * found) / d.size / (d.size + abs(found))
+    mean, foot, radius = abs(d[P] - d[M]), dot(ray, d[W] - d[M]), dot(ray, d[-1] - d[M])
+    return (mean * mean - foot * radius) / d.size / (d.size + abs(radius))
 
 
 def _conjugate_error(d: Drawn, P: int, A: int, A0: int, B: int, B0: int, M: int) -> float:

@@ -22,8 +22,8 @@ def _known_points(s: Any, l: Any, P: Any) -> Any:
 
 
 def _any(s: Any, l: Any, P: Any) -> Any:
-    size = s.clear_of(P)
-    return None if size is None else s.pick(l, P, size, ratio=0.5)
+    distance = s.clear_of(P)
+    return None if distance is None else s.pick(l, P, distance, ratio=0.5)
 
 
 STARTS = (("", _known_points), (", from any point", _any))

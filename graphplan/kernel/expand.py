@@ -229,9 +229,9 @@ class Expander:
             if not self._agrees(op, args, self.value(out), truth, before, rating.sharpest):
                 return None
             drawn = range(before, len(self.board.steps))
-            made = {index: self._made[index] for index in drawn if index in self._made}
+            new_marks = {index: self._made[index] for index in drawn if index in self._made}
             return Attempt(rating, out, self.board.marks[before:], self.values[before:], self.reach[before:],
-                           self.lines.since(before), made, board.letters)
+                           self.lines.since(before), new_marks, board.letters)
         except (Undrawable, ZeroDivisionError, PlansApart):
             return None
         except Outdone:
@@ -250,9 +250,9 @@ class Expander:
         if step.op.movement is Movement.RULED:
             return min(self.reach[arg] for arg in step.args)
         value = self.values[step.index]
-        own = (math.hypot(*value[:2]) if step.op.gives in (POINT, CIRCLE)
+        reach_of_step = (math.hypot(*value[:2]) if step.op.gives in (POINT, CIRCLE)
                else math.sqrt(value[0]) if step.op.gives == OPENING else 0.0)
-        return max([own, *(self.reach[arg] for place, arg in enumerate(step.args)
+        return max([reach_of_step, *(self.reach[arg] for place, arg in enumerate(step.args)
                            if place in step.op.same_plan_operands or step.op.reads[place] != LINE)])
 
     def _agrees(self, op: Primitive, args: tuple[Mark, ...], value: Any, truth: Any, before: int,

@@ -87,7 +87,7 @@ def _far_off(program: Program, values: list[Any]) -> bool:
 def _reach(program: Program, values: list[Any]) -> float:
     """The largest coordinate of these points."""
     points = (value for step, value in zip(program.steps, values, strict=False) if step.op.gives == POINT)
-    return max((abs(part) for point in points for part in point), default=0.0)
+    return max((abs(coordinate) for point in points for coordinate in point), default=0.0)
 
 
 def _nearest_float(number: Any) -> float:

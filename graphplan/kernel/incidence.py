@@ -29,17 +29,17 @@ def bearing(op: Primitive, read: Sequence[Heading], place: int) -> Heading:
 @cache
 def direction_source(op: Primitive) -> tuple[int | None, int]:
     """The operand whose direction a line takes, if it does, and by how many quarter turns it is ahead."""
-    found = [(place, turns) for turns, claim in enumerate(("parallel", "perpendicular"))
+    sources = [(place, turns) for turns, claim in enumerate(("parallel", "perpendicular"))
              for place in op.claim_operands(claim)
              if op.gives == LINE]
-    return found[0] if found else (None, 0)
+    return sources[0] if sources else (None, 0)
 
 
 @cache
 def incident(op: Primitive) -> tuple[int, ...]:
     """The points that a line is drawn through, or the lines that a point is marked by, among the operands."""
-    other = {LINE: POINT, POINT: LINE}.get(op.gives, "")
-    return tuple(place for place in op.claim_operands("on") if op.reads[place] == other)
+    incident_kind = {LINE: POINT, POINT: LINE}.get(op.gives, "")
+    return tuple(place for place in op.claim_operands("on") if op.reads[place] == incident_kind)
 
 
 def laid_off(P: Total, Q: Total, R: Total) -> Total:

@@ -55,14 +55,14 @@ class Counts:
     @property
     def text(self) -> Said:
         """The counts in words."""
-        laid = [said("by the scale {0}", self.scale)] if self.scale else []
+        scale_text = [said("by the scale {0}", self.scale)] if self.scale else []
         if not self.strict:
-            moved = [BY[instrument](number) for instrument, number in self.others.items()]
-            drawn = [said("lines {0}", self.R2), said("arcs {0}", self.C3), *moved, *laid]
-            return said("{0} operations: {1}", self.operations, join(drawn))
+            instrument_texts = [BY[instrument](number) for instrument, number in self.others.items()]
+            texts = [said("lines {0}", self.R2), said("arcs {0}", self.C3), *instrument_texts, *scale_text]
+            return said("{0} operations: {1}", self.operations, join(texts))
         terms = [f"{n} {name}" for name in ("R1", "R2", "C1", "C2", "C3") if (n := getattr(self, name))]
         simple = said("simplicity {0}, exactitude {1}", self.simplicity, self.exactitude)
-        return join([join((" + ".join(terms) or "0", simple), ": "), *laid])
+        return join([join((" + ".join(terms) or "0", simple), ": "), *scale_text])
 
 
 BY = {SET_SQUARES: phrase("by set squares {0}"), PROTRACTOR: phrase("by protractor {0}"),

@@ -247,28 +247,28 @@ def _loci(s: Any, *joints: Any, group: Closure, joint: str) -> Any:
     plans = [SidePositions(s, joints, group, pose, side) for side in sides(group, joint)]
     if not plans:
         return None
-    plans.sort(key=lambda one: len(one.side.bodies) == 1)
+    plans.sort(key=lambda plan: len(plan.side.bodies) == 1)
     side = plans[0].side
     true = pose[side.body].place_point((float(side.at[0]), float(side.at[1])))
-    bars = [one.circle() for one in plans if len(one.side.bodies) == 1]
+    bars = [plan.circle() for plan in plans if len(plan.side.bodies) == 1]
     if len(bars) == 2:
-        (x, y), (u, v) = (s.place(joints[one.pins[one.side.body].joint]) for one in plans)
+        (x, y), (u, v) = (s.place(joints[plan.pins[plan.side.body].joint]) for plan in plans)
         left = cross((u - x, v - y), (true[0] - x, true[1] - y)) > 0
         return s.circles_meet(*bars, side="left" if left else "right")
-    found = [one.curve() for one in plans if len(one.side.bodies) > 1]
-    if any(one is None for one in found):
+    optional_curves = [plan.curve() for plan in plans if len(plan.side.bodies) > 1]
+    if any(curve is None for curve in optional_curves):
         return None
-    curves = [one for one in found if one is not None]
+    curves = [curve for curve in optional_curves if curve is not None]
     places = [[s.place(mark) for mark in marks] for marks, _ in curves]
-    offs = [tuple(t - p for t, p in zip(true, cubic_point(FLOATS, own, u), strict=True))
-            for own, (_, u) in zip(places, curves, strict=True)]
-    ways = [cubic_direction(own, u) for own, (_, u) in zip(places, curves, strict=True)]
+    offs = [tuple(t - p for t, p in zip(true, cubic_point(FLOATS, place, u), strict=True))
+            for place, (_, u) in zip(places, curves, strict=True)]
+    tangents = [cubic_direction(place, u) for place, (_, u) in zip(places, curves, strict=True)]
     at = [u for _, u in curves]
     if bars:
         x, y = s.place(joints[plans[1].pins[plans[1].side.body].joint])
-        slope = 2 * dot((true[0] - x, true[1] - y), ways[0])
+        slope = 2 * dot((true[0] - x, true[1] - y), tangents[0])
         return s.curve_meets_circle(*curves[0][0], bars[0], curve=Curve("a curve", at, offs, [[1 / slope]]))
-    (a, b), (e, f) = ways
+    (a, b), (e, f) = tangents
     whole = b * e - a * f
     slopes = [[-f / whole, e / whole]]
     return s.curves_meet(*curves[0][0], *curves[1][0], curve=Curve("a curve", at, offs, slopes))

@@ -21,13 +21,13 @@ def needed_steps(board: Board, wanted: Iterable[Mark], known: Collection[int] = 
 
 def steps_behind(steps: Sequence[Step], wanted: Iterable[int], known: Collection[int] = ()) -> set[int]:
     """The same for steps, by index."""
-    found, waiting = set[int](), [*wanted]
+    needed, waiting = set[int](), [*wanted]
     while waiting:
         index = waiting.pop()
-        if index not in found and index not in known:
-            found.add(index)
+        if index not in needed and index not in known:
+            needed.add(index)
             waiting.extend(steps[index].args)
-    return found
+    return needed
 
 
 def prune(program: Program) -> Program:
@@ -38,9 +38,9 @@ def prune(program: Program) -> Program:
 def _renumber(steps: Sequence[Step], wanted: Sequence[int], order: Sequence[int]) -> Program:
     """The program of these steps in this order."""
     place = {index: position for position, index in enumerate(order)}
-    kept = [step.but(index=place[step.index], args=tuple([place[arg] for arg in step.args]))
+    renumbered = [step.but(index=place[step.index], args=tuple([place[arg] for arg in step.args]))
             for step in map(steps.__getitem__, order)]
-    return Program(tuple(kept), tuple(place[index] for index in wanted))
+    return Program(tuple(renumbered), tuple(place[index] for index in wanted))
 
 
 def put_together(programs: Sequence[Program]) -> tuple[Program, list[list[int]]]:
@@ -59,17 +59,18 @@ def put_together(programs: Sequence[Program]) -> tuple[Program, list[list[int]]]
         names.add(name)
         steps.append(step.but(index=len(steps), name=name, args=tuple([place[k, arg] for arg in step.args])))
     places = [[place[k, step.index] for step in program.steps] for k, program in enumerate(programs)]
-    wanted = tuple(places[k][index] for k, program in enumerate(programs) for index in program.wanted)
-    return Program(tuple(steps), wanted), places
+    wanted_places = tuple(places[k][index] for k, program in enumerate(programs) for index in program.wanted)
+    return Program(tuple(steps), wanted_places), places
 
 
 def gather_by_plan(program: Program) -> tuple[Program, list[int]]:
     """The same steps, plan by plan as far as they allow, and the old place of each: the pencil wanders less."""
     drawn: dict[int, None] = {}
-    left: dict[str, list[Step]] = {}
+    steps_by_plan: dict[str, list[Step]] = {}
     for step in program.steps:
-        left.setdefault(step.panel.whole, []).append(step)
-    queue = [(steps[0].index, steps) for steps in left.values()]  # the plan whose next step comes first is next
+        steps_by_plan.setdefault(step.panel.whole, []).append(step)
+    # the plan whose next step comes first is next
+    queue = [(steps[0].index, steps) for steps in steps_by_plan.values()]
     heapify(queue)
     while queue:
         _, steps = queue[0]

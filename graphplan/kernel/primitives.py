@@ -142,9 +142,9 @@ def circles_meet(d: Any, k: Any, m: Any, /, *, side: str) -> Any:
     """
     dx, dy = u = vector(k, m)
     d2 = d.nonzero(dot(u, u), k[2] + m[2], "circles-concentric", "the two circles have the same centre")
-    both = d.nonzero(k[2] + m[2], d2, "circles-miss", "the two circles do not meet")
+    squared_radii = d.nonzero(k[2] + m[2], d2, "circles-miss", "the two circles do not meet")
     t, s = (d2 + k[2] - m[2]) / (2 * d2), (d2 + m[2] - k[2]) / (2 * d2)
-    h2 = (m[2] * (k[2] / d2 - t * t) + k[2] * (m[2] / d2 - s * s)) / both
+    h2 = (m[2] * (k[2] / d2 - t * t) + k[2] * (m[2] / d2 - s * s)) / squared_radii
     h = d.sqrt(h2, "circles-miss", "the two circles do not meet")
     h = h if side == "left" else -h
     return k[0] + t * dx - h * dy, k[1] + t * dy + h * dx

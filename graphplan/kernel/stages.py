@@ -45,13 +45,13 @@ class Equation(NamedTuple):
     @property
     def underlines(self) -> list[tuple[int, int, int]]:
         """Of each vector as it is written, from which letter to which, and how many times it is underlined."""
-        found, at = list[tuple[int, int, int]](), 0
+        lined_places, at = list[tuple[int, int, int]](), 0
         for vector in self.vectors:
             start = self.text.find(name := vector.name.removeprefix("-"), at)
             if start >= 0:
                 at = start + len(name)
-                found.append((start, at, vector.known.lines))
-        return found
+                lined_places.append((start, at, vector.known.lines))
+        return lined_places
 
     @classmethod
     def sum(cls, left: Vector, right: Iterable[Vector]) -> Self:
@@ -62,8 +62,8 @@ class Equation(NamedTuple):
     @classmethod
     def zero_sum(cls, vectors: Iterable[Vector]) -> Self:
         """Vectors whose sum is nothing."""
-        found = tuple(vectors)
-        return cls(f"{_sum_text(found)} = 0", found)
+        terms = tuple(vectors)
+        return cls(f"{_sum_text(terms)} = 0", terms)
 
     @classmethod
     def moments(cls, forces: Iterable[Vector], about: str, couples: Iterable[str] = ()) -> Self:

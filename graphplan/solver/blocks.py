@@ -44,8 +44,8 @@ def blocks(rows: Sequence[Mapping[int, Any]], width: int, together: int = TOGETH
     block_rows: list[list[int]] = [[] for _ in joined]
     for i, row in enumerate(rows):
         block_rows[max((place[column] for column in row), default=0)].append(i)
-    return [Block(tuple(rows_of_block), tuple(sorted(columns))) for rows_of_block,
-            columns in zip(block_rows, joined, strict=True)]
+    return [Block(tuple(rows_of_block), tuple(sorted(columns)))
+            for rows_of_block, columns in zip(block_rows, joined, strict=True)]
 
 
 def _rings(rows: Sequence[Mapping[int, Any]], width: int) -> Iterator[tuple[int, ...]]:

@@ -128,7 +128,7 @@ class BlockWriter:
 
     def _sources(self, wanted: Iterable[int], made: Callable[[int], bool]) -> set[int]:
         """The numbers from which these are made, as far as their sizes tell theirs."""
-        found, waiting, seen = set[int](), [*wanted], set[int]()
+        sources, waiting, seen = set[int](), [*wanted], set[int]()
         while waiting:
             place = waiting.pop()
             if place not in seen and not self.tape.is_constant(place):
@@ -136,8 +136,8 @@ class BlockWriter:
                 if made(place):
                     waiting.extend(operands(self.tape.entries[place]))
                 else:
-                    found.add(place)
-        return found
+                    sources.add(place)
+        return sources
 
     def _write(self, needed: Sequence[int]) -> None:
         """Each number, then the questions that can be asked with it, then its operands are let go if done with."""

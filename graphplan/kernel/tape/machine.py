@@ -70,17 +70,17 @@ class LaidOut(NamedTuple):
 
 def _laid_out(arrays: Sequence[Any], short: bool = False) -> LaidOut:
     """The two parts of a complex array are one group; an array that is not contiguous is copied, and if `short` all."""
-    found, begins, layout = list[Any](), list[Any](), list[int]()
-    while len(found) < len(arrays):
-        one, *two = arrays[len(found) : len(found) + 2]
+    slots, begins, layout = list[Any](), list[Any](), list[int]()
+    while len(slots) < len(arrays):
+        one, *two = arrays[len(slots) : len(slots) + 2]
         if not short and two and one.strides == two[0].strides == (16,) and _address(two[0]) == _address(one) + 8:
             group = [one, two[0]]
         else:
             group = [np.resize(one, LANES) if short else np.ascontiguousarray(one)]
         begins.append(group[0])
         layout.append(len(group))
-        found += group
-    return LaidOut(found, tuple(layout), (ctypes.c_void_p * len(begins))(*map(_address, begins)))
+        slots += group
+    return LaidOut(slots, tuple(layout), (ctypes.c_void_p * len(begins))(*map(_address, begins)))
 
 
 def _address(array: Any) -> int:

@@ -83,13 +83,13 @@ class Tape:
         return self._symbol_for("-", a, b) if mirrored is None else self.neg(mirrored)
 
     def mul(self, a: int, b: int) -> Symbol:
-        for one, other in (a, b), (b, a):
-            if self.is_constant(one, 1.0):
-                return Symbol(self, other)
-            if self.is_constant(one, -1.0):
-                return self.neg(other)
-            if (c := self._negative_of(one)) is not None:
-                return -self.mul(c, other)
+        for factor, cofactor in (a, b), (b, a):
+            if self.is_constant(factor, 1.0):
+                return Symbol(self, cofactor)
+            if self.is_constant(factor, -1.0):
+                return self.neg(cofactor)
+            if (c := self._negative_of(factor)) is not None:
+                return -self.mul(c, cofactor)
         return self._symbol_for("*", *sorted((a, b)))
 
     def div(self, a: int, b: int) -> Symbol:
@@ -140,17 +140,17 @@ class Tape:
 
         What the first of them rests on comes first: few numbers are then waiting to be used at any time.
         """
-        found: dict[int, None] = {}
+        needed: dict[int, None] = {}
         for root in wanted:
             waiting = [root]
             while waiting:
                 place = waiting[-1]
-                left = [a for a in operands(self.entries[place]) if a not in found]
-                if left:
-                    waiting.append(left[0])
+                unvisited = [a for a in operands(self.entries[place]) if a not in needed]
+                if unvisited:
+                    waiting.append(unvisited[0])
                 else:
-                    found[waiting.pop()] = None
-        return list(found)
+                    needed[waiting.pop()] = None
+        return list(needed)
 
 
 def operands(entry: Entry) -> tuple[int, ...]:
